@@ -1,0 +1,228 @@
+! The engine for Fortran 77 and for Python: plain arrays only. f2py reads this very file, so it holds only
+! default kinds, explicit shapes and external subroutines, and nothing but marshalling.
+!
+! Arrays of records, one column each:
+!   PIECE(3, NP)   length, 1/EI, 1/GA
+!   DEAD, LIVE(5, NP)  load per length at the left and right end, imposed curvature, force (down) and
+!                  couple (clockwise) at the right end of the piece unless a node is there
+!   LINK(16, NL)   made by GBCOND, opaque
+! Nodes are numbered from 0 to NL; LAST(I) is the last piece of link I. STATUS as in gapbeam_error: 0 solved, 1 no
+! equilibrium, above 10 an error with its MESSAGE and nothing else set.
+
+! Condense the pieces between nodes into links
+subroutine gbcond(np, nl, piece, dead, live, last, link)
+    use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
+    use gapbeam_link, only: link_type, piece_type, load_type, condense_link
+    implicit none
+    integer, intent(in) :: np, nl
+    double precision, intent(in), target :: piece(3, np), dead(5, np), live(5, np)
+    integer, intent(in) :: last(nl)
+    double precision, intent(out), target :: link(16, nl)
+    !f2py threadsafe
+    !f2py integer, intent(hide), depend(piece) :: np = shape(piece, 1)
+    !f2py integer, intent(hide), depend(last) :: nl = shape(last, 0)
+    type(piece_type), pointer :: pieces(:)
+    type(load_type), pointer :: deads(:), lives(:)
+    type(link_type), pointer :: links(:)
+    double precision, allocatable :: work(:)
+    integer :: i, first
+
+    call c_f_pointer(c_loc(piece), pieces, [np])
+    call c_f_pointer(c_loc(dead), deads, [np])
+    call c_f_pointer(c_loc(live), lives, [np])
+    call c_f_pointer(c_loc(link), links, [nl])
+    allocate (work(np))
+    first = 1
+    do i = 1, nl
+        call condense_link(pieces(first:last(i)), deads(first:last(i)), lives(first:last(i)), work, links(i))
+        first = last(i) + 1
+    end do
+end subroutine gbcond
+
+! Find the working scheme at one load factor and solve it
+subroutine gbsolv(nl, ns, link, kind, compli, force, couple, snode, sside, sstiff, scont, factor, rule, &
+                  closed, w, ml, mr, react, motion, resid, solves, method, status, message)
+    use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
+    use gapbeam_error, only: error_type, gapbeam_solved
+    use gapbeam_link, only: link_type
+    use gapbeam_model, only: beam_type, support_type
+    use gapbeam_system, only: workspace_type, new_workspace, set_loads, check_scheme
+    use gapbeam_rules, only: complementarity
+    use gapbeam_scheme, only: find_scheme, outcome_type
+    implicit none
+    ! NL links, NL + 1 nodes, NS supports
+    integer, intent(in) :: nl, ns
+    double precision, intent(in), target :: link(16, nl)
+    ! Nodes: 0 plain, 1 hinge, 2 rotational restraint of compliance COMPLI (0: clamp)
+    integer, intent(in) :: kind(0:nl)
+    double precision, intent(in) :: compli(0:nl)
+    ! Nodal forces (down) and couples (clockwise), dead and live
+    double precision, intent(in) :: force(2, 0:nl), couple(2, 0:nl)
+    ! Supports: node, side (1 below, -1 above, 0 both), stiffness (infinite: rigid), deflection of first contact
+    integer, intent(in) :: snode(ns), sside(ns)
+    double precision, intent(in) :: sstiff(ns), scont(ns)
+    ! Factor of the live loads; rule 0 block, 1 single
+    double precision, intent(in) :: factor
+    integer, intent(in) :: rule
+    ! Scheme: 1 closed, 0 open; start in, working scheme out
+    integer, intent(inout) :: closed(ns)
+    ! Deflections, moments left and right of the nodes, reactions (up)
+    double precision, intent(out) :: w(0:nl), ml(0:nl), mr(0:nl), react(ns)
+    ! Free motion where there is no equilibrium; residuals of compatibility, equilibrium, complementarity
+    double precision, intent(out) :: motion(0:nl), resid(3)
+    ! Linear solves; system solved last: 0 mixed, 1 three-moment, 2 with pivoting
+    integer, intent(out) :: solves, method, status
+    character(len=240), intent(out) :: message
+    !f2py threadsafe
+    !f2py integer, intent(hide), depend(link) :: nl = shape(link, 1)
+    !f2py integer, intent(hide), depend(snode) :: ns = shape(snode, 0)
+    type(link_type), pointer :: links(:)
+    type(beam_type) :: beam
+    type(workspace_type) :: work
+    type(outcome_type) :: outcome
+    type(error_type), allocatable :: error
+    logical, allocatable :: acting(:)
+    integer :: k
+
+    call c_f_pointer(c_loc(link), links, [nl])
+    allocate (beam%links(nl))
+    beam%links(:) = links
+    allocate (beam%kind(0:nl), beam%compliance(0:nl), beam%force(2, 0:nl), beam%couple(2, 0:nl))
+    beam%kind(:) = kind
+    beam%compliance(:) = compli
+    beam%force(:, :) = force
+    beam%couple(:, :) = couple
+    allocate (beam%supports(ns))
+    do k = 1, ns
+        beam%supports(k) = support_type(snode(k), sside(k), sstiff(k), scont(k))
+    end do
+    call new_workspace(beam, work)
+    call set_loads(beam, factor, work)
+    allocate (acting(ns))
+    acting(:) = closed /= 0
+    call find_scheme(beam, factor, rule, acting, work, outcome, error)
+    w = 0.0d0
+    ml = 0.0d0
+    mr = 0.0d0
+    react = 0.0d0
+    motion = 0.0d0
+    resid = 0.0d0
+    solves = work%solves
+    method = work%method
+    message = " "
+    if (allocated(error)) then
+        status = error%code
+        message = error%message
+        return
+    end if
+    status = outcome%status
+    if (allocated(outcome%motion)) motion = outcome%motion
+    if (status /= gapbeam_solved) return
+    closed = merge(1, 0, acting)
+    w = work%answers%deflection
+    ml = work%answers%moment_left
+    mr = work%answers%moment_right
+    react = work%reaction
+    call check_scheme(beam, work)
+    resid = [work%compatibility, work%equilibrium, complementarity(beam, acting, work)]
+end subroutine gbsolv
+
+! Fields at the left end of every piece
+subroutine gbreco(np, nl, piece, dead, live, factor, link, last, w, ml, mr, start)
+    use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
+    use gapbeam_element, only: field_type
+    use gapbeam_link, only: link_type, piece_type, load_type
+    use gapbeam_fields, only: recover_beam
+    implicit none
+    integer, intent(in) :: np, nl
+    double precision, intent(in), target :: piece(3, np), dead(5, np), live(5, np), link(16, nl)
+    double precision, intent(in) :: factor
+    integer, intent(in) :: last(nl)
+    double precision, intent(in) :: w(0:nl), ml(0:nl), mr(0:nl)
+    ! Deflection, rotation, moment, shear just right of the left end of each piece
+    double precision, intent(out), target :: start(4, np)
+    !f2py threadsafe
+    !f2py integer, intent(hide), depend(piece) :: np = shape(piece, 1)
+    !f2py integer, intent(hide), depend(link) :: nl = shape(link, 1)
+    type(piece_type), pointer :: pieces(:)
+    type(load_type), pointer :: deads(:), lives(:)
+    type(link_type), pointer :: links(:)
+    type(field_type), pointer :: starts(:)
+
+    call c_f_pointer(c_loc(piece), pieces, [np])
+    call c_f_pointer(c_loc(dead), deads, [np])
+    call c_f_pointer(c_loc(live), lives, [np])
+    call c_f_pointer(c_loc(link), links, [nl])
+    call c_f_pointer(c_loc(start), starts, [np])
+    call recover_beam(pieces, deads, lives, factor, links, last, w, ml, mr, starts)
+end subroutine gbreco
+
+! Fields at NX places, each a piece (from 1) and the distance from its left end
+subroutine gbvalu(np, nx, piece, dead, live, factor, start, where, dist, value)
+    use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
+    use gapbeam_element, only: field_type
+    use gapbeam_link, only: piece_type, load_type
+    use gapbeam_fields, only: values_at
+    implicit none
+    integer, intent(in) :: np, nx
+    double precision, intent(in), target :: piece(3, np), dead(5, np), live(5, np), start(4, np)
+    double precision, intent(in) :: factor
+    integer, intent(in) :: where(nx)
+    double precision, intent(in) :: dist(nx)
+    double precision, intent(out), target :: value(4, nx)
+    !f2py threadsafe
+    !f2py integer, intent(hide), depend(piece) :: np = shape(piece, 1)
+    !f2py integer, intent(hide), depend(where) :: nx = shape(where, 0)
+    type(piece_type), pointer :: pieces(:)
+    type(load_type), pointer :: deads(:), lives(:)
+    type(field_type), pointer :: starts(:), fields(:)
+
+    call c_f_pointer(c_loc(piece), pieces, [np])
+    call c_f_pointer(c_loc(dead), deads, [np])
+    call c_f_pointer(c_loc(live), lives, [np])
+    call c_f_pointer(c_loc(start), starts, [np])
+    call c_f_pointer(c_loc(value), fields, [nx])
+    call values_at(pieces, deads, lives, factor, starts, where, dist, fields)
+end subroutine gbvalu
+
+! Maximum and minimum of deflection, rotation, moment, shear, with piece and distance from its left end
+subroutine gbextr(np, piece, dead, live, factor, start, value, where, dist)
+    use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
+    use gapbeam_element, only: field_type
+    use gapbeam_link, only: piece_type, load_type
+    use gapbeam_fields, only: find_extremes
+    implicit none
+    integer, intent(in) :: np
+    double precision, intent(in), target :: piece(3, np), dead(5, np), live(5, np), start(4, np)
+    double precision, intent(in) :: factor
+    double precision, intent(out) :: value(2, 4), dist(2, 4)
+    integer, intent(out) :: where(2, 4)
+    !f2py threadsafe
+    !f2py integer, intent(hide), depend(piece) :: np = shape(piece, 1)
+    type(piece_type), pointer :: pieces(:)
+    type(load_type), pointer :: deads(:), lives(:)
+    type(field_type), pointer :: starts(:)
+
+    call c_f_pointer(c_loc(piece), pieces, [np])
+    call c_f_pointer(c_loc(dead), deads, [np])
+    call c_f_pointer(c_loc(live), lives, [np])
+    call c_f_pointer(c_loc(start), starts, [np])
+    call find_extremes(pieces, deads, lives, factor, starts, value, where, dist)
+end subroutine gbextr
+
+! The axial system: N bars between points 0..N
+subroutine gbaxia(n, flex, force, stiff, settle, u, pull, react, state, place)
+    use gapbeam_axial, only: solve_axial
+    implicit none
+    integer, intent(in) :: n
+    ! Length/EA of each bar; force (to the right), support stiffness (0 none, infinite rigid) and settlement of each point
+    double precision, intent(in) :: flex(n), force(0:n), stiff(0:n), settle(0:n)
+    ! Displacement of each point, normal force of each bar (tension), force of each support on the beam
+    double precision, intent(out) :: u(0:n), pull(n), react(0:n)
+    ! 0 solved, 1 slides, 2 rigid between two rigid supports, at point PLACE
+    integer, intent(out) :: state, place
+    !f2py threadsafe
+    !f2py integer, intent(hide), depend(flex) :: n = shape(flex, 0)
+
+    call solve_axial(flex, force, stiff, settle, u, pull, react, state, place)
+end subroutine gbaxia

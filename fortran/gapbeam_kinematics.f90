@@ -1,0 +1,191 @@
+!> Free motions of a beam: which bodies can move without any resistance, found by counting, not by numbers.
+!>
+!> Hinges cut the beam into bodies that move rigidly in a free motion, since bending resists. A body is described by
+!> the displacements of its two ends. Each support that acts in it is one condition on them, a clamp or
+!> rotational spring one more; two conditions at different places fix the body. Going from left to
+!> right this gives every independent motion of the chain.
+module gapbeam_kinematics
+    use gapbeam_kinds, only: wp
+    use gapbeam_band, only: hinge, restrained
+    use gapbeam_model, only: beam_type
+    implicit none
+    private
+    public :: free_motions, motion_type, work_of_loads
+
+    !> More motions than this are not listed
+    integer, parameter :: most_motions = 32
+
+    !> An independent free motion: displacements at the nodes, zero outside its range of nodes
+    type :: motion_type
+        !> First and last node that can move
+        integer :: first, last
+        !> Downward displacement of nodes 0..n, largest 1
+        real(wp), allocatable :: displacement(:)
+    end type motion_type
+
+contains
+
+    !> All independent free motions while the given supports act
+    subroutine free_motions(beam, acting, motions)
+        !> The beam
+        type(beam_type), intent(in) :: beam
+        !> Which supports act, shape (size(beam%supports))
+        logical, intent(in) :: acting(:)
+        !> The motions; none for a sound structure
+        type(motion_type), allocatable, intent(out) :: motions(:)
+        logical, allocatable :: fixed(:)
+        real(wp), allocatable :: x(:), y(:)
+        integer :: n, i, start, conditions, origin
+        logical :: moving, clamp
+        real(wp) :: pivot
+
+        n = size(beam%links)
+        allocate (x(0:n), y(0:n), fixed(0:n), motions(0))
+        x(0) = 0.0_wp
+        do i = 1, n
+            x(i) = x(i - 1) + beam%links(i)%length
+        end do
+        fixed = .false.
+        do i = 1, size(beam%supports)
+            if (acting(i) .and. beam%supports(i)%stiffness > 0.0_wp) fixed(beam%supports(i)%node) = .true.
+        end do
+        ! moving: the left end of the body at hand moves by y(start) in the motion being followed
+        y = 0.0_wp
+        y(0) = 1.0_wp
+        moving = .true.
+        start = 0
+        origin = 0
+        do while (start < n)
+            do i = start + 1, n - 1
+                if (beam%kind(i) == hinge) exit
+            end do
+            clamp = any(beam%kind(start:i) == restrained)
+            conditions = count(fixed(start:i)) + merge(1, 0, clamp)
+            if (conditions == 0) then
+                ! The right end is free whatever the left end does
+                if (moving) call close_motion(start, i, 0.0_wp)
+                call open_motion(start, i)
+            else if (conditions > 1) then
+                call drop_motion(start)
+                y(i) = 0.0_wp
+                moving = .false.
+            else if (clamp) then
+                call extend_motion(start, i, 1.0_wp)
+            else if (fixed(start)) then
+                call drop_motion(start)
+                call open_motion(start, i)
+            else if (fixed(i)) then
+                if (moving) call close_motion(start, i, 0.0_wp)
+                y(i) = 0.0_wp
+                moving = .false.
+            else
+                pivot = x(start + findloc(fixed(start:i), .true., 1) - 1)
+                call extend_motion(start, i, -(x(i) - pivot)/(pivot - x(start)))
+            end if
+            start = i
+        end do
+        if (moving) call record()
+
+    contains
+
+        !> The followed motion goes on through a body
+        subroutine extend_motion(from, to, ratio)
+            integer, intent(in) :: from, to
+            real(wp), intent(in) :: ratio
+
+            y(to) = ratio*y(from)
+            if (moving) call fill(from, to)
+        end subroutine extend_motion
+
+        !> The followed motion ends with the body turning about its right end
+        subroutine close_motion(from, to, at_end)
+            integer, intent(in) :: from, to
+            real(wp), intent(in) :: at_end
+
+            y(to) = at_end
+            call fill(from, to)
+            call record()
+        end subroutine close_motion
+
+        !> The left end cannot move after all
+        subroutine drop_motion(from)
+            integer, intent(in) :: from
+
+            y(origin:from) = 0.0_wp
+            origin = from
+        end subroutine drop_motion
+
+        !> A new motion: the body turns about its left end
+        subroutine open_motion(from, to)
+            integer, intent(in) :: from, to
+
+            y(origin:from) = 0.0_wp
+            origin = from
+            y(to) = 1.0_wp
+            moving = .true.
+            call fill(from, to)
+        end subroutine open_motion
+
+        !> Straight line between the ends of a body
+        subroutine fill(from, to)
+            integer, intent(in) :: from, to
+            integer :: k
+
+            do k = from + 1, to - 1
+                y(k) = (y(from)*(x(to) - x(k)) + y(to)*(x(k) - x(from)))/(x(to) - x(from))
+                if (fixed(k)) y(k) = 0.0_wp
+            end do
+        end subroutine fill
+
+        subroutine record()
+            type(motion_type) :: motion
+
+            moving = .false.
+            if (size(motions) == most_motions) return
+            allocate (motion%displacement(0:n))
+            motion%displacement = y/maxval(abs(y))
+            motion%first = findloc(abs(y) > 0.0_wp, .true., 1) - 1
+            motion%last = findloc(abs(y) > 0.0_wp, .true., 1, back=.true.) - 1
+            motions = [motions, motion]
+        end subroutine record
+
+    end subroutine free_motions
+
+    !> Work of the loads along a motion, and the sum of the absolute values of its parts
+    pure subroutine work_of_loads(beam, factor, displacement, work, size_of_parts)
+        !> The beam and the factor of its live loads
+        type(beam_type), intent(in) :: beam
+        real(wp), intent(in) :: factor
+        !> Displacements of the nodes, straight between them, shape (0:n)
+        real(wp), intent(in) :: displacement(0:)
+        !> Work, and how large its parts are
+        real(wp), intent(out) :: work, size_of_parts
+        real(wp) :: part, share(2)
+        integer :: i, j, n
+
+        n = size(beam%links)
+        share = [1.0_wp, factor]
+        work = 0.0_wp
+        size_of_parts = 0.0_wp
+        do i = 0, n
+            part = displacement(i)*dot_product(share, beam%force(:, i))
+            work = work + part
+            size_of_parts = size_of_parts + abs(part)
+            ! A couple turns with the body to the right of its node, at the right end with the one to the left
+            j = min(i + 1, n)
+            part = dot_product(share, beam%couple(:, i))*(displacement(j) - displacement(j - 1))/beam%links(j)%length
+            work = work + part
+            size_of_parts = size_of_parts + abs(part)
+            if (i == n) exit
+            associate (link => beam%links(i + 1))
+                part = displacement(i)*dot_product(share, link%shear_a)
+                work = work + part
+                size_of_parts = size_of_parts + abs(part)
+                part = -displacement(i + 1)*dot_product(share, link%shear_b)
+                work = work + part
+                size_of_parts = size_of_parts + abs(part)
+            end associate
+        end do
+    end subroutine work_of_loads
+
+end module gapbeam_kinematics

@@ -1,0 +1,208 @@
+!> The pivoting route: the same mixed system through LAPACK's expert band solver dgbsvx.
+!>
+!> gapbeam_band needs no pivoting but for one case, a rigid beam over rigid supports, where a flexibility used
+!> as pivot is exactly zero. Rows, unknowns and signs are those of gapbeam_band; a node with a rotational
+!> restraint has a third unknown, its second moment. Half bandwidth 3.
+module gapbeam_lapack
+    use gapbeam_kinds, only: wp
+    use gapbeam_link, only: link_type
+    use gapbeam_band, only: node_type, rhs_type, answer_type, hinge, restrained
+    implicit none
+    private
+    public :: solve_pivoting
+
+    !> Half bandwidth of the mixed system
+    integer, parameter :: half_bandwidth = 3
+
+! PyPI's scipy-openblas32 prefixes its symbols
+#ifdef SCIPY_OPENBLAS
+#define dgbsvx scipy_dgbsvx
+#endif
+
+    interface
+        subroutine dgbsvx(fact, trans, n, kl, ku, nrhs, ab, ldab, afb, ldafb, ipiv, equed, r, c, b, ldb, &
+                          x, ldx, rcond, ferr, berr, work, iwork, info)
+            import :: wp
+            character(len=1), intent(in) :: fact, trans
+            character(len=1), intent(inout) :: equed
+            integer, intent(in) :: n, kl, ku, nrhs, ldab, ldafb, ldb, ldx
+            real(wp), intent(inout) :: ab(ldab, *), afb(ldafb, *), r(*), c(*), b(ldb, *)
+            real(wp), intent(inout) :: x(ldx, *), rcond, ferr(*), berr(*), work(*)
+            integer, intent(inout) :: ipiv(*), iwork(*), info
+        end subroutine dgbsvx
+    end interface
+
+contains
+
+    !> Assemble, factor with pivoting, solve and refine
+    subroutine solve_pivoting(nodes, links, rhs, answers, regular)
+        !> Nodes as the working scheme sees them, shape (0:n), and the links between them
+        type(node_type), intent(in) :: nodes(0:)
+        type(link_type), intent(in) :: links(:)
+        !> Right-hand side, shape (0:n)
+        type(rhs_type), intent(in) :: rhs(0:)
+        !> Deflections and moments, shape (0:n)
+        type(answer_type), intent(inout) :: answers(0:)
+        !> False where the matrix is singular to working precision
+        logical, intent(out) :: regular
+        real(wp), allocatable :: matrix(:, :), factor(:, :), b(:), x(:), r(:), c(:), work(:)
+        integer, allocatable :: pivot(:), iwork(:), left(:), deflection(:), right(:)
+        real(wp) :: rcond, ferr(1), berr(1)
+        character(len=1) :: equed
+        integer :: n, unknowns, info, i
+
+        n = size(links)
+        allocate (left(0:n), deflection(0:n), right(0:n))
+        unknowns = 0
+        do i = 0, n
+            unknowns = unknowns + 1
+            left(i) = unknowns
+            unknowns = unknowns + 1
+            deflection(i) = unknowns
+            right(i) = left(i)
+            if (nodes(i)%kind == restrained .and. i > 0 .and. i < n) then
+                unknowns = unknowns + 1
+                right(i) = unknowns
+            end if
+        end do
+        allocate (matrix(2*half_bandwidth + 1, unknowns), factor(3*half_bandwidth + 1, unknowns))
+        allocate (b(unknowns), x(unknowns), r(unknowns), c(unknowns), work(3*unknowns))
+        allocate (pivot(unknowns), iwork(unknowns))
+        call assemble(nodes, links, rhs, left, deflection, right, matrix, b)
+        equed = "N"
+        call dgbsvx("E", "N", unknowns, half_bandwidth, half_bandwidth, 1, matrix, 2*half_bandwidth + 1, &
+                    factor, 3*half_bandwidth + 1, pivot, equed, r, c, b, unknowns, x, unknowns, &
+                    rcond, ferr, berr, work, iwork, info)
+        regular = info == 0
+        if (.not. regular) return
+        do i = 0, n
+            answers(i)%deflection = x(deflection(i))
+            answers(i)%moment_left = x(left(i))
+            if (right(i) /= left(i)) then
+                answers(i)%moment_right = x(right(i))
+            else
+                answers(i)%moment_right = x(left(i)) + rhs(i)%couple
+            end if
+        end do
+        ! The outer sides of the two ends carry no moment; the unknown there is the inner one
+        answers(0)%moment_right = x(left(0))
+        answers(0)%moment_left = 0.0_wp
+        answers(n)%moment_right = 0.0_wp
+    end subroutine solve_pivoting
+
+    !> Band matrix in LAPACK's storage: element (i, j) in row half_bandwidth + 1 + i - j of column j
+    subroutine assemble(nodes, links, rhs, left, deflection, right, matrix, b)
+        type(node_type), intent(in) :: nodes(0:)
+        type(link_type), intent(in) :: links(:)
+        type(rhs_type), intent(in) :: rhs(0:)
+        integer, intent(in) :: left(0:), deflection(0:), right(0:)
+        real(wp), intent(out) :: matrix(:, :)
+        real(wp), intent(out) :: b(:)
+        integer :: i, n
+
+        n = size(links)
+        matrix = 0.0_wp
+        b = 0.0_wp
+        do i = 0, n
+            call moment_rows(i)
+            call deflection_row(i)
+        end do
+
+    contains
+
+        !> Compatibility, or the moment where it is known
+        subroutine moment_rows(i)
+            integer, intent(in) :: i
+
+            associate (node => nodes(i), r => rhs(i))
+                if (node%kind == restrained) then
+                    if (i > 0) then
+                        call psi_b(left(i), i)
+                        call put(left(i), left(i), -node%compliance)
+                        if (i < n) call put(left(i), right(i), node%compliance)
+                        b(left(i)) = b(left(i)) + r%left + node%compliance*r%couple
+                    end if
+                    if (i < n) then
+                        if (i > 0) call put(right(i), left(i), node%compliance)
+                        call put(right(i), right(i), -node%compliance)
+                        call minus_psi_a(right(i), i)
+                        b(right(i)) = b(right(i)) + r%right - node%compliance*r%couple
+                    end if
+                else if (node%kind == hinge .or. i == 0 .or. i == n) then
+                    call put(left(i), left(i), 1.0_wp)
+                    if (i == 0) b(left(i)) = r%couple
+                    if (i == n) b(left(i)) = -r%couple
+                else
+                    call psi_b(left(i), i)
+                    call minus_psi_a(left(i), i)
+                    b(left(i)) = b(left(i)) + r%left + r%right
+                end if
+            end associate
+        end subroutine moment_rows
+
+        !> Equilibrium, or the deflection where it is known
+        subroutine deflection_row(i)
+            integer, intent(in) :: i
+
+            associate (row => deflection(i), r => rhs(i))
+                if (nodes(i)%held) then
+                    call put(row, row, 1.0_wp)
+                    b(row) = r%deflection
+                    return
+                end if
+                b(row) = r%shear
+                call put(row, row, nodes(i)%stiffness)
+                if (i > 0) then
+                    call put(row, left(i), 1/links(i)%length)
+                    call put(row, right(i - 1), -1/links(i)%length)
+                    b(row) = b(row) + jump(i - 1)/links(i)%length
+                end if
+                if (i < n) then
+                    call put(row, left(i + 1), -1/links(i + 1)%length)
+                    call put(row, right(i), 1/links(i + 1)%length)
+                    b(row) = b(row) - jump(i)/links(i + 1)%length
+                end if
+            end associate
+        end subroutine deflection_row
+
+        !> Moment right of a node minus the unknown that stands for it
+        pure function jump(k) result(couple)
+            integer, intent(in) :: k
+            real(wp) :: couple
+
+            couple = 0.0_wp
+            if (nodes(k)%kind /= restrained .and. k > 0) couple = rhs(k)%couple
+        end function jump
+
+        subroutine put(i, j, value)
+            integer, intent(in) :: i, j
+            real(wp), intent(in) :: value
+
+            matrix(half_bandwidth + 1 + i - j, j) = matrix(half_bandwidth + 1 + i - j, j) + value
+        end subroutine put
+
+        !> psi at the right end of link k
+        subroutine psi_b(row, k)
+            integer, intent(in) :: row, k
+
+            call put(row, deflection(k), 1/links(k)%length)
+            call put(row, deflection(k - 1), -1/links(k)%length)
+            call put(row, right(k - 1), -links(k)%fab)
+            call put(row, left(k), -links(k)%fbb)
+            b(row) = b(row) + links(k)%fab*jump(k - 1)
+        end subroutine psi_b
+
+        !> Minus psi at the left end of link k + 1
+        subroutine minus_psi_a(row, k)
+            integer, intent(in) :: row, k
+
+            call put(row, deflection(k + 1), -1/links(k + 1)%length)
+            call put(row, deflection(k), 1/links(k + 1)%length)
+            call put(row, right(k), -links(k + 1)%faa)
+            call put(row, left(k + 1), -links(k + 1)%fab)
+            b(row) = b(row) + links(k + 1)%faa*jump(k)
+        end subroutine minus_psi_a
+
+    end subroutine assemble
+
+end module gapbeam_lapack

@@ -1,0 +1,320 @@
+!> All pieces between two nodes condensed into one link, exactly, and recovered again.
+!>
+!> A link is the simply supported bar of method.md 2 between two nodes. Its flexibilities are kept in
+!> the form of the elastic centre: the total bending flexibility, its centroid and its spread. Every one of
+!> them is a sum of terms of one sign, so they lose no digits however many pieces there are.
+module gapbeam_link
+    use gapbeam_kinds, only: wp
+    use gapbeam_element, only: sum_type, add, total, moment_integrals, field_type
+    implicit none
+    private
+    public :: link_type, piece_type, load_type, condense_link, recover_link, combine_loads
+
+    !> A prismatic piece
+    type, bind(c) :: piece_type
+        !> Length, 1/EI, 1/GA
+        real(wp) :: length, flexibility, shear_flexibility
+    end type piece_type
+
+    !> Loads on a piece and on the point at its right end
+    type, bind(c) :: load_type
+        !> Load per length at the left and right end, imposed curvature
+        real(wp) :: qa, qb, kappa
+        !> Force (down) and couple (clockwise) at the right end; those on a node are the node's, not the link's
+        real(wp) :: force, couple
+    end type load_type
+
+    !> A condensed link; index 1 dead, 2 live
+    type, bind(c) :: link_type
+        !> Distance of the two nodes
+        real(wp) :: length
+        !> int 1/EI, int (1-xi)/EI = f_aa + f_ab, int xi/EI = f_ab + f_bb
+        real(wp) :: bending, sum_a, sum_b
+        !> Flexibilities of method.md 2 and the determinant f_aa f_bb - f_ab**2, formed without subtraction
+        real(wp) :: faa, fab, fbb, determinant
+        !> Rotations t_a, t_b of the ends of the simple bar under its loads
+        real(wp) :: turn_a(2), turn_b(2)
+        !> Shear of the simple bar at its ends
+        real(wp) :: shear_a(2), shear_b(2)
+    end type link_type
+
+contains
+
+    !> Condense the pieces between two nodes into one link
+    pure subroutine condense_link(pieces, dead, live, work, link)
+        !> The pieces, left to right, shape (n)
+        type(piece_type), intent(in) :: pieces(:)
+        !> Their dead and live loads, shape (n); the point load of the last one belongs to the node
+        type(load_type), intent(in) :: dead(:), live(:)
+        !> Workspace, shape (at least n)
+        real(wp), intent(inout) :: work(:)
+        !> The condensed link
+        type(link_type), intent(out) :: link
+
+        call condense_flexibility(pieces, link)
+        call condense_loads(pieces, dead, link, 1, work)
+        call condense_loads(pieces, live, link, 2, work)
+    end subroutine condense_link
+
+    !> Flexibilities of the link: total, centroid and spread of 1/EI along it (elastic centre), and shear
+    pure subroutine condense_flexibility(pieces, link)
+        type(piece_type), intent(in) :: pieces(:)
+        type(link_type), intent(inout) :: link
+        type(sum_type) :: length, bending, first, second, shear
+        real(wp) :: centre, spread, shear_term, local
+        integer :: j
+
+        if (size(pieces) == 1) then
+            link%length = pieces(1)%length
+            link%bending = pieces(1)%flexibility*link%length
+            centre = 0.5_wp
+            spread = 1.0_wp/12.0_wp
+            shear_term = pieces(1)%shear_flexibility/link%length
+        else
+            length = sum_type()
+            bending = sum_type()
+            shear = sum_type()
+            first = sum_type()
+            do j = 1, size(pieces)
+                associate (p => pieces(j))
+                    local = p%flexibility*p%length
+                    call add(bending, local)
+                    call add(first, local*(total(length) + p%length/2))
+                    call add(shear, p%shear_flexibility*p%length)
+                    call add(length, p%length)
+                end associate
+            end do
+            link%length = total(length)
+            link%bending = total(bending)
+            centre = 0.5_wp
+            if (link%bending > 0.0_wp) centre = total(first)/link%bending
+            second = sum_type()
+            length = sum_type()
+            do j = 1, size(pieces)
+                associate (p => pieces(j))
+                    call add(second, p%flexibility*p%length*((total(length) + p%length/2 - centre)**2 &
+                        + p%length**2/12))
+                    call add(length, p%length)
+                end associate
+            end do
+            centre = centre/link%length
+            spread = 0.0_wp
+            if (link%bending > 0.0_wp) spread = total(second)/link%bending/link%length**2
+            shear_term = total(shear)/link%length**2
+        end if
+        associate (m => link%bending)
+            link%sum_a = m*(1 - centre)
+            link%sum_b = m*centre
+            link%faa = m*((1 - centre)**2 + spread) + shear_term
+            link%fab = m*(centre*(1 - centre) - spread) - shear_term
+            link%fbb = m*(centre**2 + spread) + shear_term
+            link%determinant = m*(m*spread + shear_term)
+        end associate
+    end subroutine condense_flexibility
+
+    !> Load terms of the link for one load case
+    pure subroutine condense_loads(pieces, loads, link, k, work)
+        type(piece_type), intent(in) :: pieces(:)
+        type(load_type), intent(in) :: loads(:)
+        type(link_type), intent(inout) :: link
+        integer, intent(in) :: k
+        real(wp), intent(inout) :: work(:)
+        type(sum_type) :: turn_a, turn_b, slip, left, position
+        real(wp) :: right_end, x0, x1, m0, m1, left_part, right_part, turning
+        integer :: j, n
+
+        n = size(pieces)
+        link%turn_a(k) = 0.0_wp
+        link%turn_b(k) = 0.0_wp
+        link%shear_a(k) = 0.0_wp
+        link%shear_b(k) = 0.0_wp
+        if (.not. any_load(loads)) return
+
+        call moments_about_right_end(pieces, loads, work, right_end)
+        turn_a = sum_type()
+        turn_b = sum_type()
+        slip = sum_type()
+        left = sum_type()
+        position = sum_type()
+        x1 = 0.0_wp
+        do j = 1, n
+            associate (p => pieces(j), q => loads(j))
+                x0 = x1
+                m0 = (1 - x0/link%length)*total(left) + (x0/link%length)*merge(right_end, work(max(1, j - 1)), j == 1)
+                call add(left, load_moment(x0, p%length, q%qa, q%qb))
+                call add(position, p%length)
+                x1 = total(position)
+                if (j == n) x1 = link%length
+                m1 = (1 - x1/link%length)*total(left) + (x1/link%length)*before_point(work(j), q, link%length - x1, j == n)
+                call moment_integrals(p%length, m0, m1, q%qa, q%qb, left_part, right_part)
+                turning = p%flexibility*left_part - q%kappa*p%length/2
+                call add(turn_a, (1 - x0/link%length)*turning)
+                call add(turn_b, (x0/link%length)*turning)
+                turning = p%flexibility*right_part - q%kappa*p%length/2
+                call add(turn_a, (1 - x1/link%length)*turning)
+                call add(turn_b, (x1/link%length)*turning)
+                call add(slip, p%shear_flexibility*(m1 - m0))
+                if (j < n) then
+                    call add(left, q%force*x1)
+                    call add(left, q%couple)
+                end if
+            end associate
+        end do
+        link%turn_a(k) = total(turn_a) - total(slip)/link%length
+        link%turn_b(k) = total(turn_b) + total(slip)/link%length
+        link%shear_a(k) = right_end/link%length
+        link%shear_b(k) = -total(left)/link%length
+    end subroutine condense_loads
+
+    !> Is there anything to do for this load case
+    pure function any_load(loads) result(found)
+        type(load_type), intent(in) :: loads(:)
+        logical :: found
+        integer :: j
+
+        found = .true.
+        do j = 1, size(loads)
+            associate (q => loads(j))
+                if (max(abs(q%qa), abs(q%qb), abs(q%kappa)) > 0) return
+                if (j < size(loads) .and. max(abs(q%force), abs(q%couple)) > 0) return
+            end associate
+        end do
+        found = .false.
+    end function any_load
+
+    !> Moment of a piece's own load about the left end of the link, the piece beginning at x0
+    elemental function load_moment(x0, l, qa, qb) result(moment)
+        real(wp), intent(in) :: x0, l, qa, qb
+        real(wp) :: moment
+
+        moment = l*(x0*(qa + qb)/2 + l*(qa + 2*qb)/6)
+    end function load_moment
+
+    !> Sum of the moments about the right end of all loads that lie to the right of each interior point
+    pure subroutine moments_about_right_end(pieces, loads, right, all_of_them)
+        type(piece_type), intent(in) :: pieces(:)
+        type(load_type), intent(in) :: loads(:)
+        !> right(j): loads strictly to the right of the right end of piece j
+        real(wp), intent(inout) :: right(:)
+        !> The same for the left end of the link
+        real(wp), intent(out) :: all_of_them
+        type(sum_type) :: sum_right, distance
+        integer :: j, n
+
+        n = size(pieces)
+        sum_right = sum_type()
+        distance = sum_type()
+        right(n) = 0.0_wp
+        do j = n, 2, -1
+            call add(sum_right, load_moment(total(distance), pieces(j)%length, loads(j)%qb, loads(j)%qa))
+            call add(distance, pieces(j)%length)
+            right(j - 1) = total(sum_right)
+            call add(sum_right, loads(j - 1)%force*total(distance))
+            call add(sum_right, -loads(j - 1)%couple)
+        end do
+        call add(sum_right, load_moment(total(distance), pieces(1)%length, loads(1)%qb, loads(1)%qa))
+        all_of_them = total(sum_right)
+    end subroutine moments_about_right_end
+
+    !> The same just left of the point at the right end of a piece: its point load is still to the right
+    elemental function before_point(right, load, y, is_last) result(moment)
+        real(wp), intent(in) :: right
+        type(load_type), intent(in) :: load
+        real(wp), intent(in) :: y
+        logical, intent(in) :: is_last
+        real(wp) :: moment
+
+        moment = right
+        if (.not. is_last) moment = right + (load%force*y - load%couple)
+    end function before_point
+
+    !> Dead plus factor times live
+    elemental function combine_loads(dead, live, factor) result(loads)
+        type(load_type), intent(in) :: dead, live
+        real(wp), intent(in) :: factor
+        type(load_type) :: loads
+
+        loads%qa = dead%qa + factor*live%qa
+        loads%qb = dead%qb + factor*live%qb
+        loads%kappa = dead%kappa + factor*live%kappa
+        loads%force = dead%force + factor*live%force
+        loads%couple = dead%couple + factor*live%couple
+    end function combine_loads
+
+    !> Fields at the left end of every piece of a link, from the fields at its nodes.
+    !> Sums run from both ends towards the point, so that no large parts cancel.
+    pure subroutine recover_link(pieces, loads, length, moment_a, moment_b, w_a, w_b, psi_a, work, starts)
+        !> Pieces and their loads (already combined), shape (n)
+        type(piece_type), intent(in) :: pieces(:)
+        type(load_type), intent(in) :: loads(:)
+        !> Length of the link
+        real(wp), intent(in) :: length
+        !> Moments just inside its ends, deflections of its ends, rotation at its left end
+        real(wp), intent(in) :: moment_a, moment_b, w_a, w_b, psi_a
+        !> Workspace, shape (at least n, 3)
+        real(wp), intent(inout) :: work(:, :)
+        !> Fields just right of the left end of every piece, shape (n)
+        type(field_type), intent(out) :: starts(:)
+        type(sum_type) :: left, position, turning, first, slip
+        real(wp) :: right_end, x0, x1, xi, m1, before
+        integer :: j, n
+
+        n = size(pieces)
+        call moments_about_right_end(pieces, loads, work(:, 1), right_end)
+        ! Forward: moment, shear, rotation; the turning of each piece, weighted to its ends, waits in work(:, 2:3)
+        left = sum_type()
+        position = sum_type()
+        turning = sum_type()
+        slip = sum_type()
+        x1 = 0.0_wp
+        before = right_end
+        do j = 1, n
+            associate (p => pieces(j), q => loads(j))
+                x0 = x1
+                xi = x0/length
+                starts(j)%moment = (1 - xi)*(moment_a + total(left)) + xi*(moment_b + before)
+                starts(j)%shear = ((moment_b - moment_a) + (before - total(left)))/length
+                starts(j)%rotation = psi_a - total(turning)
+                starts(j)%deflection = total(slip)
+                call add(left, load_moment(x0, p%length, q%qa, q%qb))
+                call add(position, p%length)
+                x1 = total(position)
+                if (j == n) x1 = length
+                xi = x1/length
+                m1 = (1 - xi)*(moment_a + total(left)) &
+                    + xi*(moment_b + before_point(work(j, 1), q, length - x1, j == n))
+                call moment_integrals(p%length, starts(j)%moment, m1, q%qa, q%qb, work(j, 2), work(j, 3))
+                work(j, 2:3) = p%flexibility*work(j, 2:3) - q%kappa*p%length/2
+                call add(turning, work(j, 2) + work(j, 3))
+                call add(slip, p%shear_flexibility*(m1 - starts(j)%moment))
+                before = work(j, 1)
+                if (j < n) then
+                    call add(left, q%force*x1)
+                    call add(left, q%couple)
+                end if
+            end associate
+        end do
+        ! Backward: first moment of the turning right of each piece's start, about the right end of the link
+        first = sum_type()
+        position = sum_type()
+        do j = n, 1, -1
+            call add(first, work(j, 3)*total(position))
+            call add(position, pieces(j)%length)
+            call add(first, work(j, 2)*total(position))
+            work(j, 1) = total(first)
+        end do
+        ! Forward again: deflections by Mohr's theorem, shear deflection relative to the chord
+        first = sum_type()
+        position = sum_type()
+        do j = 1, n
+            x0 = total(position)
+            xi = x0/length
+            starts(j)%deflection = (1 - xi)*(w_a + total(first)) + xi*(w_b + work(j, 1)) &
+                + (starts(j)%deflection - xi*total(slip))
+            call add(first, work(j, 2)*x0)
+            call add(position, pieces(j)%length)
+            call add(first, work(j, 3)*total(position))
+        end do
+    end subroutine recover_link
+
+end module gapbeam_link

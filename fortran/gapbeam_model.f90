@@ -1,0 +1,48 @@
+!> The beam as arrays: links, nodes, supports
+module gapbeam_model
+    use gapbeam_kinds, only: wp
+    use gapbeam_link, only: link_type
+    implicit none
+    private
+    public :: beam_type, support_type, below, above, both, is_rigid
+
+    !> Sides of a support: pushes up only, pushes down only, both
+    integer, parameter :: below = 1, above = -1, both = 0
+
+    !> A support at a node
+    type :: support_type
+        !> Node, 0..n
+        integer :: node
+        !> below, above or both
+        integer :: side
+        !> Force per length; infinite for a rigid one
+        real(wp) :: stiffness
+        !> Deflection at which it begins to act: settlement + gap (below), settlement - gap (above)
+        real(wp) :: contact
+    end type support_type
+
+    !> A beam; load index 1 dead, 2 live
+    type :: beam_type
+        !> Links between the nodes, shape (n)
+        type(link_type), allocatable :: links(:)
+        !> Kind of every node (gapbeam_band), shape (0:n)
+        integer, allocatable :: kind(:)
+        !> Compliance of its rotational restraint, shape (0:n)
+        real(wp), allocatable :: compliance(:)
+        !> Applied force (down) and couple (clockwise), shape (2, 0:n)
+        real(wp), allocatable :: force(:, :), couple(:, :)
+        !> Supports in the caller's order
+        type(support_type), allocatable :: supports(:)
+    end type beam_type
+
+contains
+
+    !> Is a support rigid
+    elemental function is_rigid(support) result(rigid)
+        type(support_type), intent(in) :: support
+        logical :: rigid
+
+        rigid = support%stiffness > huge(support%stiffness)
+    end function is_rigid
+
+end module gapbeam_model

@@ -1,0 +1,186 @@
+!> Which supports are wrong in a scheme, and which of them a rule changes
+module gapbeam_rules
+    use gapbeam_kinds, only: wp
+    use gapbeam_model, only: beam_type, both
+    use gapbeam_system, only: workspace_type
+    implicit none
+    private
+    public :: find_wrong, complementarity, keep_worst, keep_least_index, left_to_right
+
+contains
+
+    !> Which supports have the wrong state
+    pure subroutine find_wrong(beam, closed, width, work, wrong)
+        type(beam_type), intent(in) :: beam
+        logical, intent(in) :: closed(:)
+        !> Rounding errors beyond which a sign counts
+        real(wp), intent(in) :: width
+        type(workspace_type), intent(in) :: work
+        logical, intent(out) :: wrong(:)
+        integer :: k
+
+        do k = 1, size(closed)
+            associate (s => beam%supports(k), w => work%answers(beam%supports(k)%node)%deflection, &
+                       size_of_w => work%deflection_size(beam%supports(k)%node))
+                if (s%side == both) then
+                    wrong(k) = .false.
+                else if (closed(k)) then
+                    wrong(k) = s%side*work%reaction(k) < -width*work%reaction_error(k)
+                else
+                    wrong(k) = s%side*(w - s%contact) > width*epsilon(w)*max(size_of_w, abs(s%contact)) &
+                        .and. s%stiffness > 0.0_wp
+                end if
+            end associate
+        end do
+    end subroutine find_wrong
+
+    !> Largest wrong-signed reaction relative to the largest reaction, or penetration relative to the largest deflection
+    pure function complementarity(beam, closed, work) result(violation)
+        type(beam_type), intent(in) :: beam
+        logical, intent(in) :: closed(:)
+        type(workspace_type), intent(in) :: work
+        real(wp) :: violation, largest_reaction, largest_deflection
+        integer :: k
+
+        violation = 0.0_wp
+        if (size(closed) == 0) return
+        largest_reaction = max(maxval(abs(work%reaction)), tiny(violation))
+        largest_deflection = max(maxval(abs(work%answers%deflection)), tiny(violation))
+        do k = 1, size(closed)
+            associate (s => beam%supports(k))
+                if (s%side == both) cycle
+                if (closed(k)) then
+                    violation = max(violation, -s%side*work%reaction(k)/largest_reaction)
+                else if (s%stiffness > 0.0_wp) then
+                    violation = max(violation, s%side*(work%answers(s%node)%deflection - s%contact)/largest_deflection)
+                end if
+            end associate
+        end do
+    end function complementarity
+
+    !> The paper's rule. Put back first: of neighbouring open supports the most penetrated one. Release only where
+    !> no open stretch beside waits for a support to be put back: of neighbouring closed supports the one that
+    !> pulls most. With local this is done in all neighbourhoods at once, otherwise one release in the whole beam.
+    pure subroutine keep_worst(beam, order, closed, work, local, wrong)
+        type(beam_type), intent(in) :: beam
+        !> Supports from left to right
+        integer, intent(in) :: order(:)
+        logical, intent(in) :: closed(:)
+        type(workspace_type), intent(in) :: work
+        logical, intent(in) :: local
+        !> All wrong supports in, those to be changed out
+        logical, intent(inout) :: wrong(:)
+        logical, allocatable :: waits(:)
+        real(wp), allocatable :: badness(:)
+        integer :: n, first, last, k, worst
+
+        n = size(order)
+        allocate (waits(0:n + 1), badness(size(closed)))
+        waits = .false.
+        do k = 1, n
+            associate (s => beam%supports(k))
+                badness(k) = abs(merge(work%reaction(k), work%answers(s%node)%deflection - s%contact, closed(k)))
+            end associate
+        end do
+        last = 0
+        do while (last < n)
+            first = last + 1
+            last = end_of_run(closed, order, first)
+            if (closed(order(first))) cycle
+            waits(first:last) = any(wrong(order(first:last)))
+            call keep_one(order(first:last), badness, wrong)
+        end do
+        last = 0
+        do while (last < n)
+            first = last + 1
+            last = end_of_run(closed, order, first)
+            if (.not. closed(order(first))) cycle
+            if (waits(first - 1) .or. waits(last + 1) .or. (any(waits) .and. .not. local)) then
+                wrong(order(first:last)) = .false.
+            else if (local) then
+                call keep_one_of_each(order(first:last), badness, wrong)
+            end if
+        end do
+        if (local .or. any(waits)) return
+        worst = maxloc(badness, 1, wrong)
+        wrong = .false.
+        wrong(worst) = .true.
+    end subroutine keep_worst
+
+    !> End of the run of supports with the same state
+    pure function end_of_run(state, order, first) result(last)
+        logical, intent(in) :: state(:)
+        integer, intent(in) :: order(:)
+        integer, intent(in) :: first
+        integer :: last
+
+        last = first
+        do while (last < size(order))
+            if (state(order(last + 1)) .neqv. state(order(first))) exit
+            last = last + 1
+        end do
+    end function end_of_run
+
+    !> Of the wrong supports of a run keep the worst
+    pure subroutine keep_one(run, badness, wrong)
+        integer, intent(in) :: run(:)
+        real(wp), intent(in) :: badness(:)
+        logical, intent(inout) :: wrong(:)
+        integer :: worst
+
+        if (.not. any(wrong(run))) return
+        worst = run(maxloc(badness(run), 1, wrong(run)))
+        wrong(run) = .false.
+        wrong(worst) = .true.
+    end subroutine keep_one
+
+    !> Of every group of neighbouring wrong supports in a run keep the worst
+    pure subroutine keep_one_of_each(run, badness, wrong)
+        integer, intent(in) :: run(:)
+        real(wp), intent(in) :: badness(:)
+        logical, intent(inout) :: wrong(:)
+        logical, allocatable :: before(:)
+        integer :: first, last
+
+        allocate (before(size(wrong)))
+        before(:) = wrong
+        last = 0
+        do while (last < size(run))
+            first = last + 1
+            last = end_of_run(before, run, first)
+            if (before(run(first))) call keep_one(run(first:last), badness, wrong)
+        end do
+    end subroutine keep_one_of_each
+
+    !> Murty's rule
+    pure subroutine keep_least_index(wrong)
+        logical, intent(inout) :: wrong(:)
+        integer :: first
+
+        first = findloc(wrong, .true., 1)
+        wrong(first + 1:) = .false.
+    end subroutine keep_least_index
+
+    !> Numbers of the supports from left to right
+    pure function left_to_right(beam) result(order)
+        type(beam_type), intent(in) :: beam
+        integer, allocatable :: order(:)
+        integer, allocatable :: place(:)
+        integer :: k, i
+
+        allocate (place(0:size(beam%links)), order(size(beam%supports)))
+        place = 0
+        do k = 1, size(beam%supports)
+            place(beam%supports(k)%node) = place(beam%supports(k)%node) + 1
+        end do
+        do i = 1, size(beam%links)
+            place(i) = place(i) + place(i - 1)
+        end do
+        do k = size(beam%supports), 1, -1
+            i = beam%supports(k)%node
+            order(place(i)) = k
+            place(i) = place(i) - 1
+        end do
+    end function left_to_right
+
+end module gapbeam_rules

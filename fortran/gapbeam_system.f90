@@ -1,0 +1,261 @@
+!> One working scheme solved: the system it needs is chosen, assembled and solved; reactions follow.
+module gapbeam_system
+    use gapbeam_kinds, only: wp
+    use gapbeam_band, only: node_type, rhs_type, pivot_type, answer_type, factor_chain, solve_chain, &
+        residual_chain, band_ok, band_mechanism, band_needs_pivoting
+    use gapbeam_three_moment, only: fits_three_moment, solve_three_moment
+    use gapbeam_lapack, only: solve_pivoting
+    use gapbeam_model, only: beam_type, is_rigid
+    implicit none
+    private
+    public :: workspace_type, new_workspace, set_loads, solve_scheme, check_scheme
+    public :: method_mixed, method_three_moment, method_pivoting
+
+    !> Which system was solved last
+    integer, parameter :: method_mixed = 0, method_three_moment = 1, method_pivoting = 2
+
+    !> Everything a solve needs beside the beam; reused from solve to solve
+    type :: workspace_type
+        type(node_type), allocatable :: nodes(:)
+        !> Loads of the current factor; with the supports of the scheme; and what elimination makes of it
+        type(rhs_type), allocatable :: loads(:), rhs(:), eliminated(:)
+        type(pivot_type), allocatable :: pivots(:)
+        type(answer_type), allocatable :: answers(:), correction(:)
+        real(wp), allocatable :: moment_work(:, :)
+        !> Reaction of every support, positive up, and the rounding error it may have
+        real(wp), allocatable :: reaction(:), reaction_error(:)
+        !> Sizes of the shears and deflections whose rounding reaches a node
+        real(wp), allocatable :: shear_size(:), deflection_size(:)
+        !> Springs towards a reference deflection that keep schemes which are mechanisms solvable; zero if unused
+        real(wp), allocatable :: ease(:), reference(:)
+        !> Linear solves so far, and the system solved last
+        integer :: solves = 0
+        integer :: method = method_mixed
+        !> Relative residuals of the last solve
+        real(wp) :: compatibility = 0.0_wp, equilibrium = 0.0_wp
+    end type workspace_type
+
+contains
+
+    !> Workspace for a beam
+    pure subroutine new_workspace(beam, work)
+        !> The beam
+        type(beam_type), intent(in) :: beam
+        !> The workspace, no load set
+        type(workspace_type), intent(out) :: work
+        integer :: n, m
+
+        n = size(beam%links)
+        m = size(beam%supports)
+        allocate (work%nodes(0:n), work%loads(0:n), work%rhs(0:n), work%eliminated(0:n), work%pivots(0:n))
+        allocate (work%answers(0:n), work%correction(0:n), work%moment_work(2, 0:n))
+        allocate (work%shear_size(0:n), work%deflection_size(0:n))
+        allocate (work%reaction(m), work%reaction_error(m))
+        allocate (work%ease(0:n), work%reference(0:n))
+        work%ease = 0.0_wp
+        work%reference = 0.0_wp
+    end subroutine new_workspace
+
+    !> Set the loads: dead plus factor times live
+    pure subroutine set_loads(beam, factor, work)
+        type(beam_type), intent(in) :: beam
+        !> Load factor of the live loads
+        real(wp), intent(in) :: factor
+        type(workspace_type), intent(inout) :: work
+        real(wp) :: share(2)
+        integer :: i, n
+
+        n = size(beam%links)
+        share = [1.0_wp, factor]
+        do i = 0, n
+            associate (r => work%loads(i))
+                r = rhs_type()
+                r%couple = dot_product(share, beam%couple(:, i))
+                r%shear = dot_product(share, beam%force(:, i))
+            end associate
+        end do
+        do i = 1, n
+            associate (link => beam%links(i), a => work%loads(i - 1), b => work%loads(i))
+                a%right = dot_product(share, link%turn_a)
+                a%shear = a%shear + dot_product(share, link%shear_a)
+                b%left = dot_product(share, link%turn_b)
+                b%shear = b%shear - dot_product(share, link%shear_b)
+            end associate
+        end do
+    end subroutine set_loads
+
+    !> Nodes and right-hand side as the scheme sees them
+    pure subroutine apply_scheme(beam, acting, work)
+        type(beam_type), intent(in) :: beam
+        logical, intent(in) :: acting(:)
+        type(workspace_type), intent(inout) :: work
+        integer :: k
+
+        work%nodes%kind = beam%kind
+        work%nodes%compliance = beam%compliance
+        work%nodes%held = .false.
+        work%nodes%stiffness = work%ease
+        work%rhs = work%loads
+        work%rhs%shear = work%rhs%shear + work%ease*work%reference
+        do k = 1, size(acting)
+            if (.not. acting(k)) cycle
+            associate (s => beam%supports(k), node => work%nodes(beam%supports(k)%node), &
+                       r => work%rhs(beam%supports(k)%node))
+                if (is_rigid(s)) then
+                    node%held = .true.
+                    r%deflection = s%contact
+                else
+                    node%stiffness = node%stiffness + s%stiffness
+                    r%shear = r%shear + s%stiffness*s%contact
+                end if
+            end associate
+        end do
+    end subroutine apply_scheme
+
+    !> Solve a scheme and find the reactions of its supports
+    subroutine solve_scheme(beam, acting, work, state, place)
+        !> The beam
+        type(beam_type), intent(in) :: beam
+        !> Which supports act
+        logical, intent(in) :: acting(:)
+        !> Loads in, solution out
+        type(workspace_type), intent(inout) :: work
+        !> band_ok, band_mechanism, or band_needs_pivoting where even pivoting finds no unique solution
+        integer, intent(out) :: state
+        !> Node at which another state than band_ok was found
+        integer, intent(out) :: place
+        logical :: regular
+
+        call apply_scheme(beam, acting, work)
+        work%solves = work%solves + 1
+        place = 0
+        if (fits_three_moment(work%nodes)) then
+            work%method = method_three_moment
+            call solve_three_moment(work%nodes, beam%links, work%rhs, work%moment_work, work%answers, regular)
+        else
+            work%method = method_mixed
+            call factor_chain(work%nodes, beam%links, work%pivots, state, place)
+            regular = state == band_ok
+            if (state == band_mechanism) return
+            if (regular) then
+                work%eliminated = work%rhs
+                call solve_chain(work%nodes, beam%links, work%pivots, work%eliminated, work%answers)
+            end if
+        end if
+        if (.not. regular) then
+            work%method = method_pivoting
+            call solve_pivoting(work%nodes, beam%links, work%rhs, work%answers, regular)
+        end if
+        state = merge(band_ok, band_needs_pivoting, regular)
+        if (.not. regular) return
+        call find_sizes(beam, work)
+        call find_reactions(beam, acting, work)
+    end subroutine solve_scheme
+
+    !> Sizes whose rounding errors reach a node: those beside it, and those of its neighbours; what crosses
+    !> a rigid support is halved at least, so sizes far away do not count
+    pure subroutine find_sizes(beam, work)
+        type(beam_type), intent(in) :: beam
+        type(workspace_type), intent(inout) :: work
+        real(wp) :: moment, passed, turn
+        integer :: i, n
+
+        n = size(beam%links)
+        associate (v => work%shear_size, w => work%deflection_size, a => work%answers)
+            v = abs(work%loads%shear)
+            w = abs(a%deflection)
+            do i = 1, n
+                associate (link => beam%links(i))
+                    ! Also the moments that imposed rotations and settlements would make if they were held fast
+                    turn = abs(work%loads(i - 1)%right) + abs(work%loads(i)%left) &
+                        + abs(work%rhs(i)%deflection - work%rhs(i - 1)%deflection)/link%length
+                    moment = max(abs(a(i - 1)%moment_right), abs(a(i)%moment_left))
+                    if (link%bending > 0.0_wp) moment = max(moment, turn/link%bending)
+                    passed = max(v(i - 1), 2*moment/link%length)
+                    v(i - 1) = passed
+                    v(i) = max(v(i), 2*moment/link%length, merge(passed/2, passed, work%nodes(i)%held))
+                    passed = max(w(i - 1), link%bending*link%length*moment)
+                    w(i - 1) = passed
+                    w(i) = max(w(i), link%bending*link%length*moment, merge(passed/2, passed, work%nodes(i)%held))
+                end associate
+            end do
+            do i = n - 1, 0, -1
+                v(i) = max(v(i), merge(v(i + 1)/2, v(i + 1), work%nodes(i)%held))
+                w(i) = max(w(i), merge(w(i + 1)/2, w(i + 1), work%nodes(i)%held))
+            end do
+        end associate
+    end subroutine find_sizes
+
+    !> Reactions from the equilibrium of the nodes, or from the spring where that is more exact
+    pure subroutine find_reactions(beam, acting, work)
+        type(beam_type), intent(in) :: beam
+        logical, intent(in) :: acting(:)
+        type(workspace_type), intent(inout) :: work
+        real(wp) :: by_spring, by_node, spring_error, node_error
+        integer :: k, i
+        integer, allocatable :: company(:)
+        real(wp), allocatable :: elastic(:)
+
+        allocate (company(0:ubound(work%nodes, 1)), elastic(0:ubound(work%nodes, 1)))
+        company = 0
+        elastic = 0.0_wp
+        do k = 1, size(acting)
+            work%reaction(k) = 0.0_wp
+            work%reaction_error(k) = 0.0_wp
+            if (.not. acting(k)) cycle
+            associate (s => beam%supports(k))
+                company(s%node) = company(s%node) + 1
+                if (.not. is_rigid(s)) elastic(s%node) = elastic(s%node) &
+                    + s%stiffness*(work%answers(s%node)%deflection - s%contact)
+            end associate
+        end do
+        do k = 1, size(acting)
+            if (.not. acting(k)) cycle
+            associate (s => beam%supports(k))
+                i = s%node
+                by_node = force_at_node(beam, work, i)
+                node_error = epsilon(1.0_wp)*work%shear_size(i)
+                if (is_rigid(s)) then
+                    work%reaction(k) = by_node - elastic(i)
+                    work%reaction_error(k) = node_error + epsilon(1.0_wp)*abs(elastic(i))
+                else
+                    by_spring = s%stiffness*(work%answers(i)%deflection - s%contact)
+                    spring_error = epsilon(1.0_wp)*s%stiffness*max(work%deflection_size(i), abs(s%contact))
+                    if (company(i) == 1 .and. node_error < spring_error) then
+                        work%reaction(k) = by_node
+                        work%reaction_error(k) = node_error
+                    else
+                        work%reaction(k) = by_spring
+                        work%reaction_error(k) = spring_error
+                    end if
+                end if
+            end associate
+        end do
+    end subroutine find_reactions
+
+    !> Force of all supports together at a node, from the shears beside it
+    pure function force_at_node(beam, work, i) result(reaction)
+        type(beam_type), intent(in) :: beam
+        type(workspace_type), intent(in) :: work
+        integer, intent(in) :: i
+        real(wp) :: reaction, left, right
+
+        left = 0.0_wp
+        right = 0.0_wp
+        associate (a => work%answers)
+            if (i > 0) left = (a(i)%moment_left - a(i - 1)%moment_right)/beam%links(i)%length
+            if (i < size(beam%links)) right = (a(i + 1)%moment_left - a(i)%moment_right)/beam%links(i + 1)%length
+            reaction = (work%loads(i)%shear - (left - right)) + work%ease(i)*(work%reference(i) - a(i)%deflection)
+        end associate
+    end function force_at_node
+
+    !> Relative residuals of the last solve, into work%compatibility and work%equilibrium
+    pure subroutine check_scheme(beam, work)
+        type(beam_type), intent(in) :: beam
+        type(workspace_type), intent(inout) :: work
+
+        call residual_chain(work%nodes, beam%links, work%rhs, work%answers, work%eliminated, &
+                            work%compatibility, work%equilibrium)
+    end subroutine check_scheme
+
+end module gapbeam_system
