@@ -1,0 +1,74 @@
+"""Beams on supports that act one way only: gaps, lift-off, hinges, solved by the classical mixed method.
+
+Five lines are enough:
+
+>>> import gapbeam
+>>> scene = gapbeam.Scene(beam=gapbeam.Beam(spans=[6.0, 6.0], EI=1e4), loads=[gapbeam.UniformLoad(q=5.0, to=6.0)])
+>>> scene.supports = [gapbeam.Support(node=i, side="below") for i in range(3)]
+>>> scene.loads.append(gapbeam.UniformLoad(q=1.0, case="dead"))
+>>> gapbeam.solve(scene).steps[-1].reaction.round(3)
+array([15.75, 25.5 ,  0.75])
+
+Units: any consistent set. Signs: x to the right; deflections and loads positive downward, reactions upward, moments
+sagging, rotations and couples clockwise.
+"""
+
+try:
+    from . import _f77
+except ImportError:
+    # Built against PyPI's OpenBLAS, which the extension finds only once it is loaded; system builds do without.
+    import scipy_openblas32 as _openblas  # noqa: F401
+
+    from . import _f77  # noqa: F401
+
+from importlib.metadata import version as _version
+
+from .errors import EngineError, GapbeamError, SceneError
+from .results import Fields, Result, Step, System
+from .scene import (
+    Analysis,
+    AxialLoad,
+    Beam,
+    CurvatureLoad,
+    ForceLoad,
+    Foundation,
+    LinearLoad,
+    MomentLoad,
+    Scene,
+    Section,
+    Support,
+    UniformLoad,
+    Units,
+    read_scene,
+    scene_schema,
+)
+from .stepping import solve
+
+__version__ = _version("gapbeam")
+
+__all__ = [
+    "Analysis",
+    "AxialLoad",
+    "Beam",
+    "CurvatureLoad",
+    "EngineError",
+    "Fields",
+    "ForceLoad",
+    "Foundation",
+    "GapbeamError",
+    "LinearLoad",
+    "MomentLoad",
+    "Result",
+    "Scene",
+    "SceneError",
+    "Section",
+    "Step",
+    "Support",
+    "System",
+    "UniformLoad",
+    "Units",
+    "__version__",
+    "read_scene",
+    "scene_schema",
+    "solve",
+]

@@ -1,0 +1,220 @@
+"""Typed calls of the Fortran engine."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import _f77
+from .errors import EngineError
+from .lowering import Arrays
+
+SOLVED, NO_EQUILIBRIUM = 0, 1
+"""Outcomes, as in gapbeam_error; codes above 10 are errors."""
+RULES = {"block": 0, "single": 1}
+METHODS = ("block tridiagonal mixed", "three-moment", "mixed with pivoting")
+"""What was solved, as in gapbeam_system."""
+
+
+@dataclass(frozen=True, slots=True)
+class Solution:
+    """What the engine found at one load factor.
+
+    Attributes
+    ----------
+    status : int
+        SOLVED or NO_EQUILIBRIUM; in the second case only `motion` has a meaning.
+    closed : numpy.ndarray of int
+        1 where a support acts, 0 where it is open.
+    deflection, moment_left, moment_right : numpy.ndarray
+        At the nodes.
+    reaction : numpy.ndarray
+        Of every support, positive upward.
+    motion : numpy.ndarray
+        Displacements of the nodes in the free motion, positive downward, largest 1.
+    residuals : numpy.ndarray
+        Relative residuals of compatibility, equilibrium and complementarity.
+    solves : int
+        Linear solves.
+    method : int
+        Index into METHODS.
+    """
+
+    status: int
+    closed: np.ndarray
+    deflection: np.ndarray
+    moment_left: np.ndarray
+    moment_right: np.ndarray
+    reaction: np.ndarray
+    motion: np.ndarray
+    residuals: np.ndarray
+    solves: int
+    method: int
+
+
+def condense(arrays: Arrays) -> np.ndarray:
+    """Condense all pieces between nodes into links.
+
+    Parameters
+    ----------
+    arrays : Arrays
+        The lowered scene.
+
+    Returns
+    -------
+    numpy.ndarray
+        The links, for the other calls only.
+    """
+    return _f77.gbcond(arrays.pieces.T, arrays.dead.T, arrays.live.T, _last(arrays))
+
+
+def solve(arrays: Arrays, links: np.ndarray, factor: float, rule: str, closed: np.ndarray) -> Solution:
+    """Find the working scheme at one load factor.
+
+    Parameters
+    ----------
+    arrays : Arrays
+        The lowered scene.
+    links : numpy.ndarray
+        Its condensed links.
+    factor : float
+        Factor of the live loads.
+    rule : {"block", "single"}
+        How the working scheme is found.
+    closed : numpy.ndarray of int
+        Starting scheme, one entry per support; left as it is.
+
+    Returns
+    -------
+    Solution
+        The solution, or the free motion where there is no equilibrium.
+
+    Raises
+    ------
+    EngineError
+        Where no unique solution exists for another reason, with the engine's message.
+    """
+    scheme = np.array(closed, dtype=np.int32)
+    w, left, right, reaction, motion, residuals, solves, method, status, message = _f77.gbsolv(
+        links,
+        arrays.kinds,
+        arrays.compliance,
+        arrays.force.T,
+        arrays.couple.T,
+        arrays.support_nodes,
+        arrays.support_sides,
+        arrays.support_stiffness,
+        arrays.support_contact,
+        factor,
+        RULES[rule],
+        scheme,
+    )
+    if status not in (SOLVED, NO_EQUILIBRIUM):
+        raise EngineError(message.decode().strip())
+    return Solution(status, scheme, w, left, right, reaction, motion, residuals, solves, method)
+
+
+def recover(arrays: Arrays, links: np.ndarray, factor: float, solution: Solution) -> np.ndarray:
+    """Fields at the left end of every piece.
+
+    Parameters
+    ----------
+    arrays, links, factor
+        As for `solve`.
+    solution : Solution
+        Solved at that factor.
+
+    Returns
+    -------
+    numpy.ndarray
+        Deflection, rotation, moment, shear by piece, for `values` and `extremes`.
+    """
+    return _f77.gbreco(
+        arrays.pieces.T,
+        arrays.dead.T,
+        arrays.live.T,
+        factor,
+        links,
+        _last(arrays),
+        solution.deflection,
+        solution.moment_left,
+        solution.moment_right,
+    )
+
+
+def values(arrays: Arrays, factor: float, starts: np.ndarray, piece: np.ndarray, distance: np.ndarray) -> np.ndarray:
+    """Fields at given places.
+
+    Parameters
+    ----------
+    arrays, factor
+        As for `solve`.
+    starts : numpy.ndarray
+        From `recover`.
+    piece : numpy.ndarray of int
+        Piece of each place, from 0.
+    distance : numpy.ndarray
+        Distance from the piece's left end.
+
+    Returns
+    -------
+    numpy.ndarray
+        4 by places: deflection, rotation, moment, shear.
+    """
+    where = np.asarray(piece, dtype=np.int32) + np.int32(1)
+    return _f77.gbvalu(arrays.pieces.T, arrays.dead.T, arrays.live.T, factor, starts, where, distance)
+
+
+def extremes(arrays: Arrays, factor: float, starts: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Exact extremes of all fields.
+
+    Parameters
+    ----------
+    arrays, factor, starts
+        As for `values`.
+
+    Returns
+    -------
+    values : numpy.ndarray
+        Maximum and minimum (rows) of deflection, rotation, moment, shear (columns).
+    x : numpy.ndarray
+        Where they are.
+    """
+    value, where, distance = _f77.gbextr(arrays.pieces.T, arrays.dead.T, arrays.live.T, factor, starts)
+    return value, arrays.point_x[where - 1] + distance
+
+
+def solve_axial(arrays: Arrays, factor: float) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
+    """Solve the axial system.
+
+    Parameters
+    ----------
+    arrays, factor
+        As for `solve`; the scene has an axial system.
+
+    Returns
+    -------
+    displacement, tension, reaction : numpy.ndarray
+        At its points, in its bars, at its points; None where nothing holds the beam lengthwise.
+
+    Raises
+    ------
+    EngineError
+        Where a rigid stretch lies between two rigid supports.
+    """
+    axial = arrays.axial
+    force = axial.force[0] + factor * axial.force[1]
+    u, tension, reaction, state, place = _f77.gbaxia(axial.flexibility, force, axial.stiffness, axial.settlement)
+    if state == 2:
+        x = arrays.point_x[axial.points[place]]
+        raise EngineError(
+            f"the axial support at x = {x:g} and another one hold a stretch with EA = inf at both ends, so their "
+            "forces cannot be told apart: give the beam a finite EA"
+        )
+    return None if state == 1 else (u, tension, reaction)
+
+
+def _last(arrays: Arrays) -> np.ndarray:
+    """Last piece of every link, counted from 1."""
+    return arrays.node_points[1:].astype(np.int32)

@@ -1,0 +1,383 @@
+"""From a scene to the engine's arrays, leaving out what the scene does not need.
+
+The beam is cut into pieces wherever anything changes: at span ends, supports, hinges, ends of sections and of
+distributed loads, point loads. A place is kept as a span and the distance from its left end, so that a short span
+far from the origin keeps its digits. Only beam ends, supports and hinges become nodes of the system.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from operator import attrgetter
+
+import numpy as np
+
+from .scene import (
+    POSITION_TOLERANCE,
+    AxialLoad,
+    CurvatureLoad,
+    ForceLoad,
+    LinearLoad,
+    MomentLoad,
+    Scene,
+    UniformLoad,
+)
+
+PLAIN, HINGE, RESTRAINED = 0, 1, 2
+"""Kinds of node, as in gapbeam_band."""
+SIDES = {"both": 0, "below": 1, "above": -1}
+"""Sides of a support, as in gapbeam_model."""
+CASES = {"dead": 0, "live": 1}
+
+
+@dataclass(frozen=True, slots=True)
+class Axial:
+    """The axial system: bars between points with an axial load or support.
+
+    Attributes
+    ----------
+    points : numpy.ndarray of int
+        Points of the beam that are its nodes, n + 1.
+    flexibility : numpy.ndarray
+        int 1/EA over each bar, n.
+    force : numpy.ndarray
+        Dead and live force at each point, positive to the right, 2 by n + 1.
+    stiffness, settlement : numpy.ndarray
+        Support of each point (0: none), n + 1.
+    supports : numpy.ndarray of int
+        Axial supports of the scene, by their number there.
+    support_points : numpy.ndarray of int
+        The point (0..n) of each of them.
+    """
+
+    points: np.ndarray
+    flexibility: np.ndarray
+    force: np.ndarray
+    stiffness: np.ndarray
+    settlement: np.ndarray
+    supports: np.ndarray
+    support_points: np.ndarray
+
+
+@dataclass(frozen=True, slots=True)
+class Arrays:
+    """A scene as the engine takes it; see fortran/gapbeam_f77.f90 for the columns.
+
+    Attributes
+    ----------
+    ends : numpy.ndarray
+        x of the span ends.
+    point_span, point_offset, point_x : numpy.ndarray
+        Place of every point between pieces: its span, the distance from the span's left end, and x.
+    pieces : numpy.ndarray
+        Length, 1/EI, 1/GA of every piece, n by 3.
+    axial_flexibility : numpy.ndarray
+        1/EA of every piece.
+    dead, live : numpy.ndarray
+        Loads of every piece, n by 5.
+    node_points : numpy.ndarray of int
+        The points that are nodes.
+    kinds : numpy.ndarray of int
+        PLAIN, HINGE or RESTRAINED for every node.
+    compliance : numpy.ndarray
+        Compliance of the rotational restraint of every node.
+    force, couple : numpy.ndarray
+        Dead and live force and couple at every node, nodes by 2.
+    support_count : int
+        Supports of the scene, axial ones included.
+    supports : numpy.ndarray of int
+        Supports across the beam, by their number in the scene.
+    support_nodes, support_sides : numpy.ndarray of int
+        Node and side of each of them.
+    support_stiffness, support_contact : numpy.ndarray
+        Stiffness, and deflection at which it begins to act.
+    couple_share : numpy.ndarray
+        The share each of them has in the rotational restraint of its node.
+    axial : Axial or None
+        The axial system, if the scene needs it.
+    """
+
+    ends: np.ndarray
+    point_span: np.ndarray
+    point_offset: np.ndarray
+    point_x: np.ndarray
+    pieces: np.ndarray
+    axial_flexibility: np.ndarray
+    dead: np.ndarray
+    live: np.ndarray
+    node_points: np.ndarray
+    kinds: np.ndarray
+    compliance: np.ndarray
+    force: np.ndarray
+    couple: np.ndarray
+    support_count: int
+    supports: np.ndarray
+    support_nodes: np.ndarray
+    support_sides: np.ndarray
+    support_stiffness: np.ndarray
+    support_contact: np.ndarray
+    couple_share: np.ndarray
+    axial: Axial | None
+
+    @property
+    def node_x(self) -> np.ndarray:
+        """X of every node."""
+        return self.point_x[self.node_points]
+
+
+def lower(scene: Scene) -> Arrays:
+    """Turn a checked scene into arrays.
+
+    Parameters
+    ----------
+    scene : Scene
+        As `read_scene` returns it.
+
+    Returns
+    -------
+    Arrays
+        Contiguous double and 32-bit integer arrays.
+    """
+    ends = scene.span_ends()
+    lengths = np.asarray(scene.beam.spans, dtype=float)
+    forces = [load for load in scene.loads if isinstance(load, ForceLoad)]
+    moments = [load for load in scene.loads if isinstance(load, MomentLoad)]
+    pulls = [load for load in scene.loads if isinstance(load, AxialLoad)]
+    stretches = [load for load in scene.loads if isinstance(load, UniformLoad | LinearLoad | CurvatureLoad)]
+
+    points = _Points(ends, lengths)
+    at_supports = points.add_items(scene.supports)
+    at_hinges = points.add_x(np.asarray(scene.beam.hinges, dtype=float))
+    at_forces, at_moments, at_pulls = (points.add_items(items) for items in (forces, moments, pulls))
+    section_from, section_to = points.add_stretches(scene.sections)
+    load_from, load_to = points.add_stretches(stretches)
+    span, offset, index = points.merge()
+    at_supports, at_hinges, at_forces, at_moments, at_pulls = (
+        index[part] for part in (at_supports, at_hinges, at_forces, at_moments, at_pulls)
+    )
+    load_from, load_to = index[load_from], index[load_to]
+
+    pieces, axial_flexibility = _pieces(scene, lengths, span, offset, index[section_from], index[section_to])
+    loads = _distributed(stretches, ends, span, offset, load_from, load_to)
+    point_force = _sums(len(span), at_forces, forces, "F")
+    point_couple = _sums(len(span), at_moments, moments, "M")
+
+    axial_support = np.array([support.direction == "axial" for support in scene.supports], dtype=bool)
+    normal = np.flatnonzero(~axial_support)
+    is_node = np.zeros(len(span), dtype=bool)
+    is_node[[0, -1]] = True
+    is_node[at_hinges] = True
+    is_node[at_supports[normal]] = True
+    node_points = np.flatnonzero(is_node)
+    node_of_point = np.cumsum(is_node) - 1
+
+    loads[:, :, 3] = np.where(is_node[1:], 0.0, point_force[:, 1:])
+    loads[:, :, 4] = np.where(is_node[1:], 0.0, point_couple[:, 1:])
+    kinds = np.zeros(len(node_points), dtype=np.int32)
+    kinds[node_of_point[at_hinges]] = HINGE
+    columns = [scene.supports[k] for k in normal]
+    support_nodes = node_of_point[at_supports[normal]]
+    compliance, couple_share = _restraints(columns, support_nodes, kinds)
+    sides = np.array([SIDES[s.side] for s in columns], dtype=np.int32)
+    contact = np.array([s.settlement for s in columns], dtype=float) + sides * np.array(
+        [s.gap for s in columns], dtype=float
+    )
+    return Arrays(
+        ends=ends,
+        point_span=span,
+        point_offset=offset,
+        point_x=ends[span] + offset,
+        pieces=pieces,
+        axial_flexibility=axial_flexibility,
+        dead=loads[0],
+        live=loads[1],
+        node_points=node_points,
+        kinds=kinds,
+        compliance=compliance,
+        force=np.ascontiguousarray(point_force[:, node_points].T),
+        couple=np.ascontiguousarray(point_couple[:, node_points].T),
+        support_count=len(scene.supports),
+        supports=normal,
+        support_nodes=support_nodes.astype(np.int32),
+        support_sides=sides,
+        support_stiffness=np.array([s.stiffness for s in columns], dtype=float),
+        support_contact=contact,
+        couple_share=couple_share,
+        axial=_axial(scene, np.flatnonzero(axial_support), at_supports, at_pulls, pulls, pieces[:, 0] * axial_flexibility),
+    )
+
+
+def locate(x: np.ndarray, ends: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Span and distance from its left end of given places.
+
+    Parameters
+    ----------
+    x : numpy.ndarray
+        Places along the beam.
+    ends : numpy.ndarray
+        x of the span ends.
+
+    Returns
+    -------
+    span : numpy.ndarray of int
+        The span; the right end of the beam is the left end of a span that does not exist.
+    offset : numpy.ndarray
+        Exactly 0 at a span end, also for an x that differs from it by rounding only.
+    """
+    span = np.clip(np.searchsorted(ends, x, side="right") - 1, 0, len(ends) - 2)
+    tolerance = POSITION_TOLERANCE * np.abs(x)
+    at_right = ends[span + 1] - x <= tolerance
+    span = span + at_right
+    offset = np.where(at_right, 0.0, x - ends[span])
+    return span, np.where(offset <= tolerance, 0.0, offset)
+
+
+class _Points:
+    """Collects places and merges those that differ by rounding only."""
+
+    def __init__(self, ends: np.ndarray, lengths: np.ndarray):
+        self.ends = ends
+        self.spans = [np.arange(len(ends))]
+        self.offsets = [np.zeros(len(ends))]
+        self.number = len(ends)
+
+    def _add(self, span: np.ndarray, offset: np.ndarray) -> np.ndarray:
+        self.spans.append(span)
+        self.offsets.append(offset)
+        self.number += len(span)
+        return np.arange(self.number - len(span), self.number)
+
+    def add_x(self, x: np.ndarray) -> np.ndarray:
+        return self._add(*locate(x, self.ends))
+
+    def add_items(self, items: list) -> np.ndarray:
+        """Supports or point loads, given by node or by x."""
+        by_node = np.array([item.x is None for item in items], dtype=bool)
+        x = np.array([0.0 if item.x is None else item.x for item in items], dtype=float)
+        span, offset = locate(x, self.ends)
+        span[by_node] = [item.node for item in items if item.x is None]
+        offset[by_node] = 0.0
+        return self._add(span, offset)
+
+    def add_stretches(self, items: list) -> tuple[np.ndarray, np.ndarray]:
+        """Both ends of sections or distributed loads."""
+        start = np.array(list(map(attrgetter("from_"), items)), dtype=float)
+        stop = np.array(list(map(attrgetter("to"), items)), dtype=float)  # nan where left out
+        return self.add_x(start), self.add_x(np.where(np.isnan(stop), self.ends[-1], stop))
+
+    def merge(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Distinct points from left to right, and for every collected place the number of its point."""
+        span, offset = np.concatenate(self.spans), np.concatenate(self.offsets)
+        order = np.lexsort((offset, span))
+        sorted_span, sorted_offset = span[order], offset[order]
+        new = np.ones(len(order), dtype=bool)
+        tolerance = POSITION_TOLERANCE * (self.ends[sorted_span[1:]] + sorted_offset[1:])
+        new[1:] = (sorted_span[1:] != sorted_span[:-1]) | (np.diff(sorted_offset) > tolerance)
+        index = np.empty(len(order), dtype=np.int64)
+        index[order] = np.cumsum(new) - 1
+        return sorted_span[new], sorted_offset[new], index
+
+
+def _expand(start: np.ndarray, stop: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """All pieces start..stop-1 of every stretch, and the stretch of each."""
+    counts = stop - start
+    owner = np.repeat(np.arange(len(start)), counts)
+    shift = np.repeat(start - np.concatenate(([0], np.cumsum(counts)[:-1])), counts) if len(start) else owner
+    return np.arange(len(owner)) + shift, owner
+
+
+def _pieces(scene, lengths, span, offset, start, stop) -> tuple[np.ndarray, np.ndarray]:
+    """Length and flexibilities of every piece; later sections win."""
+    left = span[:-1]
+    pieces = np.empty((len(left), 3))
+    pieces[:, 0] = np.where(span[1:] == left, offset[1:], lengths[left]) - offset[:-1]
+    axial = np.empty(len(left))
+    covered, owner = _expand(start, stop)
+    for name, column in (("EI", pieces[:, 1]), ("GA", pieces[:, 2]), ("EA", axial)):
+        column[:] = (1.0 / np.broadcast_to(np.asarray(getattr(scene.beam, name), dtype=float), lengths.shape))[left]
+        given = np.array(list(map(attrgetter(name), scene.sections)), dtype=float)  # nan where left out
+        if not np.all(np.isnan(given)):
+            values = 1.0 / given[owner]
+            valid = ~np.isnan(values)
+            column[covered[valid]] = values[valid]  # of several values for one piece numpy keeps the last
+    return pieces, axial
+
+
+def _distributed(loads, ends, span, offset, start, stop) -> np.ndarray:
+    """Load at the ends of every piece and imposed curvature, dead and live: 2 by pieces by 5."""
+    result = np.zeros((2, len(span) - 1, 5))
+    if not loads:
+        return result
+    case = np.array([CASES[load.case] for load in loads])
+    q = np.array([_end_values(load) for load in loads], dtype=float)
+    bent = np.array([isinstance(load, CurvatureLoad) for load in loads])
+    covered, owner = _expand(start, stop)
+    size = len(span) - 1
+
+    def distance(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+        return (ends[span[b]] - ends[span[a]]) + (offset[b] - offset[a])
+
+    whole = distance(start, stop)[owner]
+    at_left, at_right = (distance(start[owner], covered + side) / whole for side in (0, 1))
+    for k in (0, 1):
+        for column, share in ((0, at_left), (1, at_right), (2, None)):
+            chosen = (case[owner] == k) & (bent[owner] == (share is None))
+            if not chosen.any():
+                continue
+            a, b = q[owner[chosen], 0], q[owner[chosen], 1]
+            values = a if share is None else np.where(a == b, a, a * (1.0 - share[chosen]) + b * share[chosen])
+            result[k, :, column] = np.bincount(covered[chosen], values, size)
+    return result
+
+
+def _end_values(load: UniformLoad | LinearLoad | CurvatureLoad) -> tuple[float, float]:
+    if isinstance(load, CurvatureLoad):
+        return load.kappa, load.kappa
+    return load.q if isinstance(load, LinearLoad) else (load.q, load.q)
+
+
+def _sums(size: int, at: np.ndarray, loads: list, name: str) -> np.ndarray:
+    """Sum of point loads at every point, dead and live: 2 by points."""
+    values = np.array([getattr(load, name) for load in loads], dtype=float)
+    live = np.array([load.case == "live" for load in loads], dtype=bool)
+    return np.stack([np.bincount(at[part], values[part], size) for part in (~live, live)])
+
+
+def _restraints(supports, nodes, kinds) -> tuple[np.ndarray, np.ndarray]:
+    """Rotational compliance of every node and the share of every support in it; sets the kind of these nodes."""
+    own = np.zeros(len(supports))
+    for k, support in enumerate(supports):
+        if support.rotation != "free":
+            own[k] = np.inf if support.rotation == "fixed" else support.rotation
+    stiffness = np.bincount(nodes, own, len(kinds))
+    restrained = stiffness > 0.0
+    kinds[restrained] = RESTRAINED
+    compliance = np.divide(1.0, stiffness, out=np.zeros(len(kinds)), where=restrained)
+    elastic = np.where(np.isinf(own), 0.0, own)
+    share = np.where(np.isinf(own), 1.0, elastic * compliance[nodes])
+    return compliance, share
+
+
+def _axial(scene, supports, at_supports, at_pulls, pulls, flexibility) -> Axial | None:
+    """Build the axial system; None where no axial load and no settlement asks for one."""
+    settles = any(scene.supports[k].settlement for k in supports)
+    if not pulls and not settles:
+        return None
+    last = len(flexibility)
+    points = np.unique(np.concatenate(([0, last], at_pulls, at_supports[supports])))
+    force = _sums(last + 1, at_pulls, pulls, "F")[:, points]
+    support_points = np.searchsorted(points, at_supports[supports])
+    stiffness, settlement = np.zeros(len(points)), np.zeros(len(points))
+    for k, i in zip(supports, support_points, strict=True):
+        support = scene.supports[k]
+        stiffness[i] = support.stiffness
+        settlement[i] = support.settlement
+    return Axial(
+        points=points,
+        flexibility=np.add.reduceat(flexibility, points[:-1]),
+        force=force,
+        stiffness=stiffness,
+        settlement=settlement,
+        supports=supports,
+        support_points=support_points,
+    )

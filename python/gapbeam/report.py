@@ -1,0 +1,257 @@
+"""A result as text: the report for people, JSON and CSV for programs.
+
+rich is imported only when a report is printed.
+"""
+
+import csv
+import io
+import json
+from collections import Counter
+from typing import TYPE_CHECKING, Any
+
+from . import formatting as fmt
+from .report_scheme import legend, merged, scheme_table, symbol
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from .report_writer import Writer
+    from .results import Result
+    from .scene import Scene
+
+LEFT_OUT = {
+    "axial": "axial forces",
+    "shear": "shear flexibility",
+    "foundation": "foundation",
+    "hinges": "hinges",
+    "iteration": "iteration of the working scheme",
+    "deflections": "deflections as unknowns",
+}
+
+
+def print_report(result: "Result", console: "Console | None" = None) -> None:
+    """Print what a person wants to know of a result.
+
+    Parameters
+    ----------
+    result : Result
+        What `gapbeam.solve` returned.
+    console : rich.console.Console, optional
+        Where to print; default standard output, without colours where that is no terminal.
+    """
+    from rich.console import Console
+
+    from .report_writer import Writer
+
+    say = Writer(console or Console(highlight=False))
+    _headline(say, result)
+    _system(say, result)
+    if result.status != "solved":
+        _no_solution(say, result)
+    if not result.steps:
+        return
+    at = f"at load factor {fmt.number(result.steps[-1].factor)}"
+    if result.status != "solved":
+        at += ", the last step that stands"
+    _history(say, result)
+    _supports(say, result, at)
+    _extremes(say, result, at)
+    _steps(say, result)
+
+
+def report_text(result: "Result", width: int = 80) -> str:
+    """Write the report to a string without colours.
+
+    Parameters
+    ----------
+    result : Result
+        What `gapbeam.solve` returned.
+    width : int
+        Characters a line.
+
+    Returns
+    -------
+    str
+    """
+    from rich.console import Console
+
+    class Unicode(io.StringIO):
+        encoding = "utf-8"
+
+    stream = Unicode()
+    print_report(result, Console(file=stream, width=width, highlight=False, color_system=None))
+    return stream.getvalue()
+
+
+def to_json(result: "Result", points: int = 20) -> str:
+    """Write the result as JSON; reading it back gives the very same floats.
+
+    Parameters
+    ----------
+    result : Result
+        What `gapbeam.solve` returned.
+    points : int
+        Divisions of each span in the table of fields.
+
+    Returns
+    -------
+    str
+        One line for each support, certificate and column of numbers: it can be read and compared by eye.
+    """
+    return _layout(result.to_dict(points=points), "") + "\n"
+
+
+def _layout(value: Any, indent: str) -> str:
+    """Write JSON with every list of numbers, and every object without lists in it, on one line."""
+    inner = value.values() if isinstance(value, dict) else value if isinstance(value, list | tuple) else ()
+    if not any(isinstance(item, dict | list | tuple) for item in inner):
+        return json.dumps(value, allow_nan=False)
+    deeper = indent + " "
+    if isinstance(value, dict):
+        items = [f"{json.dumps(key)}: {_layout(item, deeper)}" for key, item in value.items()]
+        return "{\n" + ",\n".join(deeper + item for item in items) + f"\n{indent}}}"
+    return "[\n" + ",\n".join(deeper + _layout(item, deeper) for item in value) + f"\n{indent}]"
+
+
+def to_csv(result: "Result", points: int = 20) -> str:
+    """Write the fields along the beam at the last step as comma-separated values, units in the header.
+
+    Parameters
+    ----------
+    result : Result
+        What `gapbeam.solve` returned.
+    points : int
+        Divisions of each span; load points, supports and jumps are added.
+
+    Returns
+    -------
+    str
+        Where moment, shear or axial force jump, x appears twice: the left value, then the right one.
+    """
+    columns = result.fields(points=points).to_dict()
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow([fmt.with_unit(result.scene, name, name) for name in columns])
+    writer.writerows(zip(*columns.values(), strict=True))
+    return stream.getvalue()
+
+
+def _headline(say: "Writer", result: "Result") -> None:
+    say.line(result.scene.title or "Beam without a title", "bold")
+    solves = sum(step.solves for step in result.steps)
+    seconds = sum(step.seconds for step in result.steps)
+    if result.status == "solved":
+        steps = fmt.count(len(result.steps), "load step")
+        say.line(f"solved in {steps}, {fmt.count(solves, 'linear solve')}, {fmt.duration(seconds)}")
+
+
+def _system(say: "Writer", result: "Result") -> None:
+    scene, system = result.scene, result.system
+    say.heading("System")
+    left_out = [LEFT_OUT.get(name, name) for name in system.left_out]
+    equations = f"{system.method}: {fmt.count(system.nodes, 'node')}, {fmt.count(system.unknowns, 'unknown')}"
+    equations += f", half bandwidth {system.half_bandwidth}"
+    if system.axial_unknowns:
+        equations += f"; apart from it {fmt.count(system.axial_unknowns, 'axial unknown')}"
+    say.pairs(
+        [
+            ("beam", fmt.beam_in_words(scene)),
+            ("supports", fmt.supports_in_words(scene)),
+            ("loads", fmt.loads_in_words(scene)),
+            ("equations", equations),
+            ("left out", ", ".join(left_out) + " (this scene needs none)" if left_out else "nothing"),
+        ]
+    )
+
+
+def _no_solution(say: "Writer", result: "Result") -> None:
+    title = "No equilibrium" if result.status == "no-equilibrium" else result.status.replace("-", " ").capitalize()
+    say.heading(title)
+    say.line(fmt.sentence(result.reason), "red")
+    if result.motion:
+        scene = result.scene
+        say.line()
+        say.line("The beam moves freely along this line (straight between the points, scale arbitrary):")
+        points = [fmt.column(values) for values in zip(*result.motion, strict=True)]
+        say.table([fmt.with_unit(scene, "x"), "displacement, downward"], list(zip(*points, strict=True)))
+
+
+def _history(say: "Writer", result: "Result") -> None:
+    supports = result.scene.supports
+    if all(state == "bilateral" for state in result.steps[-1].state):
+        return
+    history = result.history()
+    say.heading("Working scheme over the load")
+    headings, rows = scheme_table(history, say.width, say.plain)
+    say.table(headings, rows, left=(0, len(headings) - 1) if len(headings) < len(supports) + 1 else (0,))
+    states = {state for _, _, states in merged(history) for state in states}
+    numbering = "Supports are numbered from 0 as in the scene."
+    say.line(f"{legend(list(states), say.plain)}    {numbering}", "dim")
+
+
+def _supports(say: "Writer", result: "Result", at: str) -> None:
+    scene, step = result.scene, result.steps[-1]
+    if not scene.supports:
+        return
+    say.heading(f"Supports {at}")
+    sides = ["axial" if support.direction == "axial" else support.side for support in scene.supports]
+    states = [f"{symbol(state, say.plain)} {state}" for state in step.state]
+    quantities = {"reaction": step.reaction, "couple": step.couple, "deflection": step.deflection}
+    if not any(step.couple):
+        del quantities["couple"]
+    if any(state != "bilateral" for state in step.state):
+        quantities["opening"] = step.opening
+    for digits in (6, 5, 4, 3):
+        columns = [
+            ("", [str(index) for index in range(len(sides))]),
+            (_stacked(scene, "x"), fmt.column(scene.positions(scene.supports))),
+            ("side", sides),
+            ("state", states),
+            *((_stacked(scene, name), fmt.column(values, digits)) for name, values in quantities.items()),
+        ]
+        if sum(1 + max(map(len, (*name.split("\n"), *texts))) for name, texts in columns) <= say.width:
+            break  # numbers are shortened rather than broken
+    say.table([name for name, _ in columns], list(zip(*(texts for _, texts in columns), strict=True)), left=(2, 3))
+    normal = [index for index, side in enumerate(sides) if side != "axial"]
+    total = sum(float(step.reaction[index]) for index in normal)
+    words = [f"Reactions (upward positive) add up to {fmt.number(total)} {fmt.unit(scene, 'force')}".rstrip()]
+    counts = Counter(step.state)
+    words.append(", ".join(f"{counts[state]:,} {state}" for state in sorted(counts)))
+    say.line("; ".join(words) + ".", "dim")
+
+
+def _stacked(scene: "Scene", quantity: str) -> str:
+    """Put the unit of a heading on a second line, which keeps columns narrow."""
+    label = fmt.unit(scene, quantity)
+    return quantity + (f"\n{label}" if label else "")
+
+
+def _extremes(say: "Writer", result: "Result", at: str) -> None:
+    scene = result.scene
+    say.heading(f"Extremes {at}")
+    rows = []
+    for quantity, extreme in result.extremes().items():
+        (largest, x_largest), (smallest, x_smallest) = extreme["max"], extreme["min"]
+        texts = [fmt.number(value) for value in (largest, x_largest, smallest, x_smallest)]
+        rows.append([fmt.with_unit(scene, quantity), *texts])
+    x = fmt.with_unit(scene, "x", "at x")
+    say.table(["", "largest", x, "smallest", x], rows, left=(0,))
+    say.line("Deflection downward, sagging moment, clockwise rotation: positive.", "dim")
+
+
+def _steps(say: "Writer", result: "Result") -> None:
+    steps = result.steps
+    kinds = list(steps[0].certificate)
+    say.heading("Residuals against run time")
+    rows = [
+        [fmt.number(step.factor, 4), str(step.solves), fmt.duration(step.seconds)]
+        + [f"{step.certificate[kind]:.1e}" for kind in kinds]
+        for step in steps
+    ]
+    say.table(["load factor", "solves", "time", *(kind.replace("_", " ") for kind in kinds)], rows)
+    if len(steps) > 1:
+        worst = max(max(step.certificate.values()) for step in steps)
+        solves, seconds = sum(step.solves for step in steps), sum(step.seconds for step in steps)
+        say.line(
+            f"Together {fmt.count(solves, 'solve')}, {fmt.duration(seconds)}; largest residual {worst:.1e}.", "dim"
+        )

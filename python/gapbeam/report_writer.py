@@ -1,0 +1,84 @@
+"""The few shapes a report is made of: a line, a heading, a table, a list of names and values."""
+
+from collections.abc import Sequence
+
+from rich import box
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+#: Tables with more rows than this are cut
+LONGEST = 40
+
+
+class Writer:
+    """Writes to a rich console; plain characters only where the console knows no others.
+
+    Parameters
+    ----------
+    console : rich.console.Console
+        Where to write.
+    """
+
+    def __init__(self, console: Console) -> None:
+        self.console = console
+        self.width = console.width
+        self.plain = not (console.encoding or "ascii").lower().startswith("utf")
+
+    def line(self, text: str = "", style: str = "") -> None:
+        """Write one paragraph, wrapped at the width of the console."""
+        self.console.print(Text(text, style=style))
+
+    def heading(self, text: str) -> None:
+        """Write the title of a section."""
+        self.line()
+        self.line(text, "bold")
+
+    def table(self, headings: Sequence[str], rows: Sequence[Sequence[str]], left: Sequence[int] = ()) -> None:
+        """Write a table; numbers of the columns in `left` are flush left, the others flush right.
+
+        More than `LONGEST` rows are cut in the middle, and a line says so.
+        """
+        shown, hidden = cut(rows)
+        table = Table(box=PLAIN if self.plain else box.SIMPLE_HEAD, show_edge=False, padding=(0, 1, 0, 0))
+        for index, heading in enumerate(headings):
+            table.add_column(
+                Text(heading), justify="left" if index in left else "right", overflow="fold", vertical="top"
+            )
+        for index, row in enumerate(shown):
+            if hidden and index == len(shown) // 2:
+                table.add_row(*["..."] * len(headings))
+            table.add_row(*(Text(cell) for cell in row))
+        self.console.print(table)
+        if hidden:
+            self.line(
+                f"{hidden:,} rows in the middle are left out here; all are in the output of --json.", "italic"
+            )
+
+    def pairs(self, rows: Sequence[tuple[str, str]]) -> None:
+        """Write names and what there is to say of them."""
+        table = Table(box=None, show_header=False, padding=(0, 2, 0, 0))
+        table.add_column(no_wrap=True)
+        table.add_column(overflow="fold")
+        for name, text in rows:
+            table.add_row(Text(name, style="dim"), Text(text))
+        self.console.print(table)
+
+
+#: A line under the headings and nothing else
+PLAIN = box.Box("    \n    \n -- \n    \n    \n    \n    \n    \n", ascii=True)
+
+
+def cut(rows: Sequence) -> tuple[list, int]:
+    """Select the rows to show of a long table, and count those left out.
+
+    Examples
+    --------
+    >>> shown, hidden = cut(range(1000))
+    >>> len(shown), hidden, shown[19], shown[-1]
+    (40, 960, 19, 999)
+    """
+    if len(rows) <= LONGEST:
+        return list(rows), 0
+    half = LONGEST // 2
+    return [*rows[:half], *rows[-half:]], len(rows) - 2 * half

@@ -1,0 +1,423 @@
+"""Results: everything known about every load step, as numpy arrays; fields are computed when asked for.
+
+Signs: deflections positive downward, reactions upward, moments sagging, V = dM/dx, rotations and couples clockwise,
+axial forces in tension, axial displacements to the right.
+"""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass, fields
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from . import engine
+from .engine import METHODS, Solution
+from .lowering import Arrays, locate
+from .scene import POSITION_TOLERANCE, Scene
+
+BENDING = ("deflection", "rotation", "moment", "shear")
+
+
+@dataclass(frozen=True)
+class System:
+    """What the system of equations consisted of.
+
+    Attributes
+    ----------
+    nodes : int
+        Nodes: beam ends, supports, hinges.
+    unknowns : int
+        Unknowns of the bending system of the last step.
+    half_bandwidth : int
+        Its half bandwidth.
+    method : str
+        How it was solved in the last step.
+    axial_unknowns : int
+        Unknowns of the separate axial system.
+    left_out : tuple of str
+        What the scene did not need.
+    """
+
+    nodes: int
+    unknowns: int
+    half_bandwidth: int
+    method: str
+    axial_unknowns: int
+    left_out: tuple[str, ...]
+
+    def asdict(self) -> dict[str, Any]:
+        """As plain data.
+
+        Returns
+        -------
+        dict
+            By the names of the attributes.
+        """
+        return asdict(self) | {"left_out": list(self.left_out)}
+
+
+@dataclass(frozen=True)
+class Fields:
+    """Fields along the beam, arrays of equal length.
+
+    Attributes
+    ----------
+    x, deflection, rotation, moment, shear : numpy.ndarray
+        Place and values; rotation is that of the section.
+    axial_force, axial_displacement : numpy.ndarray or None
+        Only with axial loads.
+    """
+
+    x: np.ndarray
+    deflection: np.ndarray
+    rotation: np.ndarray
+    moment: np.ndarray
+    shear: np.ndarray
+    axial_force: np.ndarray | None = None
+    axial_displacement: np.ndarray | None = None
+
+    def to_dict(self) -> dict[str, list[float]]:
+        """As lists by name, what is not there left out.
+
+        Returns
+        -------
+        dict
+            Lists of floats.
+        """
+        return {f.name: getattr(self, f.name).tolist() for f in fields(self) if getattr(self, f.name) is not None}
+
+
+class Step:
+    """The state at one load factor; arrays have one entry per support, in the order of the scene.
+
+    Attributes
+    ----------
+    factor : float
+        Load factor of the live loads.
+    solves : int
+        Linear solves it took to find the working scheme.
+    seconds : float
+        Time of these.
+    certificate : dict
+        Relative residuals of equilibrium, compatibility and complementarity.
+    """
+
+    def __init__(self, arrays: Arrays, links: np.ndarray, factor: float, seconds: float, solution: Solution, axial):
+        self.factor = factor
+        self.seconds = seconds
+        self.solves = solution.solves
+        self.solution = solution
+        self.axial = axial
+        self._arrays = arrays
+        self._links = links
+        compatibility, equilibrium, complementarity = solution.residuals.tolist()
+        self.certificate = {
+            "equilibrium": equilibrium,
+            "compatibility": compatibility,
+            "complementarity": complementarity,
+        }
+
+    def _scatter(self, normal: np.ndarray, axial: np.ndarray | None = None) -> np.ndarray:
+        """Values of the supports across the beam and along it, in the order of the scene."""
+        arrays = self._arrays
+        result = np.zeros(self._arrays.support_count)
+        result[arrays.supports] = normal
+        if axial is not None and arrays.axial is not None:
+            result[arrays.axial.supports] = axial[arrays.axial.support_points]
+        return result
+
+    @cached_property
+    def reaction(self) -> np.ndarray:
+        """Reactions, positive upward; of an axial support positive to the right."""
+        return self._scatter(self.solution.reaction, self.axial[2] if self.axial else None)
+
+    @cached_property
+    def deflection(self) -> np.ndarray:
+        """Deflection of the beam at each support, positive downward; at an axial one to the right."""
+        w = self.solution.deflection[self._arrays.support_nodes]
+        return self._scatter(w, self.axial[0] if self.axial else None)
+
+    @cached_property
+    def opening(self) -> np.ndarray:
+        """Distance still to go until a support acts."""
+        arrays = self._arrays
+        w = self.solution.deflection[arrays.support_nodes]
+        way = arrays.support_sides * (arrays.support_contact - w)
+        return self._scatter(np.where(self.solution.closed == 1, 0.0, np.maximum(way, 0.0)))
+
+    @cached_property
+    def couple(self) -> np.ndarray:
+        """Couple of each support on the beam, positive clockwise."""
+        arrays = self._arrays
+        nodes = arrays.support_nodes
+        at_node = self.solution.moment_right - self.solution.moment_left
+        at_node = at_node - arrays.couple @ (1.0, self.factor)  # M_right = M_left + applied couple + support's
+        return self._scatter(np.where(arrays.couple_share > 0.0, at_node[nodes] * arrays.couple_share, 0.0))
+
+    @cached_property
+    def state(self) -> tuple[str, ...]:
+        """``closed``, ``open`` or ``bilateral``."""
+        names = np.where(self.solution.closed == 1, "closed", "open")
+        names = np.where(self._arrays.support_sides == 0, "bilateral", names)
+        result = ["bilateral"] * self._arrays.support_count
+        for k, name in zip(self._arrays.supports.tolist(), names.tolist(), strict=True):
+            result[k] = name
+        return tuple(result)
+
+    @cached_property
+    def starts(self) -> np.ndarray:
+        """Fields at the left end of every piece of the beam."""
+        return engine.recover(self._arrays, self._links, self.factor, self.solution)
+
+
+class Result:
+    """All load steps of a scene.
+
+    Attributes
+    ----------
+    scene : Scene
+        What was solved.
+    status : str
+        ``solved`` or ``no-equilibrium``.
+    reason : str or None
+        Why there is no equilibrium.
+    motion : list of (float, float) or None
+        The free motion then: x and displacement (positive downward, largest 1), straight lines between.
+    steps : list of Step
+        The load steps up to there.
+    """
+
+    def __init__(self, scene: Scene, arrays: Arrays, links: np.ndarray):
+        self.scene = scene
+        self.status = "solved"
+        self.reason: str | None = None
+        self.motion: list[tuple[float, float]] | None = None
+        self.steps: list[Step] = []
+        self._arrays = arrays
+        self._links = links
+
+    def refuse(self, reason: str, motion: list[tuple[float, float]] | None) -> None:
+        """Note that there is no equilibrium.
+
+        Parameters
+        ----------
+        reason : str
+            In words.
+        motion : list of (float, float) or None
+            The free motion.
+        """
+        self.status = "no-equilibrium"
+        self.reason = reason
+        self.motion = motion
+
+    @cached_property
+    def system(self) -> System:
+        """What the system of equations consisted of."""
+        arrays = self._arrays
+        method = self.steps[-1].solution.method if self.steps else 0
+        nodes = len(arrays.kinds)
+        three_moment = METHODS[method] == "three-moment"
+        needed = {
+            "axial": arrays.axial is not None,
+            "shear": bool(np.any(arrays.pieces[:, 2] > 0.0)),
+            "foundation": False,
+            "hinges": bool(self.scene.beam.hinges),
+            "rotational restraints": bool(np.any(arrays.compliance > 0.0) or np.any(arrays.couple_share > 0.0)),
+            "iteration": bool(np.any(arrays.support_sides != 0)),
+            "deflections": not three_moment,
+        }
+        return System(
+            nodes=nodes,
+            unknowns=nodes if three_moment else 2 * nodes,
+            half_bandwidth=1 if three_moment else 3,
+            method=METHODS[method],
+            axial_unknowns=0 if arrays.axial is None else 2 * len(arrays.axial.points) - 1,
+            left_out=tuple(name for name, used in needed.items() if not used),
+        )
+
+    def at(self, x: Any, step: int = -1, side: str = "right") -> Fields:
+        """Exact values anywhere along the beam.
+
+        Parameters
+        ----------
+        x : float or array_like
+            Places along the beam.
+        step : int
+            Number of the load step; default the last.
+        side : {"right", "left"}
+            Which value is taken where a field jumps.
+
+        Returns
+        -------
+        Fields
+            Arrays of the shape of `x`.
+
+        Raises
+        ------
+        ValueError
+            A place outside the beam, or another side.
+        """
+        if side not in ("right", "left"):
+            raise ValueError(f'side: expected "right" or "left", got "{side}"')
+        arrays = self._arrays
+        x = np.asarray(x, dtype=float)
+        end = arrays.ends[-1]
+        slack = POSITION_TOLERANCE * end
+        if not np.all((x >= -slack) & (x <= end + slack)):
+            raise ValueError(f"x: the beam goes from 0 to {end:g}, got {x[~((x >= 0) & (x <= end))].flat[0]:g}")
+        span, offset = locate(x.ravel(), arrays.ends)
+        piece, distance = self._piece(span, offset, side == "left")
+        return self._fields(x.ravel(), piece, distance, step, x.shape)
+
+    def _piece(self, span: np.ndarray, offset: np.ndarray, left: bool) -> tuple[np.ndarray, np.ndarray]:
+        """Piece of each place and the distance from its left end; at a point the piece on the given side."""
+        arrays = self._arrays
+        tolerance = POSITION_TOLERANCE * (arrays.ends[span] + offset)
+        first = np.searchsorted(arrays.point_span, np.arange(len(arrays.ends)))  # the point at every span end
+        key = arrays.point_offset
+        # Points of one span are contiguous and sorted by offset: search in span-wise shifted offsets
+        scale = arrays.ends[-1] + 1.0
+        point = np.searchsorted(arrays.point_span * scale + key, span * scale + offset + tolerance, side="right") - 1
+        point = np.maximum(point, first[span])
+        distance = np.maximum(offset - key[point], 0.0)
+        distance = np.where(distance <= tolerance, 0.0, distance)
+        last = len(arrays.pieces) - 1
+        before = (distance == 0.0) & (point > 0) & (left | (point > last))
+        piece = np.where(before, point - 1, point)
+        return piece, np.where(before, arrays.pieces[piece, 0], distance)
+
+    def _fields(self, x, piece, distance, step, shape) -> Fields:
+        state = self.steps[step]
+        arrays = self._arrays
+        values = engine.values(arrays, state.factor, state.starts, piece, distance)
+        columns = dict(zip(BENDING, (row.reshape(shape) for row in values), strict=True))
+        if arrays.axial is not None:
+            u, tension, _ = state.axial
+            bar = np.clip(np.searchsorted(arrays.axial.points, piece, side="right") - 1, 0, len(tension) - 1)
+            softness = arrays.pieces[:, 0] * arrays.axial_flexibility
+            before = np.concatenate(([0.0], np.cumsum(softness)))
+            way = before[piece] - before[arrays.axial.points[bar]] + distance * arrays.axial_flexibility[piece]
+            columns["axial_force"] = tension[bar].reshape(shape)
+            columns["axial_displacement"] = (u[bar] + tension[bar] * way).reshape(shape)
+        return Fields(x.reshape(shape), **columns)
+
+    def fields(self, step: int = -1, points: int = 20) -> Fields:
+        """Tabulate all fields, for drawing.
+
+        Parameters
+        ----------
+        step : int
+            Number of the load step; default the last.
+        points : int
+            Equal divisions of every span, beside all places where something changes.
+
+        Returns
+        -------
+        Fields
+            With every place between two pieces twice: the values left of it, then those right of it.
+        """
+        arrays = self._arrays
+        size = len(arrays.pieces)
+        spans = np.diff(arrays.ends)[arrays.point_span[:-1]]
+        parts = np.maximum(np.ceil(points * arrays.pieces[:, 0] / spans).astype(int), 1)
+        piece = np.repeat(np.arange(size), parts + 1)
+        place = np.arange(len(piece)) - np.repeat(np.cumsum(parts + 1) - (parts + 1), parts + 1)
+        distance = arrays.pieces[piece, 0] * (place / parts[piece])
+        x = np.where(place == parts[piece], arrays.point_x[piece + 1], arrays.point_x[piece] + distance)
+        return self._fields(x, piece, distance, step, x.shape)
+
+    def extremes(self, step: int = -1) -> dict[str, dict[str, tuple[float, float]]]:
+        """Exact largest and smallest values of every field with their places.
+
+        Parameters
+        ----------
+        step : int
+            Number of the load step; default the last.
+
+        Returns
+        -------
+        dict
+            ``{"moment": {"max": (value, x), "min": (value, x)}, ...}``.
+        """
+        state = self.steps[step]
+        values, x = engine.extremes(self._arrays, state.factor, state.starts)
+        result = {
+            name: {"max": (float(values[0, k]), float(x[0, k])), "min": (float(values[1, k]), float(x[1, k]))}
+            for k, name in enumerate(BENDING)
+        }
+        if state.axial is not None:
+            u, tension, _ = state.axial
+            at = self._arrays.point_x[self._arrays.axial.points]
+            for name, row in (("axial_force", tension), ("axial_displacement", u)):
+                high, low = int(np.argmax(row)), int(np.argmin(row))
+                result[name] = {"max": (float(row[high]), float(at[high])), "min": (float(row[low]), float(at[low]))}
+        return result
+
+    def history(self) -> list[tuple[float, tuple[str, ...]]]:
+        """Follow the working scheme over the load.
+
+        Returns
+        -------
+        list of (float, tuple of str)
+            Load factor and the state of every support, one row a load step.
+        """
+        return [(step.factor, step.state) for step in self.steps]
+
+    def to_dict(self, points: int = 20) -> dict[str, Any]:
+        """Everything as plain data, in the form of the JSON output.
+
+        Parameters
+        ----------
+        points : int
+            As in `fields`.
+
+        Returns
+        -------
+        dict
+            Only numbers, strings, lists and dicts.
+        """
+        scene = self.scene
+        data: dict[str, Any] = {
+            "title": scene.title,
+            "units": {"force": scene.units.force, "length": scene.units.length},
+            "status": self.status,
+            "system": self.system.asdict(),
+            "steps": [self._step_dict(step) for step in self.steps],
+        }
+        if self.status != "solved":
+            data["reason"] = self.reason
+            data["motion"] = None if self.motion is None else [list(pair) for pair in self.motion]
+        if self.steps:
+            data["fields"] = self.fields(points=points).to_dict()
+            data["extremes"] = {
+                name: {which: list(pair) for which, pair in row.items()} for name, row in self.extremes().items()
+            }
+        return data
+
+    def _step_dict(self, step: Step) -> dict[str, Any]:
+        x = self.scene.positions(self.scene.supports).tolist()
+        columns = (step.deflection, step.reaction, step.opening, step.couple)
+        rows = [
+            {
+                "x": x[k],
+                "side": support.side,
+                "direction": support.direction,
+                "deflection": w,
+                "reaction": reaction,
+                "couple": couple,
+                "state": step.state[k],
+                "opening": opening,
+            }
+            for k, (support, w, reaction, opening, couple) in enumerate(
+                zip(self.scene.supports, *(column.tolist() for column in columns), strict=True)
+            )
+        ]
+        return {
+            "factor": step.factor,
+            "solves": step.solves,
+            "seconds": step.seconds,
+            "supports": rows,
+            "certificate": dict(step.certificate),
+        }

@@ -1,0 +1,446 @@
+"""Checks of scenes: is the file readable, are keys and types right, does it make sense.
+
+Whatever is wrong raises a `SceneError` that names the place, the value and what was expected. The checks look
+at whole columns of numbers at once; only where one fails is the message composed for the row that failed.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import tomllib
+from collections.abc import Mapping, Sequence
+from numbers import Real
+from operator import attrgetter
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
+
+import msgspec
+import numpy as np
+
+from .errors import SceneError, explain, number, shown
+
+if TYPE_CHECKING:
+    from .scene import Scene
+
+S = TypeVar("S", bound=msgspec.Struct)
+
+POSITION_TOLERANCE = 64 * float(np.finfo(float).eps)
+"""Positions whose difference is at most this share of the larger one are the same place."""
+
+
+def same_place(a: Any, b: Any) -> Any:
+    """Whether positions differ by rounding only.
+
+    Parameters
+    ----------
+    a, b : float or numpy.ndarray
+        Positions along the beam (length).
+
+    Returns
+    -------
+    bool or numpy.ndarray of bool
+
+    Examples
+    --------
+    >>> bool(same_place(6.0, 6.000000000000001)), bool(same_place(6.0, 6.0000000001))
+    (True, False)
+    """
+    return np.abs(np.subtract(a, b)) <= POSITION_TOLERANCE * np.maximum(np.abs(a), np.abs(b))
+
+
+def read_file(path: Path) -> dict[str, Any]:
+    """Read a TOML or JSON file.
+
+    Parameters
+    ----------
+    path : pathlib.Path
+        A file that ends in .toml or .json.
+
+    Returns
+    -------
+    dict
+        The data as they stand there; only the syntax is checked.
+    """
+    kind = path.suffix.lower()
+    if kind not in (".toml", ".json"):
+        raise SceneError(str(path), f'a scene file ends in .toml or .json, not in "{path.suffix}"')
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+    except FileNotFoundError:
+        raise SceneError(str(path), "there is no such file") from None
+    except UnicodeDecodeError as error:
+        raise SceneError(str(path), f"not a text in UTF-8 (byte {error.start + 1} is wrong)") from None
+    except (OSError, ValueError) as error:
+        raise SceneError(str(path), f"cannot be read ({getattr(error, 'strerror', None) or error})") from None
+    try:
+        return tomllib.loads(text) if kind == ".toml" else json.loads(text, object_pairs_hook=_table)
+    except tomllib.TOMLDecodeError as error:
+        found = re.search(r"\(at line (\d+), column (\d+)\)", str(error))
+        end = text.count("\n") + 1, len(text.rpartition("\n")[2]) + 1
+        line, column = map(int, found.groups()) if found else end
+        _syntax(path, text, line, column, str(error).partition(" (at ")[0])
+    except json.JSONDecodeError as error:
+        _syntax(path, text, error.lineno, error.colno, error.msg)
+    except RecursionError:
+        raise SceneError(str(path), "tables or lists are nested too deeply") from None
+    except ValueError as error:
+        raise SceneError(str(path), str(error)) from None
+
+
+def _table(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """Make a JSON table; of two equal keys one would get lost without a word."""
+    table = dict(pairs)
+    if len(table) < len(pairs):
+        keys = [key for key, _ in pairs]
+        twice = next(key for key in keys if keys.count(key) > 1)
+        raise ValueError(f'the key "{twice}" stands twice in one table')
+    return table
+
+
+def _syntax(path: Path, text: str, line: int, column: int, problem: str) -> NoReturn:
+    source = (text.splitlines()[line - 1 : line] or [""])[0]
+    comma = re.search(r"(?<![\d,\[])\s\d+,\d+\s*(#|$)", source)
+    hint = f'; write numbers with a point: "{comma[0].strip(" #").replace(",", ".")}"' if comma else ""
+    quoted = f", in: {source.strip()[:80]}" if source.strip() else ""
+    raise SceneError(f"{path}, line {line}, column {column}", f"{problem}{quoted}{hint}") from None
+
+
+def typed(source: S | Mapping[str, Any], struct: type[S]) -> S:
+    """Turn data into a struct whose keys and types are right, all through.
+
+    Parameters
+    ----------
+    source : struct or mapping
+        Structs built in Python hold whatever they were given, so they are checked like any other data. Numpy
+        numbers and arrays may stand for numbers and lists.
+    struct : type
+        The struct to make.
+
+    Returns
+    -------
+    struct
+        Independent of `source`.
+    """
+    try:
+        if isinstance(source, struct):
+            return msgspec.msgpack.decode(msgspec.msgpack.encode(source, enc_hook=_simple), type=struct)
+        if not _has_structs(source):
+            return msgspec.convert(source, struct)
+    except (msgspec.ValidationError, OverflowError, TypeError):
+        pass  # once more, slowly: to word the message, or to take numpy numbers
+    plain = msgspec.to_builtins(source, enc_hook=_simple, str_keys=False)
+    try:
+        return msgspec.convert(plain, struct)
+    except msgspec.ValidationError as error:
+        raise explain(error, plain, struct) from None
+
+
+def _simple(value: Any) -> Any:
+    """Numbers and lists for what stands for them; anything else as its text, to be refused as such."""
+    if hasattr(value, "tolist"):
+        return value.tolist()
+    if isinstance(value, Real):
+        return float(value)
+    return dict(value) if isinstance(value, Mapping) else str(value)
+
+
+def _has_structs(data: Mapping[str, Any]) -> bool:
+    """Whether structs stand among the data; msgspec would take them unchecked."""
+    kinds = set(map(type, data.values()))
+    for value in data.values():
+        if isinstance(value, list | tuple):
+            kinds.update(map(type, value))
+    return any(issubclass(kind, msgspec.Struct) for kind in kinds)
+
+
+def check(scene: Scene) -> None:
+    """Refuse a scene that makes no sense.
+
+    Parameters
+    ----------
+    scene : Scene
+        Keys and types are right already.
+
+    Raises
+    ------
+    SceneError
+        Of several errors the first one found.
+    """
+    ends = _check_spans(scene)
+    hinges = _check_beam(scene, ends)
+    sections = _Rows("sections", scene.sections)
+    sections.stretch(ends)
+    idle = np.ones(len(scene.sections), dtype=bool)
+    for key in ("EI", "GA", "EA"):
+        values = sections.column(key)
+        sections.refuse(values <= 0, key, "a number above 0 (inf = rigid)")
+        idle &= np.isnan(values)
+    sections.refuse_first(idle, "", "changes nothing; give EI, GA or EA")
+    _check_supports(scene, ends, hinges)
+    if scene.foundation:
+        raise SceneError(
+            "foundation[0]", "foundations are not available in this version; use elastic supports"
+        )
+    _check_loads(scene, ends, hinges)
+    if scene.analysis.steps < 1:
+        raise SceneError("analysis.steps", f"expected a whole number, 1 or more, got {scene.analysis.steps}")
+    if scene.analysis.follow == "events":
+        raise SceneError("analysis.follow", 'events are not available in this version; use "steps"')
+
+
+class _Rows:
+    """Equal structs of a scene, their numbers by column.
+
+    Parameters
+    ----------
+    name : str
+        Key of the list in the scene.
+    items : sequence of Struct
+        The structs.
+    index : sequence of int, optional
+        Place of each in that list.
+    """
+
+    def __init__(self, name: str, items: Sequence[Any], index: Sequence[int] | None = None) -> None:
+        self.name, self.items = name, items
+        self.index = range(len(items)) if index is None else index
+
+    def path(self, row: int, key: str = "") -> str:
+        """Path of a row, or of one key in it."""
+        return f"{self.name}[{self.index[row]}]" + (f".{key}" if key else "")
+
+    def column(self, key: str, finite: bool = False) -> np.ndarray:
+        """Numbers of one key, nan where there is none; a nan (or, if asked, inf) of the user is refused."""
+        values = list(map(attrgetter("from_" if key == "from" else key), self.items))
+        if not values or (values[0] is None and values.count(None) == len(values)):
+            return np.full(len(values), np.nan)
+        numbers = np.fromiter(values, float if np.isscalar(values[0] or 0.0) else (float, 2), len(values))
+        wrong = ~np.isfinite(numbers) if finite else np.isnan(numbers)
+        bad = np.flatnonzero(wrong if wrong.ndim == 1 else wrong.any(axis=1))
+        if bad.size and bad.size > values.count(None):
+            row = next(row for row in bad.tolist() if values[row] is not None)
+            kind = "finite numbers" if numbers.ndim > 1 else "a finite number" if finite else "a number"
+            raise SceneError(self.path(row, key), f"expected {kind}, got {shown(values[row])}")
+        return numbers
+
+    def refuse(self, wrong: np.ndarray, key: str, expected: str) -> None:
+        """Refuse the first row whose value is wrong."""
+        if wrong.any():
+            row = int(np.argmax(wrong))
+            value = shown(getattr(self.items[row], key))
+            raise SceneError(self.path(row, key), f"expected {expected}, got {value}")
+
+    def refuse_first(self, wrong: np.ndarray, key: str, problem: str) -> None:
+        """Refuse the first row that is wrong, whatever its value."""
+        if wrong.any():
+            raise SceneError(self.path(int(np.argmax(wrong)), key), problem)
+
+    def points(self, ends: np.ndarray) -> np.ndarray:
+        """Places by node or x, checked."""
+        x, node = self.column("x"), self.column("node")
+        wrong = np.isnan(x) == np.isnan(node)
+        if wrong.any():
+            row = int(np.argmax(wrong))
+            if np.isnan(x[row]):
+                raise SceneError(self.path(row), "its place is missing; give node or x")
+            both = f"node = {number(node[row])} and x = {number(x[row])}"
+            raise SceneError(self.path(row), f"has both {both}; give one of the two")
+        wrong = (node < 0) | (node >= len(ends))
+        if wrong.any():
+            row = int(np.argmax(wrong))
+            nodes = f"the nodes of the beam are 0 to {len(ends) - 1}"
+            raise SceneError(self.path(row, "node"), f"there is no node {number(node[row])}; {nodes}")
+        self.inside(x, "x", ends)
+        at_node = ends[np.where(np.isnan(node), 0, node).astype(np.intp)]
+        return np.clip(np.where(np.isnan(x), at_node, x), 0.0, ends[-1])
+
+    def inside(self, x: np.ndarray, key: str, ends: np.ndarray) -> None:
+        """Refuse what lies off the beam by more than rounding."""
+        slack = POSITION_TOLERANCE * ends[-1]
+        wrong = (x < -slack) | (x > ends[-1] + slack)
+        if wrong.any():
+            row = int(np.argmax(wrong))
+            raise SceneError(self.path(row, key), _outside(x[row], ends))
+
+    def stretch(self, ends: np.ndarray) -> None:
+        """Check from and to."""
+        start, stop = self.column("from"), self.column("to")
+        self.inside(start, "from", ends)
+        self.inside(stop, "to", ends)
+        stop = np.where(np.isnan(stop), ends[-1], stop)
+        wrong = (start >= stop) | same_place(start, stop)
+        if wrong.any():
+            row = int(np.argmax(wrong))
+            stretch = f"from = {number(start[row])} to = {number(stop[row])}"
+            raise SceneError(
+                self.path(row), f"the stretch {stretch} has no length; from must be less than to"
+            )
+
+
+def _outside(x: float, ends: np.ndarray) -> str:
+    return f"{number(x)} is outside the beam, which runs from x = 0 to x = {number(ends[-1])}"
+
+
+def _check_spans(scene: Scene) -> np.ndarray:
+    """Check the spans; return their ends."""
+    spans = np.array(scene.beam.spans, dtype=float)
+    if not spans.size:
+        raise SceneError("beam.spans", "the beam has no span; give at least one length, for example [6.0]")
+    wrong = ~(np.isfinite(spans) & (spans > 0))
+    with np.errstate(over="ignore", invalid="ignore"):
+        ends = scene.span_ends()
+    if wrong.any():
+        i = int(np.argmax(wrong))
+        if not np.isfinite(spans[i]):
+            raise SceneError(f"beam.spans[{i}]", f"expected a finite length above 0, got {number(spans[i])}")
+        begin, end = number(ends[i]), number(ends[i] + spans[i])
+        stretch = f"the span from x = {begin} to x = {end} has length {number(spans[i])}"
+        raise SceneError(f"beam.spans[{i}]", f"{stretch}; give a length above 0 or remove it")
+    if not np.isfinite(ends[-1]):
+        raise SceneError("beam.spans", "the beam is too long for the range of numbers")
+    wrong = same_place(ends[1:], ends[:-1])
+    if wrong.any():
+        i = int(np.argmax(wrong))
+        lost = f"a length of {number(spans[i])} is lost in rounding at x = {number(ends[i])}"
+        raise SceneError(f"beam.spans[{i}]", f"{lost}; give a greater length or remove it")
+    return ends
+
+
+def _check_beam(scene: Scene, ends: np.ndarray) -> np.ndarray:
+    """Check stiffnesses and hinges; return the places of the hinges, sorted."""
+    beam = scene.beam
+    for key in ("EI", "GA", "EA"):
+        value = getattr(beam, key)
+        values = np.array(value, dtype=float)
+        if values.ndim and len(values) != len(beam.spans):
+            count = f"has {len(values)} values for {len(beam.spans)} spans"
+            raise SceneError(f"beam.{key}", f"{count}; give one number, or one per span")
+        wrong = ~(np.atleast_1d(values) > 0)
+        if wrong.any():
+            i = int(np.argmax(wrong))
+            place = f"beam.{key}" + (f"[{i}]" if values.ndim else "")
+            got = number(np.atleast_1d(values)[i])
+            raise SceneError(place, f"expected a number above 0 (inf = rigid), got {got}")
+    x = np.array(beam.hinges, dtype=float)
+    slack = POSITION_TOLERANCE * ends[-1]
+    for i in np.flatnonzero(~((x > slack) & (x < ends[-1] - slack)))[:1]:
+        problem = _outside(x[i], ends)
+        if np.isnan(x[i]):
+            problem = "expected a number, got nan"
+        elif -slack <= x[i] <= ends[-1] + slack:
+            problem = f"x = {number(x[i])} is an end of the beam, where no hinge can be; remove it"
+        raise SceneError(f"beam.hinges[{i}]", problem)
+    order = np.argsort(x, kind="stable")
+    for k in np.flatnonzero(same_place(x[order[1:]], x[order[:-1]]))[:1]:
+        first, second = sorted((int(order[k]), int(order[k + 1])))
+        there = f"at x = {number(x[second])} there is a hinge already (beam.hinges[{first}])"
+        raise SceneError(f"beam.hinges[{second}]", f"{there}; remove one of them")
+    return x[order]
+
+
+def _on_hinge(x: np.ndarray, hinges: np.ndarray) -> np.ndarray:
+    """Which positions lie on one of the sorted hinges."""
+    if not hinges.size:
+        return np.zeros(len(x), dtype=bool)
+    after = np.searchsorted(hinges, x)
+    right, left = hinges[np.minimum(after, hinges.size - 1)], hinges[np.maximum(after - 1, 0)]
+    return same_place(x, right) | same_place(x, left)
+
+
+def _check_supports(scene: Scene, ends: np.ndarray, hinges: np.ndarray) -> None:
+    """Check supports, each alone and those at the same place together."""
+    rows = _Rows("supports", scene.supports)
+    items = rows.items
+    x = rows.points(ends)
+    stiffness = rows.column("stiffness")
+    rows.refuse(stiffness < 0, "stiffness", "a number, 0 or more (inf = rigid)")
+    gap, settlement = rows.column("gap", finite=True), rows.column("settlement", finite=True)
+    turn = np.fromiter([_ROTATION.get(item.rotation, item.rotation) for item in items], float, len(items))
+    rows.refuse(~(turn >= 0), "rotation", '"free", "fixed" or a number, 0 or more')
+    bilateral = np.array([item.side == "both" for item in items], dtype=bool)
+    below = np.array([item.side == "below" for item in items], dtype=bool)
+    axial = np.array([item.direction == "axial" for item in items], dtype=bool)
+
+    law = np.array([item.law is not None for item in items], dtype=bool)
+    held_hinge = (turn > 0) & _on_hinge(x, hinges)
+    for wrong, key, problem in (
+        (axial & ~bilateral, "side", 'an axial support holds on both sides; use side = "both"'),
+        (axial & (gap != 0), "gap", "an axial support has no gap; remove it"),
+        (
+            axial & (turn != 0),
+            "rotation",
+            "an axial support holds no rotation; a normal one here can do that",
+        ),
+        (bilateral & (gap != 0), "gap", 'only a support with side = "below" or "above" has a gap'),
+        (held_hinge, "rotation", "there is a hinge here, so it is open which side is held; move one aside"),
+        (law & (stiffness != np.inf), "", "has both stiffness and law; give one of the two"),
+        (law, "law", "piecewise linear laws are not available in this version; give stiffness instead"),
+    ):
+        rows.refuse_first(wrong, key, problem)
+
+    rigid = np.isinf(stiffness)
+    _check_one_each(rows, x, rigid & axial, "hold the beam horizontally and rigidly")
+    _check_one_each(rows, x, np.isinf(turn), "hold the rotation of the beam rigidly")
+    kinds = {"both": rigid & bilateral & ~axial, "below": rigid & below, "above": rigid & ~below & ~bilateral}
+    for side, rows_of_kind in kinds.items():
+        _check_one_each(rows, x, rows_of_kind, f'are rigid with side = "{side}"')
+    level = {"both": settlement, "below": settlement + gap, "above": settlement - gap}
+    for lower, upper in (("below", "above"), ("below", "both"), ("both", "above")):
+        _check_room(rows, x, (kinds[lower], level[lower]), (kinds[upper], level[upper]), (lower, upper))
+
+
+_ROTATION = {"free": 0.0, "fixed": np.inf}
+
+
+def _check_one_each(rows: _Rows, x: np.ndarray, chosen: np.ndarray, what: str) -> None:
+    """Of the chosen supports at most one may stand at a place."""
+    which = np.flatnonzero(chosen)
+    which = which[np.argsort(x[which], kind="stable")]
+    for k in np.flatnonzero(same_place(x[which[1:]], x[which[:-1]]))[:1]:
+        first, second = sorted(which[k : k + 2].tolist())
+        twice = f"this one and {rows.path(first)} both stand at x = {number(x[second])} and {what}"
+        raise SceneError(rows.path(second), f"{twice}; remove one of them")
+
+
+def _check_room(rows: _Rows, x: np.ndarray, lower: tuple, upper: tuple, sides: tuple[str, str]) -> None:
+    """Refuse rigid supports that leave no room; lower and upper are (which, level at which they act)."""
+    low, high = np.flatnonzero(lower[0]), np.flatnonzero(upper[0])
+    if not low.size or not high.size:
+        return
+    high = high[np.argsort(x[high], kind="stable")]
+    after = np.searchsorted(x[high], x[low])
+    for at in (high[np.minimum(after, high.size - 1)], high[np.maximum(after - 1, 0)]):
+        stop, start = lower[1][low], upper[1][at]
+        slack = POSITION_TOLERANCE * np.maximum(np.abs(stop), np.abs(start))
+        tight = stop - start < -slack if "both" not in sides else stop - start <= slack
+        for k in np.flatnonzero(same_place(x[low], x[at]) & tight)[:1]:
+            here = f"this one ({sides[0]}, acts at a deflection of {number(stop[k])})"
+            there = f"{rows.path(at[k])} ({sides[1]}, acts at {number(start[k])})"
+            problem = f"{here} and {there} leave no room at x = {number(x[low[k]])}; give a greater gap"
+            raise SceneError(rows.path(low[k]), problem)
+
+
+def _check_loads(scene: Scene, ends: np.ndarray, hinges: np.ndarray) -> None:
+    """Check loads, kind by kind."""
+    kinds: dict[str, list[int]] = {}
+    for i, load in enumerate(scene.loads):
+        kinds.setdefault(load.__struct_config__.tag, []).append(i)
+    for kind, index in kinds.items():
+        rows = _Rows("loads", [scene.loads[i] for i in index], index)
+        if kind in ("force", "moment", "axial"):
+            x = rows.points(ends)
+        else:
+            rows.stretch(ends)
+        rows.column(_VALUE[kind], finite=True)
+        if kind == "moment" and (on_hinge := _on_hinge(x, hinges)).any():
+            row = int(np.argmax(on_hinge))
+            there = f"the moment acts exactly at the hinge at x = {number(x[row])}"
+            problem = f"{there}, so it is open which side takes it; put it on one side of the hinge"
+            raise SceneError(rows.path(row), problem)
+        if kind == "axial" and not any(support.direction == "axial" for support in scene.supports):
+            problem = 'nothing holds the beam horizontally; give a support direction = "axial"'
+            raise SceneError(rows.path(0), problem)
+
+
+_VALUE = {"force": "F", "moment": "M", "axial": "F", "uniform": "q", "linear": "q", "curvature": "kappa"}

@@ -1,0 +1,98 @@
+"""Load steps: solve a scene at factors 1/n, 2/n, ..., 1, each step starting from the last working scheme."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+
+from . import engine
+from .errors import SceneError
+from .lowering import Arrays, lower
+from .motion import describe_motion
+from .results import Result, Step
+from .scene import Scene, read_scene
+
+
+def solve(
+    source: Scene | Mapping[str, Any] | str | os.PathLike,
+    *,
+    rule: str | None = None,
+    start: Sequence[bool] | None = None,
+) -> Result:
+    """Solve a scene.
+
+    Parameters
+    ----------
+    source : Scene, mapping, str or path
+        A scene built in Python, its data as dicts and lists, or the path of a ``.toml`` or ``.json`` file.
+    rule : {"block", "single"}, optional
+        How the working scheme is found, instead of the scene's own ``analysis.rule``.
+    start : sequence of bool, optional
+        Starting scheme of the first load step: one entry per one-sided support in the order of the scene, True =
+        closed. Default: all closed. It changes the number of solves, not the answer.
+
+    Returns
+    -------
+    Result
+        With status ``solved`` or ``no-equilibrium``.
+
+    Raises
+    ------
+    SceneError
+        The scene is not valid.
+    EngineError
+        No unique answer exists, for example where a rigid beam rests on three rigid supports.
+
+    Examples
+    --------
+    >>> import gapbeam
+    >>> result = gapbeam.solve({
+    ...     "beam": {"spans": [2.0, 2.0], "EI": 100.0},
+    ...     "supports": [{"node": 0}, {"node": 1, "side": "below", "gap": 0.001}, {"node": 2}],
+    ...     "loads": [{"type": "uniform", "q": 3.0}],
+    ... })
+    >>> result.steps[-1].reaction.round(4)
+    array([2.325, 7.35 , 2.325])
+    """
+    scene = read_scene(source)
+    rule = scene.analysis.rule if rule is None else rule
+    if rule not in engine.RULES:
+        raise SceneError("rule", f'expected one of {", ".join(engine.RULES)}, got "{rule}"')
+    arrays = lower(scene)
+    closed = _starting_scheme(arrays, start)
+    links = engine.condense(arrays)
+    result = Result(scene, arrays, links)
+    for k in range(1, scene.analysis.steps + 1):
+        factor = k / scene.analysis.steps
+        begin = perf_counter()
+        axial = engine.solve_axial(arrays, factor) if arrays.axial is not None else None
+        solution = engine.solve(arrays, links, factor, rule, closed)
+        seconds = perf_counter() - begin
+        if arrays.axial is not None and axial is None:
+            result.refuse("the beam slides along its axis: no axial support holds it", None)
+            break
+        if solution.status == engine.NO_EQUILIBRIUM:
+            reason = describe_motion(arrays, solution.motion)
+            result.refuse(
+                f"no equilibrium at load factor {factor:g}: {reason}",
+                list(zip(arrays.node_x.tolist(), solution.motion.tolist(), strict=True)),
+            )
+            break
+        closed = solution.closed
+        result.steps.append(Step(arrays, links, factor, seconds, solution, axial))
+    return result
+
+
+def _starting_scheme(arrays: Arrays, start: Sequence[bool] | None) -> np.ndarray:
+    closed = np.ones(len(arrays.supports), dtype=np.int32)
+    if start is None:
+        return closed
+    one_sided = np.flatnonzero(arrays.support_sides)
+    if len(start) != len(one_sided):
+        raise SceneError("start", f"expected {len(one_sided)} entries, one per one-sided support, got {len(start)}")
+    closed[one_sided] = np.asarray(start, dtype=bool)
+    return closed
