@@ -1,0 +1,163 @@
+!> Working schemes: the paper's beam from every start, cycling, floating beams, free motions
+program test_scheme
+    use testing, only: check, check_close, finish
+    use gapbeam, only: piece_type, load_type, condense_link, beam_type, support_type, below, above, both, workspace_type, &
+        new_workspace, set_loads, find_scheme, outcome_type, rule_block, rule_single, error_type, restrained, &
+        gapbeam_solved, gapbeam_no_equilibrium, gapbeam_indeterminate
+    use gapbeam_kinds, only: wp
+    implicit none
+    integer :: status
+
+    call paper_beam()
+    call smallest_cycle()
+    call plank()
+    call rigid_plank()
+    call finish(status)
+    if (status /= 0) stop 1, quiet=.true.
+
+contains
+
+    !> Infinity without an exception
+    pure function infinite() result(value)
+        use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_positive_inf
+        real(wp) :: value
+
+        value = ieee_value(value, ieee_positive_inf)
+    end function infinite
+
+    !> Equal spans without loads
+    subroutine make(n, length, ei, beam)
+        integer, intent(in) :: n
+        real(wp), intent(in) :: length, ei
+        type(beam_type), intent(out) :: beam
+        type(load_type) :: none(1)
+        real(wp) :: work(1)
+        integer :: i
+
+        none = load_type(0, 0, 0, 0, 0)
+        allocate (beam%links(n), beam%kind(0:n), beam%compliance(0:n), beam%force(2, 0:n), beam%couple(2, 0:n))
+        do i = 1, n
+            call condense_link([piece_type(length, 1/ei, 0.0_wp)], none, none, work, beam%links(i))
+        end do
+        beam%kind = 0
+        beam%compliance = 0.0_wp
+        beam%force = 0.0_wp
+        beam%couple = 0.0_wp
+    end subroutine make
+
+    !> Reference problem P1
+    subroutine paper_beam()
+        type(beam_type) :: beam
+        type(workspace_type) :: work
+        type(outcome_type) :: outcome
+        type(error_type), allocatable :: error
+        logical :: closed(4)
+        integer :: start, rule, most
+        real(wp), parameter :: f2 = 0.70707_wp, f3 = -4.3597_wp, f4 = 2.1155_wp
+
+        call make(3, 2.0_wp, 44.5_wp, beam)
+        beam%kind(0) = restrained
+        beam%force(2, :) = [0.0_wp, f2, f3, f4]
+        beam%supports = [support_type(0, both, infinite(), 0.0_wp), support_type(1, above, infinite(), 0.0_wp), &
+                         support_type(2, below, infinite(), 0.0_wp), support_type(3, below, infinite(), 0.0_wp)]
+        most = 0
+        do rule = rule_block, rule_single
+            do start = 0, 7
+                closed = [.true., btest(start, 0), btest(start, 1), btest(start, 2)]
+                call new_workspace(beam, work)
+                call set_loads(beam, 1.0_wp, work)
+                call find_scheme(beam, 1.0_wp, rule, closed, work, outcome, error)
+                call check(.not. allocated(error) .and. outcome%status == gapbeam_solved, "solved")
+                call check(all(closed .eqv. [.true., .true., .false., .true.]), "supports 2 and 4 act, 3 is open")
+                call check_close(work%reaction(2:4), [f2 + 23*f3/22, 0.0_wp, f4 + 4*f3/11], "reactions")
+                call check_close(work%answers(2)%deflection, 13*f3*8/(132*44.5_wp), "lift-off")
+                most = max(most, work%solves)
+            end do
+        end do
+        call check(most <= 3, "three solves at most, from all eight starts, by both rules")
+    end subroutine paper_beam
+
+    !> Reference problem P6: changing all wrong supports at once cycles with period 3
+    subroutine smallest_cycle()
+        type(beam_type) :: beam
+        type(workspace_type) :: work
+        type(outcome_type) :: outcome
+        type(error_type), allocatable :: error
+        logical :: closed(5)
+        integer :: rule, start
+
+        call make(4, 1.0_wp, 1000.0_wp, beam)
+        beam%force(2, 1:2) = [-80.0_wp, 35.0_wp]
+        beam%supports = [support_type(0, both, infinite(), 0.0_wp), support_type(1, above, 1e6_wp, 0.009_wp), &
+                         support_type(2, below, 1e8_wp, 0.018_wp), support_type(3, below, 1e6_wp, -0.012_wp), &
+                         support_type(4, both, infinite(), 0.0_wp)]
+        do rule = rule_block, rule_single
+            do start = 0, 7
+                closed = [.true., btest(start, 0), btest(start, 1), btest(start, 2), .true.]
+                call new_workspace(beam, work)
+                call set_loads(beam, 1.0_wp, work)
+                call find_scheme(beam, 1.0_wp, rule, closed, work, outcome, error)
+                call check(all(closed .eqv. [.true., .true., .false., .true., .true.]), "closed, open, closed")
+                call check_close(work%answers(1:3)%deflection, [0.00888281_wp, 0.00046923_wp, -0.01191242_wp], &
+                                 "deflections", 1e-6_wp)
+            end do
+        end do
+    end subroutine smallest_cycle
+
+    !> Two equal spans on three one-sided supports, nothing bilateral: own weight g, q on the left span; then a
+    !> force on an overhang that tips the beam
+    subroutine plank()
+        type(beam_type) :: beam
+        type(workspace_type) :: work
+        type(outcome_type) :: outcome
+        type(error_type), allocatable :: error
+        type(load_type) :: dead(1), live(1)
+        logical :: closed(3)
+        real(wp) :: space(1)
+        integer :: i
+
+        call make(2, 1.0_wp, 1.0_wp, beam)
+        dead = load_type(1, 1, 0, 0, 0)
+        do i = 1, 2
+            live = load_type(merge(10.0_wp, 0.0_wp, i == 1), merge(10.0_wp, 0.0_wp, i == 1), 0, 0, 0)
+            call condense_link([piece_type(1.0_wp, 1.0_wp, 0.0_wp)], dead, live, space, beam%links(i))
+        end do
+        beam%supports = [(support_type(i, below, infinite(), 0.0_wp), i=0, 2)]
+        closed = .true.
+        call new_workspace(beam, work)
+        call set_loads(beam, 1.0_wp, work)
+        call find_scheme(beam, 1.0_wp, rule_block, closed, work, outcome, error)
+        call check_close(work%reaction, [5.0_wp, 7.0_wp, 0.0_wp], "the far end lifts")
+        call check_close(work%answers(2)%deflection, -1/6.0_wp, "by (q - 6 g) l**4/24 EI")
+        beam%supports(3)%node = 1
+        beam%supports = beam%supports(1:2)
+        beam%force(2, 2) = 100.0_wp
+        closed = .true.
+        call new_workspace(beam, work)
+        call set_loads(beam, 1.0_wp, work)
+        call find_scheme(beam, 1.0_wp, rule_block, closed(1:2), work, outcome, error)
+        call check(.not. allocated(error) .and. outcome%status == gapbeam_no_equilibrium, "the plank tips")
+        call check_close(outcome%motion, [-1.0_wp, 0.0_wp, 1.0_wp], "about the middle support")
+    end subroutine plank
+
+    !> A rigid plank on three rigid supports that hold both ways cannot be resolved; on one-sided ones neither
+    subroutine rigid_plank()
+        type(beam_type) :: beam
+        type(workspace_type) :: work
+        type(outcome_type) :: outcome
+        type(error_type), allocatable :: error
+        logical :: closed(3)
+        integer :: i
+
+        call make(2, 1.0_wp, infinite(), beam)
+        beam%supports = [(support_type(i, both, infinite(), 0.0_wp), i=0, 2)]
+        beam%force(1, 1) = 1.0_wp
+        closed = .true.
+        call new_workspace(beam, work)
+        call set_loads(beam, 1.0_wp, work)
+        call find_scheme(beam, 1.0_wp, rule_block, closed, work, outcome, error)
+        call check(allocated(error), "refused")
+        if (allocated(error)) call check(error%code == gapbeam_indeterminate, "as not determined")
+    end subroutine rigid_plank
+
+end program test_scheme
