@@ -1,0 +1,96 @@
+"""The examples: each solves, makes sense, and shows what it says."""
+
+import runpy
+from pathlib import Path
+
+import gapbeam
+import numpy as np
+import pytest
+from gapbeam.report_scheme import merged
+
+EXAMPLES = Path(__file__).resolve().parent.parent / "examples"
+SCENES = sorted(EXAMPLES.glob("*.toml"))
+
+
+def load_total(scene):
+    """All vertical load."""
+    total = 0.0
+    for load in scene.loads:
+        if hasattr(load, "q"):
+            end = scene.span_ends()[-1] if load.to is None else load.to
+            total += float(np.mean(load.q)) * (end - load.from_)
+        elif hasattr(load, "F"):
+            total += load.F
+    return total
+
+
+def states(name):
+    """The different schemes of an example in their order."""
+    result = gapbeam.solve(EXAMPLES / f"{name}.toml")
+    assert result.status == "solved"
+    return [row[2] for row in merged(result.history())], result.steps[-1]
+
+
+@pytest.mark.parametrize("path", SCENES, ids=lambda path: path.stem)
+def test_scene_solves_and_balances(path):
+    result = gapbeam.solve(path)
+    assert result.status == "solved"
+    assert path.read_text().startswith("# ")
+    assert result.scene.title
+    assert result.scene.units.force
+    for step in result.steps:
+        one_sided = {"below": 1.0, "above": -1.0, "both": 0.0}
+        signs = np.array([one_sided[support.side] for support in result.scene.supports])
+        largest = np.abs(step.reaction).max()
+        assert (signs * step.reaction >= -1e-12 * largest).all()
+        assert (step.opening >= 0.0).all()
+        assert np.abs(step.opening * step.reaction).max() == 0.0
+    assert step.reaction.sum() == pytest.approx(load_total(result.scene), rel=1e-10)
+
+
+@pytest.mark.parametrize("path", SCENES, ids=lambda path: path.stem)
+def test_both_rules_agree(path):
+    block, single = (gapbeam.solve(path, rule=rule).steps[-1] for rule in ("block", "single"))
+    assert block.state == single.state
+    np.testing.assert_allclose(block.reaction, single.reaction, rtol=0, atol=1e-11 * np.abs(block.reaction).max())
+
+
+@pytest.mark.parametrize(("name", "reaction"), [("paper_beam", 3.8507982), ("paper_beam_printed_load", 3.7871682)])
+def test_paper_beam(name, reaction):
+    schemes, step = states(name)
+    assert schemes == [("bilateral", "closed", "open", "closed")]
+    assert -step.reaction[1] == pytest.approx(reaction, abs=5e-8)
+    assert step.reaction[3] == pytest.approx(0.5301545, abs=5e-8)
+    assert step.opening[2] == pytest.approx(0.0771891, abs=5e-8)
+
+
+def test_pipe_rack_lifts_off_bit_by_bit():
+    schemes, step = states("pipe_rack")
+    openings = [scheme.count("open") for scheme in schemes]
+    assert openings == sorted(set(openings))
+    assert openings[0] == 0
+    assert openings[-1] >= 2
+    assert 0.001 < step.opening.max() < 0.1
+
+
+def test_shaft_crosses_its_clearance():
+    schemes, step = states("shaft_clearance")
+    assert schemes[0][1] == schemes[0][3] == "open"  # at first it lies in the lower halves
+    assert "closed" in (step.state[1], step.state[3])  # at the end upper ones hold it
+    for lower, upper in ((0, 1), (2, 3), (4, 5)):
+        assert (step.state[lower], step.state[upper]) != ("closed", "closed")
+
+
+def test_crane_runway_pulls_at_its_bolts():
+    schemes, step = states("crane_runway")
+    assert [scheme[2:] for scheme in schemes] == [("closed", "open"), ("open", "open"), ("open", "closed")]
+    assert step.deflection[3] < -0.005
+
+
+def test_paper_beam_script(capsys, tmp_path):
+    script = runpy.run_path(str(EXAMPLES / "paper_beam.py"))
+    script["main"](tmp_path / "new" / "folder")
+    out = capsys.readouterr().out
+    for text in ("3.8507982", "3.7871682", "0.5301545", "0.0771891", "LIRA", "misprint"):
+        assert text in out
+    assert (tmp_path / "new" / "folder" / "paper_beam.png").stat().st_size > 10_000

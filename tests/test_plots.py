@@ -1,0 +1,162 @@
+"""Pictures: what is in the figure, and that files come out of it."""
+
+import gapbeam
+import numpy as np
+import pytest
+import scenes
+from gapbeam.plots import figure, plot
+from matplotlib.colors import to_rgba
+from matplotlib.image import imread
+
+
+def paper():
+    """The paper's beam: clamp; closed from above; open; closed from below."""
+    supports = [scenes.at(0, rotation="fixed"), *(scenes.at(i, side=side) for i, side in enumerate(("above", "below", "below"), 1))]
+    loads = [scenes.force(2.0, 0.70707), scenes.force(4.0, -4.3597), scenes.force(6.0, 2.1155)]
+    return scenes.scene([2.0, 2.0, 2.0], supports, loads, EI=44.5) | {"units": {"force": "tf", "length": "m"}}
+
+
+def everything():
+    """Every kind of support and load."""
+    supports = [
+        scenes.at(0, rotation=500.0),
+        scenes.at(1, side="below", gap=0.002, stiffness=1e5),
+        scenes.at(1, side="above", gap=0.002),
+        scenes.at(2),
+        scenes.at(3, rotation="fixed"),
+        scenes.at(0, direction="axial"),
+    ]
+    loads = [
+        scenes.uniform(5.0, case="dead"),
+        scenes.linear(0.0, 20.0, **scenes.stretch(4.0, 9.0)),
+        scenes.moment(2.0, 10.0),
+        scenes.moment(6.0, -10.0),
+        scenes.curvature(1e-4, **scenes.stretch(0.0, 4.0)),
+        scenes.force(5.0, 25.0),
+        scenes.force(7.5, -15.0),
+        scenes.uniform(-8.0, **scenes.stretch(9.0, 12.0)),
+        {"type": "axial", "x": 5.0, "F": 3.0},
+        {"type": "axial", "node": 3, "F": -3.0},
+    ]
+    return scenes.scene(
+        [4.0, 5.0, 6.0], supports, loads, EI=1e4, EA=1e6, hinges=[10.0],
+        sections=[{"from": 6.0, "to": 8.0, "EI": 4e4}],
+    )  # fmt: skip
+
+
+def symbols(picture):
+    """Number and face colour of the support symbols in the first panel, by label."""
+    return {
+        collection.get_label(): (len(collection.get_offsets()), tuple(collection.get_facecolor()[0]))
+        for collection in picture.axes[0].collections
+        if len(collection.get_facecolor())
+    }
+
+
+def curve(axes):
+    """The data of the curve in a panel."""
+    return next(line for line in axes.lines if line.get_label() == "curve").get_data()
+
+
+def test_closed_symbols_are_filled_and_open_ones_are_not():
+    shown = symbols(figure(gapbeam.solve(paper())))
+    black, white = to_rgba("black"), to_rgba("white")
+    assert shown["closed above"] == (1, black)
+    assert shown["closed below"] == (1, black)
+    assert shown["open below"] == (1, white)
+
+
+@pytest.mark.parametrize("spans", [10, 50, 200])
+def test_every_support_has_its_symbol(spans):
+    q = np.random.default_rng(7).uniform(-10, 25, spans)
+    supports = [scenes.at(0), *(scenes.at(i, side="below", stiffness=1e5) for i in range(1, spans)), scenes.at(spans)]
+    loads = [scenes.uniform(float(load), **scenes.stretch(6.0 * i, 6.0 * i + 6.0)) for i, load in enumerate(q)]
+    result = gapbeam.solve(scenes.scene([6.0] * spans, supports, loads, EI=1e4))
+    states = result.steps[-1].state
+    shown = symbols(figure(result))
+    collections = {c.get_label(): len(c.get_offsets()) for c in figure(result).axes[0].collections}
+    assert collections["closed below"] == states.count("closed")
+    assert collections["open below"] == states.count("open")
+    bilateral = "bilateral" if spans > 60 else "bilateral below"
+    assert collections[bilateral] == 2
+    if spans <= 60:
+        assert shown["open below"][1] == to_rgba("white")
+
+
+def test_panels_and_their_directions():
+    result = gapbeam.solve(paper())
+    picture = figure(result)
+    labels = [axes.get_ylabel().split()[0] for axes in picture.axes[1:]]
+    assert labels == ["deflection", "moment", "shear"]
+    assert [axes.yaxis_inverted() for axes in picture.axes[1:]] == [True, True, False]
+    assert len({axes.get_xlim() for axes in picture.axes}) == 1
+    assert "tension side" in picture.axes[2].get_ylabel()
+    x, moment = curve(picture.axes[2])
+    assert np.interp(4.0, x, moment) == pytest.approx(result.extremes()["moment"]["min"][0])
+
+
+def test_curves_are_those_of_the_result():
+    result = gapbeam.solve(paper())
+    x, shear = curve(figure(result).axes[3])
+    assert shear.max() == pytest.approx(result.extremes()["shear"]["max"][0])
+    assert (np.diff(x) == 0.0).any()  # jumps are drawn as jumps
+
+
+def test_extremes_are_annotated():
+    texts = [text.get_text() for axes in figure(gapbeam.solve(paper())).axes[1:] for text in axes.texts]
+    assert len(texts) == 6
+    assert "\N{MINUS SIGN}3.171 at 4" in texts
+
+
+def test_labels_of_loads_and_extremes_do_not_overlap():
+    for scene in (paper(), everything()):
+        picture = figure(gapbeam.solve(scene))
+        picture.draw_without_rendering()
+        for axes in picture.axes:
+            boxes = [text.get_window_extent() for text in axes.texts if text.get_text()]
+            pairs = [(a, b) for i, a in enumerate(boxes) for b in boxes[:i]]
+            # Bounding boxes hold some empty space above and below the letters.
+            assert not any(a.shrunk(1, 0.7).overlaps(b.shrunk(1, 0.7)) for a, b in pairs)
+
+
+def test_everything_is_drawn():
+    picture = figure(gapbeam.solve(everything()))
+    labels = {artist.get_label() for artist in picture.axes[0].collections}
+    assert {"beam", "hinges", "springs", "ground", "clamp", "rotational spring", "axial", "forces", "couples"} <= labels
+    assert {"distributed down", "distributed up", "distributed curvature"} <= labels
+    assert picture.axes[-1].get_ylabel().startswith("axial force")
+
+
+def test_an_unloaded_beam_can_be_drawn():
+    picture = figure(gapbeam.solve(scenes.scene([2.0], [scenes.at(0), scenes.at(1)])))
+    assert len(picture.axes) == 4
+
+
+def test_a_free_motion_is_drawn_when_there_is_no_equilibrium():
+    supports = [scenes.at(1, side="below"), scenes.at(2, side="below")]
+    result = gapbeam.solve(scenes.scene([2.0, 4.0, 2.0], supports, [scenes.force(8.0, 2.0)]))
+    assert result.status == "no-equilibrium"
+    picture = figure(result)
+    assert picture.axes[1].get_ylabel().startswith("free motion")
+    x, motion = curve(picture.axes[1])
+    assert x[0] == 0.0
+    assert x[-1] == 8.0
+    assert np.abs(motion).max() == 1.0
+
+
+@pytest.mark.parametrize("suffix", ["png", "pdf", "svg"])
+def test_files(tmp_path, suffix):
+    path = tmp_path / f"beam.{suffix}"
+    plot(gapbeam.solve(everything()), path)
+    assert path.stat().st_size > 10_000
+    if suffix == "png":
+        image = imread(path)
+        assert image.shape[1] >= 1400
+        assert 0.01 < (image[..., :3].mean(axis=2) < 0.5).mean() < 0.3  # there is ink, and not only ink
+
+
+def test_figure_leaves_pyplot_alone():
+    import sys
+
+    figure(gapbeam.solve(paper()))
+    assert "matplotlib.pyplot" not in sys.modules

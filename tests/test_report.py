@@ -1,0 +1,160 @@
+"""The report, JSON and CSV of a result."""
+
+import csv
+import io
+import json
+import math
+import re
+
+import gapbeam
+import numpy as np
+import pytest
+import scenes
+from gapbeam.report import report_text, to_csv, to_json
+from gapbeam.report_scheme import merged, scheme_table
+
+
+def rocking(steps=8):
+    """Two spans that only lie on their supports, the load on the first one lifts the far end."""
+    made = scenes.scene(
+        [1.0, 1.0], [scenes.at(node, side="below") for node in range(3)],
+        [scenes.uniform(1.0, case="dead"), scenes.uniform(10.0, to=1.0)], analysis={"steps": steps},
+    )  # fmt: skip
+    return made | {"title": "Rocking", "units": {"force": "kN", "length": "m"}}
+
+
+def many(spans, steps=1):
+    """Many equal spans on one-sided springs under loads that change from span to span."""
+    q = np.random.default_rng(7).uniform(-10, 25, spans)
+    supports = [scenes.at(0), *(scenes.at(node, side="below", stiffness=1e5) for node in range(1, spans)), scenes.at(spans)]
+    loads = [scenes.uniform(float(load), **scenes.stretch(6.0 * i, 6.0 * i + 6.0)) for i, load in enumerate(q)]
+    return scenes.scene([6.0] * spans, supports, loads, EI=1e4, analysis={"steps": steps})
+
+
+@pytest.fixture(scope="module")
+def result():
+    return gapbeam.solve(rocking())
+
+
+@pytest.fixture(scope="module", params=[30, 100, 250])
+def long_result(request):
+    return gapbeam.solve(many(request.param, steps=2))
+
+
+def numbers(value):
+    """All numbers in nested lists and dicts."""
+    if isinstance(value, dict):
+        value = list(value.values())
+    if isinstance(value, list):
+        return [number for item in value for number in numbers(item)]
+    return [value] if isinstance(value, float) else []
+
+
+def test_json_reads_back_to_the_same_numbers(result):
+    data = json.loads(to_json(result))
+    assert data == json.loads(json.dumps(result.to_dict()))
+    assert data["steps"][-1]["supports"][0]["reaction"] == result.steps[-1].reaction[0]
+    assert data["fields"]["moment"] == result.fields().moment.tolist()
+    assert list(data)[:2] == ["title", "units"]
+    assert {"status", "system", "steps", "fields", "extremes"} <= set(data)
+    assert all(map(math.isfinite, numbers(data)))
+
+
+def test_json_holds_one_line_a_support(result):
+    lines = to_json(result).splitlines()
+    assert sum('"reaction"' in line for line in lines) == 8 * 3
+
+
+def test_csv_is_the_table_of_the_fields(result):
+    header, *rows = csv.reader(io.StringIO(to_csv(result, points=10)))
+    fields = result.fields(points=10)
+    assert header == ["x [m]", "deflection [m]", "rotation [rad]", "moment [kN m]", "shear [kN]"]
+    table = np.array(rows, dtype=float).T
+    for name, column in zip(("x", "deflection", "rotation", "moment", "shear"), table, strict=True):
+        np.testing.assert_array_equal(column, getattr(fields, name))
+
+
+def test_csv_has_axial_columns_only_with_axial_loads():
+    scene = rocking(1)
+    scene["beam"]["EA"] = 1e5
+    scene["supports"].append({"node": 0, "direction": "axial"})
+    scene["loads"].append({"type": "axial", "node": 2, "F": 3.0})
+    result = gapbeam.solve(scene)
+    header = to_csv(result).partition("\n")[0]
+    assert header.endswith("shear [kN],axial_force [kN],axial_displacement [m]")
+    text = report_text(result)
+    assert "axial force [kN]" in text
+    assert "axial forces" not in text.partition("left out")[2].partition("\n\n")[0]
+
+
+def test_without_unit_labels_there_are_no_brackets():
+    assert "[" not in report_text(gapbeam.solve(rocking() | {"units": {}})).replace("[rad]", "")
+
+
+@pytest.mark.parametrize("width", [80, 100])
+def test_no_line_is_longer_than_the_terminal(result, width):
+    lines = report_text(result, width).splitlines()
+    assert max(map(len, lines)) <= width
+
+
+def test_long_reports_stay_narrow_and_short(long_result):
+    lines = report_text(long_result).splitlines()
+    assert max(map(len, lines)) <= 80
+    assert len(lines) < 130
+
+
+def test_numbers_are_not_broken(result):
+    lines = report_text(result, 80).splitlines()
+    rows = [line.split() for line in lines if re.match(r"\d +\d +below ", line)]
+    assert [len(row) for row in rows] == [8] * 3
+    assert [float(row[5]) for row in rows] == pytest.approx(result.steps[-1].reaction, abs=1e-5)
+
+
+def test_long_tables_are_cut_and_say_so(long_result):
+    text = report_text(long_result)
+    supports = len(long_result.scene.supports)
+    if supports > 40:
+        assert f"{supports - 40} rows in the middle are left out here; all are in the output of --json" in text
+    else:
+        assert "left out here" not in text
+
+
+def test_the_history_shows_every_change(result):
+    text = report_text(result).partition("Working scheme")[2].partition("Supports at")[0]
+    assert ["●", "●", "○"] in [line.split()[-3:] for line in text.splitlines()]
+    rows = merged(result.history())
+    assert [row[2] for row in rows] == [("closed",) * 3, ("closed", "closed", "open")]
+    assert rows[0][0] == 0.125
+    assert rows[-1][1] == 1.0
+
+
+def test_the_history_of_hundreds_of_supports_names_the_changes():
+    states = ["closed"] * 500
+    history = [(0.5, tuple(states))]
+    for index in (3, 4, 5, 70):
+        states[index] = "open"
+    history.append((1.0, tuple(states)))
+    headings, rows = scheme_table(history, 80)
+    assert len(headings) == 4
+    assert rows == [["0.5", "500", "0", "start"], ["1", "496", "4", "4 open: 3-5, 70"]]
+
+
+@pytest.mark.parametrize("supports", [27, 50, 99, 200])
+def test_the_history_of_many_supports_has_a_symbol_for_each(supports):
+    states = tuple("open" if index % 3 else "closed" for index in range(supports))
+    _, rows = scheme_table([(1.0, states)], 80)
+    symbols = "".join(row[-1].replace(" ", "") for row in rows)
+    assert symbols == "".join("○" if state == "open" else "●" for state in states)
+
+
+def test_a_bilateral_beam_has_no_history():
+    scene = scenes.scene([2.0], [scenes.at(0), scenes.at(1)], [scenes.force(1.0, 3.0)])
+    text = report_text(gapbeam.solve(scene))
+    assert "Working scheme" not in text
+    assert "opening" not in text
+
+
+def test_steps_and_residuals(result):
+    text = report_text(result).partition("Residuals against run time")[2]
+    for words in ("solves", "time", "equilibrium", "compatibility", "complementarity", "0.125"):
+        assert words in text

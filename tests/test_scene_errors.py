@@ -1,0 +1,450 @@
+"""Every error in a scene, with its exact message.
+
+The tables hold a wrong part of a scene as TOML ("; " stands for a new line) and the message it gets.
+"""
+
+import re
+import tomllib
+from copy import deepcopy
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from gapbeam.errors import GapbeamError, SceneError
+from gapbeam.scene import (
+    Beam,
+    ForceLoad,
+    LinearLoad,
+    Scene,
+    Support,
+    UniformLoad,
+    read_scene,
+)
+
+inf = float("inf")
+BEAM = {"spans": [6.0, 6.0, 6.0], "EI": 1.0e4}
+FORCE = {"type": "force", "x": 3.0, "F": 25.0}
+
+
+def message(**parts):
+    """Message with which a scene is refused; whatever is not given is sound."""
+    scene = {"beam": BEAM, "supports": [{"node": 0}, {"node": 3}], "loads": [FORCE]} | deepcopy(parts)
+    with pytest.raises(SceneError) as caught:
+        read_scene({key: value for key, value in scene.items() if value is not None})
+    return str(caught.value)
+
+
+def cases(table):
+    """Pairs of a piece of TOML and the message it gets."""
+    pairs = []
+    for case in re.sub(r"\n +", " ", table).strip().splitlines():
+        given, _, expected = case.partition(" ->")
+        pairs.append(pytest.param(tomllib.loads(given.replace("; ", "\n")), expected.strip(), id=given))
+    return pairs
+
+
+# Types and keys
+
+TYPES_IN_A_SUPPORT = """
+gap = "0,02" -> supports[0].gap: expected a number, got "0,02"
+gap = true -> supports[0].gap: expected a number, got true
+gap = [1, 2] -> supports[0].gap: expected a number, got [1, 2]
+gap = {} -> supports[0].gap: expected a number, got a table
+node = "end" -> supports[0].node: expected a whole number, got "end"
+node = 1.5 -> supports[0].node: expected a whole number, got 1.5
+side = "under" -> supports[0].side: expected "above", "below" or "both", got "under"
+side = 1 -> supports[0].side: expected "above", "below" or "both", got 1
+rotation = "stiff" -> supports[0].rotation: expected "fixed", "free" or a number, got "stiff"
+rotation = [1] -> supports[0].rotation: expected "fixed", "free" or a number, got [1]
+direction = "x" -> supports[0].direction: expected "axial" or "normal", got "x"
+law = 3 -> supports[0].law: expected a list of pairs of numbers, got 3
+law = [[1.0]] -> supports[0].law[0]: expected a pair of numbers, got [1.0]
+law = [[1.0, "a"]] -> supports[0].law[0][1]: expected a number, got "a"
+stifness = 3 -> supports[0].stifness: unknown key; did you mean "stiffness"?
+Stiffness = 3 -> supports[0].Stiffness: unknown key; did you mean "stiffness"?
+zzz = 1 ->
+    supports[0].zzz: unknown key; the keys are node, x, side, stiffness, gap, settlement, rotation,
+    direction and law
+"""
+
+
+@pytest.mark.parametrize(("given", "expected"), cases(TYPES_IN_A_SUPPORT))
+def test_types_in_a_support(given, expected):
+    assert message(supports=[{"x": 1.0} | given]) == expected
+
+
+TYPES_AND_KEYS = """
+beam = {EI = 1.0} -> beam.spans: this key is missing; give a list of numbers
+beam = {spans = [1.0]} -> beam.EI: this key is missing; give a number or a list of numbers
+beam = [{spans = [6.0, 6.0, 6.0], EI = 1e4}] -> beam: expected a table, got a list of tables
+supports = {node = 0} -> supports: expected a list of tables, got a table
+suports = [] -> suports: unknown key; did you mean "supports"?
+support = [] -> support: unknown key; did you mean "supports"?
+title = 3 -> title: expected a text in quotes, got 3
+units = {force = 3} -> units.force: expected a text in quotes, got 3
+units = {mass = "kg"} -> units.mass: unknown key; the keys are force and length
+beam = {spans = [6.0, 6.0, 6.0], EI = 1e4, ei = 1.0} -> beam.ei: unknown key; did you mean "EI"?
+beam = {spans = [6.0, 6.0, 6.0], EI = "rigid"} -> beam.EI: expected a number or a list of numbers, got "rigid"
+beam = {spans = [6.0, 6.0, 6.0], EI = [1.0, "a"]} -> beam.EI[1]: expected a number, got "a"
+beam = {spans = 6.0, EI = 1e4} -> beam.spans: expected a list of numbers, got 6.0
+beam = {spans = [6.0, "x"], EI = 1e4} -> beam.spans[1]: expected a number, got "x"
+beam = {spans = [6.0, 6.0, 6.0], EI = 1e4, hinges = 3} -> beam.hinges: expected a list of numbers, got 3
+sections = [{EI = 1.0, from_ = 2}] -> sections[0].from_: unknown key; did you mean "from"?
+sections = [{EI = [1.0]}] -> sections[0].EI: expected a number, got [1.0]
+foundation = [{}] -> foundation[0].k: this key is missing; give a number
+foundation = [{k = "soft"}] -> foundation[0].k: expected a number, got "soft"
+analysis = {steps = 2.5} -> analysis.steps: expected a whole number, got 2.5
+analysis = {rule = "fast"} -> analysis.rule: expected "block" or "single", got "fast"
+analysis = {follow = "load"} -> analysis.follow: expected "events" or "steps", got "load"
+loads = [{}] ->
+    loads[0].type: this key is missing; give "force", "moment", "uniform", "linear", "curvature" or "axial"
+loads = [{type = "point"}] ->
+    loads[0].type: expected "force", "moment", "uniform", "linear", "curvature" or "axial", got "point"
+loads = [{type = 3}] ->
+    loads[0].type: expected "force", "moment", "uniform", "linear", "curvature" or "axial", got 3
+loads = [5] -> loads[0]: expected a table, got 5
+loads = [{type = "force", x = 1.0}] -> loads[0].F: this key is missing; give a number
+loads = [{type = "moment", x = 1.0, F = 1.0}] ->
+    loads[0].F: unknown key; the keys of a load of type "moment" are type, node, x, case and M
+loads = [{type = "linear", q = 3.0}] -> loads[0].q: expected a pair of numbers, got 3.0
+loads = [{type = "linear", q = [1, 2, 3]}] -> loads[0].q: expected a pair of numbers, got [1, 2, 3]
+loads = [{type = "uniform", q = [1, 2]}] -> loads[0].q: expected a number, got [1, 2]
+loads = [{type = "force", x = 3.0, F = 25.0, case = "wind"}] ->
+    loads[0].case: expected "dead" or "live", got "wind"
+"""
+
+
+@pytest.mark.parametrize(("given", "expected"), cases(TYPES_AND_KEYS))
+def test_types_and_keys(given, expected):
+    assert message(**given) == expected
+
+
+def test_what_toml_cannot_say():
+    assert message(beam=None) == "beam: this key is missing; give a table"
+    assert message(supports=[{"gap": None}]) == "supports[0].gap: expected a number, got null"
+    assert message(analysis={"steps": 10**30}).startswith("analysis.steps: expected a whole number, got 100")
+    assert message(supports=[{"node": 10**400}]).startswith("supports[0].node: expected a whole number, got")
+    assert message(supports=[{1: 3}]) == "supports[0]: keys are texts, one key here is not"
+
+
+# Beam and sections
+
+IN_THE_BEAM = """
+spans = [] -> beam.spans: the beam has no span; give at least one length, for example [6.0]
+spans = [6.0, 0.0] ->
+    beam.spans[1]: the span from x = 6 to x = 6 has length 0; give a length above 0 or remove it
+spans = [6.0, 6.0, -6.0] ->
+    beam.spans[2]: the span from x = 12 to x = 6 has length -6; give a length above 0 or remove it
+spans = [6.0, inf] -> beam.spans[1]: expected a finite length above 0, got inf
+spans = [nan] -> beam.spans[0]: expected a finite length above 0, got nan
+spans = [1e+308, 1e+308] -> beam.spans: the beam is too long for the range of numbers
+spans = [1e+20, 1.0] ->
+    beam.spans[1]: a length of 1 is lost in rounding at x = 1e+20; give a greater length or remove it
+EI = 0.0 -> beam.EI: expected a number above 0 (inf = rigid), got 0
+EI = -1e4 -> beam.EI: expected a number above 0 (inf = rigid), got -10000
+EI = nan -> beam.EI: expected a number above 0 (inf = rigid), got nan
+GA = [1.0, 2.0, 0.0] -> beam.GA[2]: expected a number above 0 (inf = rigid), got 0
+EA = [nan, 2.0, 0.0] -> beam.EA[0]: expected a number above 0 (inf = rigid), got nan
+EI = [1e4, 1e4] -> beam.EI: has 2 values for 3 spans; give one number, or one per span
+EI = [] -> beam.EI: has 0 values for 3 spans; give one number, or one per span
+hinges = [0.0] -> beam.hinges[0]: x = 0 is an end of the beam, where no hinge can be; remove it
+hinges = [1e-17] -> beam.hinges[0]: x = 1e-17 is an end of the beam, where no hinge can be; remove it
+hinges = [3.0, 18.000000000000004] ->
+    beam.hinges[1]: x = 18 is an end of the beam, where no hinge can be; remove it
+hinges = [19.0] -> beam.hinges[0]: 19 is outside the beam, which runs from x = 0 to x = 18
+hinges = [-1.0] -> beam.hinges[0]: -1 is outside the beam, which runs from x = 0 to x = 18
+hinges = [nan] -> beam.hinges[0]: expected a number, got nan
+hinges = [6.0, 3.0, 6.000000000000001] ->
+    beam.hinges[2]: at x = 6 there is a hinge already (beam.hinges[0]); remove one of them
+"""
+
+
+@pytest.mark.parametrize(("given", "expected"), cases(IN_THE_BEAM))
+def test_beam(given, expected):
+    assert message(beam=BEAM | given) == expected
+
+
+IN_A_SECTION = """
+from = 4.0; to = 2.0; EI = 1.0 ->
+    sections[1]: the stretch from = 4 to = 2 has no length; from must be less than to
+from = 4.0; to = 4.000000000000001; EI = 1.0 ->
+    sections[1]: the stretch from = 4 to = 4 has no length; from must be less than to
+from = 18.0; EI = 1.0 -> sections[1]: the stretch from = 18 to = 18 has no length; from must be less than to
+from = -1.0; EI = 1.0 -> sections[1].from: -1 is outside the beam, which runs from x = 0 to x = 18
+to = 18.1; EI = 1.0 -> sections[1].to: 18.1 is outside the beam, which runs from x = 0 to x = 18
+to = inf; EI = 1.0 -> sections[1].to: inf is outside the beam, which runs from x = 0 to x = 18
+to = nan; EI = 1.0 -> sections[1].to: expected a number, got nan
+EI = 0 -> sections[1].EI: expected a number above 0 (inf = rigid), got 0.0
+GA = -2.5 -> sections[1].GA: expected a number above 0 (inf = rigid), got -2.5
+EA = nan -> sections[1].EA: expected a number, got nan
+from = 2.0; to = 4.0 -> sections[1]: changes nothing; give EI, GA or EA
+"""
+
+
+@pytest.mark.parametrize(("given", "expected"), cases(IN_A_SECTION))
+def test_sections(given, expected):
+    assert message(sections=[{"EI": 1.0}, given]) == expected
+
+
+# Supports
+
+IN_A_SUPPORT = """
+# no key -> supports[0]: its place is missing; give node or x
+node = 1; x = 6.0 -> supports[0]: has both node = 1 and x = 6; give one of the two
+node = 4 -> supports[0].node: there is no node 4; the nodes of the beam are 0 to 3
+node = -1 -> supports[0].node: there is no node -1; the nodes of the beam are 0 to 3
+x = 19.0 -> supports[0].x: 19 is outside the beam, which runs from x = 0 to x = 18
+x = -0.001 -> supports[0].x: -0.001 is outside the beam, which runs from x = 0 to x = 18
+x = nan -> supports[0].x: expected a number, got nan
+x = inf -> supports[0].x: inf is outside the beam, which runs from x = 0 to x = 18
+x = 6.0; stiffness = -1.0 -> supports[0].stiffness: expected a number, 0 or more (inf = rigid), got -1.0
+x = 6.0; stiffness = nan -> supports[0].stiffness: expected a number, got nan
+x = 6.0; side = "below"; gap = inf -> supports[0].gap: expected a finite number, got inf
+x = 6.0; side = "below"; gap = nan -> supports[0].gap: expected a finite number, got nan
+x = 6.0; settlement = -inf -> supports[0].settlement: expected a finite number, got -inf
+x = 6.0; gap = 0.01 -> supports[0].gap: only a support with side = "below" or "above" has a gap
+x = 6.0; rotation = -3 -> supports[0].rotation: expected "free", "fixed" or a number, 0 or more, got -3.0
+x = 6.0; rotation = nan -> supports[0].rotation: expected "free", "fixed" or a number, 0 or more, got nan
+x = 6.0; direction = "axial"; side = "below" ->
+    supports[0].side: an axial support holds on both sides; use side = "both"
+x = 6.0; direction = "axial"; gap = 0.1 -> supports[0].gap: an axial support has no gap; remove it
+x = 6.0; direction = "axial"; rotation = "fixed" ->
+    supports[0].rotation: an axial support holds no rotation; a normal one here can do that
+x = 6.0; law = [[0.01, 100.0]] ->
+    supports[0].law: piecewise linear laws are not available in this version; give stiffness instead
+x = 6.0; law = [[0.01, 100.0]]; stiffness = 5.0 ->
+    supports[0]: has both stiffness and law; give one of the two
+"""
+
+
+@pytest.mark.parametrize(("given", "expected"), cases(IN_A_SUPPORT))
+def test_support(given, expected):
+    assert message(supports=[given]) == expected
+
+
+@pytest.mark.parametrize("place", [{"x": 6.0}, {"node": 1}, {"x": 6.000000000000001}])
+def test_rotation_held_at_a_hinge(place):
+    problem = "there is a hinge here, so it is open which side is held; move one aside"
+    expected = f"supports[0].rotation: {problem}"
+    assert message(beam=BEAM | {"hinges": [6.0]}, supports=[place | {"rotation": "fixed"}]) == expected
+    assert message(beam=BEAM | {"hinges": [3.0, 6.0, 9.0]}, supports=[place | {"rotation": 5.0}]) == expected
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "what"),
+    [
+        ({}, {}, 'are rigid with side = "both"'),
+        ({"side": "below"}, {"side": "below", "gap": 0.1}, 'are rigid with side = "below"'),
+        ({"side": "above"}, {"side": "above"}, 'are rigid with side = "above"'),
+        ({"direction": "axial"}, {"direction": "axial"}, "hold the beam horizontally and rigidly"),
+        ({"side": "below", "rotation": "fixed"}, {"rotation": inf}, "hold the rotation of the beam rigidly"),
+    ],
+)
+@pytest.mark.parametrize("places", [({"x": 6.0}, {"node": 1}), ({"x": 6.0}, {"x": 6.000000000000001})])
+def test_two_supports_of_a_kind_at_one_place(first, second, what, places):
+    supports = [places[0] | first, {"node": 0, "stiffness": 1.0}, places[1] | second]
+    expected = f"supports[2]: this one and supports[0] both stand at x = 6 and {what}; remove one of them"
+    assert message(supports=supports) == expected
+
+
+NO_ROOM = """
+a = {side = "below", gap = 0.01}; b = {side = "above", gap = -0.03} ->
+    supports[0]: this one (below, acts at a deflection of 0.01) and supports[1] (above, acts at 0.03)
+    leave no room at x = 6; give a greater gap
+a = {side = "above", settlement = 0.5, gap = 0.1}; b = {side = "below", gap = 0.1} ->
+    supports[1]: this one (below, acts at a deflection of 0.1) and supports[0] (above, acts at 0.4)
+    leave no room at x = 6; give a greater gap
+a = {}; b = {side = "below"} ->
+    supports[1]: this one (below, acts at a deflection of 0) and supports[0] (both, acts at 0)
+    leave no room at x = 6; give a greater gap
+a = {settlement = 0.2}; b = {side = "above", settlement = 0.2} ->
+    supports[0]: this one (both, acts at a deflection of 0.2) and supports[1] (above, acts at 0.2)
+    leave no room at x = 6; give a greater gap
+"""
+
+
+@pytest.mark.parametrize(("given", "expected"), cases(NO_ROOM))
+def test_no_room_between_two_supports(given, expected):
+    assert message(supports=[{"x": 6.0} | given["a"], {"x": 6.0} | given["b"]]) == expected
+
+
+# Loads
+
+IN_A_LOAD = """
+type = "force"; F = 1.0 -> loads[1]: its place is missing; give node or x
+type = "moment"; M = 1.0; node = 0; x = 0.0 -> loads[1]: has both node = 0 and x = 0; give one of the two
+type = "force"; F = 1.0; node = 9 -> loads[1].node: there is no node 9; the nodes of the beam are 0 to 3
+type = "moment"; M = 1.0; x = 18.5 -> loads[1].x: 18.5 is outside the beam, which runs from x = 0 to x = 18
+type = "force"; F = inf; x = 1.0 -> loads[1].F: expected a finite number, got inf
+type = "force"; F = nan; x = 1.0 -> loads[1].F: expected a finite number, got nan
+type = "moment"; M = -inf; x = 1.0 -> loads[1].M: expected a finite number, got -inf
+type = "uniform"; q = nan -> loads[1].q: expected a finite number, got nan
+type = "linear"; q = [1.0, inf] -> loads[1].q: expected finite numbers, got [1.0, inf]
+type = "curvature"; kappa = inf -> loads[1].kappa: expected a finite number, got inf
+type = "uniform"; q = 1.0; from = 5.0; to = 5.0 ->
+    loads[1]: the stretch from = 5 to = 5 has no length; from must be less than to
+type = "linear"; q = [1.0, 2.0]; from = 5.0; to = 25.0 ->
+    loads[1].to: 25 is outside the beam, which runs from x = 0 to x = 18
+type = "curvature"; kappa = 1.0; from = -5.0 ->
+    loads[1].from: -5 is outside the beam, which runs from x = 0 to x = 18
+type = "axial"; F = 1.0; node = 0 ->
+    loads[1]: nothing holds the beam horizontally; give a support direction = "axial"
+"""
+
+
+@pytest.mark.parametrize(("given", "expected"), cases(IN_A_LOAD))
+def test_loads(given, expected):
+    assert message(loads=[FORCE, given]) == expected
+
+
+@pytest.mark.parametrize(
+    "place", [{"x": 6.0}, {"node": 1}, {"x": 6.000000000000001}, {"x": 5.999999999999999}]
+)
+def test_moment_at_a_hinge(place):
+    expected = (
+        "loads[1]: the moment acts exactly at the hinge at x = 6, so it is open which side takes it; "
+        "put it on one side of the hinge"
+    )
+    loads = [FORCE, {"type": "moment", "M": 2.0} | place]
+    assert message(beam=BEAM | {"hinges": [9.0, 6.0]}, loads=loads) == expected
+
+
+# What later versions bring
+
+
+def test_not_available_yet():
+    refused = "foundation[0]: foundations are not available in this version; use elastic supports"
+    assert message(foundation=[{"k": 5.0e3, "side": "below"}]) == refused
+    refused = 'analysis.follow: events are not available in this version; use "steps"'
+    assert message(analysis={"follow": "events"}) == refused
+
+
+@pytest.mark.parametrize("steps", [0, -3])
+def test_steps(steps):
+    expected = f"analysis.steps: expected a whole number, 1 or more, got {steps}"
+    assert message(analysis={"steps": steps}) == expected
+
+
+# Scenes built in Python
+
+
+def refused(**parts):
+    with pytest.raises(SceneError) as caught:
+        read_scene(Scene(**({"beam": Beam([6.0, 6.0], EI=1e4)} | parts)))
+    return str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("parts", "expected"),
+    [
+        ({"supports": [Support(x="6")]}, 'supports[0].x: expected a number, got "6"'),
+        (
+            {"supports": [Support(x=6.0, side="left")]},
+            'supports[0].side: expected "above", "below" or "both", got "left"',
+        ),
+        ({"supports": Support(x=6.0)}, "supports: expected a list of tables, got a table"),
+        (
+            {"beam": Beam([6.0, -1.0], EI=1e4)},
+            "beam.spans[1]: the span from x = 6 to x = 5 has length -1; give a length above 0 or remove it",
+        ),
+        ({"beam": Beam(6.0, EI=1e4)}, "beam.spans: expected a list of numbers, got 6.0"),
+        ({"beam": Beam(np.zeros((2, 2)), EI=1e4)}, "beam.spans[0]: expected a number, got [0.0, 0.0]"),
+        ({"loads": [ForceLoad(x=1.0, F=np.array("a"))]}, 'loads[0].F: expected a number, got "a"'),
+        ({"loads": [LinearLoad(q=[1.0])]}, "loads[0].q: expected a pair of numbers, got [1.0]"),
+        ({"loads": [UniformLoad(q=10**400)]}, "loads[0].q: expected a number, got 1" + 56 * "0" + "..."),
+    ],
+)
+def test_python_scene(parts, expected):
+    assert refused(**parts) == expected
+
+
+def test_structs_among_data():
+    assert message(supports=[Support(x="6")]) == 'supports[0].x: expected a number, got "6"'
+    assert message(beam=Beam(["a"], EI=1.0)) == 'beam.spans[0]: expected a number, got "a"'
+    assert message(loads=[FORCE, UniformLoad(q="a")]) == 'loads[1].q: expected a number, got "a"'
+
+
+def test_no_scene():
+    expected = "expected a Scene, a mapping or the path of a file, got "
+    for source, got in ((5, "5"), (None, "null"), ([1], "[1]"), (Beam([1.0], EI=1.0), "a table")):
+        with pytest.raises(SceneError) as caught:
+            read_scene(source)
+        assert str(caught.value) == expected + got
+
+
+# Files
+
+
+def write(folder, name, text):
+    path = folder / name
+    path.write_bytes(text if isinstance(text, bytes) else text.encode())
+    with pytest.raises(SceneError) as caught:
+        read_scene(path)
+    assert str(caught.value).startswith(str(path))
+    return str(caught.value).removeprefix(str(path))
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "begin", "end"),
+    [
+        ("a.toml", "[beam]\nspans = [6.0\nEI = 1\n", ", line 3, column 1: ", ", in: EI = 1"),
+        ("a.toml", "[beam]\nEI == 1\n", ", line 2, column 5: ", ", in: EI == 1"),
+        ("a.toml", "[beam]\nEI = 0,02\n", ", line 2, column 7: ", '; write numbers with a point: "0.02"'),
+        ("a.toml", "[beam]\nEI = 1\nEI = 2\n", ", line 3, column 7: ", ", in: EI = 2"),
+        ("a.toml", '[beam]\ntitle = """x', ", line 2, column 13: ", ', in: title = """x'),
+        ("a.json", '{"beam":\n [}', ", line 2, column 3: ", ", in: [}"),
+        ("a.json", "", ", line 1, column 1: ", ""),
+    ],
+)
+def test_syntax(tmp_path, name, text, begin, end):
+    """The words between are those of Python's own readers."""
+    problem = write(tmp_path, name, text)
+    assert problem.startswith(begin)
+    assert problem.endswith(end)
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "expected"),
+    [
+        ("a.toml", b"title = '\xff'", ": not a text in UTF-8 (byte 10 is wrong)"),
+        ("a.json", '{"beam": {"EI": 1, "EI": 2}}', ': the key "EI" stands twice in one table'),
+        ("a.json", "[" * 100_000, ": tables or lists are nested too deeply"),
+    ],
+)
+def test_content(tmp_path, name, text, expected):
+    assert write(tmp_path, name, text) == expected
+
+
+def test_other_files(tmp_path):
+    assert write(tmp_path, "scene.yaml", "") == ': a scene file ends in .toml or .json, not in ".yaml"'
+    assert write(tmp_path, "scene", "") == ': a scene file ends in .toml or .json, not in ""'
+    path = tmp_path / "none.toml"
+    with pytest.raises(SceneError) as caught:
+        read_scene(str(path))
+    assert str(caught.value) == f"{path}: there is no such file"
+    (tmp_path / "folder.json").mkdir()
+    with pytest.raises(SceneError) as caught:
+        read_scene(tmp_path / "folder.json")
+    assert str(caught.value) == f"{tmp_path / 'folder.json'}: cannot be read (Is a directory)"
+    path = tmp_path / "list.json"
+    path.write_text("[1]")
+    with pytest.raises(SceneError) as caught:
+        read_scene(path)
+    assert str(caught.value) == "the scene: expected a table, got [1]"
+
+
+# The exception
+
+
+def test_scene_error():
+    error = SceneError("supports[2].gap", "wrong")
+    assert isinstance(error, GapbeamError)
+    assert isinstance(error, ValueError)
+    assert (str(error), error.place, error.problem) == ("supports[2].gap: wrong", "supports[2].gap", "wrong")
+    assert (str(SceneError("wrong")), SceneError("wrong").place) == ("wrong", "")
+
+
+def test_numbers_of_other_kinds_are_refused_as_what_they_are():
+    expected = 'supports[0].gap: expected a number, got "a"'
+    assert message(supports=[{"x": Fraction(1, 2), "gap": "a"}]) == expected
+    assert message(supports=[{"x": np.float64(0.5), "side": "up"}]).endswith('got "up"')
