@@ -2,7 +2,7 @@
 !>
 !>     call condense_link(pieces, dead, live, work, link)                           ! once for every span
 !>     call find_scheme(beam, factor, rule, closed, work, outcome, error)           ! at every load factor
-!>     call recover_beam(pieces, dead, live, factor, links, last, w, ml, mr, starts) ! where fields are wanted
+!>     call recover_beam(pieces, dead, live, factor, links, last, kind, w, ml, mr, starts)   ! for fields
 !>
 !> Units: any consistent set. Signs: x to the right, deflection and loads down, reactions up, moments sagging,
 !> couples and rotations clockwise. No procedure prints, stops, or keeps data between calls.
@@ -14,7 +14,8 @@ module gapbeam
     use gapbeam_band, only: plain, hinge, restrained
     use gapbeam_model, only: beam_type, support_type, below, above, both
     use gapbeam_system, only: workspace_type, new_workspace, set_loads, check_scheme
-    use gapbeam_scheme, only: find_scheme, outcome_type, rule_block, rule_single
+    use gapbeam_search, only: rule_block, rule_single
+    use gapbeam_scheme, only: find_scheme, outcome_type
     use gapbeam_fields, only: recover_beam, values_at, find_extremes
     use gapbeam_axial, only: solve_axial
     implicit none

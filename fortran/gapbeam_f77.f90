@@ -128,7 +128,7 @@ subroutine gbsolv(nl, ns, link, kind, compli, force, couple, snode, sside, sstif
 end subroutine gbsolv
 
 ! Fields at the left end of every piece
-subroutine gbreco(np, nl, piece, dead, live, factor, link, last, w, ml, mr, start)
+subroutine gbreco(np, nl, piece, dead, live, factor, link, last, kind, w, ml, mr, start)
     use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
     use gapbeam_element, only: field_type
     use gapbeam_link, only: link_type, piece_type, load_type
@@ -137,7 +137,7 @@ subroutine gbreco(np, nl, piece, dead, live, factor, link, last, w, ml, mr, star
     integer, intent(in) :: np, nl
     double precision, intent(in), target :: piece(3, np), dead(5, np), live(5, np), link(16, nl)
     double precision, intent(in) :: factor
-    integer, intent(in) :: last(nl)
+    integer, intent(in) :: last(nl), kind(0:nl)
     double precision, intent(in) :: w(0:nl), ml(0:nl), mr(0:nl)
     ! Deflection, rotation, moment, shear just right of the left end of each piece
     double precision, intent(out), target :: start(4, np)
@@ -154,7 +154,7 @@ subroutine gbreco(np, nl, piece, dead, live, factor, link, last, w, ml, mr, star
     call c_f_pointer(c_loc(live), lives, [np])
     call c_f_pointer(c_loc(link), links, [nl])
     call c_f_pointer(c_loc(start), starts, [np])
-    call recover_beam(pieces, deads, lives, factor, links, last, w, ml, mr, starts)
+    call recover_beam(pieces, deads, lives, factor, links, last, kind, w, ml, mr, starts)
 end subroutine gbreco
 
 ! Fields at NX places, each a piece (from 1) and the distance from its left end

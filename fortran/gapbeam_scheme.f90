@@ -1,42 +1,28 @@
-!> The working scheme: which one-sided supports act.
+!> The working scheme of a beam, or the proof that there is none.
 !>
-!> A scheme is right when no closed support pulls and no open one is penetrated. Two rules find it.
-!>
-!> single   the paper's: put back the open supports that are penetrated, else release the closed one that pulls
-!>          most, until nothing changes. Not proved finite; if a scheme comes back, block goes on.
-!> block    change every wrong support at once while the number of wrong ones falls; when it does not fall, for a few
-!>          solves the paper's rule in every neighbourhood at once, then the wrong support of least index
-!>          until it falls again. Finite for every stable beam: the problem is a linear complementarity problem
-!>          with a P-matrix, for which the least-index rule never repeats a scheme (Murty 1974; Judice and
-!>          Pires 1994).
-!>
-!> A beam that its bilateral supports alone do not hold may pass through mechanisms. Then weak springs towards a
-!> reference position hold it, the reference moves to the solution, and this is repeated: the proximal point
-!> method (Rockafellar 1976). The springs are gone from the final answer. If the reference runs away along a
-!> free motion that no support can stop and along which the loads do work, there is no equilibrium.
+!> Where the bilateral supports alone hold the beam every scheme is stable, and gapbeam_search ends with the right one.
+!> Other beams may pass through mechanisms. Then weak springs towards a reference position hold it, the reference
+!> moves to the solution, and this is repeated: the proximal point method (Rockafellar 1976). The springs are
+!> gone from the final answer. If the reference runs away along a free motion that no support can stop and along
+!> which the loads do work, there is no equilibrium: that motion is the proof (Farkas' lemma).
 module gapbeam_scheme
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_no_equilibrium, &
-        gapbeam_indeterminate, gapbeam_not_converged, gapbeam_not_finite
-    use gapbeam_band, only: band_ok, band_mechanism, band_needs_pivoting
+        gapbeam_not_converged, gapbeam_not_finite
+    use gapbeam_band, only: band_ok, band_needs_pivoting
     use gapbeam_model, only: beam_type, both, is_rigid
     use gapbeam_kinematics, only: free_motions, motion_type, work_of_loads
-    use gapbeam_system, only: workspace_type, solve_scheme
-    use gapbeam_rules, only: find_wrong, keep_worst, keep_least_index, left_to_right
+    use gapbeam_system, only: workspace_type, solve_scheme, refine_scheme
+    use gapbeam_rules, only: find_wrong
+    use gapbeam_search, only: settle, refuse, first_width
     implicit none
     private
-    public :: find_scheme, rule_block, rule_single, outcome_type
+    public :: find_scheme, outcome_type
 
-    !> The two rules
-    integer, parameter :: rule_block = 0, rule_single = 1
-    !> Solves without progress after which the block rule falls back to the least index
-    integer, parameter :: patience = 2
     !> Weak springs relative to the softest stiffness present
     real(wp), parameter :: ease_ratio = 1e-5_wp
     !> Moves of the reference position before giving up
     integer, parameter :: most_moves = 200
-    !> Signs are decided beyond this many rounding errors; widened where they still flicker, up to a limit
-    real(wp), parameter :: first_width = 32.0_wp, last_width = 1e7_wp
 
     !> How the search ended, apart from errors
     type :: outcome_type
@@ -56,7 +42,7 @@ contains
         type(beam_type), intent(in) :: beam
         !> Load factor (the loads themselves are in work, by set_loads)
         real(wp), intent(in) :: factor
-        !> rule_block or rule_single
+        !> rule_block or rule_single of gapbeam_search
         integer, intent(in) :: rule
         !> Start in, working scheme out, shape (size(beam%supports)); bilateral supports always act
         logical, intent(inout) :: closed(:)
@@ -77,99 +63,20 @@ contains
         call free_motions(beam, beam%supports%side == both, motions)
         allocate (start(size(closed)))
         start = closed
-        call iterate(beam, rule, size(motions) > 0, closed, work, settled, error)
+        call settle(beam, rule, size(motions) > 0, closed, work, settled, error)
         if (allocated(error)) return
         if (.not. settled) then
             closed = start
             call iterate_floating(beam, factor, rule, closed, work, outcome, error)
         end if
         if (allocated(error) .or. outcome%status /= gapbeam_solved) return
+        call refine_scheme(beam, closed, work)
         if (.not. all(abs(work%answers%deflection) <= huge(1.0_wp)) .or. &
             .not. all(abs(work%answers%moment_left) <= huge(1.0_wp))) then
             call fatal_error(error, gapbeam_not_finite, "numbers left the range of double precision: choose units " &
                 //"in which lengths, stiffnesses and loads are nearer to 1")
         end if
     end subroutine find_scheme
-
-    !> Change supports until none is wrong. With may_float it gives up (settled is false) at a mechanism or when the
-    !> block rule stops making progress
-    subroutine iterate(beam, rule, may_float, closed, work, settled, error)
-        type(beam_type), intent(in) :: beam
-        integer, intent(in) :: rule
-        logical, intent(in) :: may_float
-        logical, intent(inout) :: closed(:)
-        type(workspace_type), intent(inout) :: work
-        logical, intent(out) :: settled
-        type(error_type), allocatable, intent(out) :: error
-        logical, allocatable :: wrong(:), mark(:)
-        integer, allocatable :: order(:)
-        integer :: active_rule, wrong_now, fewest, chances, state, place, since_mark, next_mark
-        real(wp) :: width
-
-        allocate (wrong(size(closed)), mark(size(closed)))
-        allocate (order(size(closed)))
-        order(:) = left_to_right(beam)
-        active_rule = rule
-        width = first_width
-        fewest = huge(fewest)
-        chances = patience
-        mark = closed
-        since_mark = 0
-        next_mark = 1
-        do
-            call solve_scheme(beam, closed, work, state, place)
-            settled = .false.
-            if (state == band_mechanism .and. may_float) return
-            if (state /= band_ok) then
-                call refuse(beam, state, place, error)
-                return
-            end if
-            call find_wrong(beam, closed, width, work, wrong)
-            wrong_now = count(wrong)
-            settled = wrong_now == 0
-            if (settled) return
-            if (active_rule == rule_single) then
-                call keep_worst(beam, order, closed, work, .false., wrong)
-            else if (wrong_now < fewest) then
-                fewest = wrong_now
-                chances = patience
-            else if (chances > 0) then
-                chances = chances - 1
-                call keep_worst(beam, order, closed, work, .true., wrong)
-            else
-                if (may_float) return
-                if (chances == 0) then
-                    chances = -1
-                    since_mark = 0
-                    next_mark = 1
-                    mark = closed
-                end if
-                call keep_least_index(wrong)
-            end if
-            closed = closed .neqv. wrong
-            ! A scheme that comes back (Brent 1980): the single rule cycles, or rounding decides signs
-            if (active_rule == rule_single .or. chances < 0) then
-                since_mark = since_mark + 1
-                if (all(closed .eqv. mark)) then
-                    if (active_rule == rule_single) then
-                        active_rule = rule_block
-                    else
-                        width = 16*width
-                        if (width > last_width) then
-                            call fatal_error(error, gapbeam_not_converged, "the signs of some reactions or openings "// &
-                                             "cannot be told from rounding errors in double precision")
-                            settled = .false.
-                            return
-                        end if
-                    end if
-                else if (since_mark == next_mark) then
-                    mark = closed
-                    since_mark = 0
-                    next_mark = 2*next_mark
-                end if
-            end if
-        end do
-    end subroutine iterate
 
     !> The same for a beam that can float: weak springs, and a reference position that follows
     subroutine iterate_floating(beam, factor, rule, closed, work, outcome, error)
@@ -191,7 +98,7 @@ contains
         work%reference = 0.0_wp
         do move = 1, most_moves
             work%ease = ease
-            call iterate(beam, rule, .false., closed, work, settled, error)
+            call settle(beam, rule, .false., closed, work, settled, error)
             if (allocated(error)) return
             eased = work%answers%deflection
             ! Does the scheme hold without the springs?
@@ -289,24 +196,21 @@ contains
         end do
     end function distance_to_contact
 
-    !> The softest stiffness of the beam and its supports, force per length
+    !> A stiffness far below all others: that of the whole beam in bending, or of its softest support
     pure function softest(beam) result(stiffness)
         type(beam_type), intent(in) :: beam
         real(wp) :: stiffness
         integer :: i
 
         stiffness = huge(stiffness)
-        do i = 1, size(beam%links)
-            associate (link => beam%links(i))
-                if (link%bending > 0.0_wp) stiffness = min(stiffness, 1/(link%bending*link%length**2))
-            end associate
-        end do
+        if (any(beam%links%bending > 0.0_wp)) stiffness = 1/(sum(beam%links%bending)*sum(beam%links%length)**2)
         do i = 1, size(beam%supports)
             associate (s => beam%supports(i))
                 if (s%stiffness > 0.0_wp) stiffness = min(stiffness, s%stiffness)
             end associate
         end do
         if (.not. stiffness < huge(stiffness)) stiffness = 1.0_wp
+        stiffness = stiffness/(size(beam%links) + 1)
     end function softest
 
     !> Two rigid supports with clearance at one node cannot both act: begin with the first of them
@@ -326,22 +230,5 @@ contains
             end associate
         end do
     end subroutine separate_rigid_pairs
-
-    !> A scheme that cannot be solved though all that holds the beam acts
-    subroutine refuse(beam, state, place, error)
-        type(beam_type), intent(in) :: beam
-        integer, intent(in) :: state, place
-        type(error_type), allocatable, intent(out) :: error
-        character(len=40) :: text
-
-        write (text, "(i0, a, i0)") place, " of ", size(beam%links)
-        if (state == band_needs_pivoting) then
-            call fatal_error(error, gapbeam_indeterminate, "a rigid stretch of the beam near node "//trim(text)// &
-                             " rests on more rigid supports than statics can tell apart: give the stretch"// &
-                             " or one of its supports a finite stiffness")
-        else
-            call fatal_error(error, gapbeam_not_converged, "the scheme near node "//trim(text)//" cannot be solved")
-        end if
-    end subroutine refuse
 
 end module gapbeam_scheme

@@ -5,10 +5,10 @@ module gapbeam_system
         residual_chain, band_ok, band_mechanism, band_needs_pivoting
     use gapbeam_three_moment, only: fits_three_moment, solve_three_moment
     use gapbeam_lapack, only: solve_pivoting
-    use gapbeam_model, only: beam_type, is_rigid
+    use gapbeam_model, only: beam_type, support_type, both, is_rigid
     implicit none
     private
-    public :: workspace_type, new_workspace, set_loads, solve_scheme, check_scheme
+    public :: workspace_type, new_workspace, set_loads, solve_scheme, refine_scheme, check_scheme
     public :: method_mixed, method_three_moment, method_pivoting
 
     !> Which system was solved last
@@ -20,7 +20,7 @@ module gapbeam_system
         !> Loads of the current factor; with the supports of the scheme; and what elimination makes of it
         type(rhs_type), allocatable :: loads(:), rhs(:), eliminated(:)
         type(pivot_type), allocatable :: pivots(:)
-        type(answer_type), allocatable :: answers(:), correction(:)
+        type(answer_type), allocatable :: answers(:)
         real(wp), allocatable :: moment_work(:, :)
         !> Reaction of every support, positive up, and the rounding error it may have
         real(wp), allocatable :: reaction(:), reaction_error(:)
@@ -28,6 +28,8 @@ module gapbeam_system
         real(wp), allocatable :: shear_size(:), deflection_size(:)
         !> Springs towards a reference deflection that keep schemes which are mechanisms solvable; zero if unused
         real(wp), allocatable :: ease(:), reference(:)
+        !> Compliance added to every one-sided support, length/force; zero but in the stages of gapbeam_search
+        real(wp) :: softening = 0.0_wp
         !> Linear solves so far, and the system solved last
         integer :: solves = 0
         integer :: method = method_mixed
@@ -48,7 +50,7 @@ contains
         n = size(beam%links)
         m = size(beam%supports)
         allocate (work%nodes(0:n), work%loads(0:n), work%rhs(0:n), work%eliminated(0:n), work%pivots(0:n))
-        allocate (work%answers(0:n), work%correction(0:n), work%moment_work(2, 0:n))
+        allocate (work%answers(0:n), work%moment_work(2, 0:n))
         allocate (work%shear_size(0:n), work%deflection_size(0:n))
         allocate (work%reaction(m), work%reaction_error(m))
         allocate (work%ease(0:n), work%reference(0:n))
@@ -89,6 +91,7 @@ contains
         type(beam_type), intent(in) :: beam
         logical, intent(in) :: acting(:)
         type(workspace_type), intent(inout) :: work
+        real(wp) :: stiffness
         integer :: k
 
         work%nodes%kind = beam%kind
@@ -99,18 +102,35 @@ contains
         work%rhs%shear = work%rhs%shear + work%ease*work%reference
         do k = 1, size(acting)
             if (.not. acting(k)) cycle
+            stiffness = softened(beam%supports(k), work%softening)
             associate (s => beam%supports(k), node => work%nodes(beam%supports(k)%node), &
                        r => work%rhs(beam%supports(k)%node))
-                if (is_rigid(s)) then
+                if (stiffness > huge(stiffness)) then
                     node%held = .true.
                     r%deflection = s%contact
                 else
-                    node%stiffness = node%stiffness + s%stiffness
-                    r%shear = r%shear + s%stiffness*s%contact
+                    node%stiffness = node%stiffness + stiffness
+                    r%shear = r%shear + stiffness*s%contact
                 end if
             end associate
         end do
     end subroutine apply_scheme
+
+    !> Stiffness of a support with the softening in series
+    elemental function softened(support, softening) result(stiffness)
+        type(support_type), intent(in) :: support
+        real(wp), intent(in) :: softening
+        real(wp) :: stiffness
+
+        stiffness = support%stiffness
+        if (softening > 0.0_wp .and. support%side /= both) then
+            if (is_rigid(support)) then
+                stiffness = 1/softening
+            else
+                stiffness = stiffness/(1 + stiffness*softening)
+            end if
+        end if
+    end function softened
 
     !> Solve a scheme and find the reactions of its supports
     subroutine solve_scheme(beam, acting, work, state, place)
@@ -191,7 +211,7 @@ contains
         type(beam_type), intent(in) :: beam
         logical, intent(in) :: acting(:)
         type(workspace_type), intent(inout) :: work
-        real(wp) :: by_spring, by_node, spring_error, node_error
+        real(wp) :: stiffness, by_spring, by_node, spring_error, node_error
         integer :: k, i
         integer, allocatable :: company(:)
         real(wp), allocatable :: elastic(:)
@@ -203,24 +223,26 @@ contains
             work%reaction(k) = 0.0_wp
             work%reaction_error(k) = 0.0_wp
             if (.not. acting(k)) cycle
+            stiffness = softened(beam%supports(k), work%softening)
             associate (s => beam%supports(k))
                 company(s%node) = company(s%node) + 1
-                if (.not. is_rigid(s)) elastic(s%node) = elastic(s%node) &
-                    + s%stiffness*(work%answers(s%node)%deflection - s%contact)
+                if (.not. stiffness > huge(stiffness)) elastic(s%node) = elastic(s%node) &
+                    + stiffness*(work%answers(s%node)%deflection - s%contact)
             end associate
         end do
         do k = 1, size(acting)
             if (.not. acting(k)) cycle
+            stiffness = softened(beam%supports(k), work%softening)
             associate (s => beam%supports(k))
                 i = s%node
                 by_node = force_at_node(beam, work, i)
                 node_error = epsilon(1.0_wp)*work%shear_size(i)
-                if (is_rigid(s)) then
+                if (stiffness > huge(stiffness)) then
                     work%reaction(k) = by_node - elastic(i)
                     work%reaction_error(k) = node_error + epsilon(1.0_wp)*abs(elastic(i))
                 else
-                    by_spring = s%stiffness*(work%answers(i)%deflection - s%contact)
-                    spring_error = epsilon(1.0_wp)*s%stiffness*max(work%deflection_size(i), abs(s%contact))
+                    by_spring = stiffness*(work%answers(i)%deflection - s%contact)
+                    spring_error = epsilon(1.0_wp)*stiffness*max(work%deflection_size(i), abs(s%contact))
                     if (company(i) == 1 .and. node_error < spring_error) then
                         work%reaction(k) = by_node
                         work%reaction_error(k) = node_error
@@ -248,6 +270,30 @@ contains
             reaction = (work%loads(i)%shear - (left - right)) + work%ease(i)*(work%reference(i) - a(i)%deflection)
         end associate
     end function force_at_node
+
+    !> One step of iterative refinement of the last solve, with residuals formed from differences
+    pure subroutine refine_scheme(beam, acting, work)
+        !> The beam and the scheme solved last
+        type(beam_type), intent(in) :: beam
+        logical, intent(in) :: acting(:)
+        type(workspace_type), intent(inout) :: work
+        type(answer_type), allocatable :: correction(:)
+        logical :: regular
+
+        if (work%method == method_pivoting) return  ! LAPACK's expert driver has refined already
+        allocate (correction(0:size(beam%links)))
+        call residual_chain(work%nodes, beam%links, work%rhs, work%answers, work%eliminated, &
+                            work%compatibility, work%equilibrium)
+        if (work%method == method_three_moment) then
+            call solve_three_moment(work%nodes, beam%links, work%eliminated, work%moment_work, correction, regular)
+        else
+            call solve_chain(work%nodes, beam%links, work%pivots, work%eliminated, correction)
+        end if
+        work%answers%deflection = work%answers%deflection + correction%deflection
+        work%answers%moment_left = work%answers%moment_left + correction%moment_left
+        work%answers%moment_right = work%answers%moment_right + correction%moment_right
+        call find_reactions(beam, acting, work)
+    end subroutine refine_scheme
 
     !> Relative residuals of the last solve, into work%compatibility and work%equilibrium
     pure subroutine check_scheme(beam, work)

@@ -137,6 +137,7 @@ def recover(arrays: Arrays, links: np.ndarray, factor: float, solution: Solution
         factor,
         links,
         _last(arrays),
+        arrays.kinds,
         solution.deflection,
         solution.moment_left,
         solution.moment_right,

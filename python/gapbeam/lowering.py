@@ -237,12 +237,12 @@ class _Points:
 
     def __init__(self, ends: np.ndarray, lengths: np.ndarray):
         self.ends = ends
-        self.spans = [np.arange(len(ends))]
+        self.spans = [np.arange(len(ends), dtype=np.int32)]
         self.offsets = [np.zeros(len(ends))]
         self.number = len(ends)
 
     def _add(self, span: np.ndarray, offset: np.ndarray) -> np.ndarray:
-        self.spans.append(span)
+        self.spans.append(span.astype(np.int32))
         self.offsets.append(offset)
         self.number += len(span)
         return np.arange(self.number - len(span), self.number)
@@ -266,24 +266,35 @@ class _Points:
         return self.add_x(start), self.add_x(np.where(np.isnan(stop), self.ends[-1], stop))
 
     def merge(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Distinct points from left to right, and for every collected place the number of its point."""
+        """Distinct points from left to right, and for every collected place the number of its point.
+
+        Nothing collected is kept, and the work is done in place: this is where a large scene needs most memory.
+        """
         span, offset = np.concatenate(self.spans), np.concatenate(self.offsets)
+        self.spans.clear()
+        self.offsets.clear()
         order = np.lexsort((offset, span))
-        sorted_span, sorted_offset = span[order], offset[order]
+        span, offset = span[order], offset[order]
+        tolerance = self.ends[span]
+        tolerance += offset
+        tolerance *= POSITION_TOLERANCE
         new = np.ones(len(order), dtype=bool)
-        tolerance = POSITION_TOLERANCE * (self.ends[sorted_span[1:]] + sorted_offset[1:])
-        new[1:] = (sorted_span[1:] != sorted_span[:-1]) | (np.diff(sorted_offset) > tolerance)
-        index = np.empty(len(order), dtype=np.int64)
-        index[order] = np.cumsum(new) - 1
-        return sorted_span[new], sorted_offset[new], index
+        new[1:] = np.diff(offset) > tolerance[1:]
+        del tolerance
+        new[1:] |= span[1:] != span[:-1]
+        index = np.empty(len(order), dtype=np.int32)
+        index[order] = np.cumsum(new, dtype=np.int32) - 1
+        return span[new], offset[new], index
 
 
 def _expand(start: np.ndarray, stop: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """All pieces start..stop-1 of every stretch, and the stretch of each."""
     counts = stop - start
-    owner = np.repeat(np.arange(len(start)), counts)
-    shift = np.repeat(start - np.concatenate(([0], np.cumsum(counts)[:-1])), counts) if len(start) else owner
-    return np.arange(len(owner)) + shift, owner
+    owner = np.repeat(np.arange(len(start), dtype=np.int32), counts)
+    before = np.cumsum(counts) - counts  # pieces of earlier stretches
+    pieces = np.repeat((start - before).astype(np.int32), counts)
+    pieces += np.arange(len(owner), dtype=np.int32)
+    return pieces, owner
 
 
 def _pieces(scene, lengths, span, offset, start, stop) -> tuple[np.ndarray, np.ndarray]:
@@ -317,16 +328,20 @@ def _distributed(loads, ends, span, offset, start, stop) -> np.ndarray:
     def distance(a: np.ndarray, b: np.ndarray) -> np.ndarray:
         return (ends[span[b]] - ends[span[a]]) + (offset[b] - offset[a])
 
-    whole = distance(start, stop)[owner]
-    at_left, at_right = (distance(start[owner], covered + side) / whole for side in (0, 1))
+    sloped = q[:, 0] != q[:, 1]
+    whole = distance(start, stop)
     for k in (0, 1):
-        for column, share in ((0, at_left), (1, at_right), (2, None)):
-            chosen = (case[owner] == k) & (bent[owner] == (share is None))
+        for column in (0, 1, 2):
+            chosen = (case == k) & (bent == (column == 2))
             if not chosen.any():
                 continue
-            a, b = q[owner[chosen], 0], q[owner[chosen], 1]
-            values = a if share is None else np.where(a == b, a, a * (1.0 - share[chosen]) + b * share[chosen])
-            result[k, :, column] = np.bincount(covered[chosen], values, size)
+            some = chosen[owner]
+            piece, load = covered[some], owner[some]
+            values = q[load, 0]
+            if column < 2 and sloped[chosen].any():
+                share = distance(start[load], piece + column) / whole[load]
+                values = np.where(sloped[load], values * (1.0 - share) + q[load, 1] * share, values)
+            result[k, :, column] = np.bincount(piece, values, size)
     return result
 
 

@@ -1,0 +1,259 @@
+!> The search for the working scheme: solve, see which supports are wrong, change some of them.
+!>
+!> A scheme is right when no closed support pulls and no open one is penetrated. Two rules find it.
+!>
+!> single   the paper's: put back the open supports that are penetrated, else release the closed one that pulls
+!>          most, until nothing changes. Not proved finite; if a scheme comes back, block goes on.
+!> block    change every wrong support at once while their number keeps falling within a few solves. If it does not,
+!>          make the supports soft, so soft that the problem is easy, and stiffen them in stages, each starting
+!>          from the last scheme: a front then moves over many supports in one solve. If that fails too, change
+!>          the wrong support of least index until fewer are wrong than ever before, and so on.
+!>
+!> Why block ends: for a stable beam the problem is a linear complementarity problem with a P-matrix, for which the
+!> least-index rule reaches the solution without repeating a scheme (Murty 1974), so the fewest number of wrong
+!> supports falls after finitely many solves, and it can fall only finitely often (Judice and Pires 1994). The phases
+!> before are bounded by counts.
+module gapbeam_search
+    use gapbeam_kinds, only: wp
+    use gapbeam_error, only: error_type, fatal_error, gapbeam_indeterminate, gapbeam_not_converged
+    use gapbeam_band, only: band_ok, band_mechanism, band_needs_pivoting
+    use gapbeam_model, only: beam_type
+    use gapbeam_system, only: workspace_type, solve_scheme
+    use gapbeam_rules, only: find_wrong, keep_worst, keep_least_index, left_to_right
+    implicit none
+    private
+    public :: settle, refuse, first_width, rule_block, rule_single
+
+    !> The two rules
+    integer, parameter :: rule_block = 0, rule_single = 1
+    !> Solves that need not make the number of wrong supports fall: directly, in a stage, between least-index phases
+    integer, parameter :: patience = 8, stage_patience = 3, last_patience = 2
+    !> Where fewer are wrong than this, a step that made no progress is followed by one of the paper's rule
+    integer, parameter :: few = 8
+    !> Factor from stage to stage, and from the softest stage to the flexibility of the beam
+    real(wp), parameter :: stage_ratio = 16.0_wp
+    !> Signs are decided beyond this many rounding errors; widened where they still flicker, up to a limit
+    real(wp), parameter :: first_width = 32.0_wp, last_width = 1e7_wp
+
+    !> A search on its way
+    type :: search_type
+        !> Supports from left to right
+        integer, allocatable :: order(:)
+        !> Which are wrong in the scheme solved last, how many, and the least number so far
+        logical, allocatable :: wrong(:)
+        integer :: wrong_now = 0, fewest = 0
+        !> Rounding errors beyond which a sign counts
+        real(wp) :: width = first_width
+        !> How the last solve went, and where not well
+        integer :: state = 0, place = 0
+    end type search_type
+
+contains
+
+    !> Change supports until none is wrong
+    subroutine settle(beam, rule, may_float, closed, work, settled, error)
+        !> The beam
+        type(beam_type), intent(in) :: beam
+        !> rule_block or rule_single
+        integer, intent(in) :: rule
+        !> Give up (settled is false) at a mechanism, and before the least-index rule
+        logical, intent(in) :: may_float
+        !> Start in, working scheme out
+        logical, intent(inout) :: closed(:)
+        !> Loads in, solution out
+        type(workspace_type), intent(inout) :: work
+        !> Is the scheme right
+        logical, intent(out) :: settled
+        !> No unique solution, or signs that cannot be told from rounding
+        type(error_type), allocatable, intent(out) :: error
+        type(search_type) :: search
+        logical :: cold
+
+        allocate (search%order(size(closed)), search%wrong(size(closed)))
+        search%order(:) = left_to_right(beam)
+        settled = .false.
+        cold = all(closed)
+        if (rule == rule_single) call change_single(beam, closed, work, search, settled)
+        if (.not. settled .and. search%state == band_ok) then
+            search%fewest = huge(0)
+            call change_all(beam, patience, .true., closed, work, search, settled)
+        end if
+        if (.not. settled .and. search%state == band_ok) then
+            call change_in_stages(beam, cold, closed, work, search, settled)
+        end if
+        if (settled .or. (may_float .and. search%state /= band_needs_pivoting)) return
+        if (search%state == band_ok) call change_least_index(beam, closed, work, search, settled)
+        if (settled) return
+        if (search%state /= band_ok) then
+            call refuse(beam, search%state, search%place, error)
+        else
+            call fatal_error(error, gapbeam_not_converged, "the signs of some reactions or openings cannot be told from "// &
+                             "rounding errors in double precision")
+        end if
+    end subroutine settle
+
+    !> Solve and see what is wrong
+    subroutine look(beam, closed, work, search, settled)
+        type(beam_type), intent(in) :: beam
+        logical, intent(in) :: closed(:)
+        type(workspace_type), intent(inout) :: work
+        type(search_type), intent(inout) :: search
+        logical, intent(out) :: settled
+
+        settled = .false.
+        call solve_scheme(beam, closed, work, search%state, search%place)
+        if (search%state /= band_ok) return
+        call find_wrong(beam, closed, search%width, work, search%wrong)
+        search%wrong_now = count(search%wrong)
+        settled = search%wrong_now == 0
+    end subroutine look
+
+    !> The paper's rule; returns unsettled when a scheme comes back (found as by Brent 1980)
+    subroutine change_single(beam, closed, work, search, settled)
+        type(beam_type), intent(in) :: beam
+        logical, intent(inout) :: closed(:)
+        type(workspace_type), intent(inout) :: work
+        type(search_type), intent(inout) :: search
+        logical, intent(out) :: settled
+        logical, allocatable :: mark(:)
+        integer :: since_mark, next_mark
+
+        allocate (mark(size(closed)))
+        mark(:) = closed
+        since_mark = 0
+        next_mark = 1
+        do
+            call look(beam, closed, work, search, settled)
+            if (settled .or. search%state /= band_ok) return
+            call keep_worst(beam, search%order, closed, work, .false., search%wrong)
+            closed = closed .neqv. search%wrong
+            if (all(closed .eqv. mark)) return
+            since_mark = since_mark + 1
+            if (since_mark == next_mark) then
+                mark(:) = closed
+                since_mark = 0
+                next_mark = 2*next_mark
+            end if
+        end do
+    end subroutine change_single
+
+    !> Change all wrong supports at once, until their number did not fall for some solves
+    subroutine change_all(beam, idle_solves, tame, closed, work, search, settled)
+        type(beam_type), intent(in) :: beam
+        !> Solves without progress that are allowed
+        integer, intent(in) :: idle_solves
+        !> Use the paper's rule in every neighbourhood where few are wrong and there was no progress
+        logical, intent(in) :: tame
+        logical, intent(inout) :: closed(:)
+        type(workspace_type), intent(inout) :: work
+        type(search_type), intent(inout) :: search
+        logical, intent(out) :: settled
+        integer :: idle
+
+        idle = 0
+        do
+            call look(beam, closed, work, search, settled)
+            if (settled .or. search%state /= band_ok) return
+            if (search%wrong_now < search%fewest) then
+                search%fewest = search%wrong_now
+                idle = 0
+            else
+                idle = idle + 1
+                if (idle > idle_solves) return
+                if (tame .and. search%wrong_now <= few) &
+                    call keep_worst(beam, search%order, closed, work, .true., search%wrong)
+            end if
+            closed = closed .neqv. search%wrong
+        end do
+    end subroutine change_all
+
+    !> Soft supports, stiffened in stages. From a cold start the first stage is as soft as the whole beam; from a warm
+    !> one so soft that the flexibility of a support reaches over as many supports as are wrong
+    subroutine change_in_stages(beam, cold, closed, work, search, settled)
+        type(beam_type), intent(in) :: beam
+        logical, intent(in) :: cold
+        logical, intent(inout) :: closed(:)
+        type(workspace_type), intent(inout) :: work
+        type(search_type), intent(inout) :: search
+        logical, intent(out) :: settled
+        real(wp) :: softest, local, first
+        logical :: stage_settled
+
+        settled = .false.
+        softest = sum(beam%links%bending)*sum(beam%links%length)**2
+        local = minval(beam%links%bending*beam%links%length**2)
+        first = softest
+        if (.not. cold) first = min(softest, local*real(search%wrong_now, wp)**4)
+        do
+            work%softening = first
+            do while (work%softening > local/stage_ratio)
+                search%fewest = huge(0)
+                call change_all(beam, stage_patience, .false., closed, work, search, stage_settled)
+                if (search%state /= band_ok) exit
+                work%softening = work%softening/stage_ratio
+            end do
+            work%softening = 0.0_wp
+            if (search%state /= band_ok) return
+            search%fewest = huge(0)
+            call change_all(beam, patience, .true., closed, work, search, settled)
+            if (settled .or. search%state /= band_ok .or. .not. first < softest) return
+            first = softest
+        end do
+    end subroutine change_in_stages
+
+    !> The least-index rule until fewer supports are wrong than before, then all at once again. A scheme that comes back
+    !> can only mean that rounding decides signs: then fewer signs count
+    subroutine change_least_index(beam, closed, work, search, settled)
+        type(beam_type), intent(in) :: beam
+        logical, intent(inout) :: closed(:)
+        type(workspace_type), intent(inout) :: work
+        type(search_type), intent(inout) :: search
+        logical, intent(out) :: settled
+        logical, allocatable :: mark(:)
+        integer :: since_mark, next_mark
+
+        allocate (mark(size(closed)))
+        do
+            call change_all(beam, last_patience, .true., closed, work, search, settled)
+            if (settled .or. search%state /= band_ok) return
+            mark(:) = closed
+            since_mark = 0
+            next_mark = 1
+            do
+                call look(beam, closed, work, search, settled)
+                if (settled .or. search%state /= band_ok) return
+                if (search%wrong_now < search%fewest) exit
+                call keep_least_index(search%wrong)
+                closed = closed .neqv. search%wrong
+                if (all(closed .eqv. mark)) then
+                    search%width = 16*search%width
+                    if (search%width > last_width) return
+                end if
+                since_mark = since_mark + 1
+                if (since_mark == next_mark) then
+                    mark(:) = closed
+                    since_mark = 0
+                    next_mark = 2*next_mark
+                end if
+            end do
+        end do
+    end subroutine change_least_index
+
+    !> A scheme that cannot be solved though all that holds the beam acts
+    subroutine refuse(beam, state, place, error)
+        type(beam_type), intent(in) :: beam
+        integer, intent(in) :: state, place
+        type(error_type), allocatable, intent(out) :: error
+        character(len=40) :: text
+
+        write (text, "(i0, a, i0)") place, " of ", size(beam%links)
+        if (state == band_needs_pivoting) then
+            call fatal_error(error, gapbeam_indeterminate, "a rigid stretch of the beam near node "//trim(text)// &
+                             " rests on more rigid supports than statics can tell apart: give the stretch"// &
+                             " or one of its supports a finite stiffness")
+        else
+            call fatal_error(error, gapbeam_not_converged, "the scheme near node "//trim(text)//" cannot be solved")
+        end if
+    end subroutine refuse
+
+end module gapbeam_search

@@ -1,0 +1,15 @@
+"""Settings of hypothesis: the same examples in every run; HYPOTHESIS_PROFILE=explore draws many new ones."""
+
+import os
+import sys
+
+from hypothesis import HealthCheck, settings
+
+sys.path.insert(0, os.path.dirname(__file__))  # the helper modules beside the tests
+
+CALM = [HealthCheck.too_slow, HealthCheck.data_too_large, HealthCheck.filter_too_much]
+settings.register_profile(
+    "fixed", derandomize=True, deadline=None, max_examples=150, suppress_health_check=CALM
+)
+settings.register_profile("explore", deadline=None, max_examples=3000, suppress_health_check=CALM)
+settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "fixed"))
