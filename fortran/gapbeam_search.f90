@@ -160,8 +160,9 @@ contains
             else
                 idle = idle + 1
                 if (idle > idle_solves) return
-                if (tame .and. search%wrong_now <= few) &
-                    call keep_worst(beam, search%order, closed, work, .true., search%wrong)
+                if (tame .and. search%wrong_now <= few) then
+                  call keep_worst(beam, search%order, closed, work, .true., search%wrong)
+                end if
             end if
             closed = closed .neqv. search%wrong
         end do

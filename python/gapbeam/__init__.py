@@ -7,7 +7,7 @@ Five lines are enough:
 >>> scene.supports = [gapbeam.Support(node=i, side="below") for i in range(3)]
 >>> scene.loads.append(gapbeam.UniformLoad(q=1.0, case="dead"))
 >>> gapbeam.solve(scene).steps[-1].reaction.round(3)
-array([15.75, 25.5 ,  0.75])
+array([15.375, 26.25 ,  0.375])
 
 Units: any consistent set. Signs: x to the right; deflections and loads positive downward, reactions upward, moments
 sagging, rotations and couples clockwise.

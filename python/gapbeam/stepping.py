@@ -56,7 +56,7 @@ def solve(
     ...     "loads": [{"type": "uniform", "q": 3.0}],
     ... })
     >>> result.steps[-1].reaction.round(4)
-    array([2.325, 7.35 , 2.325])
+    array([2.2875, 7.425 , 2.2875])
     """
     scene = read_scene(source)
     rule = scene.analysis.rule if rule is None else rule
