@@ -4,7 +4,7 @@ module gapbeam_model
     use gapbeam_link, only: link_type
     implicit none
     private
-    public :: beam_type, support_type, below, above, both, is_rigid
+    public :: beam_type, support_type, below, above, both, is_rigid, softest
 
     !> Sides of a support: pushes up only, pushes down only, both
     integer, parameter :: below = 1, above = -1, both = 0
@@ -44,5 +44,22 @@ contains
 
         rigid = support%stiffness > huge(support%stiffness)
     end function is_rigid
+
+    !> A stiffness far below all others: that of the whole beam in bending, or of its softest support
+    pure function softest(beam) result(stiffness)
+        type(beam_type), intent(in) :: beam
+        real(wp) :: stiffness
+        integer :: i
+
+        stiffness = huge(stiffness)
+        if (any(beam%links%bending > 0.0_wp)) stiffness = 1/(sum(beam%links%bending)*sum(beam%links%length)**2)
+        do i = 1, size(beam%supports)
+            associate (s => beam%supports(i))
+                if (s%stiffness > 0.0_wp) stiffness = min(stiffness, s%stiffness)
+            end associate
+        end do
+        if (.not. stiffness < huge(stiffness)) stiffness = 1.0_wp
+        stiffness = stiffness/(size(beam%links) + 1)
+    end function softest
 
 end module gapbeam_model

@@ -1,11 +1,11 @@
 !> Which supports are wrong in a scheme, and which of them a rule changes
 module gapbeam_rules
     use gapbeam_kinds, only: wp
-    use gapbeam_model, only: beam_type, both
+    use gapbeam_model, only: beam_type, both, is_rigid
     use gapbeam_system, only: workspace_type
     implicit none
     private
-    public :: find_wrong, complementarity, keep_worst, keep_least_index, left_to_right
+    public :: find_wrong, complementarity, keep_worst, keep_least_index, left_to_right, separate_rigid_pairs
 
 contains
 
@@ -182,5 +182,23 @@ contains
             place(i) = place(i) - 1
         end do
     end function left_to_right
+
+    !> Two rigid supports with clearance at one node cannot both act: begin with the first of them
+    pure subroutine separate_rigid_pairs(beam, closed)
+        type(beam_type), intent(in) :: beam
+        logical, intent(inout) :: closed(:)
+        logical, allocatable :: taken(:)
+        integer :: k
+
+        allocate (taken(0:size(beam%links)))
+        taken = .false.
+        do k = 1, size(closed)
+            associate (s => beam%supports(k))
+                if (.not. closed(k) .or. .not. is_rigid(s)) cycle
+                closed(k) = .not. taken(s%node)
+                taken(s%node) = .true.
+            end associate
+        end do
+    end subroutine separate_rigid_pairs
 
 end module gapbeam_rules

@@ -10,10 +10,10 @@ module gapbeam_scheme
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_no_equilibrium, &
         gapbeam_not_converged, gapbeam_not_finite
     use gapbeam_band, only: band_ok, band_needs_pivoting
-    use gapbeam_model, only: beam_type, both, is_rigid
+    use gapbeam_model, only: beam_type, both, softest
     use gapbeam_kinematics, only: free_motions, motion_type, work_of_loads
     use gapbeam_system, only: workspace_type, solve_scheme, refine_scheme
-    use gapbeam_rules, only: find_wrong
+    use gapbeam_rules, only: find_wrong, separate_rigid_pairs
     use gapbeam_search, only: settle, refuse, first_width
     implicit none
     private
@@ -195,40 +195,5 @@ contains
             end associate
         end do
     end function distance_to_contact
-
-    !> A stiffness far below all others: that of the whole beam in bending, or of its softest support
-    pure function softest(beam) result(stiffness)
-        type(beam_type), intent(in) :: beam
-        real(wp) :: stiffness
-        integer :: i
-
-        stiffness = huge(stiffness)
-        if (any(beam%links%bending > 0.0_wp)) stiffness = 1/(sum(beam%links%bending)*sum(beam%links%length)**2)
-        do i = 1, size(beam%supports)
-            associate (s => beam%supports(i))
-                if (s%stiffness > 0.0_wp) stiffness = min(stiffness, s%stiffness)
-            end associate
-        end do
-        if (.not. stiffness < huge(stiffness)) stiffness = 1.0_wp
-        stiffness = stiffness/(size(beam%links) + 1)
-    end function softest
-
-    !> Two rigid supports with clearance at one node cannot both act: begin with the first of them
-    pure subroutine separate_rigid_pairs(beam, closed)
-        type(beam_type), intent(in) :: beam
-        logical, intent(inout) :: closed(:)
-        logical, allocatable :: taken(:)
-        integer :: k
-
-        allocate (taken(0:size(beam%links)))
-        taken = .false.
-        do k = 1, size(closed)
-            associate (s => beam%supports(k))
-                if (.not. closed(k) .or. .not. is_rigid(s)) cycle
-                closed(k) = .not. taken(s%node)
-                taken(s%node) = .true.
-            end associate
-        end do
-    end subroutine separate_rigid_pairs
 
 end module gapbeam_scheme

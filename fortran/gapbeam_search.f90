@@ -5,9 +5,9 @@
 !> single   the paper's: put back the open supports that are penetrated, else release the closed one that pulls
 !>          most, until nothing changes. Not proved finite; if a scheme comes back, block goes on.
 !> block    change every wrong support at once while their number keeps falling within a few solves. If it does not,
-!>          make the supports soft, so soft that the problem is easy, and stiffen them in stages, each starting
-!>          from the last scheme: a front then moves over many supports in one solve. If that fails too, change
-!>          the wrong support of least index until fewer are wrong than ever before, and so on.
+!>          guess the scheme by interior points (a front then moves over any number of supports) and go on from
+!>          there. If that fails too, change the wrong support of least index until fewer are wrong than ever
+!>          before, and so on.
 !>
 !> Why block ends: for a stable beam the problem is a linear complementarity problem with a P-matrix, for which the
 !> least-index rule reaches the solution without repeating a scheme (Murty 1974), so the fewest number of wrong
@@ -19,19 +19,21 @@ module gapbeam_search
     use gapbeam_band, only: band_ok, band_mechanism, band_needs_pivoting
     use gapbeam_model, only: beam_type
     use gapbeam_system, only: workspace_type, solve_scheme
-    use gapbeam_rules, only: find_wrong, keep_worst, keep_least_index, left_to_right
+    use gapbeam_rules, only: find_wrong, keep_worst, keep_least_index, left_to_right, separate_rigid_pairs
+    use gapbeam_interior_point, only: interior_type, start_interior, step_interior
     implicit none
     private
     public :: settle, refuse, first_width, rule_block, rule_single
 
     !> The two rules
     integer, parameter :: rule_block = 0, rule_single = 1
-    !> Solves that need not make the number of wrong supports fall: directly, in a stage, between least-index phases
-    integer, parameter :: patience = 8, stage_patience = 3, last_patience = 2
+    !> Solves that need not make the number of wrong supports fall: directly, after a guess, between least-index phases
+    integer, parameter :: patience = 4, polish_patience = 3, last_patience = 2
     !> Where fewer are wrong than this, a step that made no progress is followed by one of the paper's rule
     integer, parameter :: few = 8
-    !> Factor from stage to stage, and from the softest stage to the flexibility of the beam
-    real(wp), parameter :: stage_ratio = 16.0_wp
+    !> Steps of the interior-point method at most; changes of its guess in a step at which the guess is tried; steps
+    !> between two trials
+    integer, parameter :: most_steps = 60, few_changes = 4, steps_between = 4
     !> Signs are decided beyond this many rounding errors; widened where they still flicker, up to a limit
     real(wp), parameter :: first_width = 32.0_wp, last_width = 1e7_wp
 
@@ -67,19 +69,17 @@ contains
         !> No unique solution, or signs that cannot be told from rounding
         type(error_type), allocatable, intent(out) :: error
         type(search_type) :: search
-        logical :: cold
 
         allocate (search%order(size(closed)), search%wrong(size(closed)))
         search%order(:) = left_to_right(beam)
         settled = .false.
-        cold = all(closed)
         if (rule == rule_single) call change_single(beam, closed, work, search, settled)
         if (.not. settled .and. search%state == band_ok) then
             search%fewest = huge(0)
             call change_all(beam, patience, .true., closed, work, search, settled)
         end if
         if (.not. settled .and. search%state == band_ok) then
-            call change_in_stages(beam, cold, closed, work, search, settled)
+            call change_by_interior_point(beam, closed, work, search, settled)
         end if
         if (settled .or. (may_float .and. search%state /= band_needs_pivoting)) return
         if (search%state == band_ok) call change_least_index(beam, closed, work, search, settled)
@@ -168,39 +168,40 @@ contains
         end do
     end subroutine change_all
 
-    !> Soft supports, stiffened in stages. From a cold start the first stage is as soft as the whole beam; from a warm
-    !> one so soft that the flexibility of a support reaches over as many supports as are wrong
-    subroutine change_in_stages(beam, cold, closed, work, search, settled)
+    !> Guess the scheme by interior points, and settle the guess by pivoting as soon as it hardly changes any more
+    subroutine change_by_interior_point(beam, closed, work, search, settled)
         type(beam_type), intent(in) :: beam
-        logical, intent(in) :: cold
         logical, intent(inout) :: closed(:)
         type(workspace_type), intent(inout) :: work
         type(search_type), intent(inout) :: search
         logical, intent(out) :: settled
-        real(wp) :: softest, local, first
-        logical :: stage_settled
+        type(interior_type) :: iterate
+        logical, allocatable :: guess(:), last_guess(:)
+        integer :: step, wait
 
         settled = .false.
-        softest = sum(beam%links%bending)*sum(beam%links%length)**2
-        local = minval(beam%links%bending*beam%links%length**2)
-        first = softest
-        if (.not. cold) first = min(softest, local*real(search%wrong_now, wp)**4)
-        do
-            work%softening = first
-            do while (work%softening > local/stage_ratio)
+        allocate (guess(size(closed)), last_guess(size(closed)))
+        call start_interior(beam, closed, work, iterate, search%state, search%place)
+        last_guess(:) = closed
+        wait = 0
+        do step = 1, most_steps
+            if (search%state /= band_ok) exit
+            call step_interior(beam, closed, work, iterate, guess, search%state, search%place)
+            if (search%state /= band_ok) exit
+            wait = wait - 1
+            if (wait <= 0 .and. count(guess .neqv. last_guess) <= few_changes) then
+                closed(:) = guess
+                call separate_rigid_pairs(beam, closed)
                 search%fewest = huge(0)
-                call change_all(beam, stage_patience, .false., closed, work, search, stage_settled)
-                if (search%state /= band_ok) exit
-                work%softening = work%softening/stage_ratio
-            end do
-            work%softening = 0.0_wp
-            if (search%state /= band_ok) return
-            search%fewest = huge(0)
-            call change_all(beam, patience, .true., closed, work, search, settled)
-            if (settled .or. search%state /= band_ok .or. .not. first < softest) return
-            first = softest
+                call change_all(beam, polish_patience, .true., closed, work, search, settled)
+                if (settled) exit
+                search%state = band_ok
+                wait = steps_between
+            end if
+            last_guess(:) = guess
         end do
-    end subroutine change_in_stages
+        deallocate (work%spring, work%spring_contact)
+    end subroutine change_by_interior_point
 
     !> The least-index rule until fewer supports are wrong than before, then all at once again. A scheme that comes back
     !> can only mean that rounding decides signs: then fewer signs count

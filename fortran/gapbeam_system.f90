@@ -5,7 +5,7 @@ module gapbeam_system
         residual_chain, band_ok, band_mechanism, band_needs_pivoting
     use gapbeam_three_moment, only: fits_three_moment, solve_three_moment
     use gapbeam_lapack, only: solve_pivoting
-    use gapbeam_model, only: beam_type, support_type, both, is_rigid
+    use gapbeam_model, only: beam_type, both, is_rigid
     implicit none
     private
     public :: workspace_type, new_workspace, set_loads, solve_scheme, refine_scheme, check_scheme
@@ -28,8 +28,9 @@ module gapbeam_system
         real(wp), allocatable :: shear_size(:), deflection_size(:)
         !> Springs towards a reference deflection that keep schemes which are mechanisms solvable; zero if unused
         real(wp), allocatable :: ease(:), reference(:)
-        !> Compliance added to every one-sided support, length/force; zero but in the stages of gapbeam_search
-        real(wp) :: softening = 0.0_wp
+        !> Is every one-sided support, acting or not, a spring instead (gapbeam_interior_point), and which
+        logical :: sprung = .false.
+        real(wp), allocatable :: spring(:), spring_contact(:)
         !> Linear solves so far, and the system solved last
         integer :: solves = 0
         integer :: method = method_mixed
@@ -91,7 +92,6 @@ contains
         type(beam_type), intent(in) :: beam
         logical, intent(in) :: acting(:)
         type(workspace_type), intent(inout) :: work
-        real(wp) :: stiffness
         integer :: k
 
         work%nodes%kind = beam%kind
@@ -101,36 +101,23 @@ contains
         work%rhs = work%loads
         work%rhs%shear = work%rhs%shear + work%ease*work%reference
         do k = 1, size(acting)
-            if (.not. acting(k)) cycle
-            stiffness = softened(beam%supports(k), work%softening)
             associate (s => beam%supports(k), node => work%nodes(beam%supports(k)%node), &
                        r => work%rhs(beam%supports(k)%node))
-                if (stiffness > huge(stiffness)) then
+                if (work%sprung .and. s%side /= both) then
+                    node%stiffness = node%stiffness + work%spring(k)
+                    r%shear = r%shear + work%spring(k)*work%spring_contact(k)
+                else if (.not. acting(k)) then
+                    cycle
+                else if (is_rigid(s)) then
                     node%held = .true.
                     r%deflection = s%contact
                 else
-                    node%stiffness = node%stiffness + stiffness
-                    r%shear = r%shear + stiffness*s%contact
+                    node%stiffness = node%stiffness + s%stiffness
+                    r%shear = r%shear + s%stiffness*s%contact
                 end if
             end associate
         end do
     end subroutine apply_scheme
-
-    !> Stiffness of a support with the softening in series
-    elemental function softened(support, softening) result(stiffness)
-        type(support_type), intent(in) :: support
-        real(wp), intent(in) :: softening
-        real(wp) :: stiffness
-
-        stiffness = support%stiffness
-        if (softening > 0.0_wp .and. support%side /= both) then
-            if (is_rigid(support)) then
-                stiffness = 1/softening
-            else
-                stiffness = stiffness/(1 + stiffness*softening)
-            end if
-        end if
-    end function softened
 
     !> Solve a scheme and find the reactions of its supports
     subroutine solve_scheme(beam, acting, work, state, place)
@@ -168,6 +155,7 @@ contains
         end if
         state = merge(band_ok, band_needs_pivoting, regular)
         if (.not. regular) return
+        if (work%sprung) return
         call find_sizes(beam, work)
         call find_reactions(beam, acting, work)
     end subroutine solve_scheme
@@ -211,7 +199,7 @@ contains
         type(beam_type), intent(in) :: beam
         logical, intent(in) :: acting(:)
         type(workspace_type), intent(inout) :: work
-        real(wp) :: stiffness, by_spring, by_node, spring_error, node_error
+        real(wp) :: by_spring, by_node, spring_error, node_error
         integer :: k, i
         integer, allocatable :: company(:)
         real(wp), allocatable :: elastic(:)
@@ -223,26 +211,24 @@ contains
             work%reaction(k) = 0.0_wp
             work%reaction_error(k) = 0.0_wp
             if (.not. acting(k)) cycle
-            stiffness = softened(beam%supports(k), work%softening)
             associate (s => beam%supports(k))
                 company(s%node) = company(s%node) + 1
-                if (.not. stiffness > huge(stiffness)) elastic(s%node) = elastic(s%node) &
-                    + stiffness*(work%answers(s%node)%deflection - s%contact)
+                if (.not. is_rigid(s)) elastic(s%node) = elastic(s%node) &
+                    + s%stiffness*(work%answers(s%node)%deflection - s%contact)
             end associate
         end do
         do k = 1, size(acting)
             if (.not. acting(k)) cycle
-            stiffness = softened(beam%supports(k), work%softening)
             associate (s => beam%supports(k))
                 i = s%node
                 by_node = force_at_node(beam, work, i)
                 node_error = epsilon(1.0_wp)*work%shear_size(i)
-                if (stiffness > huge(stiffness)) then
+                if (is_rigid(s)) then
                     work%reaction(k) = by_node - elastic(i)
                     work%reaction_error(k) = node_error + epsilon(1.0_wp)*abs(elastic(i))
                 else
-                    by_spring = stiffness*(work%answers(i)%deflection - s%contact)
-                    spring_error = epsilon(1.0_wp)*stiffness*max(work%deflection_size(i), abs(s%contact))
+                    by_spring = s%stiffness*(work%answers(i)%deflection - s%contact)
+                    spring_error = epsilon(1.0_wp)*s%stiffness*max(work%deflection_size(i), abs(s%contact))
                     if (company(i) == 1 .and. node_error < spring_error) then
                         work%reaction(k) = by_node
                         work%reaction_error(k) = node_error
