@@ -13,7 +13,7 @@ module gapbeam_interior_point
     use gapbeam_system, only: workspace_type, solve_scheme
     implicit none
     private
-    public :: interior_type, start_interior, step_interior
+    public :: interior_type, start_interior, step_interior, product_of
 
     !> Fraction of the way to the boundary that a step goes
     real(wp), parameter :: boundary_share = 0.995_wp
@@ -58,10 +58,11 @@ contains
             work%spring_contact(i) = s%contact
             call solve_springs(beam, closed, work, iterate%support, iterate%deflection, state, place)
             if (state /= band_ok) return
-            iterate%reaction = s%side*stiffness*(iterate%deflection - s%contact)
+            allocate (iterate%reaction(size(i)), iterate%opening(size(i)))
+            iterate%reaction(:) = s%side*stiffness*(iterate%deflection - s%contact)
             largest = max(maxval(abs(iterate%reaction)), tiny(largest))
-            iterate%reaction = max(iterate%reaction, 0.0_wp) + first_share*largest
-            iterate%opening = max(s%side*(s%contact - iterate%deflection) + iterate%reaction*iterate%compliance, 0.0_wp) &
+            iterate%reaction(:) = max(iterate%reaction, 0.0_wp) + first_share*largest
+            iterate%opening(:) = max(s%side*(s%contact - iterate%deflection) + iterate%reaction*iterate%compliance, 0.0_wp) &
                 + first_share*largest/stiffness
         end associate
     end subroutine start_interior
@@ -80,17 +81,18 @@ contains
         real(wp) :: mean, mean_ahead, way
 
         guess = closed
-        allocate (side(size(iterate%support)))
+        allocate (side(size(iterate%support)), target(size(iterate%support)), gap_error(size(iterate%support)))
+        allocate (change_r(size(iterate%support)), change_s(size(iterate%support)))
         side(:) = beam%supports(iterate%support)%side
         associate (r => iterate%reaction, s => iterate%opening, w => iterate%deflection, n => size(iterate%support))
             mean = dot_product(r, s)/n
-            gap_error = s - (side*(beam%supports(iterate%support)%contact - w) + r*iterate%compliance)
-            target = 0*r
+            gap_error(:) = s - (side*(beam%supports(iterate%support)%contact - w) + r*iterate%compliance)
+            target(:) = 0.0_wp
             call newton(target)
             if (state /= band_ok) return
             way = min(step_to_zero(r, change_r), step_to_zero(s, change_s))
             mean_ahead = dot_product(r + way*change_r, s + way*change_s)/n
-            target = (mean_ahead/mean)**3*mean - change_r*change_s
+            target(:) = (mean_ahead/mean)**3*mean - change_r*change_s
             call newton(target)
             if (state /= band_ok) return
             way = min(1.0_wp, boundary_share*min(step_to_zero(r, change_r), step_to_zero(s, change_s)))
@@ -107,20 +109,30 @@ contains
             real(wp), intent(in) :: target(:)
             real(wp), allocatable :: spring(:), fixed(:)
 
+            allocate (spring(size(target)), fixed(size(target)))
             associate (r => iterate%reaction, s => iterate%opening, w => iterate%deflection, i => iterate%support)
-                spring = r/(s + r*iterate%compliance)
-                fixed = (target - s*r + r*gap_error)/(s + r*iterate%compliance)
+                spring(:) = r/(s + r*iterate%compliance)
+                fixed(:) = (target - s*r + r*gap_error)/(s + r*iterate%compliance)
                 work%spring(i) = spring
                 work%spring_contact(i) = w - side*(r + fixed)/spring
                 call solve_springs(beam, closed, work, iterate%support, change_w, state, place)
                 if (state /= band_ok) return
-                change_w = change_w - w
-                change_r = fixed + spring*side*change_w
-                change_s = -side*change_w + change_r*iterate%compliance - gap_error
+                change_w(:) = change_w - w
+                change_r(:) = fixed + spring*side*change_w
+                change_s(:) = -side*change_w + change_r*iterate%compliance - gap_error
             end associate
         end subroutine newton
 
     end subroutine step_interior
+
+    !> Sum of reactions times openings, zero at the solution
+    pure function product_of(iterate) result(total)
+        type(interior_type), intent(in) :: iterate
+        real(wp) :: total
+
+        total = 0.0_wp
+        if (allocated(iterate%reaction)) total = dot_product(iterate%reaction, iterate%opening)
+    end function product_of
 
     !> Deflections at the supports of the beam on springs
     subroutine solve_springs(beam, closed, work, support, deflection, state, place)
@@ -134,7 +146,8 @@ contains
         work%sprung = .true.
         call solve_scheme(beam, closed, work, state, place)
         work%sprung = .false.
-        deflection = work%answers(beam%supports(support)%node)%deflection
+        allocate (deflection(size(support)))
+        deflection(:) = work%answers(beam%supports(support)%node)%deflection
     end subroutine solve_springs
 
     !> Largest step, 1 at most, that keeps all components from becoming negative

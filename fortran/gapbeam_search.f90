@@ -18,9 +18,9 @@ module gapbeam_search
     use gapbeam_error, only: error_type, fatal_error, gapbeam_indeterminate, gapbeam_not_converged
     use gapbeam_band, only: band_ok, band_mechanism, band_needs_pivoting
     use gapbeam_model, only: beam_type
-    use gapbeam_system, only: workspace_type, solve_scheme
+    use gapbeam_system, only: workspace_type, solve_scheme, refine_scheme
     use gapbeam_rules, only: find_wrong, keep_worst, keep_least_index, left_to_right, separate_rigid_pairs
-    use gapbeam_interior_point, only: interior_type, start_interior, step_interior
+    use gapbeam_interior_point, only: interior_type, start_interior, step_interior, product_of
     implicit none
     private
     public :: settle, refuse, first_width, rule_block, rule_single
@@ -31,6 +31,10 @@ module gapbeam_search
     integer, parameter :: patience = 4, polish_patience = 3, last_patience = 2
     !> Where fewer are wrong than this, a step that made no progress is followed by one of the paper's rule
     integer, parameter :: few = 8
+    !> Such solves after the last guess. When reactions times openings have fallen by this much, so many changes of a
+    !> guess in a step show that rounding has taken over
+    integer, parameter :: final_patience = 16, rounding_changes = 40
+    real(wp), parameter :: rounding_product = 1e-8_wp
     !> Steps of the interior-point method at most; changes of its guess in a step at which the guess is tried; steps
     !> between two trials
     integer, parameter :: most_steps = 60, few_changes = 4, steps_between = 4
@@ -105,6 +109,12 @@ contains
         if (search%state /= band_ok) return
         call find_wrong(beam, closed, search%width, work, search%wrong)
         search%wrong_now = count(search%wrong)
+        if (search%wrong_now > 0 .and. search%wrong_now <= few) then
+            ! Near the end signs depend on the last digits
+            call refine_scheme(beam, closed, work)
+            call find_wrong(beam, closed, search%width, work, search%wrong)
+            search%wrong_now = count(search%wrong)
+        end if
         settled = search%wrong_now == 0
     end subroutine look
 
@@ -177,19 +187,23 @@ contains
         logical, intent(out) :: settled
         type(interior_type) :: iterate
         logical, allocatable :: guess(:), last_guess(:)
-        integer :: step, wait
+        integer :: step, wait, changes
+        real(wp) :: first_product
 
         settled = .false.
         allocate (guess(size(closed)), last_guess(size(closed)))
         call start_interior(beam, closed, work, iterate, search%state, search%place)
         last_guess(:) = closed
         wait = 0
+        first_product = product_of(iterate)
         do step = 1, most_steps
             if (search%state /= band_ok) exit
             call step_interior(beam, closed, work, iterate, guess, search%state, search%place)
             if (search%state /= band_ok) exit
+            changes = count(guess .neqv. last_guess)
+            if (product_of(iterate) < rounding_product*first_product .and. changes > rounding_changes) exit
             wait = wait - 1
-            if (wait <= 0 .and. count(guess .neqv. last_guess) <= few_changes) then
+            if (wait <= 0 .and. changes <= few_changes) then
                 closed(:) = guess
                 call separate_rigid_pairs(beam, closed)
                 search%fewest = huge(0)
@@ -200,6 +214,12 @@ contains
             end if
             last_guess(:) = guess
         end do
+        if (.not. settled .and. search%state == band_ok) then
+            closed(:) = last_guess
+            call separate_rigid_pairs(beam, closed)
+            search%fewest = huge(0)
+            call change_all(beam, final_patience, .true., closed, work, search, settled)
+        end if
         deallocate (work%spring, work%spring_contact)
     end subroutine change_by_interior_point
 

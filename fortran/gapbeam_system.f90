@@ -6,6 +6,7 @@ module gapbeam_system
     use gapbeam_three_moment, only: fits_three_moment, solve_three_moment
     use gapbeam_lapack, only: solve_pivoting
     use gapbeam_model, only: beam_type, both, is_rigid
+    use gapbeam_kinematics, only: free_motions, motion_type
     implicit none
     private
     public :: workspace_type, new_workspace, set_loads, solve_scheme, refine_scheme, check_scheme
@@ -131,6 +132,7 @@ contains
         integer, intent(out) :: state
         !> Node at which another state than band_ok was found
         integer, intent(out) :: place
+        type(motion_type), allocatable :: motions(:)
         logical :: regular
 
         call apply_scheme(beam, acting, work)
@@ -154,7 +156,12 @@ contains
             call solve_pivoting(work%nodes, beam%links, work%rhs, work%answers, regular)
         end if
         state = merge(band_ok, band_needs_pivoting, regular)
-        if (.not. regular) return
+        if (.not. regular) then
+            ! Singular because something moves, or because statics cannot tell reactions apart
+            call free_motions(beam, acting, motions)
+            if (size(motions) > 0 .and. .not. any(work%ease > 0.0_wp)) state = band_mechanism
+            return
+        end if
         if (work%sprung) return
         call find_sizes(beam, work)
         call find_reactions(beam, acting, work)
