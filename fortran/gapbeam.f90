@@ -16,6 +16,7 @@ module gapbeam
     use gapbeam_system, only: workspace_type, new_workspace, set_loads, check_scheme
     use gapbeam_search, only: rule_block, rule_single
     use gapbeam_scheme, only: find_scheme, outcome_type
+    use gapbeam_path, only: next_event, find_marginal
     use gapbeam_fields, only: recover_beam, values_at, find_extremes
     use gapbeam_axial, only: solve_axial
     implicit none

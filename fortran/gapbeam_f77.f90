@@ -41,14 +41,15 @@ end subroutine gbcond
 
 ! Find the working scheme at one load factor and solve it
 subroutine gbsolv(nl, ns, link, kind, compli, force, couple, snode, sside, sstiff, scont, factor, rule, &
-                  closed, w, ml, mr, react, motion, resid, solves, method, status, message)
+                  closed, margin, w, ml, mr, react, motion, resid, solves, method, indiff, status, message)
     use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
     use gapbeam_error, only: error_type, gapbeam_solved
     use gapbeam_link, only: link_type
-    use gapbeam_model, only: beam_type, support_type
+    use gapbeam_model, only: beam_type, new_beam
     use gapbeam_system, only: workspace_type, new_workspace, set_loads, check_scheme
     use gapbeam_rules, only: complementarity
     use gapbeam_scheme, only: find_scheme, outcome_type
+    use gapbeam_path, only: find_marginal
     implicit none
     ! NL links, NL + 1 nodes, NS supports
     integer, intent(in) :: nl, ns
@@ -66,12 +67,15 @@ subroutine gbsolv(nl, ns, link, kind, compli, force, couple, snode, sside, sstif
     integer, intent(in) :: rule
     ! Scheme: 1 closed, 0 open; start in, working scheme out
     integer, intent(inout) :: closed(ns)
+    ! 1 where the reaction or the opening is zero as far as rounding tells
+    integer, intent(out) :: margin(ns)
     ! Deflections, moments left and right of the nodes, reactions (up)
     double precision, intent(out) :: w(0:nl), ml(0:nl), mr(0:nl), react(ns)
     ! Free motion where there is no equilibrium; residuals of compatibility, equilibrium, complementarity
     double precision, intent(out) :: motion(0:nl), resid(3)
-    ! Linear solves; system solved last: 0 mixed, 1 three-moment, 2 with pivoting
-    integer, intent(out) :: solves, method, status
+    ! Linear solves; system solved last: 0 mixed, 1 three-moment, 2 with pivoting; 1 where the beam can move freely
+    ! without work of the loads (the forces are unique, the position is not)
+    integer, intent(out) :: solves, method, indiff, status
     character(len=240), intent(out) :: message
     !f2py threadsafe
     !f2py integer, intent(hide), depend(link) :: nl = shape(link, 1)
@@ -81,21 +85,10 @@ subroutine gbsolv(nl, ns, link, kind, compli, force, couple, snode, sside, sstif
     type(workspace_type) :: work
     type(outcome_type) :: outcome
     type(error_type), allocatable :: error
-    logical, allocatable :: acting(:)
-    integer :: k
+    logical, allocatable :: acting(:), zero(:)
 
     call c_f_pointer(c_loc(link), links, [nl])
-    allocate (beam%links(nl))
-    beam%links(:) = links
-    allocate (beam%kind(0:nl), beam%compliance(0:nl), beam%force(2, 0:nl), beam%couple(2, 0:nl))
-    beam%kind(:) = kind
-    beam%compliance(:) = compli
-    beam%force(:, :) = force
-    beam%couple(:, :) = couple
-    allocate (beam%supports(ns))
-    do k = 1, ns
-        beam%supports(k) = support_type(snode(k), sside(k), sstiff(k), scont(k))
-    end do
+    call new_beam(links, kind, compli, force, couple, snode, sside, sstiff, scont, beam)
     call new_workspace(beam, work)
     call set_loads(beam, factor, work)
     allocate (acting(ns))
@@ -107,6 +100,8 @@ subroutine gbsolv(nl, ns, link, kind, compli, force, couple, snode, sside, sstif
     react = 0.0d0
     motion = 0.0d0
     resid = 0.0d0
+    margin = 0
+    indiff = 0
     solves = work%solves
     method = work%method
     message = " "
@@ -119,6 +114,10 @@ subroutine gbsolv(nl, ns, link, kind, compli, force, couple, snode, sside, sstif
     if (allocated(outcome%motion)) motion = outcome%motion
     if (status /= gapbeam_solved) return
     closed = merge(1, 0, acting)
+    indiff = merge(1, 0, outcome%indifferent)
+    allocate (zero(ns))
+    call find_marginal(beam, acting, work, zero)
+    margin = merge(1, 0, zero)
     w = work%answers%deflection
     ml = work%answers%moment_left
     mr = work%answers%moment_right
@@ -126,6 +125,59 @@ subroutine gbsolv(nl, ns, link, kind, compli, force, couple, snode, sside, sstif
     call check_scheme(beam, work)
     resid = [work%compatibility, work%equilibrium, complementarity(beam, acting, work)]
 end subroutine gbsolv
+
+! The scheme just above a load factor and the factor at which it changes next
+subroutine gbnext(nl, ns, link, kind, compli, force, couple, snode, sside, sstiff, scont, factor, rule, &
+                  closed, margin, next, motion, solves, status, message)
+    use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
+    use gapbeam_error, only: error_type
+    use gapbeam_link, only: link_type
+    use gapbeam_model, only: beam_type, new_beam
+    use gapbeam_scheme, only: outcome_type
+    use gapbeam_path, only: next_event
+    implicit none
+    ! As for GBSOLV
+    integer, intent(in) :: nl, ns
+    double precision, intent(in), target :: link(16, nl)
+    integer, intent(in) :: kind(0:nl)
+    double precision, intent(in) :: compli(0:nl)
+    double precision, intent(in) :: force(2, 0:nl), couple(2, 0:nl)
+    integer, intent(in) :: snode(ns), sside(ns)
+    double precision, intent(in) :: sstiff(ns), scont(ns)
+    double precision, intent(in) :: factor
+    integer, intent(in) :: rule
+    ! Scheme at FACTOR in, just above it out; supports at zero at FACTOR in, at NEXT out
+    integer, intent(inout) :: closed(ns), margin(ns)
+    ! Factor of the next event, huge if there is none; motion that begins where there is no equilibrium above FACTOR
+    double precision, intent(out) :: next, motion(0:nl)
+    integer, intent(out) :: solves, status
+    character(len=240), intent(out) :: message
+    !f2py threadsafe
+    !f2py integer, intent(hide), depend(link) :: nl = shape(link, 1)
+    !f2py integer, intent(hide), depend(snode) :: ns = shape(snode, 0)
+    type(link_type), pointer :: links(:)
+    type(beam_type) :: beam
+    type(outcome_type) :: outcome
+    type(error_type), allocatable :: error
+    logical, allocatable :: acting(:), zero(:)
+
+    call c_f_pointer(c_loc(link), links, [nl])
+    call new_beam(links, kind, compli, force, couple, snode, sside, sstiff, scont, beam)
+    allocate (acting(ns), zero(ns))
+    acting(:) = closed /= 0
+    zero(:) = margin /= 0
+    motion = 0.0d0
+    message = " "
+    call next_event(beam, factor, rule, acting, zero, next, solves, outcome, error)
+    closed = merge(1, 0, acting)
+    margin = merge(1, 0, zero)
+    status = outcome%status
+    if (allocated(outcome%motion)) motion = outcome%motion
+    if (allocated(error)) then
+        status = error%code
+        message = error%message
+    end if
+end subroutine gbnext
 
 ! Fields at the left end of every piece
 subroutine gbreco(np, nl, piece, dead, live, factor, link, last, kind, w, ml, mr, start)

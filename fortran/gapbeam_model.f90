@@ -4,7 +4,7 @@ module gapbeam_model
     use gapbeam_link, only: link_type
     implicit none
     private
-    public :: beam_type, support_type, below, above, both, is_rigid, softest
+    public :: beam_type, support_type, new_beam, below, above, both, is_rigid, softest
 
     !> Sides of a support: pushes up only, pushes down only, both
     integer, parameter :: below = 1, above = -1, both = 0
@@ -36,6 +36,33 @@ module gapbeam_model
     end type beam_type
 
 contains
+
+    !> A beam from plain arrays; see the components of the types for their meaning
+    pure subroutine new_beam(links, kind, compliance, force, couple, node, side, stiffness, contact, beam)
+        !> Links, shape (n)
+        type(link_type), intent(in) :: links(:)
+        !> Nodes, shape (0:n)
+        integer, intent(in) :: kind(0:)
+        real(wp), intent(in) :: compliance(0:), force(:, 0:), couple(:, 0:)
+        !> Supports, shape (m)
+        integer, intent(in) :: node(:), side(:)
+        real(wp), intent(in) :: stiffness(:), contact(:)
+        !> The beam
+        type(beam_type), intent(out) :: beam
+        integer :: k, n
+
+        n = size(links)
+        allocate (beam%links(n), beam%kind(0:n), beam%compliance(0:n), beam%force(2, 0:n), beam%couple(2, 0:n))
+        allocate (beam%supports(size(node)))
+        beam%links(:) = links
+        beam%kind(:) = kind
+        beam%compliance(:) = compliance
+        beam%force(:, :) = force
+        beam%couple(:, :) = couple
+        do k = 1, size(node)
+            beam%supports(k) = support_type(node(k), side(k), stiffness(k), contact(k))
+        end do
+    end subroutine new_beam
 
     !> Is a support rigid
     elemental function is_rigid(support) result(rigid)

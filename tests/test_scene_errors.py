@@ -315,8 +315,6 @@ def test_moment_at_a_hinge(place):
 def test_not_available_yet():
     refused = "foundation[0]: foundations are not available in this version; use elastic supports"
     assert message(foundation=[{"k": 5.0e3, "side": "below"}]) == refused
-    refused = 'analysis.follow: events are not available in this version; use "steps"'
-    assert message(analysis={"follow": "events"}) == refused
 
 
 @pytest.mark.parametrize("steps", [0, -3])

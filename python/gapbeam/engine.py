@@ -27,6 +27,8 @@ class Solution:
         SOLVED or NO_EQUILIBRIUM; in the second case only `motion` has a meaning.
     closed : numpy.ndarray of int
         1 where a support acts, 0 where it is open.
+    marginal : numpy.ndarray of int
+        1 where its reaction or opening is zero as far as rounding tells.
     deflection, moment_left, moment_right : numpy.ndarray
         At the nodes.
     reaction : numpy.ndarray
@@ -39,10 +41,13 @@ class Solution:
         Linear solves.
     method : int
         Index into METHODS.
+    indifferent : bool
+        Whether the beam can move freely without work of the loads: forces are unique, the position is not.
     """
 
     status: int
     closed: np.ndarray
+    marginal: np.ndarray
     deflection: np.ndarray
     moment_left: np.ndarray
     moment_right: np.ndarray
@@ -51,6 +56,7 @@ class Solution:
     residuals: np.ndarray
     solves: int
     method: int
+    indifferent: bool
 
 
 def condense(arrays: Arrays) -> np.ndarray:
@@ -96,7 +102,62 @@ def solve(arrays: Arrays, links: np.ndarray, factor: float, rule: str, closed: n
         Where no unique solution exists for another reason, with the engine's message.
     """
     scheme = np.array(closed, dtype=np.int32)
-    w, left, right, reaction, motion, residuals, solves, method, status, message = _f77.gbsolv(
+    marginal, w, left, right, reaction, motion, residuals, solves, method, indifferent, status, message = _f77.gbsolv(
+        *_beam(arrays, links), factor, RULES[rule], scheme
+    )
+    if status not in (SOLVED, NO_EQUILIBRIUM):
+        raise EngineError(message.decode().strip())
+    return Solution(
+        status, scheme, marginal, w, left, right, reaction, motion, residuals, solves, method, bool(indifferent)
+    )
+
+
+def next_event(
+    arrays: Arrays, links: np.ndarray, factor: float, rule: str, closed: np.ndarray, marginal: np.ndarray
+) -> tuple[int, float, np.ndarray, np.ndarray, np.ndarray, int]:
+    """Find the scheme just above a load factor and the factor at which it changes next.
+
+    Parameters
+    ----------
+    arrays, links, factor, rule, closed
+        As for `solve`; `closed` is the scheme at the factor.
+    marginal : numpy.ndarray of int
+        1 for the supports at zero there.
+
+    Returns
+    -------
+    status : int
+        SOLVED, or NO_EQUILIBRIUM if the beam begins to move there.
+    next : float
+        Factor of the next event; inf if there is none.
+    closed : numpy.ndarray of int
+        The scheme just above `factor`.
+    marginal : numpy.ndarray of int
+        Supports at zero at `next`.
+    motion : numpy.ndarray
+        As in `Solution`.
+    solves : int
+        Linear solves.
+
+    Raises
+    ------
+    EngineError
+        Where no single path exists, with the engine's message.
+    """
+    closed, marginal = np.array(closed, dtype=np.int32), np.array(marginal, dtype=np.int32)
+    following, motion, solves, status, message = _f77.gbnext(
+        *_beam(arrays, links), factor, RULES[rule], closed, marginal
+    )
+    if status not in (SOLVED, NO_EQUILIBRIUM):
+        raise EngineError(f"at load factor {factor:g}: {message.decode().strip()}")
+    if following > 1e300:
+        following = np.inf
+    return status, following, closed, marginal, motion, solves
+
+
+def _beam(arrays: Arrays, links: np.ndarray) -> tuple[np.ndarray, ...]:
+    """Collect what every contact call needs."""
+    return (
         links,
         arrays.kinds,
         arrays.compliance,
@@ -106,13 +167,7 @@ def solve(arrays: Arrays, links: np.ndarray, factor: float, rule: str, closed: n
         arrays.support_sides,
         arrays.support_stiffness,
         arrays.support_contact,
-        factor,
-        RULES[rule],
-        scheme,
     )
-    if status not in (SOLVED, NO_EQUILIBRIUM):
-        raise EngineError(message.decode().strip())
-    return Solution(status, scheme, w, left, right, reaction, motion, residuals, solves, method)
 
 
 def recover(arrays: Arrays, links: np.ndarray, factor: float, solution: Solution) -> np.ndarray:

@@ -8,14 +8,19 @@ from __future__ import annotations
 
 from dataclasses import asdict, dataclass, fields
 from functools import cached_property
-from typing import Any
+from time import perf_counter
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from . import engine
 from .engine import METHODS, Solution
 from .lowering import Arrays, locate
+from .motion import describe_motion
 from .scene import POSITION_TOLERANCE, Scene
+
+if TYPE_CHECKING:
+    from .path import Event, Segment
 
 BENDING = ("deflection", "rotation", "moment", "shear")
 
@@ -102,6 +107,8 @@ class Step:
         Time of these.
     certificate : dict
         Relative residuals of equilibrium, compatibility and complementarity.
+    indifferent : bool
+        Whether the beam can move freely without work of the loads: its forces are unique, its position is not.
     """
 
     def __init__(self, arrays: Arrays, links: np.ndarray, factor: float, seconds: float, solution: Solution, axial):
@@ -113,6 +120,7 @@ class Step:
         self._arrays = arrays
         self._links = links
         compatibility, equilibrium, complementarity = solution.residuals.tolist()
+        self.indifferent = solution.indifferent
         self.certificate = {
             "equilibrium": equilibrium,
             "compatibility": compatibility,
@@ -172,6 +180,30 @@ class Step:
         return engine.recover(self._arrays, self._links, self.factor, self.solution)
 
 
+def solve_step(
+    arrays: Arrays, links: np.ndarray, factor: float, rule: str, closed: np.ndarray
+) -> Step | Solution | None:
+    """Solve one state.
+
+    Parameters
+    ----------
+    arrays, links, factor, rule, closed
+        As for `engine.solve`.
+
+    Returns
+    -------
+    Step, Solution or None
+        The step; the solution with its motion where there is no equilibrium; None where the beam slides.
+    """
+    begin = perf_counter()
+    axial = engine.solve_axial(arrays, factor) if arrays.axial is not None else None
+    solution = engine.solve(arrays, links, factor, rule, closed)
+    seconds = perf_counter() - begin
+    if arrays.axial is not None and axial is None:
+        return None
+    return Step(arrays, links, factor, seconds, solution, axial) if solution.status == engine.SOLVED else solution
+
+
 class Result:
     """All load steps of a scene.
 
@@ -186,36 +218,74 @@ class Result:
     motion : list of (float, float) or None
         The free motion then: x and displacement (positive downward, largest 1), straight lines between.
     steps : list of Step
-        The load steps up to there.
+        The load steps up to there; following events, the states at every event and at the end.
+    events : list of Event
+        Every change of the working scheme with its exact load factor, following events.
     """
 
-    def __init__(self, scene: Scene, arrays: Arrays, links: np.ndarray):
+    def __init__(self, scene: Scene, arrays: Arrays, links: np.ndarray, rule: str):
         self.scene = scene
         self.status = "solved"
         self.reason: str | None = None
         self.motion: list[tuple[float, float]] | None = None
         self.steps: list[Step] = []
-        self._arrays = arrays
-        self._links = links
+        self.arrays = arrays
+        self.links = links
+        self.rule = rule
+        self.events: list[Event] = []
+        self.segments: list[Segment] = []
 
-    def refuse(self, reason: str, motion: list[tuple[float, float]] | None) -> None:
+    def refuse(self, where: str, motion: np.ndarray | None) -> None:
         """Note that there is no equilibrium.
 
         Parameters
         ----------
-        reason : str
-            In words.
-        motion : list of (float, float) or None
-            The free motion.
+        where : str
+            At or above which load factor.
+        motion : numpy.ndarray or None
+            Displacements of the nodes in the free motion; None where the beam slides along its axis.
         """
         self.status = "no-equilibrium"
-        self.reason = reason
-        self.motion = motion
+        if motion is None:
+            self.reason = f"no equilibrium {where}: the beam slides along its axis, no axial support holds it"
+            return
+        self.reason = f"no equilibrium {where}: {describe_motion(self.arrays, motion)}"
+        self.motion = list(zip(self.arrays.node_x.tolist(), motion.tolist(), strict=True))
+
+    def state(self, factor: float) -> Step:
+        """Solve the exact state at any load factor.
+
+        Parameters
+        ----------
+        factor : float
+            Load factor; following events, within the path, where the scheme is known beforehand.
+
+        Returns
+        -------
+        Step
+            One linear solve away from what is known.
+
+        Raises
+        ------
+        ValueError
+            Where there is no equilibrium at that factor.
+        """
+        arrays = self.arrays
+        closed = np.ones(len(arrays.supports), dtype=np.int32)
+        for segment in self.segments:
+            if segment.start <= factor:
+                closed = segment.closed
+        if not self.segments and self.steps:
+            closed = min(self.steps, key=lambda step: abs(step.factor - factor)).solution.closed
+        step = solve_step(arrays, self.links, factor, self.rule, closed)
+        if isinstance(step, Solution) or step is None:
+            raise ValueError(f"factor: there is no equilibrium at load factor {factor:g}")
+        return step
 
     @cached_property
     def system(self) -> System:
         """What the system of equations consisted of."""
-        arrays = self._arrays
+        arrays = self.arrays
         method = self.steps[-1].solution.method if self.steps else 0
         nodes = len(arrays.kinds)
         three_moment = METHODS[method] == "three-moment"
@@ -237,7 +307,7 @@ class Result:
             left_out=tuple(name for name, used in needed.items() if not used),
         )
 
-    def at(self, x: Any, step: int = -1, side: str = "right") -> Fields:
+    def at(self, x: Any, step: int = -1, side: str = "right", factor: float | None = None) -> Fields:
         """Exact values anywhere along the beam.
 
         Parameters
@@ -248,6 +318,8 @@ class Result:
             Number of the load step; default the last.
         side : {"right", "left"}
             Which value is taken where a field jumps.
+        factor : float, optional
+            Any load factor instead of a step; solved for when asked.
 
         Returns
         -------
@@ -261,7 +333,7 @@ class Result:
         """
         if side not in ("right", "left"):
             raise ValueError(f'side: expected "right" or "left", got "{side}"')
-        arrays = self._arrays
+        arrays = self.arrays
         x = np.asarray(x, dtype=float)
         end = arrays.ends[-1]
         slack = POSITION_TOLERANCE * end
@@ -269,11 +341,12 @@ class Result:
             raise ValueError(f"x: the beam goes from 0 to {end:g}, got {x[~((x >= 0) & (x <= end))].flat[0]:g}")
         span, offset = locate(x.ravel(), arrays.ends)
         piece, distance = self._piece(span, offset, side == "left")
-        return self._fields(x.ravel(), piece, distance, step, x.shape)
+        state = self.steps[step] if factor is None else self.state(factor)
+        return self._fields(x.ravel(), piece, distance, state, x.shape)
 
     def _piece(self, span: np.ndarray, offset: np.ndarray, left: bool) -> tuple[np.ndarray, np.ndarray]:
         """Piece of each place and the distance from its left end; at a point the piece on the given side."""
-        arrays = self._arrays
+        arrays = self.arrays
         tolerance = POSITION_TOLERANCE * (arrays.ends[span] + offset)
         first = np.searchsorted(arrays.point_span, np.arange(len(arrays.ends)))  # the point at every span end
         key = arrays.point_offset
@@ -288,9 +361,8 @@ class Result:
         piece = np.where(before, point - 1, point)
         return piece, np.where(before, arrays.pieces[piece, 0], distance)
 
-    def _fields(self, x, piece, distance, step, shape) -> Fields:
-        state = self.steps[step]
-        arrays = self._arrays
+    def _fields(self, x, piece, distance, state, shape) -> Fields:
+        arrays = self.arrays
         values = engine.values(arrays, state.factor, state.starts, piece, distance)
         columns = dict(zip(BENDING, (row.reshape(shape) for row in values), strict=True))
         if arrays.axial is not None:
@@ -318,7 +390,7 @@ class Result:
         Fields
             With every place between two pieces twice: the values left of it, then those right of it.
         """
-        arrays = self._arrays
+        arrays = self.arrays
         size = len(arrays.pieces)
         spans = np.diff(arrays.ends)[arrays.point_span[:-1]]
         parts = np.maximum(np.ceil(points * arrays.pieces[:, 0] / spans).astype(int), 1)
@@ -326,7 +398,7 @@ class Result:
         place = np.arange(len(piece)) - np.repeat(np.cumsum(parts + 1) - (parts + 1), parts + 1)
         distance = arrays.pieces[piece, 0] * (place / parts[piece])
         x = np.where(place == parts[piece], arrays.point_x[piece + 1], arrays.point_x[piece] + distance)
-        return self._fields(x, piece, distance, step, x.shape)
+        return self._fields(x, piece, distance, self.steps[step], x.shape)
 
     def extremes(self, step: int = -1) -> dict[str, dict[str, tuple[float, float]]]:
         """Exact largest and smallest values of every field with their places.
@@ -342,14 +414,14 @@ class Result:
             ``{"moment": {"max": (value, x), "min": (value, x)}, ...}``.
         """
         state = self.steps[step]
-        values, x = engine.extremes(self._arrays, state.factor, state.starts)
+        values, x = engine.extremes(self.arrays, state.factor, state.starts)
         result = {
             name: {"max": (float(values[0, k]), float(x[0, k])), "min": (float(values[1, k]), float(x[1, k]))}
             for k, name in enumerate(BENDING)
         }
         if state.axial is not None:
             u, tension, _ = state.axial
-            at = self._arrays.point_x[self._arrays.axial.points]
+            at = self.arrays.point_x[self.arrays.axial.points]
             for name, row in (("axial_force", tension), ("axial_displacement", u)):
                 high, low = int(np.argmax(row)), int(np.argmin(row))
                 result[name] = {"max": (float(row[high]), float(at[high])), "min": (float(row[low]), float(at[low]))}
@@ -389,6 +461,10 @@ class Result:
         if self.status != "solved":
             data["reason"] = self.reason
             data["motion"] = None if self.motion is None else [list(pair) for pair in self.motion]
+        if self.scene.analysis.follow == "events":
+            data["events"] = [
+                {"factor": e.factor, "support": e.support, "x": e.x, "event": e.event} for e in self.events
+            ]
         if self.steps:
             data["fields"] = self.fields(points=points).to_dict()
             data["extremes"] = {

@@ -294,7 +294,7 @@ class Analysis(Struct, forbid_unknown_fields=True, kw_only=True):
     steps : int
         Number of equal steps of the load factor up to 1; default 1.
     follow : {"steps", "events"}
-        steps (default); events are not available in this version.
+        steps (default), or events: every change of the acting supports at its exact load factor.
     rule : {"block", "single"}
         How the acting supports are found: block (default) changes many at once and always ends, single
         changes one at a time (the paper's rule).

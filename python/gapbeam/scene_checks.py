@@ -185,8 +185,6 @@ def check(scene: Scene) -> None:
     _check_loads(scene, ends, hinges)
     if scene.analysis.steps < 1:
         raise SceneError("analysis.steps", f"expected a whole number, 1 or more, got {scene.analysis.steps}")
-    if scene.analysis.follow == "events":
-        raise SceneError("analysis.follow", 'events are not available in this version; use "steps"')
 
 
 class _Rows:

@@ -1,10 +1,9 @@
-"""Load steps: solve a scene at factors 1/n, 2/n, ..., 1, each step starting from the last working scheme."""
+"""Solve a scene at factors 1/n, 2/n, ..., 1, each step starting from the last scheme, or from event to event."""
 
 from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from time import perf_counter
 from typing import Any
 
 import numpy as np
@@ -12,8 +11,8 @@ import numpy as np
 from . import engine
 from .errors import SceneError
 from .lowering import Arrays, lower
-from .motion import describe_motion
-from .results import Result, Step
+from .path import follow
+from .results import Result, Step, solve_step
 from .scene import Scene, read_scene
 
 
@@ -65,25 +64,20 @@ def solve(
     arrays = lower(scene)
     closed = _starting_scheme(arrays, start)
     links = engine.condense(arrays)
-    result = Result(scene, arrays, links)
-    for k in range(1, scene.analysis.steps + 1):
-        factor = k / scene.analysis.steps
-        begin = perf_counter()
-        axial = engine.solve_axial(arrays, factor) if arrays.axial is not None else None
-        solution = engine.solve(arrays, links, factor, rule, closed)
-        seconds = perf_counter() - begin
-        if arrays.axial is not None and axial is None:
-            result.refuse("the beam slides along its axis: no axial support holds it", None)
+    result = Result(scene, arrays, links, rule)
+    if scene.analysis.follow == "events":
+        result.segments = follow(result, rule, closed)
+        plan = [(segment.stop, segment.closed, segment.solves) for segment in result.segments]
+    else:
+        plan = [(k / scene.analysis.steps, None, 0) for k in range(1, scene.analysis.steps + 1)]
+    for factor, scheme, solves in plan:
+        step = solve_step(arrays, links, factor, rule, closed if scheme is None else scheme)
+        if not isinstance(step, Step):
+            result.refuse(f"at load factor {factor:g}", None if step is None else step.motion)
             break
-        if solution.status == engine.NO_EQUILIBRIUM:
-            reason = describe_motion(arrays, solution.motion)
-            result.refuse(
-                f"no equilibrium at load factor {factor:g}: {reason}",
-                list(zip(arrays.node_x.tolist(), solution.motion.tolist(), strict=True)),
-            )
-            break
-        closed = solution.closed
-        result.steps.append(Step(arrays, links, factor, seconds, solution, axial))
+        step.solves += solves
+        closed = step.solution.closed
+        result.steps.append(step)
     return result
 
 

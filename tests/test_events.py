@@ -1,0 +1,119 @@
+"""Events: the exact load factor of every change of the working scheme."""
+
+import random
+
+import gapbeam
+import numpy as np
+import oracle
+import pytest
+from mpmath import mpf
+from scenes import at, force, random_scene, scene, uniform
+
+EVENTS = {"follow": "events"}
+
+
+def solve(made):
+    return gapbeam.solve({**made, "analysis": EVENTS})
+
+
+def events(result):
+    return [(event.factor, event.support, event.event) for event in result.events]
+
+
+def test_midspan_gap_closes():
+    """A simple beam meets a support with gap d at q = 76.8 EI d/L^4."""
+    supports = [at(0), at(1, side="below", gap=0.01), at(2)]
+    result = solve(scene([2.0, 2.0], supports, [uniform(10.0)], EI=3.0))
+    assert events(result) == [(pytest.approx(76.8 * 3.0 * 0.01 / 4.0**4 / 10.0, rel=1e-14), 1, "closes")]
+
+
+def test_far_end_lifts():
+    """Two equal spans on three one-sided supports: the far end lifts at q = 6 g exactly."""
+    supports = [at(i, side="below") for i in range(3)]
+    loads = [uniform(1.0, case="dead"), {**uniform(10.0), "to": 1.0}]
+    result = solve(scene([1.0, 1.0], supports, loads))
+    assert events(result) == [(pytest.approx(0.6, rel=1e-15), 2, "opens")]
+    assert result.state(0.3).reaction == pytest.approx([0.4 + 3 * 7 / 16, 1.25 + 3 * 0.625, 0.375 - 3 / 16], abs=0.03)
+    assert result.at(2.0, factor=1.0).deflection == pytest.approx(-4.0 / 24.0, rel=1e-13)
+
+
+def test_plank_tips():
+    """An overhanging force tips a plank of weight g when its moment reaches that of the weight."""
+    supports = [at(0, side="below"), at(1, side="below")]
+    loads = [{**uniform(1.0, case="dead"), "to": 1.0}, force(2.0, 10.0)]
+    result = solve(scene([1.0, 1.0], supports, loads))
+    assert result.status == "no-equilibrium"
+    assert "above load factor 0.05:" in result.reason
+    assert "tips about the support at x = 1: its right end goes down" in result.reason
+    assert [step.factor for step in result.steps] == [pytest.approx(0.05, rel=1e-15)]
+
+
+def test_simultaneous_events():
+    """A symmetric beam lifts off both its ends at once."""
+    supports = [at(i, side="below") for i in range(4)]
+    loads = [uniform(1.0, case="dead"), {**uniform(60.0), "from": 1.0, "to": 2.0}]
+    result = solve(scene([1.0, 1.0, 1.0], supports, loads))
+    assert [event.support for event in result.events] == [0, 3]
+    assert result.events[0].factor == pytest.approx(result.events[1].factor, rel=1e-14)
+
+
+def test_paper_beam_has_no_event():
+    """Without gaps the scheme is the same at every load factor above 0."""
+    supports = [at(0, rotation="fixed"), at(1, side="above"), at(2, side="below"), at(3, side="below")]
+    loads = [force(2.0, 0.70707), force(4.0, -4.3597), force(6.0, 2.1155)]
+    result = solve(scene([2.0, 2.0, 2.0], supports, loads, EI=44.5))
+    assert result.events == []
+    assert result.steps[-1].state == ("bilateral", "closed", "open", "closed")
+
+
+def test_abaqus_stops():
+    """Reference P2: the stop at x = 3 acts first, that at x = 1 joins in between P = 120 and 140."""
+    supports = [at(0, rotation="fixed"), at(1, side="below", gap=0.01), at(3, side="below", gap=0.01)]
+    result = solve(scene([1.0] * 5, supports, [force(2.0, 200.0)], EI=2162.7))
+    assert [(event.support, event.event) for event in result.events] == [(2, "closes"), (1, "closes")]
+    assert 120 < 200 * result.events[1].factor < 140
+
+
+def crossing(made, segment, support):
+    """Exact load factor at which reaction or opening of a support is zero, from two states inside a segment."""
+    exact = oracle.Oracle(made)
+    factors = [segment.start + (segment.stop - segment.start) * share for share in (0.25, 0.75)]
+    states = [exact.solve(factor) for factor in factors]
+    if any(not state.reaction for state in states):
+        return None  # indifferent: the position is not unique, so gaps have no values
+    opens = segment.closed[support]
+    values = [mpf(state.reaction[support] if opens else state.opening[support]) for state in states]
+    if values[0] == values[1] == 0:
+        return None  # it touched without force and left when another support began to act
+    return mpf(factors[0]) - values[0] * (mpf(factors[1]) - mpf(factors[0])) / (values[1] - values[0])
+
+
+@pytest.mark.parametrize("block", range(10))
+def test_random_paths(block):
+    """The path ends where a direct solve ends, and every event is where it should be."""
+    followed = 0
+    for seed in range(100 * block, 100 * block + 100):
+        rng = random.Random(seed)
+        made = random_scene(rng, held=rng.choice((True, None)))
+        made["analysis"] = {}
+        direct = gapbeam.solve(made)
+        try:
+            path = solve(made)
+        except gapbeam.EngineError as error:
+            assert "can move freely without work" in str(error)
+            continue
+        if path.status != "solved":
+            # The beam may stand again at factor 1, but not all the way there
+            continue
+        assert direct.status == "solved"
+        followed += 1
+        scale = max(np.abs(direct.steps[-1].reaction).max(initial=0.0), 1e-6)
+        assert path.steps[-1].reaction == pytest.approx(direct.steps[-1].reaction, abs=1e-11 * scale), seed
+        for event in path.events:
+            before = [segment for segment in path.segments if segment.stop == event.factor]
+            normal = path.arrays.supports.tolist().index(event.support)
+            if not before or normal != event.support:
+                continue  # axial supports shift the numbering; other seeds do
+            true = crossing(made, before[0], event.support)
+            assert true is None or abs(true - event.factor) <= 1e-12, (seed, event)
+    assert followed > 50
