@@ -2,7 +2,7 @@
 !>
 !>     call condense_link(pieces, dead, live, work, link)                           ! once for every span
 !>     call find_scheme(beam, factor, rule, closed, work, outcome, error)           ! at every load factor
-!>     call recover_beam(pieces, dead, live, factor, links, last, kind, w, ml, mr, starts)   ! for fields
+!>     call recover_beam(pieces, dead, live, factor, links, last, kind, w, ml, mr, v, starts) ! for fields
 !>
 !> Units: any consistent set. Signs: x to the right, deflection and loads down, reactions up, moments sagging,
 !> couples and rotations clockwise. No procedure prints, stops, or keeps data between calls.

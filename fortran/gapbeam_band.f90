@@ -1,4 +1,4 @@
-!> The mixed system, 2x2-block tridiagonal in (M, w) node by node: factor, solve, residual.
+!> The mixed system, 2x2-block tridiagonal in (M, w) node by node: factor and solve.
 !>
 !> Rows of node i (method.md 3), V the shear, psi the rotation of the section:
 !>
@@ -23,7 +23,7 @@ module gapbeam_band
     use gapbeam_link, only: link_type
     implicit none
     private
-    public :: node_type, rhs_type, pivot_type, answer_type, factor_chain, solve_chain, residual_chain
+    public :: node_type, rhs_type, pivot_type, answer_type, factor_chain, solve_chain
     public :: band_ok, band_mechanism, band_needs_pivoting
     public :: plain, hinge, restrained
 
@@ -350,69 +350,5 @@ contains
             end associate
         end do
     end subroutine substitute
-
-    !> What the rows still lack, formed from differences of neighbours first, then divided: with exact
-    !> differences of nearly equal deflections this keeps digits that b - A x loses
-    pure subroutine residual_chain(nodes, links, rhs, answers, residual, compatibility, equilibrium)
-        !> Nodes, links and right-hand side (not overwritten) of the system
-        type(node_type), intent(in) :: nodes(0:)
-        type(link_type), intent(in) :: links(:)
-        type(rhs_type), intent(in) :: rhs(0:)
-        !> A solution
-        type(answer_type), intent(in) :: answers(0:)
-        !> Right-hand side of the correction, shape (0:n)
-        type(rhs_type), intent(out) :: residual(0:)
-        !> Largest residual of the two kinds of rows relative to the largest term of its kind
-        real(wp), intent(out) :: compatibility, equilibrium
-        real(wp) :: psi_left, psi_right, v_left, v_right, turn, largest_turn, largest_shear, h
-        integer :: i, n
-
-        n = size(links)
-        compatibility = 0.0_wp
-        equilibrium = 0.0_wp
-        largest_turn = tiny(h)
-        largest_shear = tiny(h)
-        psi_left = 0.0_wp
-        v_left = 0.0_wp
-        do i = 0, n
-            psi_right = 0.0_wp
-            v_right = 0.0_wp
-            associate (node => nodes(i), a => answers(i), r => residual(i))
-                if (i < n) then
-                    associate (link => links(i + 1), z => answers(i + 1))
-                        h = 1/link%length
-                        turn = h*(z%deflection - a%deflection)
-                        psi_right = turn + (link%faa*a%moment_right + link%fab*z%moment_left)
-                        v_right = h*(z%moment_left - a%moment_right)
-                        largest_turn = max(largest_turn, abs(turn), link%faa*abs(a%moment_right), &
-                            link%fbb*abs(z%moment_left))
-                    end associate
-                end if
-                largest_turn = max(largest_turn, abs(rhs(i)%left), abs(rhs(i)%right))
-                if (node%kind == restrained) then
-                    turn = node%compliance*((a%moment_left - a%moment_right) + rhs(i)%couple)
-                    if (i > 0) r%left = rhs(i)%left - (psi_left - turn)
-                    if (i < n) r%right = rhs(i)%right - (turn - psi_right)
-                    compatibility = max(compatibility, abs(r%left), abs(r%right))
-                else if (node%kind == plain .and. i > 0 .and. i < n) then
-                    r%right = (rhs(i)%left + rhs(i)%right) - (psi_left - psi_right)
-                    compatibility = max(compatibility, abs(r%right))
-                end if
-                largest_shear = max(largest_shear, abs(v_left), abs(v_right), abs(rhs(i)%shear))
-                if (.not. node%held) then
-                    r%shear = (rhs(i)%shear - (v_left - v_right)) - node%stiffness*a%deflection
-                    equilibrium = max(equilibrium, abs(r%shear))
-                end if
-                if (i < n) then
-                    associate (link => links(i + 1), z => answers(i + 1))
-                        psi_left = h*(z%deflection - a%deflection) - (link%fab*a%moment_right + link%fbb*z%moment_left)
-                        v_left = v_right
-                    end associate
-                end if
-            end associate
-        end do
-        compatibility = compatibility/largest_turn
-        equilibrium = equilibrium/largest_shear
-    end subroutine residual_chain
 
 end module gapbeam_band

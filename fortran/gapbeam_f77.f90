@@ -41,7 +41,7 @@ end subroutine gbcond
 
 ! Find the working scheme at one load factor and solve it
 subroutine gbsolv(nl, ns, link, kind, compli, force, couple, snode, sside, sstiff, scont, factor, rule, &
-                  closed, margin, w, ml, mr, react, motion, resid, solves, method, indiff, status, message)
+                  closed, margin, w, ml, mr, shear, react, motion, resid, solves, method, indiff, status, message)
     use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
     use gapbeam_error, only: error_type, gapbeam_solved
     use gapbeam_link, only: link_type
@@ -69,8 +69,8 @@ subroutine gbsolv(nl, ns, link, kind, compli, force, couple, snode, sside, sstif
     integer, intent(inout) :: closed(ns)
     ! 1 where the reaction or the opening is zero as far as rounding tells
     integer, intent(out) :: margin(ns)
-    ! Deflections, moments left and right of the nodes, reactions (up)
-    double precision, intent(out) :: w(0:nl), ml(0:nl), mr(0:nl), react(ns)
+    ! Deflections, moments left and right of the nodes, shears of the links beside those of the simple bar, reactions (up)
+    double precision, intent(out) :: w(0:nl), ml(0:nl), mr(0:nl), shear(nl), react(ns)
     ! Free motion where there is no equilibrium; residuals of compatibility, equilibrium, complementarity
     double precision, intent(out) :: motion(0:nl), resid(3)
     ! Linear solves; system solved last: 0 mixed, 1 three-moment, 2 with pivoting; 1 where the beam can move freely
@@ -97,6 +97,7 @@ subroutine gbsolv(nl, ns, link, kind, compli, force, couple, snode, sside, sstif
     w = 0.0d0
     ml = 0.0d0
     mr = 0.0d0
+    shear = 0.0d0
     react = 0.0d0
     motion = 0.0d0
     resid = 0.0d0
@@ -121,10 +122,58 @@ subroutine gbsolv(nl, ns, link, kind, compli, force, couple, snode, sside, sstif
     w = work%answers%deflection
     ml = work%answers%moment_left
     mr = work%answers%moment_right
+    shear = work%shear
     react = work%reaction
     call check_scheme(beam, work)
     resid = [work%compatibility, work%equilibrium, complementarity(beam, acting, work)]
 end subroutine gbsolv
+
+! Bounds for the errors of deflections and reactions of a working scheme that GBSOLV found
+subroutine gbcert(nl, ns, link, kind, compli, force, couple, snode, sside, sstiff, scont, factor, &
+                  closed, bound, known)
+    use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
+    use gapbeam_link, only: link_type
+    use gapbeam_model, only: beam_type, new_beam
+    use gapbeam_system, only: workspace_type, new_workspace, set_loads, solve_scheme, refine_scheme, certify_scheme
+    use gapbeam_band, only: band_ok
+    implicit none
+    ! As for GBSOLV
+    integer, intent(in) :: nl, ns
+    double precision, intent(in), target :: link(16, nl)
+    integer, intent(in) :: kind(0:nl)
+    double precision, intent(in) :: compli(0:nl)
+    double precision, intent(in) :: force(2, 0:nl), couple(2, 0:nl)
+    integer, intent(in) :: snode(ns), sside(ns)
+    double precision, intent(in) :: sstiff(ns), scont(ns)
+    double precision, intent(in) :: factor
+    integer, intent(in) :: closed(ns)
+    ! Largest errors of deflections and of reactions; 1 if they are known, 0 where the scheme has no factor without pivoting
+    double precision, intent(out) :: bound(2)
+    integer, intent(out) :: known
+    !f2py threadsafe
+    !f2py integer, intent(hide), depend(link) :: nl = shape(link, 1)
+    !f2py integer, intent(hide), depend(snode) :: ns = shape(snode, 0)
+    type(link_type), pointer :: links(:)
+    type(beam_type) :: beam
+    type(workspace_type) :: work
+    logical, allocatable :: acting(:)
+    logical :: found
+    integer :: state, place
+
+    call c_f_pointer(c_loc(link), links, [nl])
+    call new_beam(links, kind, compli, force, couple, snode, sside, sstiff, scont, beam)
+    call new_workspace(beam, work)
+    call set_loads(beam, factor, work)
+    allocate (acting(ns))
+    acting(:) = closed /= 0
+    bound = 0.0d0
+    known = 0
+    call solve_scheme(beam, acting, work, state, place)
+    if (state /= band_ok) return
+    call refine_scheme(beam, acting, work)
+    call certify_scheme(beam, work, bound(1), bound(2), found)
+    known = merge(1, 0, found)
+end subroutine gbcert
 
 ! The scheme just above a load factor and the factor at which it changes next
 subroutine gbnext(nl, ns, link, kind, compli, force, couple, snode, sside, sstiff, scont, factor, rule, &
@@ -180,7 +229,7 @@ subroutine gbnext(nl, ns, link, kind, compli, force, couple, snode, sside, sstif
 end subroutine gbnext
 
 ! Fields at the left end of every piece
-subroutine gbreco(np, nl, piece, dead, live, factor, link, last, kind, w, ml, mr, start)
+subroutine gbreco(np, nl, piece, dead, live, factor, link, last, kind, w, ml, mr, shear, start)
     use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
     use gapbeam_element, only: field_type
     use gapbeam_link, only: link_type, piece_type, load_type
@@ -190,7 +239,7 @@ subroutine gbreco(np, nl, piece, dead, live, factor, link, last, kind, w, ml, mr
     double precision, intent(in), target :: piece(3, np), dead(5, np), live(5, np), link(16, nl)
     double precision, intent(in) :: factor
     integer, intent(in) :: last(nl), kind(0:nl)
-    double precision, intent(in) :: w(0:nl), ml(0:nl), mr(0:nl)
+    double precision, intent(in) :: w(0:nl), ml(0:nl), mr(0:nl), shear(nl)
     ! Deflection, rotation, moment, shear just right of the left end of each piece
     double precision, intent(out), target :: start(4, np)
     !f2py threadsafe
@@ -206,7 +255,7 @@ subroutine gbreco(np, nl, piece, dead, live, factor, link, last, kind, w, ml, mr
     call c_f_pointer(c_loc(live), lives, [np])
     call c_f_pointer(c_loc(link), links, [nl])
     call c_f_pointer(c_loc(start), starts, [np])
-    call recover_beam(pieces, deads, lives, factor, links, last, kind, w, ml, mr, starts)
+    call recover_beam(pieces, deads, lives, factor, links, last, kind, w, ml, mr, shear, starts)
 end subroutine gbreco
 
 ! Fields at NX places, each a piece (from 1) and the distance from its left end

@@ -12,7 +12,8 @@ module gapbeam_fields
 contains
 
     !> Fields at the left end of every piece from the solution at the nodes
-    pure subroutine recover_beam(pieces, dead, live, factor, links, last, kind, w, moment_left, moment_right, starts)
+    pure subroutine recover_beam(pieces, dead, live, factor, links, last, kind, w, moment_left, moment_right, shear, &
+                                 starts)
         !> Pieces and their loads, shape (npiece)
         type(piece_type), intent(in) :: pieces(:)
         type(load_type), intent(in) :: dead(:), live(:)
@@ -24,6 +25,8 @@ contains
         !> Kinds of the nodes, their deflections, moments left and right of them, shape (0:n)
         integer, intent(in) :: kind(0:)
         real(wp), intent(in) :: w(0:), moment_left(0:), moment_right(0:)
+        !> Shear of every link beside that of the simple bar, shape (n)
+        real(wp), intent(in) :: shear(:)
         !> The fields, shape (npiece)
         type(field_type), intent(out) :: starts(:)
         type(load_type), allocatable :: loads(:)
@@ -41,7 +44,7 @@ contains
             associate (n => last(i) - first + 1, link => links(i))
                 loads(1:n) = combine_loads(dead(first:last(i)), live(first:last(i)), factor)
                 call recover_link(pieces(first:last(i)), loads(1:n), link%length, moment_right(i - 1), &
-                                  moment_left(i), w(i - 1), w(i), psi(i), work, starts(first:last(i)))
+                                  moment_left(i), shear(i), w(i - 1), w(i), psi(i), work, starts(first:last(i)))
             end associate
             first = last(i) + 1
         end do

@@ -9,7 +9,7 @@ module gapbeam_lapack
     use gapbeam_band, only: node_type, rhs_type, answer_type, hinge, restrained
     implicit none
     private
-    public :: solve_pivoting
+    public :: solve_pivoting, estimate_type, estimate_norm
 
     !> Half bandwidth of the mixed system
     integer, parameter :: half_bandwidth = 3
@@ -17,6 +17,7 @@ module gapbeam_lapack
 ! PyPI's scipy-openblas32 prefixes its symbols
 #ifdef SCIPY_OPENBLAS
 #define dgbsvx scipy_dgbsvx
+#define dlacn2 scipy_dlacn2
 #endif
 
     interface
@@ -30,9 +31,37 @@ module gapbeam_lapack
             real(wp), intent(inout) :: x(ldx, *), rcond, ferr(*), berr(*), work(*)
             integer, intent(inout) :: ipiv(*), iwork(*), info
         end subroutine dgbsvx
+        subroutine dlacn2(n, v, x, isgn, est, kase, isave)
+            import :: wp
+            integer, intent(in) :: n
+            real(wp), intent(inout) :: v(*), x(*), est
+            integer, intent(inout) :: isgn(*), kase, isave(3)
+        end subroutine dlacn2
     end interface
 
+    !> The estimate of a matrix's 1-norm on its way
+    type :: estimate_type
+        !> 0 at the start and when done; 1: the caller replaces x by the matrix times x; 2: by its transpose times x
+        integer :: wanted = 0
+        integer :: memory(3) = 0
+        real(wp), allocatable :: vector(:)
+        integer, allocatable :: signs(:)
+    end type estimate_type
+
 contains
+
+    !> One turn of the estimate of the 1-norm of a matrix that is known by its products only
+    subroutine estimate_norm(estimate, x, norm)
+        !> Its state
+        type(estimate_type), intent(inout) :: estimate
+        !> Vector to be multiplied
+        real(wp), intent(inout) :: x(:)
+        !> The estimate when estimate%wanted is 0 again
+        real(wp), intent(inout) :: norm
+
+        if (.not. allocated(estimate%vector)) allocate (estimate%vector(size(x)), estimate%signs(size(x)))
+        call dlacn2(size(x), estimate%vector, x, estimate%signs, norm, estimate%wanted, estimate%memory)
+    end subroutine estimate_norm
 
     !> Assemble, factor with pivoting, solve and refine
     subroutine solve_pivoting(nodes, links, rhs, answers, regular)

@@ -243,14 +243,14 @@ contains
 
     !> Fields at the left end of every piece of a link, from the fields at its nodes.
     !> Sums run from both ends towards the point, so that no large parts cancel.
-    pure subroutine recover_link(pieces, loads, length, moment_a, moment_b, w_a, w_b, psi_a, work, starts)
+    pure subroutine recover_link(pieces, loads, length, moment_a, moment_b, shear, w_a, w_b, psi_a, work, starts)
         !> Pieces and their loads (already combined), shape (n)
         type(piece_type), intent(in) :: pieces(:)
         type(load_type), intent(in) :: loads(:)
         !> Length of the link
         real(wp), intent(in) :: length
-        !> Moments just inside its ends, deflections of its ends, rotation at its left end
-        real(wp), intent(in) :: moment_a, moment_b, w_a, w_b, psi_a
+        !> Moments just inside its ends, shear that belongs to them, deflections of its ends, rotation at its left end
+        real(wp), intent(in) :: moment_a, moment_b, shear, w_a, w_b, psi_a
         !> Workspace, shape (at least n, 3)
         real(wp), intent(inout) :: work(:, :)
         !> Fields just right of the left end of every piece, shape (n)
@@ -273,7 +273,7 @@ contains
                 x0 = x1
                 xi = x0/length
                 starts(j)%moment = (1 - xi)*(moment_a + total(left)) + xi*(moment_b + before)
-                starts(j)%shear = ((moment_b - moment_a) + (before - total(left)))/length
+                starts(j)%shear = shear + (before - total(left))/length
                 starts(j)%rotation = psi_a - total(turning)
                 starts(j)%deflection = total(slip)
                 call add(left, load_moment(x0, p%length, q%qa, q%qb))

@@ -6,7 +6,8 @@
 !> so nothing accumulates along the path. What happens there is decided by the rate problem: supports at zero are
 !> one-sided without gap, other closed ones hold, other open ones are absent, and the live loads act alone. It is a
 !> contact problem of its own, so any number of simultaneous changes is settled at once (parametric
-!> linear complementarity, Cottle 1972). Every scheme is right on one interval of factors only, so the path has finitely many events.
+!> linear complementarity, Cottle 1972). Every scheme is right on one interval of factors only, so there are
+!> finitely many events.
 module gapbeam_path
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, fatal_error, gapbeam_not_converged, gapbeam_solved

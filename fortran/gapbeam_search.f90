@@ -82,10 +82,10 @@ contains
             search%fewest = huge(0)
             call change_all(beam, patience, .true., closed, work, search, settled)
         end if
-        if (.not. settled .and. search%state == band_ok) then
+        if (.not. settled .and. search%state /= band_mechanism) then
             call change_by_interior_point(beam, closed, work, search, settled)
         end if
-        if (settled .or. (may_float .and. search%state /= band_needs_pivoting)) return
+        if (settled .or. may_float) return
         if (search%state == band_ok) call change_least_index(beam, closed, work, search, settled)
         if (settled) return
         if (search%state /= band_ok) then
@@ -201,6 +201,7 @@ contains
             call step_interior(beam, closed, work, iterate, guess, search%state, search%place)
             if (search%state /= band_ok) exit
             changes = count(guess .neqv. last_guess)
+            if (.not. product_of(iterate) < first_product/rounding_product) exit  ! it runs away: no equilibrium
             if (product_of(iterate) < rounding_product*first_product .and. changes > rounding_changes) exit
             wait = wait - 1
             if (wait <= 0 .and. changes <= few_changes) then

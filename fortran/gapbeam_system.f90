@@ -2,14 +2,16 @@
 module gapbeam_system
     use gapbeam_kinds, only: wp
     use gapbeam_band, only: node_type, rhs_type, pivot_type, answer_type, factor_chain, solve_chain, &
-        residual_chain, band_ok, band_mechanism, band_needs_pivoting
+        band_ok, band_mechanism, band_needs_pivoting
+    use gapbeam_residual, only: residual_chain, size_type
+    use gapbeam_certificate, only: bound_errors
     use gapbeam_three_moment, only: fits_three_moment, solve_three_moment
     use gapbeam_lapack, only: solve_pivoting
     use gapbeam_model, only: beam_type, both, is_rigid
     use gapbeam_kinematics, only: free_motions, motion_type
     implicit none
     private
-    public :: workspace_type, new_workspace, set_loads, solve_scheme, refine_scheme, check_scheme
+    public :: workspace_type, new_workspace, set_loads, solve_scheme, refine_scheme, check_scheme, certify_scheme
     public :: method_mixed, method_three_moment, method_pivoting
 
     !> Which system was solved last
@@ -22,9 +24,13 @@ module gapbeam_system
         type(rhs_type), allocatable :: loads(:), rhs(:), eliminated(:)
         type(pivot_type), allocatable :: pivots(:)
         type(answer_type), allocatable :: answers(:)
+        !> Sizes of the terms of every row, by check_scheme
+        type(size_type), allocatable :: sizes(:)
         real(wp), allocatable :: moment_work(:, :)
         !> Reaction of every support, positive up, and the rounding error it may have
         real(wp), allocatable :: reaction(:), reaction_error(:)
+        !> Shear of every link beside that of the simple bar, (M_b - M_a)/L, and its rounding error
+        real(wp), allocatable :: shear(:), shear_error(:)
         !> Sizes of the shears and deflections whose rounding reaches a node
         real(wp), allocatable :: shear_size(:), deflection_size(:)
         !> Springs towards a reference deflection that keep schemes which are mechanisms solvable; zero if unused
@@ -52,7 +58,8 @@ contains
         n = size(beam%links)
         m = size(beam%supports)
         allocate (work%nodes(0:n), work%loads(0:n), work%rhs(0:n), work%eliminated(0:n), work%pivots(0:n))
-        allocate (work%answers(0:n), work%moment_work(2, 0:n))
+        allocate (work%answers(0:n), work%moment_work(2, 0:n), work%sizes(0:n))
+        allocate (work%shear(n), work%shear_error(n))
         allocate (work%shear_size(0:n), work%deflection_size(0:n))
         allocate (work%reaction(m), work%reaction_error(m))
         allocate (work%ease(0:n), work%reference(0:n))
@@ -164,8 +171,49 @@ contains
         end if
         if (work%sprung) return
         call find_sizes(beam, work)
+        call find_shears(beam, work)
         call find_reactions(beam, acting, work)
     end subroutine solve_scheme
+
+    !> Shears of the links. From the moments at its ends a short link between long ones gets a poor one; then the
+    !> equilibrium of a node that no rigid support holds gives a better one from its neighbour
+    pure subroutine find_shears(beam, work)
+        type(beam_type), intent(in) :: beam
+        type(workspace_type), intent(inout) :: work
+        real(wp) :: change, passed
+        integer :: i
+
+        associate (v => work%shear, e => work%shear_error, a => work%answers, links => beam%links)
+            do i = 1, size(links)
+                v(i) = (a(i)%moment_left - a(i - 1)%moment_right)/links(i)%length
+                e(i) = epsilon(1.0_wp)*(abs(a(i)%moment_left) + abs(a(i - 1)%moment_right))/links(i)%length
+                if (i == 1 .or. work%nodes(i - 1)%held) cycle
+                call change_at_node(work, i - 1, change, passed)
+                if (e(i - 1) + passed < e(i)) then
+                    v(i) = v(i - 1) + change
+                    e(i) = e(i - 1) + passed
+                end if
+            end do
+            do i = size(links) - 1, 1, -1
+                if (work%nodes(i)%held) cycle
+                call change_at_node(work, i, change, passed)
+                if (e(i + 1) + passed < e(i)) then
+                    v(i) = v(i + 1) - change
+                    e(i) = e(i + 1) + passed
+                end if
+            end do
+        end associate
+    end subroutine find_shears
+
+    !> By how much the shear changes at a node that is not held, and the rounding error of that
+    pure subroutine change_at_node(work, i, change, error)
+        type(workspace_type), intent(in) :: work
+        integer, intent(in) :: i
+        real(wp), intent(out) :: change, error
+
+        change = work%nodes(i)%stiffness*work%answers(i)%deflection - work%rhs(i)%shear
+        error = epsilon(1.0_wp)*(work%nodes(i)%stiffness*abs(work%answers(i)%deflection) + abs(work%rhs(i)%shear))
+    end subroutine change_at_node
 
     !> Sizes whose rounding errors reach a node: those beside it, and those of its neighbours; what crosses
     !> a rigid support is halved at least, so sizes far away do not count
@@ -228,8 +276,9 @@ contains
             if (.not. acting(k)) cycle
             associate (s => beam%supports(k))
                 i = s%node
-                by_node = force_at_node(beam, work, i)
-                node_error = epsilon(1.0_wp)*work%shear_size(i)
+                call force_at_node(work, i, size(beam%links), by_node, node_error)
+                ! For signs, rounding that comes from farther away counts as well
+                node_error = max(node_error, epsilon(1.0_wp)*work%shear_size(i))
                 if (is_rigid(s)) then
                     work%reaction(k) = by_node - elastic(i)
                     work%reaction_error(k) = node_error + epsilon(1.0_wp)*abs(elastic(i))
@@ -249,20 +298,26 @@ contains
     end subroutine find_reactions
 
     !> Force of all supports together at a node, from the shears beside it
-    pure function force_at_node(beam, work, i) result(reaction)
-        type(beam_type), intent(in) :: beam
+    pure subroutine force_at_node(work, i, n, reaction, error)
         type(workspace_type), intent(in) :: work
-        integer, intent(in) :: i
-        real(wp) :: reaction, left, right
+        !> Node, and number of links
+        integer, intent(in) :: i, n
+        real(wp), intent(out) :: reaction, error
+        real(wp) :: left, right
 
         left = 0.0_wp
         right = 0.0_wp
-        associate (a => work%answers)
-            if (i > 0) left = (a(i)%moment_left - a(i - 1)%moment_right)/beam%links(i)%length
-            if (i < size(beam%links)) right = (a(i + 1)%moment_left - a(i)%moment_right)/beam%links(i + 1)%length
-            reaction = (work%loads(i)%shear - (left - right)) + work%ease(i)*(work%reference(i) - a(i)%deflection)
-        end associate
-    end function force_at_node
+        error = epsilon(1.0_wp)*abs(work%loads(i)%shear)
+        if (i > 0) then
+            left = work%shear(i)
+            error = error + work%shear_error(i)
+        end if
+        if (i < n) then
+            right = work%shear(i + 1)
+            error = error + work%shear_error(i + 1)
+        end if
+        reaction = (work%loads(i)%shear - (left - right)) + work%ease(i)*(work%reference(i) - work%answers(i)%deflection)
+    end subroutine force_at_node
 
     !> One step of iterative refinement of the last solve, with residuals formed from differences
     pure subroutine refine_scheme(beam, acting, work)
@@ -276,7 +331,7 @@ contains
         if (work%method == method_pivoting) return  ! LAPACK's expert driver has refined already
         allocate (correction(0:size(beam%links)))
         call residual_chain(work%nodes, beam%links, work%rhs, work%answers, work%eliminated, &
-                            work%compatibility, work%equilibrium)
+                            work%sizes, work%compatibility, work%equilibrium)
         if (work%method == method_three_moment) then
             call solve_three_moment(work%nodes, beam%links, work%eliminated, work%moment_work, correction, regular)
         else
@@ -285,6 +340,7 @@ contains
         work%answers%deflection = work%answers%deflection + correction%deflection
         work%answers%moment_left = work%answers%moment_left + correction%moment_left
         work%answers%moment_right = work%answers%moment_right + correction%moment_right
+        call find_shears(beam, work)
         call find_reactions(beam, acting, work)
     end subroutine refine_scheme
 
@@ -293,8 +349,31 @@ contains
         type(beam_type), intent(in) :: beam
         type(workspace_type), intent(inout) :: work
 
-        call residual_chain(work%nodes, beam%links, work%rhs, work%answers, work%eliminated, &
+        call residual_chain(work%nodes, beam%links, work%rhs, work%answers, work%eliminated, work%sizes, &
                             work%compatibility, work%equilibrium)
     end subroutine check_scheme
+
+    !> Bounds for the errors of the last solve
+    subroutine certify_scheme(beam, work, deflection_bound, reaction_bound, known)
+        type(beam_type), intent(in) :: beam
+        type(workspace_type), intent(inout) :: work
+        !> Largest error of any deflection of a node, and of any reaction
+        real(wp), intent(out) :: deflection_bound, reaction_bound
+        !> False where there is no factor without pivoting to bound them with
+        logical, intent(out) :: known
+        integer :: state, place
+
+        deflection_bound = 0.0_wp
+        reaction_bound = 0.0_wp
+        call factor_chain(work%nodes, beam%links, work%pivots, state, place)
+        known = state == band_ok
+        if (.not. known) return
+        call check_scheme(beam, work)
+        call bound_errors(work%nodes, beam%links, work%pivots, work%eliminated, work%sizes, deflection_bound, reaction_bound)
+        ! The numbers given are rounded once more, and contact levels are given to half a unit in the last place
+        deflection_bound = deflection_bound + 2*epsilon(1.0_wp)*maxval(max(abs(work%answers%deflection), abs(work%rhs%deflection)))
+        if (size(work%reaction) > 0) reaction_bound = reaction_bound &
+            + maxval(2*epsilon(1.0_wp)*abs(work%reaction) + work%reaction_error)
+    end subroutine certify_scheme
 
 end module gapbeam_system

@@ -3,8 +3,9 @@ program test_band
     use testing, only: check, check_close, finish
     use gapbeam_kinds, only: wp
     use gapbeam_link, only: link_type, piece_type, load_type, condense_link
-    use gapbeam_band, only: node_type, rhs_type, pivot_type, answer_type, factor_chain, solve_chain, residual_chain, &
+    use gapbeam_band, only: node_type, rhs_type, pivot_type, answer_type, factor_chain, solve_chain, &
         band_ok, band_mechanism, band_needs_pivoting, plain, hinge, restrained
+    use gapbeam_residual, only: residual_chain, size_type
     use gapbeam_three_moment, only: fits_three_moment, solve_three_moment
     use gapbeam_lapack, only: solve_pivoting
     implicit none
@@ -62,6 +63,7 @@ contains
         type(pivot_type) :: pivots(0:size(links))
         type(rhs_type) :: work(0:size(links)), residual(0:size(links))
         type(answer_type) :: sweep(0:size(links)), pivoted(0:size(links))
+        type(size_type) :: sizes(0:size(links))
         real(wp) :: compatibility, equilibrium
         integer :: state, place
         logical :: regular
@@ -76,7 +78,7 @@ contains
         call check_close(sweep%deflection, pivoted%deflection, name//": deflections", 1e-11_wp)
         call check_close(sweep%moment_left, pivoted%moment_left, name//": moments left", 1e-11_wp)
         call check_close(sweep%moment_right, pivoted%moment_right, name//": moments right", 1e-11_wp)
-        call residual_chain(nodes, links, rhs, sweep, residual, compatibility, equilibrium)
+        call residual_chain(nodes, links, rhs, sweep, residual, sizes, compatibility, equilibrium)
         call check(max(compatibility, equilibrium) < 1e-13_wp, name//": residuals")
     end subroutine compare
 

@@ -88,6 +88,16 @@ def crossing(made, segment, support):
     return mpf(factors[0]) - values[0] * (mpf(factors[1]) - mpf(factors[0])) / (values[1] - values[0])
 
 
+def followed_path(made):
+    """None where the beam can move freely without work: no single path exists, and it is said so."""
+    try:
+        return solve(made)
+    except gapbeam.EngineError as error:
+        if "can move freely without work" not in str(error):
+            raise
+        return None
+
+
 @pytest.mark.parametrize("block", range(10))
 def test_random_paths(block):
     """The path ends where a direct solve ends, and every event is where it should be."""
@@ -97,12 +107,8 @@ def test_random_paths(block):
         made = random_scene(rng, held=rng.choice((True, None)))
         made["analysis"] = {}
         direct = gapbeam.solve(made)
-        try:
-            path = solve(made)
-        except gapbeam.EngineError as error:
-            assert "can move freely without work" in str(error)
-            continue
-        if path.status != "solved":
+        path = followed_path(made)
+        if path is None or path.status != "solved":
             # The beam may stand again at factor 1, but not all the way there
             continue
         assert direct.status == "solved"

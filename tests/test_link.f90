@@ -93,7 +93,7 @@ contains
         pieces = [piece_type(1.0_wp, 1/ei, 0.0_wp), piece_type(4.0_wp, 1/ei, 0.0_wp), piece_type(3.0_wp, 1/ei, 0.0_wp)]
         load = load_type(q, q, 0, 0, 0)
         call condense_link(pieces, load, load, work(:, 1), link)
-        call recover_link(pieces, load, l, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, link%turn_a(1), work, starts)
+        call recover_link(pieces, load, l, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, link%turn_a(1), work, starts)
         x = [0.0_wp, 1.0_wp, 5.0_wp]
         call check_close(starts%moment, q*x*(l - x)/2, "moments")
         call check_close(starts%shear, q*(l/2 - x), "shears")

@@ -132,6 +132,8 @@ def _parser() -> argparse.ArgumentParser:
     run.add_argument("--csv", metavar="FILE", help="write the fields along the beam at the last load step as a table; "
                      "- is standard output, without report")  # fmt: skip
     run.add_argument("--plot", metavar="FILE", help="draw beam, deflection, moment and shear (.png, .pdf or .svg)")
+    run.add_argument("--path", metavar="FILE", help="draw reactions and openings over the load factor, every event marked; "
+                     "best with follow = \"events\" (.png, .pdf or .svg)")  # fmt: skip
     run.add_argument("--quiet", action="store_true", help="print no report")
     run.set_defaults(command=_run)
 
@@ -150,6 +152,18 @@ def _parser() -> argparse.ArgumentParser:
         f"line of a scene\n\n  #:schema ./gapbeam.schema.json\n\n{SCENE}\n{SIGNS}\n{STATUSES}",
     )  # fmt: skip
     schema.set_defaults(command=_schema)
+
+    study = commands.add_parser("study", help="measure the program itself", description="Measure the program itself.")
+    studies = study.add_subparsers(title="studies", metavar="STUDY", required=True)
+    extremes = studies.add_parser(
+        "extremes", help="true errors in the corners, against exact solutions", formatter_class=plain,
+        description="Solve scenes with extreme numbers (stiffnesses, spans, gaps, loads, units, many supports) and print the\n"
+        "true errors, the error bounds the program gives, times and linear solves. Takes about half a minute.",
+    )  # fmt: skip
+    extremes.add_argument("--csv", metavar="FILE", help="write the table with all digits; - is standard output, nothing else")
+    extremes.add_argument("--markdown", metavar="FILE", help="write the table as a page for the documentation; - as above")
+    extremes.add_argument("--largest", metavar="N", type=int, default=10**6, help="most supports (default 1000000)")
+    extremes.set_defaults(command=_study_extremes)
     return parser
 
 
@@ -179,7 +193,7 @@ def _source(name: str) -> Mapping | str:
 
 
 def _run(arguments: argparse.Namespace) -> int:
-    outputs = {"--json": arguments.json, "--csv": arguments.csv, "--plot": arguments.plot}
+    outputs = {"--json": arguments.json, "--csv": arguments.csv, "--plot": arguments.plot, "--path": arguments.path}
     _check_outputs(outputs)
     from .scene import read_scene
     from .stepping import solve
@@ -197,6 +211,10 @@ def _run(arguments: argparse.Namespace) -> int:
         from .plots import plot
 
         plot(result, arguments.plot)
+    if arguments.path and result.steps:
+        from .plots_path import plot_path
+
+        plot_path(result, arguments.path)
     if report_wanted:  # after the files: the reader of the report, such as head, may leave early
         with _until_closed():
             print_report(result)
@@ -221,10 +239,10 @@ def _check_outputs(outputs: Mapping[str, str | None]) -> None:
     for option, name in outputs.items():
         if name is None:
             continue
-        if name == "-" and option != "--plot":
+        if name == "-" and option not in ("--plot", "--path"):
             continue
         path = Path(name)
-        if option == "--plot" and path.suffix.lower() not in PICTURES:
+        if option in ("--plot", "--path") and path.suffix.lower() not in PICTURES:
             raise SceneError(option, f'expected a file that ends in .png, .pdf or .svg, got "{name}"')
         if not name or path.is_dir():
             raise SceneError(option, f'expected the name of a file, got "{name}"')
@@ -233,7 +251,7 @@ def _check_outputs(outputs: Mapping[str, str | None]) -> None:
         if not os.access(path if path.exists() else path.parent, os.W_OK):
             raise SceneError(option, f'no permission to write "{name}"')
     if len(set(names)) < len(names):
-        raise SceneError("--json, --csv and --plot need different files")
+        raise SceneError("--json, --csv, --plot and --path need different files")
 
 
 def _check(arguments: argparse.Namespace) -> int:
@@ -258,4 +276,20 @@ def _schema(_: argparse.Namespace) -> int:
 
     with _until_closed():
         print(json.dumps(scene_schema(), indent=2, allow_nan=False))
+    return SOLVED
+
+
+def _study_extremes(arguments: argparse.Namespace) -> int:
+    outputs = {"--csv": arguments.csv, "--markdown": arguments.markdown}
+    _check_outputs(outputs)
+    from .study import extremes, print_extremes, to_csv, to_markdown
+    from .study_extremes import cases
+
+    rows = list(extremes(cases(arguments.largest)))
+    for name, form in ((arguments.csv, to_csv), (arguments.markdown, to_markdown)):
+        if name:
+            _write(name, form(rows))
+    if "-" not in outputs.values():
+        with _until_closed():
+            print_extremes(rows)
     return SOLVED

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -31,6 +31,8 @@ class Solution:
         1 where its reaction or opening is zero as far as rounding tells.
     deflection, moment_left, moment_right : numpy.ndarray
         At the nodes.
+    shear : numpy.ndarray
+        Of the links, beside that of the simple bar.
     reaction : numpy.ndarray
         Of every support, positive upward.
     motion : numpy.ndarray
@@ -51,6 +53,7 @@ class Solution:
     deflection: np.ndarray
     moment_left: np.ndarray
     moment_right: np.ndarray
+    shear: np.ndarray
     reaction: np.ndarray
     motion: np.ndarray
     residuals: np.ndarray
@@ -72,7 +75,8 @@ def condense(arrays: Arrays) -> np.ndarray:
     numpy.ndarray
         The links, for the other calls only.
     """
-    return _f77.gbcond(arrays.pieces.T, arrays.dead.T, arrays.live.T, _last(arrays))
+    inner = arrays.scaled
+    return _f77.gbcond(inner.pieces.T, inner.dead.T, inner.live.T, _last(arrays))
 
 
 def solve(arrays: Arrays, links: np.ndarray, factor: float, rule: str, closed: np.ndarray) -> Solution:
@@ -102,14 +106,11 @@ def solve(arrays: Arrays, links: np.ndarray, factor: float, rule: str, closed: n
         Where no unique solution exists for another reason, with the engine's message.
     """
     scheme = np.array(closed, dtype=np.int32)
-    marginal, w, left, right, reaction, motion, residuals, solves, method, indifferent, status, message = _f77.gbsolv(
-        *_beam(arrays, links), factor, RULES[rule], scheme
-    )
+    *values, indifferent, status, message = _f77.gbsolv(*_beam(arrays, links), factor, RULES[rule], scheme)
     if status not in (SOLVED, NO_EQUILIBRIUM):
         raise EngineError(message.decode().strip())
-    return Solution(
-        status, scheme, marginal, w, left, right, reaction, motion, residuals, solves, method, bool(indifferent)
-    )
+    solution = Solution(status, scheme, *values, bool(indifferent))
+    return _outer(solution, *arrays.exponents)
 
 
 def next_event(
@@ -155,8 +156,47 @@ def next_event(
     return status, following, closed, marginal, motion, solves
 
 
+def certify(arrays: Arrays, links: np.ndarray, factor: float, closed: np.ndarray) -> tuple[float, float] | None:
+    """Bound the errors of a solved scheme.
+
+    Parameters
+    ----------
+    arrays, links, factor, closed
+        As for `solve`; `closed` is the working scheme.
+
+    Returns
+    -------
+    (float, float) or None
+        Largest error of the deflections of the nodes and of the reactions; None where the scheme takes pivoting or
+        leaves the beam free to move.
+    """
+    bound, known = _f77.gbcert(*_beam(arrays, links), factor, closed)
+    length, force = arrays.exponents
+    return (float(np.ldexp(bound[0], length)), float(np.ldexp(bound[1], force))) if known else None
+
+
+def _field_exponents(length: int, force: int) -> np.ndarray:
+    """Exponents of deflection, rotation, moment, shear."""
+    return np.array([length, 0, force + length, force])
+
+
+def _outer(solution: Solution, length: int, force: int) -> Solution:
+    """Turn a solution from the engine's units into the scene's."""
+    if (length, force) == (0, 0):
+        return solution
+    return replace(
+        solution,
+        deflection=np.ldexp(solution.deflection, length),
+        moment_left=np.ldexp(solution.moment_left, force + length),
+        moment_right=np.ldexp(solution.moment_right, force + length),
+        shear=np.ldexp(solution.shear, force),
+        reaction=np.ldexp(solution.reaction, force),
+    )
+
+
 def _beam(arrays: Arrays, links: np.ndarray) -> tuple[np.ndarray, ...]:
     """Collect what every contact call needs."""
+    arrays = arrays.scaled
     return (
         links,
         arrays.kinds,
@@ -185,10 +225,13 @@ def recover(arrays: Arrays, links: np.ndarray, factor: float, solution: Solution
     numpy.ndarray
         Deflection, rotation, moment, shear by piece, for `values` and `extremes`.
     """
+    inner = arrays.scaled
+    length, force = arrays.exponents
+    solution = _outer(solution, -length, -force)
     return _f77.gbreco(
-        arrays.pieces.T,
-        arrays.dead.T,
-        arrays.live.T,
+        inner.pieces.T,
+        inner.dead.T,
+        inner.live.T,
         factor,
         links,
         _last(arrays),
@@ -196,6 +239,7 @@ def recover(arrays: Arrays, links: np.ndarray, factor: float, solution: Solution
         solution.deflection,
         solution.moment_left,
         solution.moment_right,
+        solution.shear,
     )
 
 
@@ -219,7 +263,12 @@ def values(arrays: Arrays, factor: float, starts: np.ndarray, piece: np.ndarray,
         4 by places: deflection, rotation, moment, shear.
     """
     where = np.asarray(piece, dtype=np.int32) + np.int32(1)
-    return _f77.gbvalu(arrays.pieces.T, arrays.dead.T, arrays.live.T, factor, starts, where, distance)
+    inner = arrays.scaled
+    length, force = arrays.exponents
+    found = _f77.gbvalu(
+        inner.pieces.T, inner.dead.T, inner.live.T, factor, starts, where, np.ldexp(distance, -length)
+    )
+    return np.ldexp(found, _field_exponents(length, force)[:, None])
 
 
 def extremes(arrays: Arrays, factor: float, starts: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -237,8 +286,11 @@ def extremes(arrays: Arrays, factor: float, starts: np.ndarray) -> tuple[np.ndar
     x : numpy.ndarray
         Where they are.
     """
-    value, where, distance = _f77.gbextr(arrays.pieces.T, arrays.dead.T, arrays.live.T, factor, starts)
-    return value, arrays.point_x[where - 1] + distance
+    inner = arrays.scaled
+    length, force = arrays.exponents
+    value, where, distance = _f77.gbextr(inner.pieces.T, inner.dead.T, inner.live.T, factor, starts)
+    x = arrays.point_x[where - 1] + np.ldexp(distance, length)
+    return np.ldexp(value, _field_exponents(length, force)), x
 
 
 def solve_axial(arrays: Arrays, factor: float) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:

@@ -7,7 +7,8 @@ far from the origin keeps its digits. Only beam ends, supports and hinges become
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 from operator import attrgetter
 
 import numpy as np
@@ -28,6 +29,8 @@ PLAIN, HINGE, RESTRAINED = 0, 1, 2
 SIDES = {"both": 0, "below": 1, "above": -1}
 """Sides of a support, as in gapbeam_model."""
 CASES = {"dead": 0, "live": 1}
+ORDINARY_EXPONENT = 64
+"""Scenes whose lengths or forces are beyond two to this power are solved in other units."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,7 +62,7 @@ class Axial:
     support_points: np.ndarray
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Arrays:
     """A scene as the engine takes it; see fortran/gapbeam_f77.f90 for the columns.
 
@@ -118,6 +121,38 @@ class Arrays:
     support_contact: np.ndarray
     couple_share: np.ndarray
     axial: Axial | None
+
+    @cached_property
+    def exponents(self) -> tuple[int, int]:
+        """Powers of two that are the engine's units of length and force: 0, 0 but for scenes far from 1.
+
+        In the scene's own units products such as stiffness * flexibility * length^2 might leave the range of doubles.
+        """
+        length = int(np.frexp(self.ends[-1] / (len(self.ends) - 1))[1])
+        bending = self.pieces[self.pieces[:, 1] > 0.0, 1]
+        stiffness = -int(np.frexp(np.median(bending))[1]) if len(bending) else 2 * length
+        force = stiffness - 2 * length
+        return (length, force) if max(abs(length), abs(force)) > ORDINARY_EXPONENT else (0, 0)
+
+    @cached_property
+    def scaled(self) -> Arrays:
+        """The same in the engine's units; nothing is rounded, the units are powers of two."""
+        length, force = self.exponents
+        if (length, force) == (0, 0):
+            return self
+        piece = np.array([-length, force + 2 * length, force])
+        load = np.array([length - force, length - force, length, -force, -force - length])
+        return replace(
+            self,
+            pieces=np.ldexp(self.pieces, piece),
+            dead=np.ldexp(self.dead, load),
+            live=np.ldexp(self.live, load),
+            compliance=np.ldexp(self.compliance, force + length),
+            force=np.ldexp(self.force, -force),
+            couple=np.ldexp(self.couple, -force - length),
+            support_stiffness=np.ldexp(self.support_stiffness, length - force),
+            support_contact=np.ldexp(self.support_contact, -length),
+        )
 
     @property
     def node_x(self) -> np.ndarray:

@@ -29,6 +29,10 @@ LEFT_OUT = {
 }
 
 
+MOST_EVENTS = 40
+"""Events that the report lists."""
+
+
 def print_report(result: "Result", console: "Console | None" = None) -> None:
     """Print what a person wants to know of a result.
 
@@ -54,6 +58,7 @@ def print_report(result: "Result", console: "Console | None" = None) -> None:
     if result.status != "solved":
         at += ", the last step that stands"
     _history(say, result)
+    _events(say, result)
     _supports(say, result, at)
     _extremes(say, result, at)
     _steps(say, result)
@@ -241,17 +246,50 @@ def _extremes(say: "Writer", result: "Result", at: str) -> None:
 
 def _steps(say: "Writer", result: "Result") -> None:
     steps = result.steps
-    kinds = list(steps[0].certificate)
+    kinds = list(steps[0].residuals)
     say.heading("Residuals against run time")
     rows = [
         [fmt.number(step.factor, 4), str(step.solves), fmt.duration(step.seconds)]
-        + [f"{step.certificate[kind]:.1e}" for kind in kinds]
+        + [f"{step.residuals[kind]:.1e}" for kind in kinds]
         for step in steps
     ]
-    say.table(["load factor", "solves", "time", *(kind.replace("_", " ") for kind in kinds)], rows)
+    say.table(["load factor", "solves", "time", *kinds], rows)
     if len(steps) > 1:
-        worst = max(max(step.certificate.values()) for step in steps)
+        worst = max(max(step.residuals.values()) for step in steps)
         solves, seconds = sum(step.solves for step in steps), sum(step.seconds for step in steps)
         say.line(
             f"Together {fmt.count(solves, 'solve')}, {fmt.duration(seconds)}; largest residual {worst:.1e}.", "dim"
         )
+    _doubts(say, result)
+
+
+def _doubts(say: "Writer", result: "Result") -> None:
+    """How exact the last step is, and what is not decided in it."""
+    step = result.steps[-1]
+    bounds = [step.certificate[f"error_bound_{kind}"] for kind in ("deflection", "reaction")]
+    if None not in bounds:
+        say.line(
+            f"Error bounds at the last step, relative to the largest: deflections {bounds[0]:.1e}, "
+            f"reactions {bounds[1]:.1e}."
+        )
+    if step.undecided:
+        x = result.scene.positions(result.scene.supports)
+        names = ", ".join(f"{k} (x = {x[k]:g})" for k in step.undecided[:10])
+        more = f" and {len(step.undecided) - 10} more" if len(step.undecided) > 10 else ""
+        say.line(f"Neither closed nor open within these bounds: support {names}{more}.")
+    if step.indifferent:
+        say.line("The beam can move freely without work of the loads: forces are unique, its position is not.")
+
+
+def _events(say: "Writer", result: "Result") -> None:
+    if result.scene.analysis.follow != "events":
+        return
+    say.heading("Events")
+    if not result.events:
+        say.line("The working scheme is the same at all load factors.")
+        return
+    shown = result.events[:MOST_EVENTS]
+    rows = [[fmt.number(e.factor, 10), str(e.support), fmt.number(e.x), e.event] for e in shown]
+    say.table(["load factor", "support", fmt.with_unit(result.scene, "x", "x"), "event"], rows, left=(3,))
+    if len(result.events) > len(shown):
+        say.line(f"... and {len(result.events) - len(shown)} more; --json has all.", "dim")

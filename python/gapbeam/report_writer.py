@@ -34,12 +34,18 @@ class Writer:
         self.line()
         self.line(text, "bold")
 
-    def table(self, headings: Sequence[str], rows: Sequence[Sequence[str]], left: Sequence[int] = ()) -> None:
+    def table(
+        self,
+        headings: Sequence[str],
+        rows: Sequence[Sequence[str]],
+        left: Sequence[int] = (),
+        longest: int = LONGEST,
+    ) -> None:
         """Write a table; numbers of the columns in `left` are flush left, the others flush right.
 
-        More than `LONGEST` rows are cut in the middle, and a line says so.
+        More than `longest` rows are cut in the middle, and a line says so.
         """
-        shown, hidden = cut(rows)
+        shown, hidden = cut(rows, longest)
         table = Table(box=PLAIN if self.plain else box.SIMPLE_HEAD, show_edge=False, padding=(0, 1, 0, 0))
         for index, heading in enumerate(headings):
             table.add_column(
@@ -69,7 +75,7 @@ class Writer:
 PLAIN = box.Box("    \n    \n -- \n    \n    \n    \n    \n    \n", ascii=True)
 
 
-def cut(rows: Sequence) -> tuple[list, int]:
+def cut(rows: Sequence, longest: int = LONGEST) -> tuple[list, int]:
     """Select the rows to show of a long table, and count those left out.
 
     Examples
@@ -78,7 +84,7 @@ def cut(rows: Sequence) -> tuple[list, int]:
     >>> len(shown), hidden, shown[19], shown[-1]
     (40, 960, 19, 999)
     """
-    if len(rows) <= LONGEST:
+    if len(rows) <= longest:
         return list(rows), 0
-    half = LONGEST // 2
+    half = longest // 2
     return [*rows[:half], *rows[-half:]], len(rows) - 2 * half

@@ -105,8 +105,6 @@ class Step:
         Linear solves it took to find the working scheme.
     seconds : float
         Time of these.
-    certificate : dict
-        Relative residuals of equilibrium, compatibility and complementarity.
     indifferent : bool
         Whether the beam can move freely without work of the loads: its forces are unique, its position is not.
     """
@@ -119,13 +117,7 @@ class Step:
         self.axial = axial
         self._arrays = arrays
         self._links = links
-        compatibility, equilibrium, complementarity = solution.residuals.tolist()
         self.indifferent = solution.indifferent
-        self.certificate = {
-            "equilibrium": equilibrium,
-            "compatibility": compatibility,
-            "complementarity": complementarity,
-        }
 
     def _scatter(self, normal: np.ndarray, axial: np.ndarray | None = None) -> np.ndarray:
         """Values of the supports across the beam and along it, in the order of the scene."""
@@ -173,6 +165,47 @@ class Step:
         for k, name in zip(self._arrays.supports.tolist(), names.tolist(), strict=True):
             result[k] = name
         return tuple(result)
+
+    @cached_property
+    def bounds(self) -> tuple[float, float] | None:
+        """Largest error that the deflections of the nodes, and the reactions, can have; None if not known."""
+        return engine.certify(self._arrays, self._links, self.factor, self.solution.closed)
+
+    @property
+    def residuals(self) -> dict[str, float]:
+        """Relative residuals of equilibrium, compatibility and complementarity."""
+        compatibility, equilibrium, complementarity = self.solution.residuals.tolist()
+        return {"equilibrium": equilibrium, "compatibility": compatibility, "complementarity": complementarity}
+
+    @cached_property
+    def certificate(self) -> dict[str, float | None]:
+        """The residuals and bounds of the relative errors; computed when first asked for."""
+        solution = self.solution
+        largest = [np.abs(values).max(initial=0.0) for values in (solution.deflection, solution.reaction)]
+        relative: list[float | None] = [None, None]
+        if self.bounds is not None:
+            relative = [
+                float(bound / size) if size > 0.0 else 0.0 for bound, size in zip(self.bounds, largest, strict=True)
+            ]
+        return {
+            **self.residuals,
+            "error_bound": None if None in relative else max(relative),
+            "error_bound_deflection": relative[0],
+            "error_bound_reaction": relative[1],
+        }
+
+    @cached_property
+    def undecided(self) -> tuple[int, ...]:
+        """Supports whose reaction or opening is smaller than its error can be: closed or open is not decided."""
+        if self.bounds is None:
+            doubtful = self.solution.marginal == 1
+        else:
+            w, reaction = self.bounds
+            arrays = self._arrays
+            way = np.abs(arrays.support_contact - self.solution.deflection[arrays.support_nodes])
+            small = np.where(self.solution.closed == 1, np.abs(self.solution.reaction) <= reaction, way <= w)
+            doubtful = small & (arrays.support_sides != 0) & (arrays.support_stiffness > 0.0)
+        return tuple(self._arrays.supports[doubtful].tolist())
 
     @cached_property
     def starts(self) -> np.ndarray:
@@ -351,7 +384,7 @@ class Result:
         first = np.searchsorted(arrays.point_span, np.arange(len(arrays.ends)))  # the point at every span end
         key = arrays.point_offset
         # Points of one span are contiguous and sorted by offset: search in span-wise shifted offsets
-        scale = arrays.ends[-1] + 1.0
+        scale = 2.0 * arrays.ends[-1]
         point = np.searchsorted(arrays.point_span * scale + key, span * scale + offset + tolerance, side="right") - 1
         point = np.maximum(point, first[span])
         distance = np.maximum(offset - key[point], 0.0)
@@ -495,5 +528,7 @@ class Result:
             "solves": step.solves,
             "seconds": step.seconds,
             "supports": rows,
+            "undecided": list(step.undecided),
+            "indifferent": step.indifferent,
             "certificate": dict(step.certificate),
         }

@@ -1,0 +1,108 @@
+!> What the rows of the mixed system still lack, in twice the working precision
+module gapbeam_residual
+    use gapbeam_kinds, only: wp
+    use gapbeam_double_double, only: double_double, plus, plus_product, divided, value_of
+    use gapbeam_link, only: link_type
+    use gapbeam_band, only: node_type, rhs_type, answer_type, plain, restrained
+    implicit none
+    private
+    public :: residual_chain, size_type
+
+    !> Sums of the absolute values of the terms of a node's rows
+    type :: size_type
+        !> Compatibility left and right of the node (plain nodes: both in right), equilibrium
+        real(wp) :: left = 0.0_wp, right = 0.0_wp, shear = 0.0_wp
+    end type size_type
+
+contains
+
+    !> Residuals of all rows, with differences of neighbouring deflections and moments formed first
+    pure subroutine residual_chain(nodes, links, rhs, answers, residual, sizes, compatibility, equilibrium)
+        !> Nodes, links and right-hand side (as before elimination) of the system, see gapbeam_band
+        type(node_type), intent(in) :: nodes(0:)
+        type(link_type), intent(in) :: links(:)
+        type(rhs_type), intent(in) :: rhs(0:)
+        !> A solution
+        type(answer_type), intent(in) :: answers(0:)
+        !> Right-hand side of the correction, shape (0:n)
+        type(rhs_type), intent(out) :: residual(0:)
+        !> Sizes of the terms, shape (0:n)
+        type(size_type), intent(out) :: sizes(0:)
+        !> Largest residual of the two kinds of rows relative to the largest term of its kind
+        real(wp), intent(out) :: compatibility, equilibrium
+        type(double_double) :: psi_left, psi_right, v_left, v_right, turn
+        real(wp) :: size_left, size_right, size_v_left, size_v_right, largest_turn, largest_shear
+        integer :: i, n
+
+        n = size(links)
+        compatibility = 0.0_wp
+        equilibrium = 0.0_wp
+        largest_turn = tiny(largest_turn)
+        largest_shear = tiny(largest_shear)
+        psi_left = double_double()
+        v_left = double_double()
+        size_left = 0.0_wp
+        size_v_left = 0.0_wp
+        do i = 0, n
+            psi_right = double_double()
+            v_right = double_double()
+            size_right = 0.0_wp
+            size_v_right = 0.0_wp
+            associate (node => nodes(i), a => answers(i), b => rhs(i), r => residual(i), s => sizes(i))
+                if (i < n) then
+                    associate (link => links(i + 1), z => answers(i + 1))
+                        psi_right = divided(plus(double_double(z%deflection, 0.0_wp), -a%deflection), link%length)
+                        psi_right = plus_product(psi_right, link%faa, a%moment_right)
+                        psi_right = plus_product(psi_right, link%fab, z%moment_left)
+                        v_right = divided(plus(double_double(z%moment_left, 0.0_wp), -a%moment_right), link%length)
+                        size_right = (abs(z%deflection) + abs(a%deflection))/link%length + link%faa*abs(a%moment_right) &
+                            + abs(link%fab*z%moment_left)
+                        size_v_right = (abs(z%moment_left) + abs(a%moment_right))/link%length
+                    end associate
+                end if
+                if (node%kind == restrained) then
+                    turn = plus(plus(double_double(a%moment_left, 0.0_wp), -a%moment_right), b%couple)
+                    turn = plus_product(double_double(node%compliance*turn%low, 0.0_wp), node%compliance, turn%high)
+                    if (i > 0) r%left = value_of(plus(plus(minus(turn, psi_left), b%left), 0.0_wp))
+                    if (i < n) r%right = value_of(plus(minus(psi_right, turn), b%right))
+                    s%left = size_left + abs(turn%high) + abs(b%left)
+                    s%right = size_right + abs(turn%high) + abs(b%right)
+                    compatibility = max(compatibility, abs(r%left), abs(r%right))
+                else if (node%kind == plain .and. i > 0 .and. i < n) then
+                    r%right = value_of(plus(plus(minus(psi_right, psi_left), b%left), b%right))
+                    s%right = size_left + size_right + abs(b%left) + abs(b%right)
+                    compatibility = max(compatibility, abs(r%right))
+                end if
+                largest_turn = max(largest_turn, s%left, s%right)
+                s%shear = size_v_left + size_v_right + abs(b%shear) + node%stiffness*abs(a%deflection)
+                largest_shear = max(largest_shear, s%shear)
+                if (.not. node%held) then
+                    r%shear = value_of(plus_product(plus(minus(v_right, v_left), b%shear), -node%stiffness, a%deflection))
+                    equilibrium = max(equilibrium, abs(r%shear))
+                end if
+                if (i < n) then
+                    associate (link => links(i + 1), z => answers(i + 1))
+                        psi_left = divided(plus(double_double(z%deflection, 0.0_wp), -a%deflection), link%length)
+                        psi_left = plus_product(psi_left, -link%fab, a%moment_right)
+                        psi_left = plus_product(psi_left, -link%fbb, z%moment_left)
+                        size_left = (abs(z%deflection) + abs(a%deflection))/link%length &
+                            + abs(link%fab*a%moment_right) + link%fbb*abs(z%moment_left)
+                        v_left = v_right
+                        size_v_left = size_v_right
+                    end associate
+                end if
+            end associate
+        end do
+        compatibility = compatibility/largest_turn
+        equilibrium = equilibrium/largest_shear
+    end subroutine residual_chain
+
+    !> x - y
+    elemental function minus(x, y) result(z)
+        type(double_double), intent(in) :: x, y
+        type(double_double) :: z
+
+        z = plus(plus(x, -y%high), -y%low)
+    end function minus
+
+end module gapbeam_residual
