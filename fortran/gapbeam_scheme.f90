@@ -9,7 +9,7 @@ module gapbeam_scheme
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_no_equilibrium, &
         gapbeam_not_converged, gapbeam_not_finite
-    use gapbeam_band, only: band_ok, band_needs_pivoting
+    use gapbeam_band, only: band_ok, band_needs_pivoting, hinge, restrained
     use gapbeam_model, only: beam_type, both, softest
     use gapbeam_kinematics, only: free_motions, motion_type, work_of_loads
     use gapbeam_system, only: workspace_type, solve_scheme, refine_scheme
@@ -123,7 +123,9 @@ contains
                 way = distance_to_contact(beam, closed, direction, eased)
                 if (.not. way < huge(way)) then
                     outcome%status = gapbeam_no_equilibrium
-                    outcome%motion = direction
+                    call prefer_tipping(beam, factor, direction)
+                    allocate (outcome%motion(0:size(beam%links)))
+                    outcome%motion(:) = direction
                     return
                 end if
                 eased = eased + way*direction
@@ -177,6 +179,46 @@ contains
         largest = maxval(abs(direction))
         if (largest > 0.0_wp) direction = direction/largest
     end subroutine runaway
+
+    !> Of the ways in which a beam without hinges can go, the plainest: tipping about one of its supports, or moving as a
+    !> whole; the one along which the loads do most work. The motion found is kept if none of these is free
+    subroutine prefer_tipping(beam, factor, direction)
+        type(beam_type), intent(in) :: beam
+        real(wp), intent(in) :: factor
+        real(wp), intent(inout) :: direction(0:)
+        real(wp), allocatable :: x(:), y(:), best(:)
+        real(wp) :: done, parts, most
+        integer :: k, i, n, way
+
+        n = size(beam%links)
+        if (any(beam%kind == hinge)) return
+        allocate (x(0:n), y(0:n), best(0:n))
+        x(0) = 0.0_wp
+        do i = 1, n
+            x(i) = x(i - 1) + beam%links(i)%length
+        end do
+        most = 0.0_wp
+        best(:) = direction
+        do k = 0, size(beam%supports)
+            if (k == 0) then
+                y(:) = 1.0_wp
+            else
+                y(:) = x - x(beam%supports(k)%node)
+                if (any(beam%kind == restrained)) exit
+            end if
+            y(:) = y/maxval(abs(y))
+            do way = 1, 2
+                y(:) = -y
+                if (any(beam%supports%side*y(beam%supports%node) > 0.0_wp .and. beam%supports%stiffness > 0.0_wp)) cycle
+                if (any(beam%supports%side == both .and. abs(y(beam%supports%node)) > 0.0_wp)) cycle
+                call work_of_loads(beam, factor, y, done, parts)
+                if (done <= max(most, 1e-12_wp*parts)) cycle
+                most = done
+                best(:) = y
+            end do
+        end do
+        direction(:) = best
+    end subroutine prefer_tipping
 
     !> How far the beam can go along a motion until an open support is met
     pure function distance_to_contact(beam, closed, direction, deflection) result(way)

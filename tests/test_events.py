@@ -44,7 +44,7 @@ def test_plank_tips():
     result = solve(scene([1.0, 1.0], supports, loads))
     assert result.status == "no-equilibrium"
     assert "above load factor 0.05:" in result.reason
-    assert "tips about the support at x = 1: its right end goes down" in result.reason
+    assert "tips about the support at x = 1: its left end goes up, its right end goes down" in result.reason
     assert [step.factor for step in result.steps] == [pytest.approx(0.05, rel=1e-15)]
 
 

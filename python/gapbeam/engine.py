@@ -105,11 +105,13 @@ def solve(arrays: Arrays, links: np.ndarray, factor: float, rule: str, closed: n
     EngineError
         Where no unique solution exists for another reason, with the engine's message.
     """
-    scheme = np.array(closed, dtype=np.int32)
+    scheme = _scheme(closed)
     *values, indifferent, status, message = _f77.gbsolv(*_beam(arrays, links), factor, RULES[rule], scheme)
     if status not in (SOLVED, NO_EQUILIBRIUM):
         raise EngineError(message.decode().strip())
     solution = Solution(status, scheme, *values, bool(indifferent))
+    if len(closed) == 0:
+        solution = replace(solution, closed=scheme[:0], marginal=scheme[:0], reaction=solution.reaction[:0])
     return _outer(solution, *arrays.exponents)
 
 
@@ -145,7 +147,8 @@ def next_event(
     EngineError
         Where no single path exists, with the engine's message.
     """
-    closed, marginal = np.array(closed, dtype=np.int32), np.array(marginal, dtype=np.int32)
+    supports = len(closed)
+    closed, marginal = _scheme(closed), _scheme(marginal)
     following, motion, solves, status, message = _f77.gbnext(
         *_beam(arrays, links), factor, RULES[rule], closed, marginal
     )
@@ -153,7 +156,7 @@ def next_event(
         raise EngineError(f"at load factor {factor:g}: {message.decode().strip()}")
     if following > 1e300:
         following = np.inf
-    return status, following, closed, marginal, motion, solves
+    return status, following, closed[:supports], marginal[:supports], motion, solves
 
 
 def certify(arrays: Arrays, links: np.ndarray, factor: float, closed: np.ndarray) -> tuple[float, float] | None:
@@ -170,7 +173,7 @@ def certify(arrays: Arrays, links: np.ndarray, factor: float, closed: np.ndarray
         Largest error of the deflections of the nodes and of the reactions; None where the scheme takes pivoting or
         leaves the beam free to move.
     """
-    bound, known = _f77.gbcert(*_beam(arrays, links), factor, closed)
+    bound, known = _f77.gbcert(*_beam(arrays, links), factor, _scheme(closed))
     length, force = arrays.exponents
     return (float(np.ldexp(bound[0], length)), float(np.ldexp(bound[1], force))) if known else None
 
@@ -194,20 +197,18 @@ def _outer(solution: Solution, length: int, force: int) -> Solution:
     )
 
 
+def _scheme(closed: np.ndarray) -> np.ndarray:
+    """Copy a scheme, with an open support where there is none: f2py takes no arrays of size 0."""
+    return np.array(closed if len(closed) else [0], dtype=np.int32)
+
+
 def _beam(arrays: Arrays, links: np.ndarray) -> tuple[np.ndarray, ...]:
-    """Collect what every contact call needs."""
-    arrays = arrays.scaled
-    return (
-        links,
-        arrays.kinds,
-        arrays.compliance,
-        arrays.force.T,
-        arrays.couple.T,
-        arrays.support_nodes,
-        arrays.support_sides,
-        arrays.support_stiffness,
-        arrays.support_contact,
-    )
+    """Collect what every contact call needs; a support without stiffness stands for no support."""
+    inner = arrays.scaled
+    supports = (inner.support_nodes, inner.support_sides, inner.support_stiffness, inner.support_contact)
+    if len(inner.support_nodes) == 0:
+        supports = (np.zeros(1, np.int32), np.ones(1, np.int32), np.zeros(1), np.zeros(1))
+    return links, inner.kinds, inner.compliance, inner.force.T, inner.couple.T, *supports
 
 
 def recover(arrays: Arrays, links: np.ndarray, factor: float, solution: Solution) -> np.ndarray:
@@ -263,6 +264,8 @@ def values(arrays: Arrays, factor: float, starts: np.ndarray, piece: np.ndarray,
         4 by places: deflection, rotation, moment, shear.
     """
     where = np.asarray(piece, dtype=np.int32) + np.int32(1)
+    if len(piece) == 0:
+        return np.empty((4, 0))
     inner = arrays.scaled
     length, force = arrays.exponents
     found = _f77.gbvalu(

@@ -22,7 +22,7 @@ def describe_motion(arrays: Arrays, motion: np.ndarray) -> str:
     Returns
     -------
     str
-        For example "the beam tips about the support at x = 6: its right end goes down, nothing holds it".
+        For example "the beam tips about the support at x = 6: its left end goes up, its right end goes down; ...".
     """
     x = arrays.node_x
     cuts = np.unique(np.concatenate(([0], np.flatnonzero(arrays.kinds == HINGE), [len(x) - 1])))
@@ -60,5 +60,5 @@ def _describe_body(arrays: Arrays, motion: np.ndarray, a: int, b: int) -> str:
         about = f"the hinge at x = {pivot:g}"
     else:
         about = f"x = {pivot:g}"
-    end, value = ("right", motion[b]) if abs(motion[b]) >= abs(motion[a]) else ("left", motion[a])
-    return f"{name} tips about {about}: its {end} end goes {'down' if value > 0 else 'up'}"
+    left, right = ("goes down" if motion[k] > 0.0 else "goes up" if motion[k] < 0.0 else "stays" for k in (a, b))
+    return f"{name} tips about {about}: its left end {left}, its right end {right}"

@@ -1,0 +1,89 @@
+"""Certificates: the error bound holds and is not wasteful; what precision cannot decide is named; free positions are said."""
+
+import random
+
+import gapbeam
+import numpy as np
+import oracle
+import pytest
+from mpmath import mpf
+from scenes import at, force, random_scene, scene, uniform
+
+
+def true_errors(made, step, supports):
+    """Largest errors of deflections at supports and of reactions, and the largest values."""
+    exact = oracle.solve(made)
+    if exact.status != "solved":
+        return None
+    errors = []
+    for name in ("deflection", "reaction"):
+        true, found = getattr(exact, name), getattr(step, name)
+        errors.append(max((abs(float(mpf(true[k]) - mpf(float(found[k])))) for k in supports), default=0.0))
+    return errors
+
+
+@pytest.mark.parametrize("block", range(8))
+def test_bound_holds_and_is_not_wasteful(block):
+    compared = 0
+    for seed in range(1000 * block, 1000 * block + 60):
+        rng = random.Random(seed)
+        made = random_scene(rng, held=rng.choice((True, None)))
+        made["analysis"] = {}
+        result = gapbeam.solve(made)
+        if result.status != "solved" or result.steps[-1].indifferent:
+            continue
+        step = result.steps[-1]
+        errors = true_errors(made, step, result.arrays.supports)
+        if errors is None:
+            continue
+        compared += 1
+        sizes = (np.abs(step.solution.deflection).max(), np.abs(step.reaction).max(initial=0.0))
+        for error, bound, size in zip(errors, step.bounds, sizes, strict=True):
+            assert error <= bound, seed
+            if size > 1e-9 and error > 1e-14 * size:
+                assert bound <= 1000 * error, seed
+    assert compared > 20
+
+
+def test_stiff_and_soft_together():
+    """Bounds grow where the problem itself is badly conditioned, and still hold."""
+    supports = [at(0, stiffness=1e-9), at(1, stiffness=1e12), at(2, stiffness=1e-9)]
+    made = scene([1.0, 1.0], supports, [force(0.5, 1.0), force(1.7, -0.3)], EI=1e3)
+    result = gapbeam.solve(made)
+    errors = true_errors(made, result.steps[-1], range(3))
+    assert all(error <= bound for error, bound in zip(errors, result.steps[-1].bounds, strict=True))
+
+
+def test_tie_is_named():
+    """Reference P6: both deflections equal their gaps exactly, so neither contact is decided."""
+    supports = [
+        at(0),
+        at(1, side="below", stiffness=1e5, gap=0.015),
+        at(2, side="below", stiffness=1e6, gap=0.010),
+        at(3),
+    ]
+    result = gapbeam.solve(scene([1.0, 1.0, 1.0], supports, [force(1.0, 60.0), force(2.0, -30.0)], EI=1000.0))
+    assert result.steps[-1].undecided == (1, 2)
+    assert result.to_dict()["steps"][-1]["undecided"] == [1, 2]
+
+
+def test_clear_cases_are_not_named():
+    supports = [at(i, side="below") for i in range(3)]
+    loads = [uniform(1.0, case="dead"), {**uniform(10.0), "to": 1.0}]
+    assert gapbeam.solve(scene([1.0, 1.0], supports, loads)).steps[-1].undecided == ()
+
+
+def test_indifferent_position():
+    """A part without load on a hinge can turn freely; the forces elsewhere are unique."""
+    made = scene([2.0, 2.0, 1.0], [at(0), at(2)], [force(1.0, 4.0)], hinges=[4.5])
+    step = gapbeam.solve(made).steps[-1]
+    assert step.indifferent
+    assert step.reaction == pytest.approx([3.0, 1.0], rel=1e-12)
+    assert step.certificate["error_bound"] is None
+
+
+def test_no_supports_at_all():
+    result = gapbeam.solve(scene([2.0], [], [uniform(1.0)]))
+    assert result.status == "no-equilibrium"
+    assert "moves down as a whole" in result.reason
+    assert result.motion == [(0.0, 1.0), (2.0, 1.0)]
