@@ -27,8 +27,9 @@ module gapbeam_search
 
     !> The two rules
     integer, parameter :: rule_block = 0, rule_single = 1
-    !> Solves that need not make the number of wrong supports fall: directly, after a guess, between least-index phases
-    integer, parameter :: patience = 4, polish_patience = 3, last_patience = 2
+    !> Solves that need not make the number of wrong supports fall: directly from all supports closed, directly from another
+    !> scheme, after a guess, between least-index phases
+    integer, parameter :: patience = 4, warm_patience = 12, polish_patience = 3, last_patience = 2
     !> Where fewer are wrong than this, a step that made no progress is followed by one of the paper's rule
     integer, parameter :: few = 8
     !> Such solves after the last guess. When reactions times openings have fallen by this much, so many changes of a
@@ -80,7 +81,7 @@ contains
         if (rule == rule_single) call change_single(beam, closed, work, search, settled)
         if (.not. settled .and. search%state == band_ok) then
             search%fewest = huge(0)
-            call change_all(beam, patience, .true., closed, work, search, settled)
+            call change_all(beam, merge(patience, warm_patience, all(closed)), .true., closed, work, search, settled)
         end if
         if (.not. settled .and. search%state /= band_mechanism) then
             call change_by_interior_point(beam, closed, work, search, settled)

@@ -24,7 +24,7 @@ except ImportError:
 from importlib.metadata import version as _version
 
 from .errors import EngineError, GapbeamError, SceneError
-from .results import Fields, Result, Step, System
+from .results import Fields, Result, System
 from .scene import (
     Analysis,
     AxialLoad,
@@ -42,6 +42,7 @@ from .scene import (
     read_scene,
     scene_schema,
 )
+from .states import Step
 from .stepping import solve
 
 __version__ = _version("gapbeam")

@@ -164,6 +164,13 @@ def _parser() -> argparse.ArgumentParser:
     extremes.add_argument("--markdown", metavar="FILE", help="write the table as a page for the documentation; - as above")
     extremes.add_argument("--largest", metavar="N", type=int, default=10**6, help="most supports (default 1000000)")
     extremes.set_defaults(command=_study_extremes)
+    schemes = studies.add_parser(
+        "schemes", help="linear solves until the working scheme is found", formatter_class=plain,
+        description="Count the linear solves and events of the reference problems from all starting schemes, of fronts that move\n"
+        "over thousands of supports, cold and warm, and of many spans. Takes some seconds.",
+    )  # fmt: skip
+    schemes.add_argument("--markdown", metavar="FILE", help="write the table as a page for the documentation; - is standard output")
+    schemes.set_defaults(command=_study_schemes)
     return parser
 
 
@@ -292,4 +299,18 @@ def _study_extremes(arguments: argparse.Namespace) -> int:
     if "-" not in outputs.values():
         with _until_closed():
             print_extremes(rows)
+    return SOLVED
+
+
+def _study_schemes(arguments: argparse.Namespace) -> int:
+    outputs = {"--markdown": arguments.markdown}
+    _check_outputs(outputs)
+    from .study_schemes import print_schemes, schemes, to_markdown
+
+    rows = list(schemes())
+    if arguments.markdown:
+        _write(arguments.markdown, to_markdown(rows))
+    if arguments.markdown != "-":
+        with _until_closed():
+            print_schemes(rows)
     return SOLVED

@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from decimal import Decimal, localcontext
 from fractions import Fraction
+from itertools import pairwise
 from math import inf, isinf
 
 import numpy as np
@@ -43,7 +44,7 @@ class Reference:
     Attributes
     ----------
     x : list of float
-        The places where values are known, as the scene would name them.
+        The places where values are known, as the scene would name them; the middle of every span is among them.
     deflection, moment_left, moment_right, shear_left, shear_right : list
         There, after `solve`: fractions, or decimals for long beams.
     reaction, place_deflection : list
@@ -74,7 +75,8 @@ class Reference:
         loads = [(*where, load) for where, load in zip(along(stretches), stretches, strict=True)]
         hinges, held, loaded = places(scene.beam.hinges), at(scene.supports), at(points)
         marks = [x for a, b, _ in (*sections, *loads) for x in (a, b)]
-        where = sorted({*exact_ends, *hinges, *held, *loaded, *marks})
+        middles = places(ends[:-1] + np.array(scene.beam.spans) / 2)
+        where = sorted({*exact_ends, *hinges, *held, *loaded, *marks, *middles})
         index = {x: i for i, x in enumerate(where)}
         self.kind = Fraction if len(where) <= MOST_EXACT else Decimal
         self.x = [_name(x, exact_ends, ends) for x in where]
@@ -87,7 +89,7 @@ class Reference:
                 self.force[index[x]] += Fraction(load.F)
             else:
                 self.couple[index[x]] += Fraction(load.M)
-        self.pieces = [_piece(a, b, scene, exact_ends, sections, loads) for a, b in zip(where, where[1:], strict=False)]
+        self.pieces = [_piece(a, b, scene, exact_ends, sections, loads) for a, b in pairwise(where)]
         self.sign = [SIDES[support.side] for support in scene.supports]
         self.level = [Fraction(s.settlement) + k * Fraction(s.gap) for s, k in zip(self.supports, self.sign, strict=True)]
 
@@ -121,7 +123,7 @@ class Reference:
                     closed[i] = not closed[i]
         raise ZeroDivisionError("no working scheme satisfies the contact conditions exactly")
 
-    def error(self, name: str, values: Sequence[float]) -> float:
+    def error(self, name: str, values: Sequence[float], scale: str = "", inner: slice = slice(None)) -> float:
         """Largest error of some values, relative to the largest true one.
 
         Parameters
@@ -130,18 +132,22 @@ class Reference:
             Attribute that holds the true values.
         values : sequence of float
             What to judge.
+        scale : str, optional
+            Attribute whose largest value counts instead.
+        inner : slice, optional
+            Which values are judged.
 
         Returns
         -------
         float
             0 where all are zero and right, inf where a value is not finite.
         """
-        true = getattr(self, name)
+        true, values = getattr(self, name)[inner], list(values)[inner]
         if not all(abs(value) < inf for value in values):
             return inf
         with localcontext() as context:
             context.prec, context.Emax, context.Emin = DIGITS, 10**9, -(10**9)
-            size = max((abs(value) for value in true), default=0)
+            size = max((abs(value) for value in getattr(self, scale or name)), default=0)
             off = max((abs(self.kind(float(a)) - b) for a, b in zip(values, true, strict=True)), default=0)
             return float(off / size) if size else (inf if off else 0.0)
 
@@ -268,7 +274,7 @@ def _eliminate(rows: list[Form], count: int, exact: bool) -> list:
         first = min((k for k, c in row.items() if c and k >= 0), default=None)
         if first is None:
             raise ZeroDivisionError("the structure is a mechanism or statically ambiguous")
-        waiting[first].append({k: c for k, c in row.items() if c and k < 0 or k >= first})
+        waiting[first].append({k: c for k, c in row.items() if (c and k < 0) or k >= first})
 
     for row in rows:
         sort_in(row)

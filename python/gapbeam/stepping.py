@@ -12,8 +12,9 @@ from . import engine
 from .errors import SceneError
 from .lowering import Arrays, lower
 from .path import follow
-from .results import Result, Step, solve_step
+from .results import Result
 from .scene import Scene, read_scene
+from .states import Step, solve_step
 
 
 def solve(

@@ -1,0 +1,158 @@
+"""The state at one load factor.
+
+Signs: deflections positive downward, reactions upward, couples clockwise; at axial supports both to the right.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+from time import perf_counter
+
+import numpy as np
+
+from . import engine
+from .engine import Solution
+from .lowering import Arrays
+
+
+class Step:
+    """The state at one load factor; arrays have one entry per support, in the order of the scene.
+
+    Attributes
+    ----------
+    factor : float
+        Load factor of the live loads.
+    solves : int
+        Linear solves it took to find the working scheme.
+    seconds : float
+        Time of these.
+    indifferent : bool
+        Whether the beam can move freely without work of the loads: its forces are unique, its position is not.
+    """
+
+    def __init__(self, arrays: Arrays, links: np.ndarray, factor: float, seconds: float, solution: Solution, axial):
+        self.factor = factor
+        self.seconds = seconds
+        self.solves = solution.solves
+        self.solution = solution
+        self.axial = axial
+        self._arrays = arrays
+        self._links = links
+        self.indifferent = solution.indifferent
+
+    def _scatter(self, normal: np.ndarray, axial: np.ndarray | None = None) -> np.ndarray:
+        """Values of the supports across the beam and along it, in the order of the scene."""
+        arrays = self._arrays
+        result = np.zeros(self._arrays.support_count)
+        result[arrays.supports] = normal
+        if axial is not None and arrays.axial is not None:
+            result[arrays.axial.supports] = axial[arrays.axial.support_points]
+        return result
+
+    @cached_property
+    def reaction(self) -> np.ndarray:
+        """Reactions, positive upward; of an axial support positive to the right."""
+        return self._scatter(self.solution.reaction, self.axial[2] if self.axial else None)
+
+    @cached_property
+    def deflection(self) -> np.ndarray:
+        """Deflection of the beam at each support, positive downward; at an axial one to the right."""
+        w = self.solution.deflection[self._arrays.support_nodes]
+        return self._scatter(w, self.axial[0] if self.axial else None)
+
+    @cached_property
+    def opening(self) -> np.ndarray:
+        """Distance still to go until a support acts."""
+        arrays = self._arrays
+        w = self.solution.deflection[arrays.support_nodes]
+        way = arrays.support_sides * (arrays.support_contact - w)
+        return self._scatter(np.where(self.solution.closed == 1, 0.0, np.maximum(way, 0.0)))
+
+    @cached_property
+    def couple(self) -> np.ndarray:
+        """Couple of each support on the beam, positive clockwise."""
+        arrays = self._arrays
+        nodes = arrays.support_nodes
+        at_node = self.solution.moment_right - self.solution.moment_left
+        at_node = at_node - arrays.couple @ (1.0, self.factor)  # M_right = M_left + applied couple + support's
+        return self._scatter(np.where(arrays.couple_share > 0.0, at_node[nodes] * arrays.couple_share, 0.0))
+
+    @cached_property
+    def state(self) -> tuple[str, ...]:
+        """``closed``, ``open`` or ``bilateral``."""
+        names = np.where(self.solution.closed == 1, "closed", "open")
+        names = np.where(self._arrays.support_sides == 0, "bilateral", names)
+        result = ["bilateral"] * self._arrays.support_count
+        for k, name in zip(self._arrays.supports.tolist(), names.tolist(), strict=True):
+            result[k] = name
+        return tuple(result)
+
+    @cached_property
+    def bounds(self) -> tuple[float, float] | None:
+        """Largest error that the deflections of the nodes, and the reactions, can have; None if not known."""
+        return engine.certify(self._arrays, self._links, self.factor, self.solution.closed)
+
+    @property
+    def residuals(self) -> dict[str, float]:
+        """Relative residuals of equilibrium, compatibility and complementarity."""
+        compatibility, equilibrium, complementarity = self.solution.residuals.tolist()
+        return {"equilibrium": equilibrium, "compatibility": compatibility, "complementarity": complementarity}
+
+    @cached_property
+    def certificate(self) -> dict[str, float | None]:
+        """The residuals and bounds of the relative errors; computed when first asked for."""
+        solution = self.solution
+        largest = [np.abs(values).max(initial=0.0) for values in (solution.deflection, solution.reaction)]
+        relative: list[float | None] = [None, None]
+        if self.bounds is not None:
+            relative = [
+                float(bound / size) if size > 0.0 else 0.0 for bound, size in zip(self.bounds, largest, strict=True)
+            ]
+        return {
+            **self.residuals,
+            "error_bound": None if None in relative else max(relative),
+            "error_bound_deflection": relative[0],
+            "error_bound_reaction": relative[1],
+        }
+
+    @cached_property
+    def undecided(self) -> tuple[int, ...]:
+        """Supports whose reaction or opening is smaller than its error can be: closed or open is not decided."""
+        if self.bounds is None:
+            doubtful = self.solution.marginal == 1
+        else:
+            w, reaction = self.bounds
+            arrays = self._arrays
+            way = np.abs(arrays.support_contact - self.solution.deflection[arrays.support_nodes])
+            small = np.where(self.solution.closed == 1, np.abs(self.solution.reaction) <= reaction, way <= w)
+            doubtful = small & (arrays.support_sides != 0) & (arrays.support_stiffness > 0.0)
+        return tuple(self._arrays.supports[doubtful].tolist())
+
+    @cached_property
+    def starts(self) -> np.ndarray:
+        """Fields at the left end of every piece of the beam."""
+        return engine.recover(self._arrays, self._links, self.factor, self.solution)
+
+
+def solve_step(
+    arrays: Arrays, links: np.ndarray, factor: float, rule: str, closed: np.ndarray
+) -> Step | Solution | None:
+    """Solve one state.
+
+    Parameters
+    ----------
+    arrays, links, factor, rule, closed
+        As for `engine.solve`.
+
+    Returns
+    -------
+    Step, Solution or None
+        The step; the solution with its motion where there is no equilibrium; None where the beam slides.
+    """
+    begin = perf_counter()
+    axial = engine.solve_axial(arrays, factor) if arrays.axial is not None else None
+    solution = engine.solve(arrays, links, factor, rule, closed)
+    seconds = perf_counter() - begin
+    if arrays.axial is not None and axial is None:
+        return None
+    return Step(arrays, links, factor, seconds, solution, axial) if solution.status == engine.SOLVED else solution
