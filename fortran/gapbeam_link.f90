@@ -36,6 +36,8 @@ module gapbeam_link
         real(wp) :: turn_a(2), turn_b(2)
         !> Shear of the simple bar at its ends
         real(wp) :: shear_a(2), shear_b(2)
+        !> Sums of the absolute values of all loads, and of the rotations they could make: what rounding is relative to
+        real(wp) :: load_sum(2), turn_sum(2)
     end type link_type
 
 contains
@@ -128,6 +130,8 @@ contains
         link%turn_b(k) = 0.0_wp
         link%shear_a(k) = 0.0_wp
         link%shear_b(k) = 0.0_wp
+        link%load_sum(k) = 0.0_wp
+        link%turn_sum(k) = 0.0_wp
         if (.not. any_load(loads)) return
 
         call moments_about_right_end(pieces, loads, work, right_end)
@@ -154,12 +158,17 @@ contains
                 call add(turn_a, (1 - x1/link%length)*turning)
                 call add(turn_b, (x1/link%length)*turning)
                 call add(slip, p%shear_flexibility*(m1 - m0))
+                link%load_sum(k) = link%load_sum(k) + (abs(q%qa) + abs(q%qb))*p%length/2
+                link%turn_sum(k) = link%turn_sum(k) + abs(q%kappa)*p%length
                 if (j < n) then
                     call add(left, q%force*x1)
                     call add(left, q%couple)
+                    link%load_sum(k) = link%load_sum(k) + abs(q%force) + abs(q%couple)/link%length
                 end if
             end associate
         end do
+        ! No moment of the simple bar exceeds a quarter of the load times the length, or the couples
+        link%turn_sum(k) = link%turn_sum(k) + link%bending*link%length*link%load_sum(k)
         link%turn_a(k) = total(turn_a) - total(slip)/link%length
         link%turn_b(k) = total(turn_b) + total(slip)/link%length
         link%shear_a(k) = right_end/link%length

@@ -1,12 +1,24 @@
 !> What the rows of the mixed system still lack, in twice the working precision
+!>
+!> Double-double arithmetic, a number as the unevaluated sum of two doubles, by error-free sums and products (Knuth
+!> 1969, Dekker 1971). It relies on IEEE arithmetic without contraction and without reordering: never compile with
+!> -ffast-math. It stands here and not in a module of its own so that compilers inline it.
 module gapbeam_residual
     use gapbeam_kinds, only: wp
-    use gapbeam_double_double, only: double_double, plus, plus_product, divided, value_of
     use gapbeam_link, only: link_type
     use gapbeam_band, only: node_type, rhs_type, answer_type, plain, restrained
     implicit none
     private
     public :: residual_chain, size_type
+
+    !> high + low, high the nearest double
+    type :: double_double
+        real(wp) :: high = 0.0_wp
+        real(wp) :: low = 0.0_wp
+    end type double_double
+
+    !> Splits a double into two halves of 26 bits
+    real(wp), parameter :: splitter = 134217729.0_wp
 
     !> Sums of the absolute values of the terms of a node's rows
     type :: size_type
@@ -96,6 +108,57 @@ contains
         compatibility = compatibility/largest_turn
         equilibrium = equilibrium/largest_shear
     end subroutine residual_chain
+
+    !> x + y with a double y
+    elemental function plus(x, y) result(z)
+        type(double_double), intent(in) :: x
+        real(wp), intent(in) :: y
+        type(double_double) :: z
+        real(wp) :: s, t, e
+
+        s = x%high + y
+        t = s - x%high
+        e = ((x%high - (s - t)) + (y - t)) + x%low
+        z%high = s + e
+        z%low = e - (z%high - s)
+    end function plus
+
+    !> x + a b with doubles a and b
+    elemental function plus_product(x, a, b) result(z)
+        type(double_double), intent(in) :: x
+        real(wp), intent(in) :: a, b
+        type(double_double) :: z
+        real(wp) :: p, a1, a2, b1, b2
+
+        p = a*b
+        a1 = splitter*a
+        a1 = a1 - (a1 - a)
+        a2 = a - a1
+        b1 = splitter*b
+        b1 = b1 - (b1 - b)
+        b2 = b - b1
+        z = plus(plus(x, p), ((a1*b1 - p) + a1*b2 + a2*b1) + a2*b2)
+    end function plus_product
+
+    !> x/y with a double y
+    elemental function divided(x, y) result(z)
+        type(double_double), intent(in) :: x
+        real(wp), intent(in) :: y
+        type(double_double) :: z, rest
+        real(wp) :: q
+
+        q = x%high/y
+        rest = plus_product(x, -q, y)
+        z = plus(double_double(q, 0.0_wp), (rest%high + rest%low)/y)
+    end function divided
+
+    !> The nearest double
+    elemental function value_of(x) result(value)
+        type(double_double), intent(in) :: x
+        real(wp) :: value
+
+        value = x%high + x%low
+    end function value_of
 
     !> x - y
     elemental function minus(x, y) result(z)

@@ -354,8 +354,10 @@ contains
     end subroutine check_scheme
 
     !> Bounds for the errors of the last solve
-    subroutine certify_scheme(beam, work, deflection_bound, reaction_bound, known)
+    subroutine certify_scheme(beam, factor, work, deflection_bound, reaction_bound, known)
+        !> The beam and the factor of its live loads
         type(beam_type), intent(in) :: beam
+        real(wp), intent(in) :: factor
         type(workspace_type), intent(inout) :: work
         !> Largest error of any deflection of a node, and of any reaction
         real(wp), intent(out) :: deflection_bound, reaction_bound
@@ -369,11 +371,40 @@ contains
         known = state == band_ok
         if (.not. known) return
         call check_scheme(beam, work)
+        call add_load_sizes(beam, factor, work)
         call bound_errors(work%nodes, beam%links, work%pivots, work%eliminated, work%sizes, deflection_bound, reaction_bound)
         ! The numbers given are rounded once more, and contact levels are given to half a unit in the last place
         deflection_bound = deflection_bound + 2*epsilon(1.0_wp)*maxval(max(abs(work%answers%deflection), abs(work%rhs%deflection)))
         if (size(work%reaction) > 0) reaction_bound = reaction_bound &
             + maxval(2*epsilon(1.0_wp)*abs(work%reaction) + work%reaction_error)
     end subroutine certify_scheme
+
+    !> Loads that cancel in a row are as uncertain as each of them
+    pure subroutine add_load_sizes(beam, factor, work)
+        type(beam_type), intent(in) :: beam
+        real(wp), intent(in) :: factor
+        type(workspace_type), intent(inout) :: work
+        real(wp) :: share(2), turn
+        integer :: i
+
+        share = [1.0_wp, abs(factor)]
+        do i = 0, size(beam%links)
+            work%sizes(i)%shear = work%sizes(i)%shear + dot_product(share, abs(beam%force(:, i)))
+        end do
+        do i = 1, size(beam%links)
+            associate (a => work%sizes(i - 1), b => work%sizes(i), link => beam%links(i))
+                a%shear = a%shear + dot_product(share, link%load_sum)
+                b%shear = b%shear + dot_product(share, link%load_sum)
+                turn = dot_product(share, link%turn_sum)
+                ! Rows without compatibility have no term of it
+                if (a%right > 0.0_wp) a%right = a%right + turn
+                if (b%left > 0.0_wp) then
+                    b%left = b%left + turn
+                else if (b%right > 0.0_wp) then
+                    b%right = b%right + turn
+                end if
+            end associate
+        end do
+    end subroutine add_load_sizes
 
 end module gapbeam_system
