@@ -184,6 +184,9 @@ contains
                 part = -displacement(i + 1)*dot_product(share, link%shear_b)
                 work = work + part
                 size_of_parts = size_of_parts + abs(part)
+                ! Loads that cancel inside the link are as uncertain as each of them
+                size_of_parts = size_of_parts + (abs(displacement(i)) + abs(displacement(i + 1))) &
+                    *dot_product(abs(share), link%load_sum)
             end associate
         end do
     end subroutine work_of_loads

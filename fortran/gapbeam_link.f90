@@ -122,7 +122,7 @@ contains
         integer, intent(in) :: k
         real(wp), intent(inout) :: work(:)
         type(sum_type) :: turn_a, turn_b, slip, left, position
-        real(wp) :: right_end, x0, x1, m0, m1, left_part, right_part, turning
+        real(wp) :: right_end, x0, x1, m0, m1, left_part, right_part, turning, peaks
         integer :: j, n
 
         n = size(pieces)
@@ -140,6 +140,7 @@ contains
         slip = sum_type()
         left = sum_type()
         position = sum_type()
+        peaks = 0.0_wp
         x1 = 0.0_wp
         do j = 1, n
             associate (p => pieces(j), q => loads(j))
@@ -160,15 +161,17 @@ contains
                 call add(slip, p%shear_flexibility*(m1 - m0))
                 link%load_sum(k) = link%load_sum(k) + (abs(q%qa) + abs(q%qb))*p%length/2
                 link%turn_sum(k) = link%turn_sum(k) + abs(q%kappa)*p%length
+                peaks = peaks + (abs(q%qa) + abs(q%qb))*p%length*(x1*(link%length - x0)/link%length)
                 if (j < n) then
                     call add(left, q%force*x1)
                     call add(left, q%couple)
                     link%load_sum(k) = link%load_sum(k) + abs(q%force) + abs(q%couple)/link%length
+                    peaks = peaks + abs(q%force)*x1*(link%length - x1)/link%length + abs(q%couple)
                 end if
             end associate
         end do
-        ! No moment of the simple bar exceeds a quarter of the load times the length, or the couples
-        link%turn_sum(k) = link%turn_sum(k) + link%bending*link%length*link%load_sum(k)
+        ! No moment of the simple bar exceeds the sum of the peaks of all loads alone
+        link%turn_sum(k) = link%turn_sum(k) + link%bending*peaks
         link%turn_a(k) = total(turn_a) - total(slip)/link%length
         link%turn_b(k) = total(turn_b) + total(slip)/link%length
         link%shear_a(k) = right_end/link%length

@@ -8,11 +8,11 @@
 module gapbeam_scheme
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_no_equilibrium, &
-        gapbeam_not_converged, gapbeam_not_finite
+        gapbeam_indeterminate, gapbeam_not_converged, gapbeam_not_finite
     use gapbeam_band, only: band_ok, band_needs_pivoting, hinge, restrained
     use gapbeam_model, only: beam_type, both, softest
     use gapbeam_kinematics, only: free_motions, motion_type, work_of_loads
-    use gapbeam_system, only: workspace_type, solve_scheme, refine_scheme
+    use gapbeam_system, only: workspace_type, new_workspace, set_loads, solve_scheme, refine_scheme
     use gapbeam_rules, only: find_wrong, separate_rigid_pairs
     use gapbeam_search, only: settle, refuse, first_width
     implicit none
@@ -68,6 +68,7 @@ contains
         if (.not. settled) then
             closed = start
             call iterate_floating(beam, factor, rule, closed, work, outcome, error)
+            if (allocated(error)) call look_for_motion(beam, factor, rule, start, outcome, error)
         end if
         if (allocated(error) .or. outcome%status /= gapbeam_solved) return
         call refine_scheme(beam, closed, work)
@@ -77,6 +78,34 @@ contains
                 //"in which lengths, stiffnesses and loads are nearer to 1")
         end if
     end subroutine find_scheme
+
+    !> A beam whose reactions statics cannot tell apart may still have no equilibrium. That does not depend on how stiff
+    !> its supports are, so it is decided with soft ones
+    subroutine look_for_motion(beam, factor, rule, start, outcome, error)
+        type(beam_type), intent(in) :: beam
+        real(wp), intent(in) :: factor
+        integer, intent(in) :: rule
+        logical, intent(in) :: start(:)
+        type(outcome_type), intent(inout) :: outcome
+        !> Why the beam itself could not be solved; gone if it has no equilibrium
+        type(error_type), allocatable, intent(inout) :: error
+        type(beam_type) :: soft
+        type(workspace_type) :: work
+        type(error_type), allocatable :: another
+        logical, allocatable :: closed(:)
+        real(wp) :: stiffness
+
+        if (error%code /= gapbeam_indeterminate) return
+        allocate (closed(size(start)))
+        closed(:) = start
+        soft = beam
+        stiffness = softest(beam)
+        where (soft%supports%stiffness > stiffness) soft%supports%stiffness = stiffness
+        call new_workspace(soft, work)
+        call set_loads(soft, factor, work)
+        call iterate_floating(soft, factor, rule, closed, work, outcome, another)
+        if (outcome%status == gapbeam_no_equilibrium .and. .not. allocated(another)) deallocate (error)
+    end subroutine look_for_motion
 
     !> The same for a beam that can float: weak springs, and a reference position that follows
     subroutine iterate_floating(beam, factor, rule, closed, work, outcome, error)
@@ -109,6 +138,7 @@ contains
                 if (state == band_needs_pivoting) call refuse(beam, state, place, error)
                 if (allocated(error)) return
                 if (state == band_ok) then
+                    call refine_scheme(beam, closed, work)
                     call find_wrong(beam, closed, first_width, work, wrong)
                     if (.not. any(wrong)) return
                 end if

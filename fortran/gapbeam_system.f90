@@ -31,6 +31,8 @@ module gapbeam_system
         real(wp), allocatable :: reaction(:), reaction_error(:)
         !> Shear of every link beside that of the simple bar, (M_b - M_a)/L, and its rounding error
         real(wp), allocatable :: shear(:), shear_error(:)
+        !> Largest contact level of the supports that act at a node
+        real(wp), allocatable :: level(:)
         !> Sizes of the shears and deflections whose rounding reaches a node
         real(wp), allocatable :: shear_size(:), deflection_size(:)
         !> Springs towards a reference deflection that keep schemes which are mechanisms solvable; zero if unused
@@ -60,6 +62,7 @@ contains
         allocate (work%nodes(0:n), work%loads(0:n), work%rhs(0:n), work%eliminated(0:n), work%pivots(0:n))
         allocate (work%answers(0:n), work%moment_work(2, 0:n), work%sizes(0:n))
         allocate (work%shear(n), work%shear_error(n))
+        allocate (work%level(0:n))
         allocate (work%shear_size(0:n), work%deflection_size(0:n))
         allocate (work%reaction(m), work%reaction_error(m))
         allocate (work%ease(0:n), work%reference(0:n))
@@ -108,6 +111,7 @@ contains
         work%nodes%stiffness = work%ease
         work%rhs = work%loads
         work%rhs%shear = work%rhs%shear + work%ease*work%reference
+        work%level = 0.0_wp
         do k = 1, size(acting)
             associate (s => beam%supports(k), node => work%nodes(beam%supports(k)%node), &
                        r => work%rhs(beam%supports(k)%node))
@@ -116,12 +120,15 @@ contains
                     r%shear = r%shear + work%spring(k)*work%spring_contact(k)
                 else if (.not. acting(k)) then
                     cycle
-                else if (is_rigid(s)) then
-                    node%held = .true.
-                    r%deflection = s%contact
                 else
-                    node%stiffness = node%stiffness + s%stiffness
-                    r%shear = r%shear + s%stiffness*s%contact
+                    work%level(s%node) = max(work%level(s%node), abs(s%contact))
+                    if (is_rigid(s)) then
+                        node%held = .true.
+                        r%deflection = s%contact
+                    else
+                        node%stiffness = node%stiffness + s%stiffness
+                        r%shear = r%shear + s%stiffness*s%contact
+                    end if
                 end if
             end associate
         end do
@@ -229,9 +236,9 @@ contains
             w = abs(a%deflection)
             do i = 1, n
                 associate (link => beam%links(i))
-                    ! Also the moments that imposed rotations and settlements would make if they were held fast
+                    ! Also the moments that imposed rotations and contact levels would make if they were held fast
                     turn = abs(work%loads(i - 1)%right) + abs(work%loads(i)%left) &
-                        + abs(work%rhs(i)%deflection - work%rhs(i - 1)%deflection)/link%length
+                        + (work%level(i) + work%level(i - 1))/link%length
                     moment = max(abs(a(i - 1)%moment_right), abs(a(i)%moment_left))
                     if (link%bending > 0.0_wp) moment = max(moment, turn/link%bending)
                     passed = max(v(i - 1), 2*moment/link%length)

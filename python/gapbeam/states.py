@@ -96,7 +96,7 @@ class Step:
     def residuals(self) -> dict[str, float]:
         """Relative residuals of equilibrium, compatibility and complementarity."""
         compatibility, equilibrium, complementarity = self.solution.residuals.tolist()
-        return {"equilibrium": equilibrium, "compatibility": compatibility, "complementarity": complementarity}
+        return {"equilibrium": equilibrium, "compatibility": compatibility, "complementarity": complementarity + 0.0}
 
     @cached_property
     def certificate(self) -> dict[str, float | None]:
