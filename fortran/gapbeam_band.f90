@@ -130,7 +130,7 @@ contains
                 p%c = delta + node%stiffness
                 if (i == n) exit
                 associate (link => links(i + 1))
-                    h = 1/link%length
+                    h = link%inverse
                     p%b = beta + h
                     p%a = phi + link%faa
                     if (floating .or. node%kind == hinge) then
@@ -249,7 +249,7 @@ contains
                 end if
                 r%shear = r%shear + p
                 if (i == n) exit
-                h = 1/links(i + 1)%length
+                h = links(i + 1)%inverse
                 associate (link => links(i + 1), g => r%shear)
                     select case (v%kind)
                     case (full)
@@ -304,7 +304,7 @@ contains
                     end if
                 else
                     associate (link => links(i + 1))
-                        h = 1/link%length
+                        h = link%inverse
                         select case (v%kind)
                         case (full)
                             m = (v%b*r%shear - v%c*r%right + (v%b*h - v%c*link%fab)*m_next - v%c*h*w_next) &

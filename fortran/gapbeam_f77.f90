@@ -5,7 +5,7 @@
 !   PIECE(3, NP)   length, 1/EI, 1/GA
 !   DEAD, LIVE(5, NP)  load per length at the left and right end, imposed curvature, force (down) and
 !                  couple (clockwise) at the right end of the piece unless a node is there
-!   LINK(20, NL)   made by GBCOND, opaque
+!   LINK(21, NL)   made by GBCOND, opaque
 ! Nodes are numbered from 0 to NL; LAST(I) is the last piece of link I. STATUS as in gapbeam_error: 0 solved, 1 no
 ! equilibrium, above 10 an error with its MESSAGE and nothing else set.
 
@@ -17,7 +17,7 @@ subroutine gbcond(np, nl, piece, dead, live, last, link)
     integer, intent(in) :: np, nl
     double precision, intent(in), target :: piece(3, np), dead(5, np), live(5, np)
     integer, intent(in) :: last(nl)
-    double precision, intent(out), target :: link(20, nl)
+    double precision, intent(out), target :: link(21, nl)
     !f2py threadsafe
     !f2py integer, intent(hide), depend(piece) :: np = shape(piece, 1)
     !f2py integer, intent(hide), depend(last) :: nl = shape(last, 0)
@@ -53,7 +53,7 @@ subroutine gbsolv(nl, ns, link, kind, compli, force, couple, snode, sside, sstif
     implicit none
     ! NL links, NL + 1 nodes, NS supports
     integer, intent(in) :: nl, ns
-    double precision, intent(in), target :: link(20, nl)
+    double precision, intent(in), target :: link(21, nl)
     ! Nodes: 0 plain, 1 hinge, 2 rotational restraint of compliance COMPLI (0: clamp)
     integer, intent(in) :: kind(0:nl)
     double precision, intent(in) :: compli(0:nl)
@@ -139,7 +139,7 @@ subroutine gbcert(nl, ns, link, kind, compli, force, couple, snode, sside, sstif
     implicit none
     ! As for GBSOLV
     integer, intent(in) :: nl, ns
-    double precision, intent(in), target :: link(20, nl)
+    double precision, intent(in), target :: link(21, nl)
     integer, intent(in) :: kind(0:nl)
     double precision, intent(in) :: compli(0:nl)
     double precision, intent(in) :: force(2, 0:nl), couple(2, 0:nl)
@@ -187,7 +187,7 @@ subroutine gbnext(nl, ns, link, kind, compli, force, couple, snode, sside, sstif
     implicit none
     ! As for GBSOLV
     integer, intent(in) :: nl, ns
-    double precision, intent(in), target :: link(20, nl)
+    double precision, intent(in), target :: link(21, nl)
     integer, intent(in) :: kind(0:nl)
     double precision, intent(in) :: compli(0:nl)
     double precision, intent(in) :: force(2, 0:nl), couple(2, 0:nl)
@@ -236,7 +236,7 @@ subroutine gbreco(np, nl, piece, dead, live, factor, link, last, kind, w, ml, mr
     use gapbeam_fields, only: recover_beam
     implicit none
     integer, intent(in) :: np, nl
-    double precision, intent(in), target :: piece(3, np), dead(5, np), live(5, np), link(20, nl)
+    double precision, intent(in), target :: piece(3, np), dead(5, np), live(5, np), link(21, nl)
     double precision, intent(in) :: factor
     integer, intent(in) :: last(nl), kind(0:nl)
     double precision, intent(in) :: w(0:nl), ml(0:nl), mr(0:nl), shear(nl)

@@ -26,8 +26,8 @@ module gapbeam_link
 
     !> A condensed link; index 1 dead, 2 live
     type, bind(c) :: link_type
-        !> Distance of the two nodes
-        real(wp) :: length
+        !> Distance of the two nodes and its reciprocal
+        real(wp) :: length, inverse
         !> int 1/EI, int (1-xi)/EI = f_aa + f_ab, int xi/EI = f_ab + f_bb
         real(wp) :: bending, sum_a, sum_b
         !> Flexibilities of method.md 2 and the determinant f_aa f_bb - f_ab**2, formed without subtraction
@@ -104,6 +104,7 @@ contains
             if (link%bending > 0.0_wp) spread = total(second)/link%bending/link%length**2
             shear_term = total(shear)/link%length**2
         end if
+        link%inverse = 1/link%length
         associate (m => link%bending)
             link%sum_a = m*(1 - centre)
             link%sum_b = m*centre

@@ -31,6 +31,8 @@ module gapbeam_system
         real(wp), allocatable :: reaction(:), reaction_error(:)
         !> Shear of every link beside that of the simple bar, (M_b - M_a)/L, and its rounding error
         real(wp), allocatable :: shear(:), shear_error(:)
+        !> Moment per rotation of every link held at both ends, 1/int 1/EI; 0 for a rigid one
+        real(wp), allocatable :: fixity(:)
         !> Largest contact level of the supports that act at a node
         real(wp), allocatable :: level(:)
         !> Sizes of the shears and deflections whose rounding reaches a node
@@ -68,6 +70,9 @@ contains
         allocate (work%ease(0:n), work%reference(0:n))
         work%ease = 0.0_wp
         work%reference = 0.0_wp
+        allocate (work%fixity(n))
+        work%fixity = 0.0_wp
+        where (beam%links%bending > 0.0_wp) work%fixity = 1/beam%links%bending
     end subroutine new_workspace
 
     !> Set the loads: dead plus factor times live
@@ -192,8 +197,9 @@ contains
 
         associate (v => work%shear, e => work%shear_error, a => work%answers, links => beam%links)
             do i = 1, size(links)
-                v(i) = (a(i)%moment_left - a(i - 1)%moment_right)/links(i)%length
-                e(i) = epsilon(1.0_wp)*(abs(a(i)%moment_left) + abs(a(i - 1)%moment_right))/links(i)%length
+                v(i) = (a(i)%moment_left - a(i - 1)%moment_right)*links(i)%inverse
+                e(i) = epsilon(1.0_wp)*(abs(a(i)%moment_left) + abs(a(i - 1)%moment_right)) &
+                    *links(i)%inverse
                 if (i == 1 .or. work%nodes(i - 1)%held) cycle
                 call change_at_node(work, i - 1, change, passed)
                 if (e(i - 1) + passed < e(i)) then
@@ -238,12 +244,12 @@ contains
                 associate (link => beam%links(i))
                     ! Also the moments that imposed rotations and contact levels would make if they were held fast
                     turn = abs(work%loads(i - 1)%right) + abs(work%loads(i)%left) &
-                        + (work%level(i) + work%level(i - 1))/link%length
+                        + (work%level(i) + work%level(i - 1))*link%inverse
                     moment = max(abs(a(i - 1)%moment_right), abs(a(i)%moment_left))
-                    if (link%bending > 0.0_wp) moment = max(moment, turn/link%bending)
-                    passed = max(v(i - 1), 2*moment/link%length)
+                    moment = max(moment, turn*work%fixity(i))
+                    passed = max(v(i - 1), 2*moment*link%inverse)
                     v(i - 1) = passed
-                    v(i) = max(v(i), 2*moment/link%length, merge(passed/2, passed, work%nodes(i)%held))
+                    v(i) = max(v(i), 2*moment*link%inverse, merge(passed/2, passed, work%nodes(i)%held))
                     passed = max(w(i - 1), link%bending*link%length*moment)
                     w(i - 1) = passed
                     w(i) = max(w(i), link%bending*link%length*moment, merge(passed/2, passed, work%nodes(i)%held))

@@ -63,7 +63,7 @@ contains
         e = 0.0_wp
         do i = first, final - 1
             associate (node => nodes(i), r => rhs(i), link => links(i + 1))
-                chord = (rhs(i + 1)%deflection - r%deflection)/link%length
+                chord = (rhs(i + 1)%deflection - r%deflection)*link%inverse
                 if (i == first .and. node%kind == plain) then
                     work(1, i) = answers(i)%moment_left + r%couple
                     work(2, i) = 0.0_wp
