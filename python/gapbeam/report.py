@@ -286,7 +286,8 @@ def _events(say: "Writer", result: "Result") -> None:
         return
     say.heading("Events")
     if not result.events:
-        say.line("The working scheme is the same at all load factors.")
+        reach = "at all load factors" if result.status == "solved" else "up to that load factor"
+        say.line(f"The working scheme is the same {reach}.")
         return
     shown = result.events[:MOST_EVENTS]
     rows = [[fmt.number(e.factor, 10), str(e.support), fmt.number(e.x), e.event] for e in shown]
