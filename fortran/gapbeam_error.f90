@@ -4,14 +4,12 @@ module gapbeam_error
     private
     public :: error_type, fatal_error
     public :: gapbeam_solved, gapbeam_no_equilibrium
-    public :: gapbeam_bad_input, gapbeam_indeterminate, gapbeam_not_converged, gapbeam_not_finite
+    public :: gapbeam_indeterminate, gapbeam_not_converged, gapbeam_not_finite
 
     !> Outcome: the scene is solved
     integer, parameter :: gapbeam_solved = 0
     !> Outcome: a free motion along which nothing resists; no numbers are returned
     integer, parameter :: gapbeam_no_equilibrium = 1
-    !> Error: an argument is out of its range; nothing was computed
-    integer, parameter :: gapbeam_bad_input = 11
     !> Error: a rigid stretch rests on more rigid supports than statics can tell apart
     integer, parameter :: gapbeam_indeterminate = 12
     !> Error: the working scheme could not be settled in the precision at hand

@@ -216,19 +216,34 @@ def to_markdown(rows: list[Row]) -> str:
     -------
     str
     """
-    lines = [
-        "# Extremes",
-        "",
-        "This page is made by `gapbeam study extremes --markdown docs/extremes.md`.",
-        "",
-        *WORDS,
-        "",
-        f"Worst of all: {_worst(rows)}",
-        "",
-        "| " + " | ".join(COLUMNS) + " |",
-        "|---|---|" + "---:|" * (len(COLUMNS) - 2),
-    ]
-    return "\n".join([*lines, *("| " + " | ".join(cells) + " |" for cells in table(rows))]) + "\n"
+    return page("Extremes", "extremes", [*WORDS, "", f"Worst of all: {_worst(rows)}"], COLUMNS, table(rows), texts=2)
+
+
+def page(title: str, study: str, words: Iterable[str], columns: Iterable[str], cells: list[list[str]], texts: int) -> str:
+    """Compose a page of the documentation that holds one table.
+
+    Parameters
+    ----------
+    title, study : str
+        Heading, and the name of the study, which is also that of the page.
+    words : iterable of str
+        What the table shows, line by line.
+    columns : iterable of str
+        Headings of the table.
+    cells : list of list of str
+        Its rows.
+    texts : int
+        How many columns are texts, the others are numbers.
+
+    Returns
+    -------
+    str
+    """
+    made = f"This page is made by `gapbeam study {study} --markdown docs/{study}.md`."
+    head = [f"# {title}", "", made, "", *words, ""]
+    rule = "|---" * texts + "|---:" * (len(cells[0]) - texts) + "|"
+    rows = ["| " + " | ".join(row) + " |" for row in (list(columns), *cells)]
+    return "\n".join([*head, rows[0], rule, *rows[1:]]) + "\n"
 
 
 def print_extremes(rows: list[Row], console: Console | None = None) -> None:

@@ -12,6 +12,7 @@ import numpy as np
 
 from . import formatting as fmt
 from .stepping import solve
+from .study import page
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -291,9 +292,7 @@ def to_markdown(rows: list[Row]) -> str:
     -------
     str
     """
-    lines = ["# Working schemes", "", "This page is made by `gapbeam study schemes --markdown docs/schemes.md`.", "", *WORDS, ""]
-    lines += ["| " + " | ".join(COLUMNS) + " |", "|---|" + "---:|" * (len(COLUMNS) - 1)]
-    return "\n".join([*lines, *("| " + " | ".join(cells) + " |" for cells in table(rows))]) + "\n"
+    return page("Working schemes", "schemes", WORDS, COLUMNS, table(rows), texts=1)
 
 
 def print_schemes(rows: list[Row], console: Console | None = None) -> None:
