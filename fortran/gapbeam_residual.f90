@@ -1,8 +1,8 @@
 !> What the rows of the mixed system still lack, in twice the working precision
 !>
-!> Double-double arithmetic, a number as the unevaluated sum of two doubles, by error-free sums and products (Knuth
-!> 1969, Dekker 1971). It relies on IEEE arithmetic without contraction and without reordering: never compile with
-!> -ffast-math. It stands here and not in a module of its own so that compilers inline it.
+!> Double-double arithmetic, a number as the unevaluated sum of two doubles, by error-free sums and products (Knuth 1969,
+!> Dekker 1971; Ogita, Rump and Oishi 2005). It relies on IEEE arithmetic without contraction and without reordering:
+!> never compile with -ffast-math. It stands here and not in a module of its own so that compilers inline it.
 module gapbeam_residual
     use gapbeam_kinds, only: wp
     use gapbeam_link, only: link_type
@@ -109,18 +109,16 @@ contains
         equilibrium = equilibrium/largest_shear
     end subroutine residual_chain
 
-    !> x + y with a double y
+    !> x + y with a double y; the low part collects the rounding errors and is not normalized
     elemental function plus(x, y) result(z)
         type(double_double), intent(in) :: x
         real(wp), intent(in) :: y
         type(double_double) :: z
-        real(wp) :: s, t, e
+        real(wp) :: t
 
-        s = x%high + y
-        t = s - x%high
-        e = ((x%high - (s - t)) + (y - t)) + x%low
-        z%high = s + e
-        z%low = e - (z%high - s)
+        z%high = x%high + y
+        t = z%high - x%high
+        z%low = x%low + ((x%high - (z%high - t)) + (y - t))
     end function plus
 
     !> x + a b with doubles a and b
@@ -137,7 +135,8 @@ contains
         b1 = splitter*b
         b1 = b1 - (b1 - b)
         b2 = b - b1
-        z = plus(plus(x, p), ((a1*b1 - p) + a1*b2 + a2*b1) + a2*b2)
+        z = plus(x, p)
+        z%low = z%low + (((a1*b1 - p) + a1*b2 + a2*b1) + a2*b2)
     end function plus_product
 
     !> x/y with a double y
@@ -149,7 +148,7 @@ contains
 
         q = x%high/y
         rest = plus_product(x, -q, y)
-        z = plus(double_double(q, 0.0_wp), (rest%high + rest%low)/y)
+        z = double_double(q, (rest%high + rest%low)/y)
     end function divided
 
     !> The nearest double

@@ -31,6 +31,9 @@ module gapbeam_system
         real(wp), allocatable :: reaction(:), reaction_error(:)
         !> Shear of every link beside that of the simple bar, (M_b - M_a)/L, and its rounding error
         real(wp), allocatable :: shear(:), shear_error(:)
+        !> How many supports act at a node, and the force of the elastic ones
+        integer, allocatable :: company(:)
+        real(wp), allocatable :: elastic(:)
         !> Moment per rotation of every link held at both ends, 1/int 1/EI; 0 for a rigid one
         real(wp), allocatable :: fixity(:)
         !> Largest contact level of the supports that act at a node
@@ -70,7 +73,7 @@ contains
         allocate (work%ease(0:n), work%reference(0:n))
         work%ease = 0.0_wp
         work%reference = 0.0_wp
-        allocate (work%fixity(n))
+        allocate (work%fixity(n), work%company(0:n), work%elastic(0:n))
         work%fixity = 0.0_wp
         where (beam%links%bending > 0.0_wp) work%fixity = 1/beam%links%bending
     end subroutine new_workspace
@@ -269,19 +272,16 @@ contains
         type(workspace_type), intent(inout) :: work
         real(wp) :: by_spring, by_node, spring_error, node_error
         integer :: k, i
-        integer, allocatable :: company(:)
-        real(wp), allocatable :: elastic(:)
 
-        allocate (company(0:ubound(work%nodes, 1)), elastic(0:ubound(work%nodes, 1)))
-        company = 0
-        elastic = 0.0_wp
+        work%company = 0
+        work%elastic = 0.0_wp
         do k = 1, size(acting)
             work%reaction(k) = 0.0_wp
             work%reaction_error(k) = 0.0_wp
             if (.not. acting(k)) cycle
             associate (s => beam%supports(k))
-                company(s%node) = company(s%node) + 1
-                if (.not. is_rigid(s)) elastic(s%node) = elastic(s%node) &
+                work%company(s%node) = work%company(s%node) + 1
+                if (.not. is_rigid(s)) work%elastic(s%node) = work%elastic(s%node) &
                     + s%stiffness*(work%answers(s%node)%deflection - s%contact)
             end associate
         end do
@@ -293,12 +293,12 @@ contains
                 ! For signs, rounding that comes from farther away counts as well
                 node_error = max(node_error, epsilon(1.0_wp)*work%shear_size(i))
                 if (is_rigid(s)) then
-                    work%reaction(k) = by_node - elastic(i)
-                    work%reaction_error(k) = node_error + epsilon(1.0_wp)*abs(elastic(i))
+                    work%reaction(k) = by_node - work%elastic(i)
+                    work%reaction_error(k) = node_error + epsilon(1.0_wp)*abs(work%elastic(i))
                 else
                     by_spring = s%stiffness*(work%answers(i)%deflection - s%contact)
                     spring_error = epsilon(1.0_wp)*s%stiffness*max(work%deflection_size(i), abs(s%contact))
-                    if (company(i) == 1 .and. node_error < spring_error) then
+                    if (work%company(i) == 1 .and. node_error < spring_error) then
                         work%reaction(k) = by_node
                         work%reaction_error(k) = node_error
                     else
