@@ -211,43 +211,60 @@ contains
     end subroutine runaway
 
     !> Of the ways in which a beam without hinges can go, the plainest: tipping about one of its supports, or moving as a
-    !> whole; the one along which the loads do most work. The motion found is kept if none of these is free
+    !> whole; the one along which the loads do most work. The motion found is kept if none of these is free. Only the
+    !> outermost supports of each side can be what the beam tips about: the next ones would be in the way
     subroutine prefer_tipping(beam, factor, direction)
         type(beam_type), intent(in) :: beam
         real(wp), intent(in) :: factor
         real(wp), intent(inout) :: direction(0:)
         real(wp), allocatable :: x(:), y(:), best(:)
-        real(wp) :: done, parts, most
-        integer :: k, i, n, way
+        logical, allocatable :: member(:)
+        real(wp) :: most
+        integer :: i, n, side
 
         n = size(beam%links)
         if (any(beam%kind == hinge)) return
-        allocate (x(0:n), y(0:n), best(0:n))
+        allocate (x(0:n), y(0:n), best(0:n), member(size(beam%supports)))
         x(0) = 0.0_wp
         do i = 1, n
             x(i) = x(i - 1) + beam%links(i)%length
         end do
         most = 0.0_wp
         best(:) = direction
-        do k = 0, size(beam%supports)
-            if (k == 0) then
-                y(:) = 1.0_wp
-            else
-                y(:) = x - x(beam%supports(k)%node)
-                if (any(beam%kind == restrained)) exit
-            end if
+        y(:) = 1.0_wp
+        call consider()
+        do side = -1, 1
+            if (any(beam%kind == restrained)) exit
+            member(:) = beam%supports%side == side .and. beam%supports%stiffness > 0.0_wp
+            if (.not. any(member)) cycle
+            y(:) = x - x(minval(beam%supports%node, member))
+            call consider()
+            y(:) = x - x(maxval(beam%supports%node, member))
+            call consider()
+        end do
+        direction(:) = best
+
+    contains
+
+        !> Take the motion y, or its opposite, if it is free and does more work than any before
+        subroutine consider()
+            real(wp) :: done, parts
+            integer :: way
+
             y(:) = y/maxval(abs(y))
             do way = 1, 2
                 y(:) = -y
-                if (any(beam%supports%side*y(beam%supports%node) > 0.0_wp .and. beam%supports%stiffness > 0.0_wp)) cycle
-                if (any(beam%supports%side == both .and. abs(y(beam%supports%node)) > 0.0_wp)) cycle
+                associate (s => beam%supports)
+                    if (any(s%stiffness > 0.0_wp .and. (s%side*y(s%node) > 0.0_wp &
+                                                        .or. (s%side == both .and. abs(y(s%node)) > 0.0_wp)))) cycle
+                end associate
                 call work_of_loads(beam, factor, y, done, parts)
                 if (done <= max(most, 1e-12_wp*parts)) cycle
                 most = done
                 best(:) = y
             end do
-        end do
-        direction(:) = best
+        end subroutine consider
+
     end subroutine prefer_tipping
 
     !> How far the beam can go along a motion until an open support is met

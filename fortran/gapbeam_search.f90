@@ -55,6 +55,13 @@ module gapbeam_search
         integer :: state = 0, place = 0
     end type search_type
 
+    !> A scheme to compare later ones with
+    type :: mark_type
+        logical, allocatable :: closed(:)
+        !> Schemes seen since it was set, and how many until it is moved
+        integer :: since = 0, next = 1
+    end type mark_type
+
 contains
 
     !> Change supports until none is wrong
@@ -81,7 +88,7 @@ contains
         if (rule == rule_single) call change_single(beam, closed, work, search, settled)
         if (.not. settled .and. search%state == band_ok) then
             search%fewest = huge(0)
-            call change_all(beam, merge(patience, warm_patience, all(closed)), .true., closed, work, search, settled)
+            call change_all(beam, merge(patience, warm_patience, all(closed)), closed, work, search, settled)
         end if
         if (.not. settled .and. search%state /= band_mechanism) then
             call change_by_interior_point(beam, closed, work, search, settled)
@@ -119,42 +126,54 @@ contains
         settled = search%wrong_now == 0
     end subroutine look
 
-    !> The paper's rule; returns unsettled when a scheme comes back (found as by Brent 1980)
+    !> The paper's rule; returns unsettled when a scheme comes back
     subroutine change_single(beam, closed, work, search, settled)
         type(beam_type), intent(in) :: beam
         logical, intent(inout) :: closed(:)
         type(workspace_type), intent(inout) :: work
         type(search_type), intent(inout) :: search
         logical, intent(out) :: settled
-        logical, allocatable :: mark(:)
-        integer :: since_mark, next_mark
+        type(mark_type) :: mark
 
-        allocate (mark(size(closed)))
-        mark(:) = closed
-        since_mark = 0
-        next_mark = 1
+        call set_mark(mark, closed)
         do
             call look(beam, closed, work, search, settled)
             if (settled .or. search%state /= band_ok) return
             call keep_worst(beam, search%order, closed, work, .false., search%wrong)
             closed = closed .neqv. search%wrong
-            if (all(closed .eqv. mark)) return
-            since_mark = since_mark + 1
-            if (since_mark == next_mark) then
-                mark(:) = closed
-                since_mark = 0
-                next_mark = 2*next_mark
-            end if
+            if (came_back(mark, closed)) return
         end do
     end subroutine change_single
 
-    !> Change all wrong supports at once, until their number did not fall for some solves
-    subroutine change_all(beam, idle_solves, tame, closed, work, search, settled)
+    !> Begin to watch for a scheme that comes back
+    pure subroutine set_mark(mark, closed)
+        type(mark_type), intent(out) :: mark
+        logical, intent(in) :: closed(:)
+
+        allocate (mark%closed(size(closed)))
+        mark%closed(:) = closed
+    end subroutine set_mark
+
+    !> Is this scheme the marked one? The mark is moved here after 1, 2, 4, ... schemes (Brent 1980), so every cycle is found
+    function came_back(mark, closed) result(again)
+        type(mark_type), intent(inout) :: mark
+        logical, intent(in) :: closed(:)
+        logical :: again
+
+        again = all(closed .eqv. mark%closed)
+        mark%since = mark%since + 1
+        if (mark%since < mark%next) return
+        mark%closed(:) = closed
+        mark%since = 0
+        mark%next = 2*mark%next
+    end function came_back
+
+    !> Change all wrong supports at once, until their number did not fall for some solves. Where few are wrong, a step without
+    !> progress is followed by one of the paper's rule in every neighbourhood
+    subroutine change_all(beam, idle_solves, closed, work, search, settled)
         type(beam_type), intent(in) :: beam
         !> Solves without progress that are allowed
         integer, intent(in) :: idle_solves
-        !> Use the paper's rule in every neighbourhood where few are wrong and there was no progress
-        logical, intent(in) :: tame
         logical, intent(inout) :: closed(:)
         type(workspace_type), intent(inout) :: work
         type(search_type), intent(inout) :: search
@@ -171,8 +190,8 @@ contains
             else
                 idle = idle + 1
                 if (idle > idle_solves) return
-                if (tame .and. search%wrong_now <= few) then
-                  call keep_worst(beam, search%order, closed, work, .true., search%wrong)
+                if (search%wrong_now <= few) then
+                    call keep_worst(beam, search%order, closed, work, .true., search%wrong)
                 end if
             end if
             closed = closed .neqv. search%wrong
@@ -209,7 +228,7 @@ contains
                 closed(:) = guess
                 call separate_rigid_pairs(beam, closed)
                 search%fewest = huge(0)
-                call change_all(beam, polish_patience, .true., closed, work, search, settled)
+                call change_all(beam, polish_patience, closed, work, search, settled)
                 if (settled) exit
                 search%state = band_ok
                 wait = steps_between
@@ -220,7 +239,7 @@ contains
             closed(:) = last_guess
             call separate_rigid_pairs(beam, closed)
             search%fewest = huge(0)
-            call change_all(beam, final_patience, .true., closed, work, search, settled)
+            call change_all(beam, final_patience, closed, work, search, settled)
         end if
         deallocate (work%spring, work%spring_contact)
     end subroutine change_by_interior_point
@@ -233,31 +252,21 @@ contains
         type(workspace_type), intent(inout) :: work
         type(search_type), intent(inout) :: search
         logical, intent(out) :: settled
-        logical, allocatable :: mark(:)
-        integer :: since_mark, next_mark
+        type(mark_type) :: mark
 
-        allocate (mark(size(closed)))
         do
-            call change_all(beam, last_patience, .true., closed, work, search, settled)
+            call change_all(beam, last_patience, closed, work, search, settled)
             if (settled .or. search%state /= band_ok) return
-            mark(:) = closed
-            since_mark = 0
-            next_mark = 1
+            call set_mark(mark, closed)
             do
                 call look(beam, closed, work, search, settled)
                 if (settled .or. search%state /= band_ok) return
                 if (search%wrong_now < search%fewest) exit
                 call keep_least_index(search%wrong)
                 closed = closed .neqv. search%wrong
-                if (all(closed .eqv. mark)) then
+                if (came_back(mark, closed)) then
                     search%width = 16*search%width
                     if (search%width > last_width) return
-                end if
-                since_mark = since_mark + 1
-                if (since_mark == next_mark) then
-                    mark(:) = closed
-                    since_mark = 0
-                    next_mark = 2*next_mark
                 end if
             end do
         end do
