@@ -12,11 +12,12 @@ module gapbeam
     use gapbeam_element, only: field_type
     use gapbeam_link, only: piece_type, load_type, link_type, condense_link
     use gapbeam_band, only: plain, hinge, restrained
-    use gapbeam_model, only: beam_type, support_type, below, above, both
-    use gapbeam_system, only: workspace_type, new_workspace, set_loads, check_scheme
+    use gapbeam_model, only: beam_type, support_type, new_beam, place_supports, below, above, both
+    use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
+    use gapbeam_system, only: check_scheme
     use gapbeam_search, only: rule_block, rule_single
     use gapbeam_scheme, only: find_scheme, outcome_type
-    use gapbeam_path, only: next_event, find_marginal
+    use gapbeam_path, only: follow_load, path_type, find_marginal
     use gapbeam_fields, only: recover_beam, values_at, find_extremes
     use gapbeam_axial, only: solve_axial
     implicit none
