@@ -202,7 +202,9 @@ contains
         integer :: first, last, window(2), window_of_live(2), state, i
 
         closed(changed) = .not. closed(changed)
-        nodes = sorted(beam%supports(changed)%node)
+        allocate (nodes(size(changed)))
+        nodes(:) = beam%supports(changed)%node
+        call sort(nodes)
         last = 0
         do while (last < size(nodes))
             first = last + 1
@@ -224,14 +226,11 @@ contains
         end do
     end subroutine change_supports
 
-    !> A few numbers in ascending order (insertion)
-    pure function sorted(numbers) result(list)
-        integer, intent(in) :: numbers(:)
-        integer, allocatable :: list(:)
+    !> Put a few numbers in ascending order (insertion)
+    pure subroutine sort(list)
+        integer, intent(inout) :: list(:)
         integer :: i, j, number
 
-        allocate (list(size(numbers)))
-        list(:) = numbers
         do i = 2, size(list)
             number = list(i)
             j = i - 1
@@ -242,7 +241,7 @@ contains
             end do
             list(j + 1) = number
         end do
-    end function sorted
+    end subroutine sort
 
     !> Solve v0 and v1 of a scheme anew
     subroutine start_stretch(beam, factor, closed, stretch, path, error)

@@ -6,6 +6,7 @@ module gapbeam_system
     use gapbeam_certificate, only: bound_errors
     use gapbeam_three_moment, only: fits_three_moment, solve_three_moment
     use gapbeam_lapack, only: solve_pivoting
+    use gapbeam_plain, only: ends_hold, solve_plain
     use gapbeam_model, only: beam_type
     use gapbeam_kinematics, only: free_motions, motion_type
     use gapbeam_workspace, only: workspace_type, apply_scheme, method_mixed, method_three_moment, method_pivoting
@@ -39,12 +40,18 @@ contains
             call solve_three_moment(work%nodes, beam%links, work%rhs, work%moment_work, work%answers, regular)
         else
             work%method = method_mixed
-            call factor_chain(work%nodes, beam%links, work%pivots, state, place)
-            regular = state == band_ok
-            if (state == band_mechanism) return
-            if (regular) then
-                work%eliminated = work%rhs
-                call solve_chain(work%nodes, beam%links, work%pivots, work%eliminated, work%answers)
+            work%from_both_ends = allocated(work%plain%cells) .and. work%without_couples .and. ends_hold(work%nodes)
+            if (work%from_both_ends) then
+                call solve_plain(work%plain, work%nodes, work%rhs, work%answers)
+                regular = .true.
+            else
+                call factor_chain(work%nodes, beam%links, work%pivots, state, place)
+                regular = state == band_ok
+                if (state == band_mechanism) return
+                if (regular) then
+                    work%eliminated = work%rhs
+                    call solve_chain(work%nodes, beam%links, work%pivots, work%eliminated, work%answers)
+                end if
             end if
         end if
         if (.not. regular) then
@@ -77,6 +84,8 @@ contains
                             work%sizes, work%compatibility, work%equilibrium)
         if (work%method == method_three_moment) then
             call solve_three_moment(work%nodes, beam%links, work%eliminated, work%moment_work, work%correction, regular)
+        else if (work%from_both_ends) then
+            call solve_plain(work%plain, work%nodes, work%eliminated, work%correction)
         else
             call solve_chain(work%nodes, beam%links, work%pivots, work%eliminated, work%correction)
         end if

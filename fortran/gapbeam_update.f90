@@ -38,9 +38,9 @@ contains
         call solve_scheme(beam, acting, work, state, place)
         solved = state == band_ok
         follows = solved .and. work%method /= method_pivoting
-        if (.not. solved) return
+        if (.not. follows) return
         call refine_scheme(beam, acting, work)
-        if (work%method /= method_three_moment) return
+        if (work%method /= method_three_moment .and. .not. work%from_both_ends) return
         call factor_chain(work%nodes, beam%links, work%pivots, state, place)
         follows = state == band_ok
     end subroutine start_updates

@@ -3,6 +3,7 @@ module gapbeam_workspace
     use gapbeam_kinds, only: wp
     use gapbeam_band, only: node_type, rhs_type, pivot_type, answer_type
     use gapbeam_residual, only: size_type
+    use gapbeam_plain, only: plain_type, is_plain, prepare_plain
     use gapbeam_model, only: beam_type, both, is_rigid
     implicit none
     private
@@ -23,6 +24,9 @@ module gapbeam_workspace
         !> Loads of the current factor; with the supports of the scheme; and what elimination makes of it
         type(rhs_type), allocatable :: loads(:), rhs(:), eliminated(:)
         type(pivot_type), allocatable :: pivots(:)
+        !> For plain beams: can the loads and the scheme at hand be solved so
+        type(plain_type) :: plain
+        logical :: without_couples = .false., from_both_ends = .false.
         !> The solution, and a correction of it
         type(answer_type), allocatable :: answers(:), correction(:)
         !> Sizes of the terms of every row, by check_scheme
@@ -77,6 +81,7 @@ contains
         allocate (work%fixity(n))
         work%fixity = 0.0_wp
         where (beam%links%bending > 0.0_wp) work%fixity = 1/beam%links%bending
+        if (is_plain(beam%links, beam%kind)) call prepare_plain(beam%links, work%plain)
     end subroutine new_workspace
 
     !> Set the loads: dead plus factor times live
@@ -105,6 +110,7 @@ contains
                 b%shear = b%shear - dot_product(share, link%shear_b)
             end associate
         end do
+        work%without_couples = .not. any(abs(work%loads%couple) > 0.0_wp)
     end subroutine set_loads
 
     !> Nodes and right-hand side as the scheme sees them
