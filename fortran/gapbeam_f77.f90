@@ -246,6 +246,108 @@ subroutine gbpath(nl, ns, most, link, kind, compli, force, couple, snode, sside,
     end if
 end subroutine gbpath
 
+! What each load does to the links, for GBCASE: rows of loads on pieces, sorted by load, then piece (both from 1)
+subroutine gbshar(np, nl, nr, piece, link, last, rload, rpiece, rvalue, nshare, sload, slink, share)
+    use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
+    use gapbeam_link, only: link_type, piece_type, load_type
+    use gapbeam_cases, only: share_type, condense_shares
+    implicit none
+    integer, intent(in) :: np, nl, nr
+    double precision, intent(in), target :: piece(3, np), link(21, nl)
+    integer, intent(in) :: last(nl)
+    integer, intent(in) :: rload(nr), rpiece(nr)
+    double precision, intent(in), target :: rvalue(5, nr)
+    ! NSHARE shares: load, link, values
+    integer, intent(out) :: nshare, sload(nr), slink(nr)
+    double precision, intent(out), target :: share(6, nr)
+    !f2py threadsafe
+    !f2py integer, intent(hide), depend(piece) :: np = shape(piece, 1)
+    !f2py integer, intent(hide), depend(link) :: nl = shape(link, 1)
+    !f2py integer, intent(hide), depend(rload) :: nr = shape(rload, 0)
+    type(piece_type), pointer :: pieces(:)
+    type(link_type), pointer :: links(:)
+    type(load_type), pointer :: values(:)
+    type(share_type), pointer :: shares(:)
+
+    call c_f_pointer(c_loc(piece), pieces, [np])
+    call c_f_pointer(c_loc(link), links, [nl])
+    call c_f_pointer(c_loc(rvalue), values, [nr])
+    call c_f_pointer(c_loc(share), shares, [nr])
+    call condense_shares(pieces, links, last, rload, rpiece, values, nshare, sload, slink, shares)
+end subroutine gbshar
+
+! Solve NC cases of loads; every load counts with its factor
+subroutine gbcase(nl, ns, nd, nsh, nno, nc, link, kind, compli, snode, sside, sstiff, scont, &
+                  sload, slink, share, pload, pnode, pshare, factor, rule, closed, &
+                  w, ml, mr, shear, react, solves, status)
+    use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
+    use gapbeam_link, only: link_type
+    use gapbeam_model, only: beam_type, new_beam
+    use gapbeam_workspace, only: workspace_type, new_workspace
+    use gapbeam_cases, only: share_type, node_share_type, solve_case
+    use gapbeam_error, only: gapbeam_solved
+    implicit none
+    ! As for GBSOLV; ND loads, NSH shares of links, NNO shares of nodes, NC cases
+    integer, intent(in) :: nl, ns, nd, nsh, nno, nc
+    double precision, intent(in), target :: link(21, nl)
+    integer, intent(in) :: kind(0:nl)
+    double precision, intent(in) :: compli(0:nl)
+    integer, intent(in) :: snode(ns), sside(ns)
+    double precision, intent(in) :: sstiff(ns), scont(ns)
+    ! Shares by GBSHAR; forces and couples at nodes (load from 1, node from 0, values)
+    integer, intent(in) :: sload(nsh), slink(nsh)
+    double precision, intent(in), target :: share(6, nsh)
+    integer, intent(in) :: pload(nno), pnode(nno)
+    double precision, intent(in), target :: pshare(2, nno)
+    ! Factor of every load in every case
+    double precision, intent(in) :: factor(nd, nc)
+    integer, intent(in) :: rule
+    ! Schemes: start in, working scheme out; zeros in the results of a case that is not solved
+    integer, intent(inout) :: closed(ns, nc)
+    double precision, intent(out) :: w(0:nl, nc), ml(0:nl, nc), mr(0:nl, nc), shear(nl, nc), react(ns, nc)
+    integer, intent(out) :: solves(nc), status(nc)
+    !f2py threadsafe
+    !f2py integer, intent(hide), depend(link) :: nl = shape(link, 1)
+    !f2py integer, intent(hide), depend(snode) :: ns = shape(snode, 0)
+    !f2py integer, intent(hide), depend(sload) :: nsh = shape(sload, 0)
+    !f2py integer, intent(hide), depend(pload) :: nno = shape(pload, 0)
+    !f2py integer, intent(hide), depend(factor) :: nd = shape(factor, 0)
+    !f2py integer, intent(hide), depend(factor) :: nc = shape(factor, 1)
+    type(link_type), pointer :: links(:)
+    type(share_type), pointer :: shares(:)
+    type(node_share_type), pointer :: node_shares(:)
+    type(beam_type) :: beam
+    type(workspace_type) :: work
+    logical, allocatable :: acting(:)
+    double precision, allocatable :: none(:, :)
+    integer :: i
+
+    call c_f_pointer(c_loc(link), links, [nl])
+    call c_f_pointer(c_loc(share), shares, [nsh])
+    call c_f_pointer(c_loc(pshare), node_shares, [nno])
+    allocate (acting(ns), none(2, 0:nl))
+    none(:, :) = 0.0d0
+    call new_beam(links, kind, compli, none, none, snode, sside, sstiff, scont, beam)
+    call new_workspace(beam, work)
+    w = 0.0d0
+    ml = 0.0d0
+    mr = 0.0d0
+    shear = 0.0d0
+    react = 0.0d0
+    do i = 1, nc
+        acting(:) = closed(:, i) /= 0
+        call solve_case(factor(:, i), sload, slink, shares, pload, pnode, node_shares, rule, beam, acting, work, status(i))
+        solves(i) = work%solves
+        if (status(i) /= gapbeam_solved) cycle
+        closed(:, i) = merge(1, 0, acting)
+        w(:, i) = work%answers%deflection
+        ml(:, i) = work%answers%moment_left
+        mr(:, i) = work%answers%moment_right
+        shear(:, i) = work%shear
+        react(:, i) = work%reaction
+    end do
+end subroutine gbcase
+
 ! Fields at the left end of every piece
 subroutine gbreco(np, nl, piece, dead, live, factor, link, last, kind, w, ml, mr, shear, start)
     use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
