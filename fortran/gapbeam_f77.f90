@@ -41,14 +41,12 @@ end subroutine gbcond
 
 ! Find the working scheme at one load factor and solve it
 subroutine gbsolv(nl, ns, link, kind, compli, force, couple, snode, sside, sstiff, scont, factor, rule, &
-                  closed, margin, w, ml, mr, shear, react, motion, resid, solves, method, indiff, status, message)
+                  closed, margin, w, ml, mr, shear, react, motion, solves, method, indiff, status, message)
     use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
     use gapbeam_error, only: error_type, gapbeam_solved
     use gapbeam_link, only: link_type
     use gapbeam_model, only: beam_type, new_beam
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
-    use gapbeam_system, only: check_scheme
-    use gapbeam_rules, only: complementarity
     use gapbeam_scheme, only: find_scheme, outcome_type
     use gapbeam_path, only: find_marginal
     implicit none
@@ -72,8 +70,8 @@ subroutine gbsolv(nl, ns, link, kind, compli, force, couple, snode, sside, sstif
     integer, intent(out) :: margin(ns)
     ! Deflections, moments left and right of the nodes, shears of the links beside those of the simple bar, reactions (up)
     double precision, intent(out) :: w(0:nl), ml(0:nl), mr(0:nl), shear(nl), react(ns)
-    ! Free motion where there is no equilibrium; residuals of compatibility, equilibrium, complementarity
-    double precision, intent(out) :: motion(0:nl), resid(3)
+    ! Free motion where there is no equilibrium
+    double precision, intent(out) :: motion(0:nl)
     ! Linear solves; system solved last: 0 mixed, 1 three-moment, 2 with pivoting; 1 where the beam can move freely
     ! without work of the loads (the forces are unique, the position is not)
     integer, intent(out) :: solves, method, indiff, status
@@ -101,7 +99,6 @@ subroutine gbsolv(nl, ns, link, kind, compli, force, couple, snode, sside, sstif
     shear = 0.0d0
     react = 0.0d0
     motion = 0.0d0
-    resid = 0.0d0
     margin = 0
     indiff = 0
     solves = work%solves
@@ -125,19 +122,20 @@ subroutine gbsolv(nl, ns, link, kind, compli, force, couple, snode, sside, sstif
     mr = work%answers%moment_right
     shear = work%shear
     react = work%reaction
-    call check_scheme(beam, work)
-    resid = [work%compatibility, work%equilibrium, complementarity(beam, acting, work)]
 end subroutine gbsolv
 
-! Bounds for the errors of deflections and reactions of a working scheme that GBSOLV found
+! Residuals, and bounds for the errors of deflections and reactions, of a working scheme that GBSOLV found
 subroutine gbcert(nl, ns, link, kind, compli, force, couple, snode, sside, sstiff, scont, factor, &
-                  closed, bound, known)
+                  closed, resid, bound, known)
     use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
     use gapbeam_link, only: link_type
     use gapbeam_model, only: beam_type, new_beam
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
-    use gapbeam_system, only: solve_scheme, refine_scheme, certify_scheme
-    use gapbeam_band, only: band_ok
+    use gapbeam_system, only: check_scheme, certify_scheme
+    use gapbeam_rules, only: complementarity
+    use gapbeam_error, only: error_type, gapbeam_solved
+    use gapbeam_scheme, only: find_scheme, outcome_type
+    use gapbeam_search, only: rule_block
     implicit none
     ! As for GBSOLV
     integer, intent(in) :: nl, ns
@@ -149,6 +147,8 @@ subroutine gbcert(nl, ns, link, kind, compli, force, couple, snode, sside, sstif
     double precision, intent(in) :: sstiff(ns), scont(ns)
     double precision, intent(in) :: factor
     integer, intent(in) :: closed(ns)
+    ! Relative residuals of compatibility, equilibrium, complementarity
+    double precision, intent(out) :: resid(3)
     ! Largest errors of deflections and of reactions; 1 if they are known, 0 where the scheme has no factor without pivoting
     double precision, intent(out) :: bound(2)
     integer, intent(out) :: known
@@ -160,7 +160,8 @@ subroutine gbcert(nl, ns, link, kind, compli, force, couple, snode, sside, sstif
     type(workspace_type) :: work
     logical, allocatable :: acting(:)
     logical :: found
-    integer :: state, place
+    type(outcome_type) :: outcome
+    type(error_type), allocatable :: error
 
     call c_f_pointer(c_loc(link), links, [nl])
     call new_beam(links, kind, compli, force, couple, snode, sside, sstiff, scont, beam)
@@ -168,11 +169,15 @@ subroutine gbcert(nl, ns, link, kind, compli, force, couple, snode, sside, sstif
     call set_loads(beam, factor, work)
     allocate (acting(ns))
     acting(:) = closed /= 0
+    resid = 0.0d0
     bound = 0.0d0
     known = 0
-    call solve_scheme(beam, acting, work, state, place)
-    if (state /= band_ok) return
-    call refine_scheme(beam, acting, work)
+    ! From the working scheme that is one solve
+    call find_scheme(beam, factor, rule_block, acting, work, outcome, error)
+    if (allocated(error) .or. outcome%status /= gapbeam_solved) return
+    call check_scheme(beam, work)
+    resid = [work%compatibility, work%equilibrium, complementarity(beam, acting, work)]
+    if (outcome%indifferent) return
     call certify_scheme(beam, factor, work, bound(1), bound(2), found)
     known = merge(1, 0, found)
 end subroutine gbcert

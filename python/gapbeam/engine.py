@@ -38,8 +38,6 @@ class Solution:
         Of every support, positive upward.
     motion : numpy.ndarray
         Displacements of the nodes in the free motion, positive downward, largest 1.
-    residuals : numpy.ndarray
-        Relative residuals of compatibility, equilibrium and complementarity.
     solves : int
         Linear solves.
     method : int
@@ -57,7 +55,6 @@ class Solution:
     shear: np.ndarray
     reaction: np.ndarray
     motion: np.ndarray
-    residuals: np.ndarray
     solves: int
     method: int
     indifferent: bool
@@ -259,8 +256,10 @@ def prepare_cases(
     return call
 
 
-def certify(arrays: Arrays, links: np.ndarray, factor: float, closed: np.ndarray) -> tuple[float, float] | None:
-    """Bound the errors of a solved scheme.
+def certify(
+    arrays: Arrays, links: np.ndarray, factor: float, closed: np.ndarray
+) -> tuple[np.ndarray, tuple[float, float] | None]:
+    """Check a solved scheme, and bound its errors.
 
     Parameters
     ----------
@@ -269,13 +268,16 @@ def certify(arrays: Arrays, links: np.ndarray, factor: float, closed: np.ndarray
 
     Returns
     -------
-    (float, float) or None
+    residuals : numpy.ndarray
+        Relative residuals of compatibility, equilibrium and complementarity, in twice the working precision.
+    bounds : (float, float) or None
         Largest error of the deflections of the nodes and of the reactions; None where the scheme takes pivoting or
         leaves the beam free to move.
     """
-    bound, known = _f77.gbcert(*_beam(arrays, links), factor, _scheme(closed))
+    residuals, bound, known = _f77.gbcert(*_beam(arrays, links), factor, _scheme(closed))
     length, force = arrays.exponents
-    return (float(np.ldexp(bound[0], length)), float(np.ldexp(bound[1], force))) if known else None
+    bounds = (float(np.ldexp(bound[0], length)), float(np.ldexp(bound[1], force))) if known else None
+    return residuals, bounds
 
 
 def _field_exponents(length: int, force: int) -> np.ndarray:
