@@ -29,6 +29,8 @@ PLAIN, HINGE, RESTRAINED = 0, 1, 2
 SIDES = {"both": 0, "below": 1, "above": -1}
 """Sides of a support, as in gapbeam_model."""
 CASES = {"dead": 0, "live": 1}
+KINDS_OF_LOADS = (ForceLoad, MomentLoad, AxialLoad, UniformLoad, LinearLoad, CurvatureLoad)
+"""Loads at a point, along the beam, and on a stretch."""
 ORDINARY_EXPONENT = 64
 """Scenes whose lengths or forces are beyond two to this power are solved in other units."""
 
@@ -262,14 +264,11 @@ def lower_by_load(scene: Scene) -> tuple[Arrays, LoadRows]:
     """
     ends = scene.span_ends()
     lengths = np.asarray(scene.beam.spans, dtype=float)
-    axial_load = np.array([k for k, load in enumerate(scene.loads) if isinstance(load, AxialLoad)], dtype=int)
-    pulls = [scene.loads[k] for k in axial_load]
-    point_load = np.array([k for k, load in enumerate(scene.loads) if isinstance(load, ForceLoad | MomentLoad)], dtype=int)
-    stretch_load = np.array(
-        [k for k, load in enumerate(scene.loads) if isinstance(load, UniformLoad | LinearLoad | CurvatureLoad)], dtype=int
-    )
-    at_a_point = [scene.loads[k] for k in point_load]
-    stretches = [scene.loads[k] for k in stretch_load]
+    kinds_of_loads = np.array(list(map(KINDS_OF_LOADS.index, map(type, scene.loads))), dtype=int)
+    axial_load = np.flatnonzero(kinds_of_loads == KINDS_OF_LOADS.index(AxialLoad))
+    point_load = np.flatnonzero(kinds_of_loads < 2)
+    stretch_load = np.flatnonzero(kinds_of_loads > 2)
+    pulls, at_a_point, stretches = ([scene.loads[k] for k in some] for some in (axial_load, point_load, stretch_load))
 
     points = _Points(ends, lengths)
     at_supports = points.add_items(scene.supports)
@@ -282,10 +281,12 @@ def lower_by_load(scene: Scene) -> tuple[Arrays, LoadRows]:
     load_from, load_to = index[load_from], index[load_to]
 
     pieces, axial_flexibility = _pieces(scene, lengths, span, offset, index[section_from], index[section_to])
-    stretch, piece, piece_values = _distributed(stretches, ends, span, offset, load_from, load_to)
-    point_values = np.array(
-        [(load.F, 0.0) if isinstance(load, ForceLoad) else (0.0, load.M) for load in at_a_point], dtype=float
-    ).reshape(-1, 2)
+    q, bent = _end_values(stretches, kinds_of_loads[stretch_load])
+    stretch, piece, piece_values = _distributed(q, bent, ends, span, offset, load_from, load_to)
+    point_values = np.zeros((len(at_a_point), 2))
+    for column, name in enumerate(("F", "M")):
+        some = np.flatnonzero(kinds_of_loads[point_load] == column)
+        point_values[some, column] = [getattr(at_a_point[k], name) for k in some]
     rows = LoadRows(stretch_load[stretch], piece, piece_values, point_load, at_loads, point_values)
     shares = [np.array([load.case == case for load in scene.loads], dtype=float) for case in CASES]
     loads = np.zeros((2, len(span) - 1, 5))
@@ -445,14 +446,12 @@ def _pieces(scene, lengths, span, offset, start, stop) -> tuple[np.ndarray, np.n
     return pieces, axial
 
 
-def _distributed(loads, ends, span, offset, start, stop) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _distributed(q, bent, ends, span, offset, start, stop) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """For every piece under a load: the load, the piece, and load at its ends and imposed curvature."""
     piece, load = _expand(start, stop)
     values = np.zeros((len(piece), 3))
-    if not loads:
+    if not len(q):
         return load, piece, values
-    q = np.array([_end_values(load) for load in loads], dtype=float)
-    bent = np.array([isinstance(load, CurvatureLoad) for load in loads])
 
     def distance(a: np.ndarray, b: np.ndarray) -> np.ndarray:
         return (ends[span[b]] - ends[span[a]]) + (offset[b] - offset[a])
@@ -470,10 +469,15 @@ def _distributed(loads, ends, span, offset, start, stop) -> tuple[np.ndarray, np
     return load, piece, values
 
 
-def _end_values(load: UniformLoad | LinearLoad | CurvatureLoad) -> tuple[float, float]:
-    if isinstance(load, CurvatureLoad):
-        return load.kappa, load.kappa
-    return load.q if isinstance(load, LinearLoad) else (load.q, load.q)
+def _end_values(loads, kinds) -> tuple[np.ndarray, np.ndarray]:
+    """Values of distributed loads at both their ends, and which of them are curvatures."""
+    values = np.zeros((len(loads), 2))
+    for kind, name in ((UniformLoad, "q"), (LinearLoad, "q"), (CurvatureLoad, "kappa")):
+        some = np.flatnonzero(kinds == KINDS_OF_LOADS.index(kind))
+        if len(some):
+            found = np.array(list(map(attrgetter(name), map(loads.__getitem__, some.tolist()))), dtype=float)
+            values[some] = found.reshape(len(some), -1)
+    return values, kinds == KINDS_OF_LOADS.index(CurvatureLoad)
 
 
 def _sums(size: int, at: np.ndarray, loads: list, name: str) -> np.ndarray:
