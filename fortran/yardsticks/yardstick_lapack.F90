@@ -1,0 +1,53 @@
+!> Interfaces of LAPACK's band solvers, by the names they have in the library that is linked
+module yardstick_lapack
+    use gapbeam_kinds, only: wp
+    implicit none
+    private
+    public :: dgbsv, dgbtrs, dpbtrf, dpbtrs
+
+! PyPI's scipy-openblas32 prefixes its symbols
+#ifdef SCIPY_OPENBLAS
+#define dgbsv scipy_dgbsv
+#define dgbtrs scipy_dgbtrs
+#define dpbtrf scipy_dpbtrf
+#define dpbtrs scipy_dpbtrs
+#endif
+
+    interface
+        subroutine dgbsv(n, kl, ku, nrhs, ab, ldab, ipiv, b, ldb, info)
+            import :: wp
+            implicit none
+            integer, intent(in) :: n, kl, ku, nrhs, ldab, ldb
+            real(wp), intent(inout) :: ab(ldab, *), b(ldb, *)
+            integer, intent(inout) :: ipiv(*), info
+        end subroutine dgbsv
+        subroutine dgbtrs(trans, n, kl, ku, nrhs, ab, ldab, ipiv, b, ldb, info)
+            import :: wp
+            implicit none
+            character(len=1), intent(in) :: trans
+            integer, intent(in) :: n, kl, ku, nrhs, ldab, ldb
+            real(wp), intent(in) :: ab(ldab, *)
+            integer, intent(in) :: ipiv(*)
+            real(wp), intent(inout) :: b(ldb, *)
+            integer, intent(inout) :: info
+        end subroutine dgbtrs
+        subroutine dpbtrf(uplo, n, kd, ab, ldab, info)
+            import :: wp
+            implicit none
+            character(len=1), intent(in) :: uplo
+            integer, intent(in) :: n, kd, ldab
+            real(wp), intent(inout) :: ab(ldab, *)
+            integer, intent(inout) :: info
+        end subroutine dpbtrf
+        subroutine dpbtrs(uplo, n, kd, nrhs, ab, ldab, b, ldb, info)
+            import :: wp
+            implicit none
+            character(len=1), intent(in) :: uplo
+            integer, intent(in) :: n, kd, nrhs, ldab, ldb
+            real(wp), intent(in) :: ab(ldab, *)
+            real(wp), intent(inout) :: b(ldb, *)
+            integer, intent(inout) :: info
+        end subroutine dpbtrs
+    end interface
+
+end module yardstick_lapack

@@ -1,0 +1,109 @@
+"""Work-precision diagrams: error against run time, one line a method (Hairer, Norsett and Wanner 1993)."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from math import isfinite
+
+from matplotlib import rc_context
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from .study_accuracy import Comparison
+from .study_methods import front
+
+STYLES = {
+    "condensed mixed": ("black", "-", "o"),
+    "fused kernel": ("#0072b2", "-", "D"),
+    "nodal mixed": ("#56b4e9", "-", "s"),
+    "nodal mixed + 1": ("#56b4e9", "--", "s"),
+    "nodal mixed + 2": ("#56b4e9", ":", "s"),
+    "nodal mixed + 1 dd": ("#009e73", "--", "s"),
+    "dgbsv": ("#e69f00", "-", "^"),
+    "dgbsv + 1": ("#e69f00", "--", "^"),
+    "dgbsv + 2": ("#e69f00", ":", "^"),
+    "displacement": ("#d55e00", "-", "v"),
+    "displacement, incremental": ("#d55e00", "--", "v"),
+    "gapbeam.solve": ("0.35", "-", "x"),
+    "gapbeam.solve, 10 steps": ("0.35", "--", "x"),
+    "gapbeam.solve, 100 steps": ("0.35", ":", "x"),
+    "gapbeam.solve, events": ("#cc79a7", "-", "x"),
+}
+"""Colour (Okabe and Ito 2008), line and marker of every method."""
+LOWEST, HIGHEST = 3e-17, 4.0
+"""Errors shown; those beyond stand on the edge."""
+
+
+def plot_accuracy(comparisons: Sequence[Comparison], path: str | os.PathLike) -> None:
+    """Draw error against run time into a file.
+
+    Parameters
+    ----------
+    comparisons : sequence of Comparison
+        From `study_accuracy.families` or `scene_comparisons`.
+    path : str or os.PathLike
+        The suffix decides on the format: .png, .pdf or .svg.
+    """
+    with rc_context({"svg.fonttype": "none", "svg.hashsalt": "gapbeam"}):
+        metadata = {"Date": None} if str(path).lower().endswith(".svg") else None
+        accuracy_figure(comparisons).savefig(path, metadata=metadata)
+
+
+def accuracy_figure(comparisons: Sequence[Comparison]) -> Figure:
+    """Draw error against run time, a panel for every family of beams.
+
+    Parameters
+    ----------
+    comparisons : sequence of Comparison
+        From `study_accuracy.families` or `scene_comparisons`.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The points of a line are meshes of more and more elements; the last panel holds the legend.
+    """
+    names = list(dict.fromkeys(comparison.beam for comparison in comparisons))
+    columns = min(3, len(names) + 1)
+    rows = -(-(len(names) + 1) // columns)
+    picture = Figure(figsize=(3.3 * columns + 0.6, 3.1 * rows + 0.3), dpi=150, layout="constrained")
+    panels = picture.subplots(rows, columns, squeeze=False).ravel()
+    for axes, name in zip(panels, names, strict=False):
+        _panel(axes, name, [comparison for comparison in comparisons if comparison.beam == name])
+    for axes in panels[len(names) :]:
+        axes.set_axis_off()
+    lines = {str(line.get_label()): line for axes in panels for line in axes.get_lines()}
+    order = [name for name in STYLES if name in lines]
+    legend = panels[len(names)].legend(
+        [lines[name] for name in order], order, loc="center left", frameon=False, fontsize=8, title="method (circled: Pareto front)"
+    )
+    legend.get_title().set_fontsize(8)
+    return picture
+
+
+def _panel(axes: Axes, name: str, members: Sequence[Comparison]) -> None:
+    """One family: a line for every method, a point for every mesh, circles around the Pareto front of each mesh."""
+    found: dict[str, list[tuple[float, float]]] = {}
+    for member in members:
+        for row, leads in zip(member.rows, front(member.rows), strict=True):
+            error = min(max(row.error, LOWEST), HIGHEST) if isfinite(row.error) else HIGHEST
+            found.setdefault(row.method, []).append((row.seconds, error))
+            if leads:
+                axes.plot(row.seconds, error, "o", color="black", fillstyle="none", markersize=9, markeredgewidth=0.6)
+    for method, points in found.items():
+        color, line, marker = STYLES[method]
+        axes.plot(*zip(*points, strict=True), line, marker=marker, color=color, linewidth=1.2, markersize=4, label=method)
+    sizes = [member.elements for member in members]
+    span = f"{sizes[0]:,} to {sizes[-1]:,} elements" if len(sizes) > 1 else f"{sizes[0]:,} elements"
+    axes.set_title(f"{name}: {span}", fontsize=9, loc="left")
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_ylim(LOWEST / 2, HIGHEST * 2)
+    axes.set_yticks([10.0**k for k in range(-16, 1, 4)])
+    axes.minorticks_off()
+    axes.set_xlabel("seconds", fontsize=8)
+    axes.set_ylabel("largest relative error", fontsize=8)
+    axes.tick_params(labelsize=8)
+    axes.grid(True, color="0.92", linewidth=0.6)
+    for spine in ("top", "right"):
+        axes.spines[spine].set_visible(False)
