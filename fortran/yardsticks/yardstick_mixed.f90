@@ -12,7 +12,7 @@ module yardstick_mixed
     use yardstick_lapack, only: dgbsv, dgbtrs
     implicit none
     private
-    public :: mixed_type
+    public :: mixed_type, state_bytes
 
     !> Half bandwidth
     integer, parameter :: band = 3
@@ -24,6 +24,8 @@ module yardstick_mixed
         !> Refinement steps, and whether their residuals are in double-double
         integer :: refinements = 0
         logical :: precise = .false.
+        !> Are reactions wanted
+        logical :: reactions = .true.
         real(wp), allocatable, private :: matrix(:, :), b(:, :), shear(:), uncertain(:)
         integer, allocatable, private :: pivot(:)
         type(link_type), allocatable, private :: links(:)
@@ -38,6 +40,23 @@ module yardstick_mixed
     end type mixed_type
 
 contains
+
+    !> Bytes a node that the plain solve keeps, by the engine's elimination or by dgbsv
+    pure function state_bytes(by_lapack) result(bytes)
+        logical, intent(in) :: by_lapack
+        integer :: bytes
+        type(link_type) :: link
+        type(node_type) :: node
+        type(rhs_type) :: rhs
+        type(pivot_type) :: pivot
+        type(chain_answer_type) :: answer
+
+        if (by_lapack) then  ! two unknowns: columns of the matrix, right-hand side, pivots
+            bytes = 2*((3*band + 2)*storage_size(1.0_wp) + storage_size(1))/8
+        else
+            bytes = (storage_size(link) + storage_size(node) + 2*storage_size(rhs) + storage_size(pivot) + storage_size(answer))/8
+        end if
+    end function state_bytes
 
     !> Assemble, factor, solve
     subroutine solve(self, beam, closed, answer, status)
@@ -69,7 +88,7 @@ contains
             call solve_chain(self%nodes, self%links, self%pivots, self%eliminated, self%solution)
             call take_solution(self, answer)
         end if
-        call shear_reactions(beam, closed, answer, self%shear, self%uncertain)
+        if (self%reactions) call shear_reactions(beam, closed, answer, self%shear, self%uncertain)
     end subroutine solve
 
     !> Refine with the factor of the last solve
@@ -121,7 +140,7 @@ contains
                 call take_solution(self, answer)
             end if
         end do
-        call shear_reactions(beam, closed, answer, self%shear, self%uncertain)
+        if (self%reactions) call shear_reactions(beam, closed, answer, self%shear, self%uncertain)
     end subroutine finish
 
     !> The beam as the engine sees it when every mesh point is a node

@@ -1,7 +1,7 @@
 ! The yardsticks of `gapbeam study` for Python: plain arrays only, as f2py reads this very file.
 
 ! Solve one beam of N elements by one method
-subroutine ysbeam(method, refine, precis, n, length, ei, q, side, stiff, level, force, clampl, clampr, &
+subroutine ysbeam(method, refine, precis, react, n, length, ei, q, side, stiff, level, force, clampl, clampr, &
                   repeat, w, m, r, closed, solves, status)
     use yardstick_beam, only: beam_type, answer_type, find_scheme
     use yardstick_mixed, only: mixed_type
@@ -11,7 +11,8 @@ subroutine ysbeam(method, refine, precis, n, length, ei, q, side, stiff, level, 
     ! METHOD: 0 nodal mixed by the engine's elimination, 1 nodal mixed by dgbsv, 2 displacement, 3 displacement, incremental,
     ! 4 condensed mixed, the engine's normal route
     ! REFINE: steps of refinement of the mixed ones; PRECIS: 1 with residuals in double-double, 0 plain, differences first
-    integer, intent(in) :: method, refine, precis
+    ! REACT: 0 leaves out the reactions of the mixed ones, which two-sided supports allow
+    integer, intent(in) :: method, refine, precis, react
     ! Elements: length, EI, uniform load (down)
     integer, intent(in) :: n
     double precision, intent(in), target :: length(n), ei(n), q(n)
@@ -54,6 +55,7 @@ subroutine ysbeam(method, refine, precis, n, length, ei, q, side, stiff, level, 
     mixed%by_lapack = method == 1
     mixed%refinements = refine
     mixed%precise = precis == 1
+    mixed%reactions = react == 1
     displacement%incremental = method == 3
     do turn = 1, repeat
         if (method <= 1) then
@@ -86,3 +88,12 @@ subroutine ystria(n, repeat, a)
         b(1) = a(n)
     end do
 end subroutine ystria
+
+! Bytes a node that plain solves keep: BYTES(1) by the engine's elimination, BYTES(2) by dgbsv
+subroutine ysbyte(bytes)
+    use yardstick_mixed, only: state_bytes
+    implicit none
+    integer, intent(out) :: bytes(2)
+
+    bytes = [state_bytes(.false.), state_bytes(.true.)]
+end subroutine ysbyte

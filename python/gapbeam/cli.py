@@ -153,39 +153,9 @@ def _parser() -> argparse.ArgumentParser:
     )  # fmt: skip
     schema.set_defaults(command=_schema)
 
-    study = commands.add_parser("study", help="measure the program itself", description="Measure the program itself.")
-    studies = study.add_subparsers(title="studies", metavar="STUDY", required=True)
-    extremes = studies.add_parser(
-        "extremes", help="true errors in the corners, against exact solutions", formatter_class=plain,
-        description="Solve scenes with extreme numbers (stiffnesses, spans, gaps, loads, units, many supports) and print the\n"
-        "true errors, the error bounds the program gives, times and linear solves. Takes about half a minute.",
-    )  # fmt: skip
-    extremes.add_argument("--csv", metavar="FILE", help="write the table with all digits; - is standard output, nothing else")
-    extremes.add_argument("--markdown", metavar="FILE", help="write the table as a page for the documentation; - as above")
-    extremes.add_argument("--largest", metavar="N", type=int, default=10**6, help="most supports (default 1000000)")
-    extremes.set_defaults(command=_study_extremes)
-    accuracy = studies.add_parser(
-        "accuracy", help="error against run time by each method, on families of beams or on a scene", formatter_class=plain,
-        description="Solve the same meshed beams by the engine's methods, by LAPACK's dgbsv and by the displacement method, and\n"
-        "print true errors and times, the Pareto front marked. All families take a minute, --largest 10000 some seconds.",
-    )  # fmt: skip
-    accuracy.add_argument("scene", metavar="SCENE", nargs="?", help="a .toml or .json file instead of the built-in families")
-    accuracy.add_argument("--family", metavar="NAME", action="append", default=[], help="one built-in family only: span (one span, "
-                          "finely meshed), spans (many), jumps (of EI), springs (soft and stiff), gaps (one-sided)")  # fmt: skip
-    accuracy.add_argument("--parts", metavar="N", type=int, nargs="+", help="elements into which each stretch of SCENE is cut, one "
-                          "comparison for each (default 1 4 16 64)")  # fmt: skip
-    accuracy.add_argument("--largest", metavar="N", type=int, default=10**6, help="most elements (default 1000000)")
-    accuracy.add_argument("--csv", metavar="FILE", help="write everything with all digits; - is standard output, nothing else")
-    accuracy.add_argument("--markdown", metavar="FILE", help="write a page for the documentation; - as above")
-    accuracy.add_argument("--plot", metavar="FILE", help="draw error against run time (.png, .pdf or .svg)")
-    accuracy.set_defaults(command=_study_accuracy)
-    schemes = studies.add_parser(
-        "schemes", help="linear solves until the working scheme is found", formatter_class=plain,
-        description="Count the linear solves and events of the reference problems from all starting schemes, of fronts that move\n"
-        "over thousands of supports, cold and warm, and of many spans. Takes some seconds.",
-    )  # fmt: skip
-    schemes.add_argument("--markdown", metavar="FILE", help="write the table as a page for the documentation; - is standard output")
-    schemes.set_defaults(command=_study_schemes)
+    from .cli_studies import add_studies
+
+    add_studies(commands)
     return parser
 
 
@@ -273,7 +243,7 @@ def _check_outputs(outputs: Mapping[str, str | None]) -> None:
         if not os.access(path if path.exists() else path.parent, os.W_OK):
             raise SceneError(option, f'no permission to write "{name}"')
     if len(set(names)) < len(names):
-        raise SceneError("--json, --csv, --plot and --path need different files")
+        raise SceneError(f"{', '.join(option for option, name in outputs.items() if name)} need different files")
 
 
 def _check(arguments: argparse.Namespace) -> int:
@@ -298,78 +268,4 @@ def _schema(_: argparse.Namespace) -> int:
 
     with _until_closed():
         print(json.dumps(scene_schema(), indent=2, allow_nan=False))
-    return SOLVED
-
-
-def _study_extremes(arguments: argparse.Namespace) -> int:
-    outputs = {"--csv": arguments.csv, "--markdown": arguments.markdown}
-    _check_outputs(outputs)
-    from .study import extremes, print_extremes, to_csv, to_markdown
-    from .study_extremes import cases
-
-    rows = list(extremes(cases(arguments.largest)))
-    for name, form in ((arguments.csv, to_csv), (arguments.markdown, to_markdown)):
-        if name:
-            _write(name, form(rows))
-    if "-" not in outputs.values():
-        with _until_closed():
-            print_extremes(rows)
-    return SOLVED
-
-
-def _study_accuracy(arguments: argparse.Namespace) -> int:
-    outputs = {"--csv": arguments.csv, "--markdown": arguments.markdown, "--plot": arguments.plot}
-    _check_outputs(outputs)
-    from .study_accuracy import (
-        FAMILIES,
-        PARTS,
-        families,
-        print_comparisons,
-        scene_comparisons,
-        to_csv,
-        to_markdown,
-    )
-
-    for name in arguments.family:
-        if name not in FAMILIES:
-            raise SceneError("--family", f'expected one of {", ".join(FAMILIES)}, got "{name}"')
-    if arguments.scene and arguments.family:
-        raise SceneError("give either SCENE or --family, not both")
-    if arguments.parts and not arguments.scene:
-        raise SceneError("--parts", "needs a SCENE to cut")
-    if min([arguments.largest, *(arguments.parts or [])]) < 1:
-        raise SceneError("--parts and --largest", "expected positive numbers")
-    remark = ""
-    if arguments.scene:
-        comparisons, remark = scene_comparisons(_source(arguments.scene), arguments.parts or PARTS)
-    else:
-        comparisons = list(families(arguments.family, arguments.largest))
-    if not comparisons:
-        raise SceneError("--largest", f"no mesh has as few as {arguments.largest} elements")
-    if arguments.csv:
-        _write(arguments.csv, to_csv(comparisons))
-    if arguments.plot:
-        from .plots_accuracy import plot_accuracy
-
-        plot_accuracy(comparisons, arguments.plot)
-    if arguments.markdown:
-        picture = os.path.relpath(arguments.plot, Path(arguments.markdown).parent) if arguments.plot else ""
-        _write(arguments.markdown, to_markdown(comparisons, picture, remark))
-    if "-" not in outputs.values():
-        with _until_closed():
-            print_comparisons(comparisons, remark)
-    return SOLVED
-
-
-def _study_schemes(arguments: argparse.Namespace) -> int:
-    outputs = {"--markdown": arguments.markdown}
-    _check_outputs(outputs)
-    from .study_schemes import print_schemes, schemes, to_markdown
-
-    rows = list(schemes())
-    if arguments.markdown:
-        _write(arguments.markdown, to_markdown(rows))
-    if arguments.markdown != "-":
-        with _until_closed():
-            print_schemes(rows)
     return SOLVED

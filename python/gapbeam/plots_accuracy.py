@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from math import isfinite
 
 from matplotlib import rc_context
 from matplotlib.axes import Axes
@@ -66,8 +65,9 @@ def accuracy_figure(comparisons: Sequence[Comparison]) -> Figure:
     names = list(dict.fromkeys(comparison.beam for comparison in comparisons))
     columns = min(3, len(names) + 1)
     rows = -(-(len(names) + 1) // columns)
-    picture = Figure(figsize=(3.3 * columns + 0.6, 3.1 * rows + 0.3), dpi=150, layout="constrained")
-    panels = picture.subplots(rows, columns, squeeze=False).ravel()
+    widths = [5.2, 2.4] if len(names) == 1 else [3.3] * columns  # the legend needs less than a panel
+    picture = Figure(figsize=(sum(widths) + 0.3, 3.4 * rows), dpi=150, layout="constrained")
+    panels = picture.subplots(rows, columns, squeeze=False, width_ratios=widths).ravel()
     for axes, name in zip(panels, names, strict=False):
         _panel(axes, name, [comparison for comparison in comparisons if comparison.beam == name])
     for axes in panels[len(names) :]:
@@ -84,12 +84,14 @@ def accuracy_figure(comparisons: Sequence[Comparison]) -> Figure:
 def _panel(axes: Axes, name: str, members: Sequence[Comparison]) -> None:
     """One family: a line for every method, a point for every mesh, circles around the Pareto front of each mesh."""
     found: dict[str, list[tuple[float, float]]] = {}
+    leading = []
     for member in members:
         for row, leads in zip(member.rows, front(member.rows), strict=True):
-            error = min(max(row.error, LOWEST), HIGHEST) if isfinite(row.error) else HIGHEST
-            found.setdefault(row.method, []).append((row.seconds, error))
+            point = (row.seconds, min(max(row.error, LOWEST), HIGHEST))
+            found.setdefault(row.method, []).append(point)
             if leads:
-                axes.plot(row.seconds, error, "o", color="black", fillstyle="none", markersize=9, markeredgewidth=0.6)
+                leading.append(point)
+    axes.plot(*zip(*leading, strict=True), "o", color="black", fillstyle="none", markersize=9, markeredgewidth=0.6)
     for method, points in found.items():
         color, line, marker = STYLES[method]
         axes.plot(*zip(*points, strict=True), line, marker=marker, color=color, linewidth=1.2, markersize=4, label=method)

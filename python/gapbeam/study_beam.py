@@ -45,6 +45,8 @@ class MeshedBeam:
         The scene it was cut from, if any.
     x : numpy.ndarray or None
         Where the nodes are in that scene.
+    supports : numpy.ndarray of int or None
+        Its supports of some stiffness across the beam, from left to right, by their number in the scene.
     """
 
     name: str
@@ -58,6 +60,7 @@ class MeshedBeam:
     clamped: tuple[bool, bool] = (False, False)
     scene: Scene | None = None
     x: np.ndarray | None = None
+    supports: np.ndarray | None = None
 
     def __post_init__(self) -> None:
         """Fill in what was left out."""
@@ -211,7 +214,7 @@ def mesh(source: Mapping[str, Any] | Scene | str, parts: int, name: str = "") ->
     force, stiffness, level, side = np.zeros(nodes), np.zeros(nodes), np.zeros(nodes), np.zeros(nodes, np.int32)
     force[parts::parts] = loads[:, 3]
     force[parts * arrays.node_points] = arrays.force.sum(axis=1)
-    at = parts * places
+    at, order = parts * places, np.argsort(places)
     stiffness[at], level[at], side[at] = arrays.support_stiffness, arrays.support_contact, arrays.support_sides
     length = np.repeat(arrays.pieces[:, 0] / parts, parts)
     x = np.append(np.repeat(arrays.point_x[:-1], parts), arrays.point_x[-1])
@@ -228,4 +231,5 @@ def mesh(source: Mapping[str, Any] | Scene | str, parts: int, name: str = "") ->
         (bool(clamps[0]), bool(clamps[-1])),
         scene,
         x,
+        arrays.supports[order[arrays.support_stiffness[order] > 0.0]],
     )

@@ -21,6 +21,9 @@ from .stepping import solve
 from .study_beam import MeshedBeam
 from .study_truth import Truth, error
 
+CONDENSED, KERNEL = "condensed mixed", "fused kernel"
+DISPLACEMENT, INCREMENTAL = "displacement", "displacement, incremental"
+"""Names that other modules ask for."""
 SHORTEST = 4e-3
 """Seconds that one timing takes at least: short solves are repeated."""
 ROUNDS = 5
@@ -31,6 +34,8 @@ MOST_EVENTS = 1000
 """One-sided supports up to which events are followed."""
 FLOOR = 2.0**-51
 """Errors below this one are equal: the answers themselves are rounded to half of it."""
+USELESS = 0.1
+"""Answers with larger errors have no digit right, and no place on the Pareto front."""
 WHY = {1: "singular", 2: "no scheme"}
 """What became of a beam that a compiled method did not solve, as in yardstick_beam."""
 
@@ -98,7 +103,7 @@ class Measured:
         return float(np.nanmax([self.deflection, self.moment, self.reaction]))
 
 
-def yardstick(name: str, number: int, refinements: int = 0, precise: bool = False) -> Method:
+def yardstick(name: str, number: int, refinements: int = 0, precise: bool = False, reactions: bool = True) -> Method:
     """Make a compiled method of gapbeam._yardsticks.
 
     Parameters
@@ -111,6 +116,8 @@ def yardstick(name: str, number: int, refinements: int = 0, precise: bool = Fals
         Steps of iterative refinement of the nodal mixed ones.
     precise : bool
         Whether the residuals are in double-double, or else in plain double with differences first.
+    reactions : bool
+        Whether reactions are wanted; mixed methods can leave them out where no support is one-sided.
 
     Returns
     -------
@@ -119,16 +126,22 @@ def yardstick(name: str, number: int, refinements: int = 0, precise: bool = Fals
 
     def run(beam: MeshedBeam, repeat: int) -> Answer:
         w, m, r, closed, solves, status = _yardsticks.ysbeam(
-            number, refinements, int(precise), beam.length, beam.EI, beam.q, beam.side, beam.stiffness, beam.level, beam.force,
-            int(beam.clamped[0]), int(beam.clamped[1]), repeat,
+            number, refinements, precise, reactions, beam.length, beam.EI, beam.q, beam.side, beam.stiffness, beam.level,
+            beam.force, *beam.clamped, repeat,
         )  # fmt: skip
         return Answer(w, m, r, closed != 0, solves, WHY.get(status, ""))
 
     return Method(name, run)
 
 
-def _kernel() -> list[Method]:
-    """The engine's fused kernel, which knows linear beams with supports at their own level."""
+def kernel() -> list[Method]:
+    """Make the method of the engine's fused kernel, which knows linear beams with supports at level 0.
+
+    Returns
+    -------
+    list of Method
+        One, or none where the engine has no kernel.
+    """
     if not hasattr(_f77, "gbkern"):
         return []
 
@@ -136,7 +149,7 @@ def _kernel() -> list[Method]:
         w, m, status = _f77.gbkern(beam.length, beam.EI, beam.q, beam.stiffness, beam.force, repeat)
         return Answer(w, m, None, beam.stiffness > 0.0, 1, WHY[1] if status else "")
 
-    return [Method("fused kernel", run, lambda b: not (b.one_sided or np.any(b.level) or any(b.clamped)))]
+    return [Method(KERNEL, run, lambda b: not (b.one_sided or np.any(b.level) or any(b.clamped)))]
 
 
 def from_scene(name: str, **analysis) -> Method:
@@ -166,21 +179,14 @@ def from_scene(name: str, **analysis) -> Method:
         moment[-1] = result.at(beam.x[-1:], side="left").moment[0]
         reaction, closed = np.zeros(len(beam.x)), np.zeros(len(beam.x), bool)
         nodes = np.flatnonzero(beam.stiffness > 0.0)
-        order = [k for k, support in enumerate(scene.supports) if support.direction == "normal" and support.stiffness > 0.0]
-        place = np.argsort(np.array([scene.span_ends()[s.node] if s.x is None else s.x for s in scene.supports])[order])
-        reaction[nodes] = step.reaction[order][place]
-        closed[nodes] = (np.array(step.state) != "open")[order][place]
+        reaction[nodes] = step.reaction[beam.supports]
+        closed[nodes] = (np.array(step.state) != "open")[beam.supports]
         return Answer(fields.deflection, moment, reaction, closed, sum(step.solves for step in result.steps))
 
     def fits(beam: MeshedBeam) -> bool:
         return beam.scene is not None and (analysis.get("follow") != "events" or beam.one_sided <= MOST_EVENTS)
 
     return Method(name, run, fits)
-
-
-CONDENSED = "condensed mixed"
-DISPLACEMENT = "displacement"
-INCREMENTAL = "displacement, incremental"
 
 
 def methods() -> list[Method]:
@@ -192,7 +198,7 @@ def methods() -> list[Method]:
     """
     return [
         yardstick(CONDENSED, 4),
-        *_kernel(),
+        *kernel(),
         yardstick("nodal mixed", 0),
         yardstick("nodal mixed + 1", 0, 1),
         yardstick("nodal mixed + 2", 0, 2),
@@ -285,4 +291,4 @@ def front(rows: Sequence[Measured]) -> list[bool]:
     [True, True, False]
     """
     costs = [(max(row.error, FLOOR), row.seconds) for row in rows]
-    return [a < inf and not any(b <= a and t <= s and (b, t) != (a, s) for b, t in costs) for a, s in costs]
+    return [a < USELESS and not any(b <= a and t <= s and (b, t) != (a, s) for b, t in costs) for a, s in costs]

@@ -1,0 +1,268 @@
+"""Time and memory traffic a node of one linear beam: the engine's kernel beside assembly and LAPACK's dgbsv."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from math import nan
+from time import perf_counter
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from . import _yardsticks
+from .study import page
+from .study_beam import SEED, MeshedBeam, one_span
+from .study_methods import Method, kernel, yardstick
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+COLUMNS = ("beam", "nodes", "method", "ns a node", "faster", "state", "GB/s", "of stream", "difference")
+"""Headings of the table."""
+WORDS = (
+    "Assembly, factor and solve of the nodal mixed system of one beam, every mesh point a node, from plain arrays to deflections",
+    "and moments. faster: how many times faster than assembly and LAPACK's dgbsv, run in turn with it; the fastest of several",
+    "counts. state: bytes a node that the method keeps beside what it is given (5 numbers a node) and gives (2). GB/s: all of that,",
+    "the state once each way, over the time; of stream: over the bandwidth of a triad a = b + s c on this machine. difference: of",
+    "deflections and moments from those of dgbsv with two steps of refinement, relative to the largest. One span: a simple beam,",
+    "finely meshed. Random: lengths, EI and loads at random, a tenth of the nodes on rigid supports and a tenth on springs.",
+)
+"""What the table shows."""
+SIZES = (10, 100, 1000, 10**4, 10**5, 10**6)
+"""Elements."""
+GIVEN, ANSWER = 40, 16
+"""Bytes a node of length, EI, load, stiffness and force; of deflection and moment."""
+KERNEL_STATE = nan
+"""Bytes a node that gbkern keeps."""
+WORK = 200_000
+"""Elements solved in one timing, at least."""
+ROUNDS = 7
+"""Timings of each method, in turn."""
+
+
+@dataclass
+class Row:
+    """What one method needs for one beam.
+
+    Attributes
+    ----------
+    beam : str
+        one span or random.
+    nodes : int
+        Its elements; there is one node more.
+    method : str
+        Its name.
+    nanoseconds : float
+        A node, the fastest.
+    faster : float
+        How many times faster than dgbsv.
+    state : float
+        Bytes a node kept.
+    bandwidth : float
+        Bytes a second moved.
+    stream : float
+        The same over the bandwidth of a triad.
+    difference : float
+        From the refined solution.
+    """
+
+    beam: str
+    nodes: int
+    method: str
+    nanoseconds: float
+    faster: float
+    state: float
+    bandwidth: float
+    stream: float
+    difference: float
+
+
+def random_beam(elements: int) -> MeshedBeam:
+    """Make a beam with random lengths, EI, loads and supports.
+
+    Parameters
+    ----------
+    elements : int
+        A tenth of the nodes rest on rigid supports, a tenth on springs.
+
+    Returns
+    -------
+    MeshedBeam
+    """
+    random = np.random.default_rng(SEED)
+    pick = random.random(elements + 1)
+    springs = 10.0 ** random.uniform(-2.0, 4.0, elements + 1)
+    stiffness = np.where(pick < 0.1, np.inf, np.where(pick < 0.2, springs, 0.0))
+    stiffness[[0, -1]] = np.inf
+    return MeshedBeam(
+        "random",
+        random.uniform(0.5, 2.0, elements),
+        10.0 ** random.uniform(-1.0, 1.0, elements),
+        random.uniform(-1.0, 2.0, elements),
+        stiffness,
+        force=random.uniform(-1.0, 1.0, elements + 1),
+    )
+
+
+def stream_bandwidth(elements: int = 10**7) -> float:
+    """Measure the bandwidth of the memory by a triad.
+
+    Parameters
+    ----------
+    elements : int
+        Of each of its three arrays; they must not fit into the caches.
+
+    Returns
+    -------
+    float
+        Bytes a second, 24 an element counted.
+    """
+
+    def fastest(repeat: int) -> float:
+        found = np.inf
+        for _ in range(5):
+            begin = perf_counter()
+            _yardsticks.ystria(elements, repeat)
+            found = min(found, perf_counter() - begin)
+        return found
+
+    fastest(1)
+    return 24 * elements * 10 / (fastest(12) - fastest(2))
+
+
+def kernels(largest: int = 10**6) -> Iterator[Row]:
+    """Time all methods.
+
+    Parameters
+    ----------
+    largest : int
+        Longer beams are left out.
+
+    Yields
+    ------
+    Row
+        One for every beam and method.
+    """
+    chain, band = (float(value) for value in _yardsticks.ysbyte())
+    plans = [(yardstick("dgbsv", 1, reactions=False), band), (yardstick("nodal mixed", 0, reactions=False), chain)]
+    plans += [(method, KERNEL_STATE) for method in kernel()]
+    sizes = [elements for elements in SIZES if elements <= largest]
+    stream = stream_bandwidth() if sizes else nan
+    for make in (one_span, random_beam):
+        for elements in sizes:
+            yield from _side_by_side(make(elements), plans, stream)
+
+
+def _side_by_side(beam: MeshedBeam, plans: list[tuple[Method, float]], stream: float) -> Iterator[Row]:
+    refined = yardstick("", 1, 2, precise=True).run(beam, 1)
+    nodes = beam.elements
+    repeat = max(1, WORK // nodes)
+    fastest = [np.inf] * len(plans)
+    for turn in range(ROUNDS):
+        for k, (method, _) in enumerate(plans):
+            if turn > 2 and fastest[k] * repeat > 0.2:
+                continue
+            begin = perf_counter()
+            method.run(beam, repeat)
+            fastest[k] = min(fastest[k], (perf_counter() - begin) / repeat)
+    for (method, state), seconds in zip(plans, fastest, strict=True):
+        answer = method.run(beam, 1)
+        difference = max(
+            np.abs(a - b).max() / np.abs(b).max()
+            for a, b in ((answer.deflection, refined.deflection), (answer.moment, refined.moment))
+        )
+        rate = (GIVEN + ANSWER + 2 * state) * nodes / seconds
+        yield Row(
+            beam.name, nodes, method.name, 1e9 * seconds / nodes, fastest[0] / seconds, state, rate, rate / stream, difference
+        )
+
+
+def table(rows: Iterable[Row]) -> list[list[str]]:
+    """Write the rows as text.
+
+    Parameters
+    ----------
+    rows : iterable of Row
+        From `kernels`.
+
+    Returns
+    -------
+    list of list of str
+        As many columns as `COLUMNS`.
+    """
+    return [
+        [
+            row.beam,
+            f"{row.nodes:,}",
+            row.method,
+            f"{row.nanoseconds:.1f}",
+            f"{row.faster:.2f}",
+            f"{row.state:.0f}",
+            f"{row.bandwidth / 1e9:.1f}",
+            f"{row.stream:.0%}",
+            f"{row.difference:.0e}",
+        ]
+        for row in rows
+    ]
+
+
+def to_csv(rows: Iterable[Row]) -> str:
+    """Write the rows as comma-separated values.
+
+    Parameters
+    ----------
+    rows : iterable of Row
+        From `kernels`.
+
+    Returns
+    -------
+    str
+        With all digits; state in bytes, bandwidth in bytes a second.
+    """
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow(COLUMNS)
+    for row in rows:
+        values = (row.nanoseconds, row.faster, row.state, row.bandwidth, row.stream, row.difference)
+        writer.writerow([row.beam, row.nodes, row.method, *values])
+    return stream.getvalue()
+
+
+def to_markdown(rows: list[Row]) -> str:
+    """Write the page of the documentation.
+
+    Parameters
+    ----------
+    rows : list of Row
+        From `kernels`.
+
+    Returns
+    -------
+    str
+    """
+    return page("The kernel", "kernel", WORDS, COLUMNS, table(rows), texts=3)
+
+
+def print_kernels(rows: list[Row], console: Console | None = None) -> None:
+    """Print the tables.
+
+    Parameters
+    ----------
+    rows : list of Row
+        From `kernels`.
+    console : rich.console.Console, optional
+        Where to print; default standard output.
+    """
+    from rich.console import Console
+
+    from .report_writer import Writer
+
+    say = Writer(console or Console(highlight=False))
+    say.line("The kernel", "bold")
+    say.line(" ".join(WORDS), "dim")
+    for beam in dict.fromkeys(row.beam for row in rows):
+        say.heading(beam)
+        say.table(COLUMNS[1:], [line[1:] for line in table(row for row in rows if row.beam == beam)], left=(1,))
