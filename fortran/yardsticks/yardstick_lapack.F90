@@ -7,21 +7,29 @@ module yardstick_lapack
 
 ! PyPI's scipy-openblas32 prefixes its symbols
 #ifdef SCIPY_OPENBLAS
-#define dgbsv scipy_dgbsv
-#define dgbtrs scipy_dgbtrs
-#define dpbtrf scipy_dpbtrf
-#define dpbtrs scipy_dpbtrs
+#define symbol_dgbsv scipy_dgbsv
+#define symbol_dgbtrs scipy_dgbtrs
+#define symbol_dpbtrf scipy_dpbtrf
+#define symbol_dpbtrs scipy_dpbtrs
+#else
+#define symbol_dgbsv dgbsv
+#define symbol_dgbtrs dgbtrs
+#define symbol_dpbtrf dpbtrf
+#define symbol_dpbtrs dpbtrs
 #endif
 
-    interface
-        subroutine dgbsv(n, kl, ku, nrhs, ab, ldab, ipiv, b, ldb, info)
+    interface dgbsv
+        subroutine symbol_dgbsv(n, kl, ku, nrhs, ab, ldab, ipiv, b, ldb, info)
             import :: wp
             implicit none
             integer, intent(in) :: n, kl, ku, nrhs, ldab, ldb
             real(wp), intent(inout) :: ab(ldab, *), b(ldb, *)
             integer, intent(inout) :: ipiv(*), info
-        end subroutine dgbsv
-        subroutine dgbtrs(trans, n, kl, ku, nrhs, ab, ldab, ipiv, b, ldb, info)
+        end subroutine symbol_dgbsv
+    end interface dgbsv
+
+    interface dgbtrs
+        subroutine symbol_dgbtrs(trans, n, kl, ku, nrhs, ab, ldab, ipiv, b, ldb, info)
             import :: wp
             implicit none
             character(len=1), intent(in) :: trans
@@ -30,16 +38,22 @@ module yardstick_lapack
             integer, intent(in) :: ipiv(*)
             real(wp), intent(inout) :: b(ldb, *)
             integer, intent(inout) :: info
-        end subroutine dgbtrs
-        subroutine dpbtrf(uplo, n, kd, ab, ldab, info)
+        end subroutine symbol_dgbtrs
+    end interface dgbtrs
+
+    interface dpbtrf
+        subroutine symbol_dpbtrf(uplo, n, kd, ab, ldab, info)
             import :: wp
             implicit none
             character(len=1), intent(in) :: uplo
             integer, intent(in) :: n, kd, ldab
             real(wp), intent(inout) :: ab(ldab, *)
             integer, intent(inout) :: info
-        end subroutine dpbtrf
-        subroutine dpbtrs(uplo, n, kd, nrhs, ab, ldab, b, ldb, info)
+        end subroutine symbol_dpbtrf
+    end interface dpbtrf
+
+    interface dpbtrs
+        subroutine symbol_dpbtrs(uplo, n, kd, nrhs, ab, ldab, b, ldb, info)
             import :: wp
             implicit none
             character(len=1), intent(in) :: uplo
@@ -47,7 +61,7 @@ module yardstick_lapack
             real(wp), intent(in) :: ab(ldab, *)
             real(wp), intent(inout) :: b(ldb, *)
             integer, intent(inout) :: info
-        end subroutine dpbtrs
-    end interface
+        end subroutine symbol_dpbtrs
+    end interface dpbtrs
 
 end module yardstick_lapack
