@@ -89,11 +89,13 @@ subroutine ystria(n, repeat, a)
     end do
 end subroutine ystria
 
-! Bytes a node that plain solves keep: BYTES(1) by the engine's elimination, BYTES(2) by dgbsv
+! Bytes a node that plain solves keep: by the engine's elimination, by dgbsv, by GBKERN, which eliminates two nodes at once
 subroutine ysbyte(bytes)
+    use gapbeam_kernel, only: eliminated_type
     use yardstick_mixed, only: state_bytes
     implicit none
-    integer, intent(out) :: bytes(2)
+    integer, intent(out) :: bytes(3)
+    type(eliminated_type) :: pair
 
-    bytes = [state_bytes(.false.), state_bytes(.true.)]
+    bytes = [state_bytes(.false.), state_bytes(.true.), storage_size(pair)/16]
 end subroutine ysbyte

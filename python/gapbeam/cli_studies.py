@@ -6,9 +6,13 @@ import argparse
 import os
 from collections.abc import Callable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from .cli import SOLVED, _check_outputs, _source, _until_closed, _write
 from .errors import SceneError
+
+if TYPE_CHECKING:
+    from .study_page import Page
 
 PLAIN = argparse.RawDescriptionHelpFormatter
 
@@ -76,11 +80,19 @@ def _add_tables(parser: argparse.ArgumentParser) -> None:
 
 
 def _study_extremes(arguments: argparse.Namespace) -> int:
-    _check_outputs({"--csv": arguments.csv, "--markdown": arguments.markdown})
+    outputs = {"--csv": arguments.csv, "--markdown": arguments.markdown}
+    _check_outputs(outputs)
     from .study import extremes, print_extremes, to_csv, to_markdown
     from .study_extremes import cases
 
-    return _tell(arguments, list(extremes(cases(arguments.largest))), to_csv, to_markdown, print_extremes)
+    rows = list(extremes(cases(arguments.largest)))
+    for name, form in ((arguments.csv, to_csv), (arguments.markdown, to_markdown)):
+        if name:
+            _write(name, form(rows))
+    if "-" not in outputs.values():
+        with _until_closed():
+            print_extremes(rows)
+    return SOLVED
 
 
 def _study_accuracy(arguments: argparse.Namespace) -> int:
@@ -120,7 +132,8 @@ def _study_accuracy(arguments: argparse.Namespace) -> int:
         plot_accuracy(comparisons, arguments.plot)
     if arguments.markdown:
         picture = os.path.relpath(arguments.plot, Path(arguments.markdown).parent) if arguments.plot else ""
-        _write(arguments.markdown, to_markdown(comparisons, picture, remark))
+        options = [arguments.scene or "", *(f"--family {name}" for name in arguments.family)]
+        _write(arguments.markdown, to_markdown(comparisons, picture, remark, " ".join(options)))
     if "-" not in outputs.values():
         with _until_closed():
             print_comparisons(comparisons, remark)
@@ -129,28 +142,29 @@ def _study_accuracy(arguments: argparse.Namespace) -> int:
 
 def _study_contact(arguments: argparse.Namespace) -> int:
     _check_outputs({"--csv": arguments.csv, "--markdown": arguments.markdown})
-    from .study_contact import contact, print_contact, to_csv, to_markdown
+    from .study_contact import PAGE, contact, table, values
 
-    return _tell(arguments, list(contact(arguments.largest)), to_csv, to_markdown, print_contact)
+    return _tell(arguments, PAGE, list(contact(arguments.largest)), table, values)
 
 
 def _study_kernel(arguments: argparse.Namespace) -> int:
     _check_outputs({"--csv": arguments.csv, "--markdown": arguments.markdown})
-    from .study_kernel import kernels, print_kernels, to_csv, to_markdown
+    from .study_kernel import PAGE, kernels, table, values
 
-    return _tell(arguments, list(kernels(arguments.largest)), to_csv, to_markdown, print_kernels)
+    return _tell(arguments, PAGE, list(kernels(arguments.largest)), table, values)
 
 
-def _tell(arguments: argparse.Namespace, rows: list, to_csv: Callable, to_markdown: Callable, show: Callable) -> int:
+def _tell(arguments: argparse.Namespace, page: Page, rows: list, table: Callable, values: Callable) -> int:
     """Write a study's table into the files asked for, and print it unless one of them is standard output."""
     if not rows:
         raise SceneError("--largest", f"nothing is as small as {arguments.largest}")
-    for name, form in ((arguments.csv, to_csv), (arguments.markdown, to_markdown)):
-        if name:
-            _write(name, form(rows))
+    if arguments.csv:
+        _write(arguments.csv, page.csv(values(rows)))
+    if arguments.markdown:
+        _write(arguments.markdown, page.markdown(table(rows)))
     if "-" not in (arguments.csv, arguments.markdown):
         with _until_closed():
-            show(rows)
+            page.show(table(rows))
     return SOLVED
 
 

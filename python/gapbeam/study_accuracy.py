@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import inf, isnan
@@ -21,6 +19,7 @@ from .stepping import solve
 from .study import markdown_table
 from .study_beam import MeshedBeam, Unfit, many_spans, mesh, one_span, soft_and_stiff, stiffness_jumps
 from .study_methods import CONDENSED, DISPLACEMENT, Measured, Method, compare, from_scene, front, methods
+from .study_page import to_csv as csv_text
 from .study_schemes import gapped_spans
 from .study_truth import solve_exactly, solve_one_span
 
@@ -289,19 +288,15 @@ def to_csv(comparisons: Iterable[Comparison]) -> str:
     str
         With all digits; times in seconds; `front` is 1 on the Pareto front.
     """
-    stream = io.StringIO()
-    writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(FIELDS)
+    rows = []
     for one in comparisons:
         for row, leads in zip(one.rows, front(one.rows), strict=True):
             errors = ["" if isnan(value) else value for value in (row.deflection, row.moment, row.reaction, row.error)]
-            writer.writerow(
-                [one.beam, one.elements, row.method, *errors, row.seconds, row.solves, int(leads), row.failure]
-            )
-    return stream.getvalue()
+            rows.append([one.beam, one.elements, row.method, *errors, row.seconds, row.solves, int(leads), row.failure])
+    return csv_text(FIELDS, rows)
 
 
-def to_markdown(comparisons: Sequence[Comparison], picture: str = "", remark: str = "") -> str:
+def to_markdown(comparisons: Sequence[Comparison], picture: str = "", remark: str = "", options: str = "") -> str:
     """Write the page of the documentation.
 
     Parameters
@@ -312,12 +307,15 @@ def to_markdown(comparisons: Sequence[Comparison], picture: str = "", remark: st
         Name of the picture's file beside the page, if there is one.
     remark : str
         From `scene_comparisons`.
+    options : str
+        What the command was given beside the files to write.
 
     Returns
     -------
     str
     """
-    made = "This page is made by `gapbeam study accuracy --markdown docs/accuracy.md --plot docs/accuracy.svg`."
+    command = " ".join(["gapbeam study accuracy", *options.split(), "--markdown docs/accuracy.md --plot docs/accuracy.svg"])
+    made = f"This page is made by `{command}`."
     lines = ["# Error against run time", "", made, "", *WORDS, "", *(f"* {line}" for line in _sentences(METHODS)), ""]
     if picture:
         caption = "Error against run time: one line a method, the Pareto front in circles, failures at the upper edge"

@@ -2,26 +2,21 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 from time import perf_counter
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from . import formatting as fmt
 from .stepping import solve
-from .study import page
 from .study_active_set import active_set
 from .study_beam import MeshedBeam, mesh
 from .study_methods import CONDENSED, yardstick
+from .study_page import Page
 from .study_schemes import gapped_spans, sprung_base
 from .study_truth import error, solve_exactly
-
-if TYPE_CHECKING:
-    from rich.console import Console
 
 COLUMNS = ("problem", "program", "time", "faster", "solves", "deflection", "reaction", "states")
 """Headings of the table."""
@@ -170,8 +165,8 @@ def table(rows: Iterable[Row]) -> list[list[str]]:
     ]
 
 
-def to_csv(rows: Iterable[Row]) -> str:
-    """Write the rows as comma-separated values.
+def values(rows: Iterable[Row]) -> list[tuple]:
+    """Give the rows with all digits, times in seconds.
 
     Parameters
     ----------
@@ -180,51 +175,11 @@ def to_csv(rows: Iterable[Row]) -> str:
 
     Returns
     -------
-    str
-        With all digits; times in seconds.
+    list of tuple
+        As many columns as `COLUMNS`.
     """
-    stream = io.StringIO()
-    writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(COLUMNS)
-    writer.writerows(
-        [row.problem, row.program, row.seconds, row.faster, row.solves, row.deflection, row.reaction, row.wrong] for row in rows
-    )
-    return stream.getvalue()
+    return [astuple(row) for row in rows]
 
 
-def to_markdown(rows: list[Row]) -> str:
-    """Write the page of the documentation.
-
-    Parameters
-    ----------
-    rows : list of Row
-        From `contact`.
-
-    Returns
-    -------
-    str
-    """
-    return page("Contact at scale", "contact", WORDS, COLUMNS, table(rows), texts=2)
-
-
-def print_contact(rows: list[Row], console: Console | None = None) -> None:
-    """Print the table.
-
-    Parameters
-    ----------
-    rows : list of Row
-        From `contact`.
-    console : rich.console.Console, optional
-        Where to print; default standard output.
-    """
-    from rich.console import Console
-
-    from .report_writer import Writer
-
-    say = Writer(console or Console(highlight=False))
-    say.line("Contact at scale", "bold")
-    say.line(" ".join(WORDS), "dim")
-    for problem in dict.fromkeys(row.problem for row in rows):
-        say.line()
-        cells = table(row for row in rows if row.problem == problem)
-        say.table((problem, *COLUMNS[2:]), [line[1:] for line in cells], left=(0,))
+PAGE = Page("contact", "Contact at scale", WORDS, COLUMNS, texts=2)
+"""How the table is written and printed."""

@@ -134,22 +134,23 @@ def yardstick(name: str, number: int, refinements: int = 0, precise: bool = Fals
     return Method(name, run)
 
 
-def kernel() -> list[Method]:
-    """Make the method of the engine's fused kernel, which knows linear beams with supports at level 0.
+def kernel() -> Method:
+    """Make the method of the engine's fused kernel: linear beams, their ends supported, supports at level 0.
 
     Returns
     -------
-    list of Method
-        One, or none where the engine has no kernel.
+    Method
     """
-    if not hasattr(_f77, "gbkern"):
-        return []
 
     def run(beam: MeshedBeam, repeat: int) -> Answer:
         w, m, status = _f77.gbkern(beam.length, beam.EI, beam.q, beam.stiffness, beam.force, repeat)
         return Answer(w, m, None, beam.stiffness > 0.0, 1, WHY[1] if status else "")
 
-    return [Method(KERNEL, run, lambda b: not (b.one_sided or np.any(b.level) or any(b.clamped)))]
+    def fits(beam: MeshedBeam) -> bool:
+        supported = beam.elements > 1 and min(beam.stiffness[[0, -1]]) > 0.0
+        return bool(supported and not (beam.one_sided or np.any(beam.level) or any(beam.clamped)))
+
+    return Method(KERNEL, run, fits)
 
 
 def from_scene(name: str, **analysis) -> Method:
@@ -198,7 +199,7 @@ def methods() -> list[Method]:
     """
     return [
         yardstick(CONDENSED, 4),
-        *kernel(),
+        kernel(),
         yardstick("nodal mixed", 0),
         yardstick("nodal mixed + 1", 0, 1),
         yardstick("nodal mixed + 2", 0, 2),
