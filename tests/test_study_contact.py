@@ -67,14 +67,12 @@ def test_without_scipy(monkeypatch, capsys):
 
 
 def test_kernel_table(monkeypatch, capsys):
-    monkeypatch.setattr(study_kernel, "WORK", 1)
-    monkeypatch.setattr(study_kernel, "LEAST", 1)
+    monkeypatch.setattr(study_kernel, "WORK", 5000)
     monkeypatch.setattr(study_kernel, "stream_bandwidth", lambda: 2.5e10)
     rows = list(study_kernel.kernels(largest=1000))
     assert {row.nodes for row in rows} == {10, 100, 1000}
     for row in rows:
         assert row.difference < (1e-9 if row.method == "dgbsv" else 1e-13)
-        assert row.nanoseconds > 0.0
         assert row.faster == 1.0 or row.method != "dgbsv"
     assert {(row.method, row.state) for row in rows} >= {("dgbsv", 184), ("fused kernel", 48)}
     page, table = study_kernel.PAGE, study_kernel.table(rows)
