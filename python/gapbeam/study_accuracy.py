@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from math import inf, isnan
+from math import inf, isnan, nan
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
@@ -18,7 +18,17 @@ from .scene import Analysis, Scene, read_scene
 from .stepping import solve
 from .study import markdown_table
 from .study_beam import MeshedBeam, Unfit, many_spans, mesh, one_span, soft_and_stiff, stiffness_jumps
-from .study_methods import CONDENSED, DISPLACEMENT, Measured, Method, compare, from_scene, front, methods
+from .study_methods import (
+    CONDENSED,
+    DISPLACEMENT,
+    KERNEL,
+    Measured,
+    Method,
+    compare,
+    from_scene,
+    front,
+    methods,
+)
 from .study_page import to_csv as csv_text
 from .study_schemes import gapped_spans
 from .study_truth import solve_exactly, solve_one_span
@@ -38,8 +48,9 @@ WORDS = (
 """What the tables show."""
 METHODS = (
     "condensed mixed: the engine's normal route; only supports are nodes, everything else is condensed exactly and recovered.",
-    "nodal mixed: every mesh point a node (deflection and moment unknown), by the engine's 2x2 block elimination; dgbsv: the same",
-    "system by LAPACK; + 1, + 2: steps of refinement, residuals in plain double with differences first; dd: in double-double.",
+    "nodal mixed: every mesh point a node (deflection and moment unknown), by the engine's 2x2 block elimination; fused kernel:",
+    "the same by its kernel for plain beams, without reactions; dgbsv: the same by LAPACK; + 1, + 2: steps of refinement,",
+    "residuals in plain double with differences first; dd: in double-double.",
     "displacement: cubic Hermite elements and banded Cholesky (dpbtrf), what most programs do; incremental: its residual is",
     "summed element by element, differences first, and corrected until it no longer falls.",
 )
@@ -181,10 +192,9 @@ def _engine_alone(scene: Scene) -> Comparison:
             reference.error("moment_left", left.moment, inner=slice(1, None)),
             reference.error("moment_right", right.moment, inner=slice(None, -1)),
         )
-        solves = sum(step.solves for step in result.steps)
         deflection = reference.error("deflection", left.deflection)
         reaction = reference.error("reaction", result.steps[-1].reaction)
-        rows.append(Measured(name, deflection, moment, reaction, seconds, solves))
+        rows.append(Measured(name, deflection, moment, reaction, seconds, result.solves))
     return Comparison(scene.title or "scene", len(reference.x) - 1, rows)
 
 
@@ -244,26 +254,33 @@ def findings(comparisons: Sequence[Comparison]) -> list[str]:
     """
     lines = []
     for name in dict.fromkeys(comparison.beam for comparison in comparisons):
-        best, plain, sizes, ratios = [], [], [], []
-        for comparison in comparisons:
-            rows = {row.method: row for row in comparison.rows if comparison.beam == name}
-            if CONDENSED in rows and DISPLACEMENT in rows:
-                best.append(rows[CONDENSED].error)
-                plain.append(rows[DISPLACEMENT].error)
-                sizes.append(comparison.elements)
-                ratios.append(rows[DISPLACEMENT].seconds / rows[CONDENSED].seconds)
-        if not sizes:
+        members = [comparison for comparison in comparisons if comparison.beam == name]
+        rows = [{row.method: row for row in member.rows} for member in members]
+        if not all({CONDENSED, DISPLACEMENT} <= set(found) for found in rows):
             continue
-        bad = next((k for k, found in enumerate(plain) if not found <= GOOD), len(plain))
+        sizes = [member.elements for member in members]
+        best, plain = ([found[method].error for found in rows] for method in (CONDENSED, DISPLACEMENT))
         line = f"{_capital(name)}: condensed mixed is right to {max(best):.0e} on all meshes; the plain displacement method "
+        bad = next((k for k, error in enumerate(plain) if not error <= GOOD), len(plain))
         if bad == len(plain):
             line += f"is as good for every practical purpose ({max(plain):.0e} at worst)"
         else:
             line += f"is right to {max(plain[:bad]):.0e} up to {sizes[bad - 1]:,} elements and " if bad else ""
             worst = int(np.argmax(plain))
             line += f"keeps {_kept(plain[worst])} at {sizes[worst]:,}"
-        lines.append(f"{line}; its time is {min(ratios):.1f} to {max(ratios):.1f} times that of condensed mixed.")
+        line += f"; it takes {_times(rows, DISPLACEMENT, CONDENSED)} the time of condensed mixed"
+        if all(KERNEL in found for found in rows):
+            error = max(found[KERNEL].error for found in rows)
+            line += f", {_times(rows, DISPLACEMENT, KERNEL)} that of the fused kernel, which is right to {error:.0e}"
+        lines.append(f"{line}.")
     return lines
+
+
+def _times(rows: Sequence[Mapping[str, Measured]], method: str, other: str) -> str:
+    """From how many to how many times the time of another a method takes, where it solves the beam."""
+    ratios = [found[method].seconds / found[other].seconds for found in rows if not found[method].failure]
+    least, most = (f"{limit:.1f}" for limit in (min(ratios, default=nan), max(ratios, default=nan)))
+    return f"{least} times" if least == most else f"{least} to {most} times"
 
 
 def _capital(name: str) -> str:
@@ -271,7 +288,7 @@ def _capital(name: str) -> str:
 
 
 def _kept(error: float) -> str:
-    digits = max(0, round(-np.log10(error))) if error < inf else 0
+    digits = max(0, int(-np.log10(error))) if error < inf else 0
     return "no digit" if digits == 0 else fmt.count(digits, "digit")
 
 

@@ -19,11 +19,11 @@ COLUMNS = ("beam", "method", "nodes", "ns a node", "faster", "state", "GB/s", "o
 WORDS = (
     "Assembly, factor and solve of the nodal mixed system of one beam, every mesh point a node, from plain arrays to deflections",
     "and moments, compiled, the memory for it asked for before; the fastest of several counts. faster: how many times faster",
-    "than assembly and LAPACK's dgbsv, run in turn with it. state: bytes a node that the method keeps beside what it is given (5",
-    "numbers a node) and gives (2). GB/s: all that, the state once each way, over the time; of stream: over the bandwidth of a triad",
-    "a = b + s c on this machine. difference: of deflections and moments from those of dgbsv with two steps of refinement,",
-    "relative to the largest. One span: a simple beam, finely meshed. Random: lengths, EI and loads at random, a tenth of the nodes",
-    "on rigid supports and a tenth on springs.",
+    "than assembly and LAPACK's dgbsv, run in turn with it. state: bytes a node that the method keeps beside what it is given",
+    "(5 numbers a node) and gives (2). GB/s: all that, the state once each way, over the time; of stream: over the bandwidth of a",
+    "triad a = b + s c on this machine. difference: of deflections and moments from those of dgbsv with two steps of refinement,",
+    "relative to the largest. One span: a simple beam, finely meshed. Random: lengths, EI and loads at random, a tenth of the",
+    "nodes on rigid supports and a tenth on springs.",
 )
 """What the table shows."""
 SIZES = (10, 100, 1000, 10**4, 10**5, 10**6)
