@@ -111,6 +111,14 @@ def test_cycles_are_left():
     assert METHODS["condensed mixed"].run(BEAMS["paper"], 1).solves == 3
 
 
+@pytest.mark.parametrize("number", [0, 1])
+@pytest.mark.parametrize("precise", [False, True])
+def test_both_residuals_refine_both_factors(number, precise):
+    for name, beam in BEAMS.items():
+        answer = yardstick("", number, 2, precise=precise).run(beam, 1)
+        assert max(error(answer.deflection, TRUTHS[name].deflection), error(answer.moment, TRUTHS[name].moment)) < 2e-15
+
+
 def test_repeats_do_not_change_the_answer():
     for method in METHODS.values():
         once, often = method.run(BEAMS["springs"], 1), method.run(BEAMS["springs"], 3)

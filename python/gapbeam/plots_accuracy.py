@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator
 
 from .study_accuracy import Comparison
 from .study_methods import front
@@ -102,10 +103,18 @@ def _panel(axes: Axes, name: str, members: Sequence[Comparison]) -> None:
     axes.set_yscale("log")
     axes.set_ylim(LOWEST / 2, HIGHEST * 2)
     axes.set_yticks([10.0**k for k in range(-16, 1, 4)])
+    axes.xaxis.set_major_locator(LogLocator(numticks=6))
     axes.minorticks_off()
-    axes.set_xlabel("seconds", fontsize=8)
+    axes.xaxis.set_major_formatter(lambda seconds, _: _time(seconds))
+    axes.yaxis.set_major_formatter(lambda error, _: f"{error:.0e}" if error < 1.0 else "1")
+    axes.set_xlabel("time of one solve", fontsize=8)
     axes.set_ylabel("largest relative error", fontsize=8)
     axes.tick_params(labelsize=8)
     axes.grid(True, color="0.92", linewidth=0.6)
     for spine in ("top", "right"):
         axes.spines[spine].set_visible(False)
+
+
+def _time(seconds: float) -> str:
+    unit, name = next((pair for pair in ((1.0, "s"), (1e-3, "ms")) if seconds > 0.99 * pair[0]), (1e-6, "us"))
+    return f"{seconds / unit:g} {name}"

@@ -42,7 +42,7 @@ WHY = {1: "singular", 2: "no scheme"}
 
 @dataclass(frozen=True)
 class Answer:
-    """Deflections, moments (None where a method gives none) and reactions at all nodes; schemes solved; why it failed."""
+    """Deflections, moments and reactions (None where a method gives none) at all nodes; schemes solved; why it failed."""
 
     deflection: np.ndarray
     moment: np.ndarray
