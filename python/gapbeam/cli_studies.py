@@ -38,7 +38,7 @@ def add_studies(commands: argparse._SubParsersAction) -> None:
     accuracy = studies.add_parser(
         "accuracy", help="error against run time by each method, on families of beams or on a scene", formatter_class=PLAIN,
         description="Solve the same meshed beams by the engine's methods, by LAPACK's dgbsv and by the displacement method, and\n"
-        "print true errors and times, the Pareto front marked. All families take a minute, --largest 10000 some seconds.",
+        "print true errors and times, the Pareto front marked. All families take two minutes, --largest 10000 some seconds.",
     )  # fmt: skip
     accuracy.add_argument("scene", metavar="SCENE", nargs="?", help="a .toml or .json file instead of the built-in families")
     accuracy.add_argument("--family", metavar="NAME", action="append", default=[], help="one built-in family only: span (one span, "
@@ -60,7 +60,7 @@ def add_studies(commands: argparse._SubParsersAction) -> None:
     kernel = studies.add_parser(
         "kernel", help="time and memory traffic a node, beside LAPACK's dgbsv", formatter_class=PLAIN,
         description="Solve one linear beam of up to a million nodes by the engine's elimination and by LAPACK's dgbsv, and print\n"
-        "nanoseconds a node and the share of the memory's bandwidth that is used. Takes half a minute.",
+        "nanoseconds a node and the share of the memory's bandwidth that is used. Takes about a minute.",
     )  # fmt: skip
     kernel.add_argument("--largest", metavar="N", type=int, default=10**6, help="most nodes (default 1000000)")
     _add_tables(kernel)
