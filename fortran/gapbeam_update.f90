@@ -13,7 +13,7 @@ module gapbeam_update
     use gapbeam_reactions, only: find_sizes, find_shears, find_reactions
     implicit none
     private
-    public :: start_updates, keep_factor, update_scheme, groups_of
+    public :: start_updates, keep_factor, update_scheme, find_groups
 
     !> Nodes between two changes that are made in one
     integer, parameter :: apart = 16
@@ -62,32 +62,31 @@ contains
     end subroutine keep_factor
 
     !> Supports that change together: first and last node of each group
-    pure function groups_of(beam, changed) result(groups)
+    pure subroutine find_groups(beam, changed, groups, count)
         type(beam_type), intent(in) :: beam
         !> The supports that change, a few
         integer, intent(in) :: changed(:)
-        !> Shape (2, number of groups), from left to right
-        integer, allocatable :: groups(:, :)
-        integer, allocatable :: nodes(:), pairs(:, :)
-        integer :: i, count
+        !> From left to right, shape (2, size(changed)), and how many there are
+        integer, intent(out) :: groups(:, :), count
+        integer, allocatable :: nodes(:)
+        integer :: i
 
-        allocate (nodes(size(changed)), pairs(2, size(changed)))
+        allocate (nodes(size(changed)))
         nodes(:) = beam%supports(changed)%node
         call sort(nodes)
+        groups = 0
         count = 0
         do i = 1, size(nodes)
             if (count > 0) then
-                if (nodes(i) - pairs(2, count) <= apart) then
-                    pairs(2, count) = nodes(i)
+                if (nodes(i) - groups(2, count) <= apart) then
+                    groups(2, count) = nodes(i)
                     cycle
                 end if
             end if
             count = count + 1
-            pairs(:, count) = nodes(i)
+            groups(:, count) = nodes(i)
         end do
-        allocate (groups(2, count))
-        groups(:, :) = pairs(:, :count)
-    end function groups_of
+    end subroutine find_groups
 
     !> Put a few numbers in ascending order (insertion)
     pure subroutine sort(list)
