@@ -13,7 +13,7 @@ from gapbeam.study_active_set import active_set
 from gapbeam.study_beam import one_span
 from gapbeam.study_methods import kernel, yardstick
 from gapbeam.study_schemes import gapped_spans, sprung_base
-from gapbeam.study_truth import error, solve_exactly
+from gapbeam.study_truth import error, solve_exactly, solve_one_span
 
 WORKS = {"A": (gapped_spans, 4), "B": (sprung_base, 1)}
 
@@ -88,10 +88,22 @@ def test_kernel_table(monkeypatch, capsys):
 def test_what_the_kernel_study_times_is_right(make):
     beam = make(300)
     truth = solve_exactly(beam)
-    for method in (yardstick("nodal mixed", 0, reactions=False), yardstick("dgbsv", 1, reactions=False), kernel()):
+    plain = (yardstick("nodal mixed", 0, reactions=False), yardstick("dgbsv", 1, reactions=False), kernel())
+    for method, allowed in (*((method, 1e-11) for method in plain), (kernel(1), 4e-16)):
         answer = method.run(beam, 1)
-        assert error(answer.deflection, truth.deflection) < 1e-11
-        assert error(answer.moment, truth.moment) < 1e-11
+        assert error(answer.deflection, truth.deflection) < allowed
+        assert error(answer.moment, truth.moment) < allowed
+
+
+def test_a_refined_kernel_keeps_all_digits_on_fine_meshes():
+    beam = one_span(100_000)
+    truth = solve_one_span(beam)
+    errors = []
+    for method in (kernel(), kernel(1)):
+        answer = method.run(beam, 1)
+        errors.append(max(error(answer.deflection, truth.deflection), error(answer.moment, truth.moment)))
+    assert errors[0] > 1e-14
+    assert errors[1] < 1e-15
 
 
 def test_bandwidth_is_measured():
