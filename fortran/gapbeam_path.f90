@@ -200,8 +200,9 @@ contains
         closed(changed) = .not. closed(changed)
         call find_groups(beam, changed, groups, count)
         do j = 1, count
-            call update_scheme(beam, closed, groups(:, j), stretch%dead, window, state)
-            if (state == band_ok) call update_scheme(stretch%incremental, closed, groups(:, j), stretch%live, window_of_live, state)
+            call update_scheme(beam, closed, groups(:, j), .true., stretch%dead, window, state)
+            if (state == band_ok) call update_scheme(stretch%incremental, closed, groups(:, j), .true., stretch%live, &
+                                                     window_of_live, state)
             stretch%current = state == band_ok
             if (.not. stretch%current) return
             window = [min(window(1), window_of_live(1)), max(window(2), window_of_live(2))]

@@ -173,7 +173,7 @@ contains
         end do
         call find_groups(beam, changed(:number), groups(:, :number), parts)
         do j = 1, parts
-            call update_scheme(beam, closed, groups(:, j), work, window, state)
+            call update_scheme(beam, closed, groups(:, j), .false., work, window, state)
             if (state /= band_ok) then
                 deallocate (search%kept)
                 return
