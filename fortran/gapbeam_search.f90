@@ -264,7 +264,8 @@ contains
         do
             call look(beam, closed, .false., work, search, settled)
             if (settled .or. search%state /= band_ok) return
-            if (search%margin > 0) then
+            if (search%margin > 0 .and. .not. scattered(beam, search)) then
+                call find_shears(beam, [1, size(beam%links)], work)
                 call move_fronts(beam, closed, work, search%base, search%margin/2, search%wrong)
                 call settle_parts(beam, closed, work, search, changed)
                 if (changed) cycle
@@ -312,7 +313,6 @@ contains
         if (nodes > largest_share*size(beam%links)) return
         allocate (before(size(closed)))
         before(:) = closed
-        call find_shears(beam, [1, size(beam%links)], work)
         solves = 0.0_wp
         place = 1
         do
@@ -335,6 +335,25 @@ contains
         search%rounds = search%rounds - 1
         search%margin = (3*search%margin)/2
     end subroutine settle_parts
+
+    !> Are the wrong supports here and there, not at a few fronts, and fewer than before
+    pure function scattered(beam, search) result(everywhere)
+        type(beam_type), intent(in) :: beam
+        type(search_type), intent(in) :: search
+        logical :: everywhere
+        integer :: groups, j
+        logical :: before
+
+        groups = 0
+        before = .false.
+        do j = 1, size(beam%order)
+            associate (wrong => search%wrong(beam%order(j)))
+                if (wrong .and. .not. before) groups = groups + 1
+                before = wrong
+            end associate
+        end do
+        everywhere = groups > few .and. 4*groups > search%wrong_now .and. search%wrong_now < 3*(search%fewest/4)
+    end function scattered
 
     !> Guess the scheme by interior points, and settle the guess by pivoting as soon as it hardly changes any more
     recursive subroutine change_by_interior_point(beam, closed, work, search, settled)
