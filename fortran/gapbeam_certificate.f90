@@ -1,15 +1,16 @@
 !> How good a result is: a bound of its error from residuals and the condition of the factor.
 !>
 !> With the residual r in twice the working precision, and coefficients and loads known to some units in the last place,
-!> the error of the solution x of K x = b is at most |K^-1| (|r| + gamma eps (|K| |x| + |b|)), row by row (Oettli and Prager
-!> 1964; the bound LAPACK's dgbrfs gives). The largest entry of L |K^-1| g, for deflections and for reactions, is a norm of
-!> diag(g) K^-1 L', estimated with a few solves (Higham 1988, LAPACK's dlacn2).
+!> the error of the solution x of K x = b is at most |K^-1| (|r| + gamma eps s), row by row, s the sum of the absolute values
+!> of the row's terms (Oettli and Prager 1964; the bound LAPACK's dgbrfs gives, but for differences that are one term). The
+!> largest entry of L |K^-1| g, for deflections and for reactions, is a norm of diag(g) K^-1 L', estimated with a few
+!> solves (Higham 1988, LAPACK's dlacn2).
 module gapbeam_certificate
     use gapbeam_kinds, only: wp
     use gapbeam_link, only: link_type
     use gapbeam_band, only: node_type, pivot_type, rhs_type, answer_type, solve_chain, plain, restrained
     use gapbeam_residual, only: size_type
-    use gapbeam_lapack, only: estimate_type, estimate_norm
+    use gapbeam_lapack, only: estimate_type, estimate_norm, solve_pivoting
     implicit none
     private
     public :: bound_errors
@@ -22,11 +23,12 @@ module gapbeam_certificate
 contains
 
     !> Bounds for the errors of deflections and of reactions
-    subroutine bound_errors(nodes, links, pivots, residual, sizes, deflection_bound, reaction_bound)
-        !> System and factor of the scheme, see gapbeam_band
+    subroutine bound_errors(nodes, links, pivots, pivoting, residual, sizes, deflection_bound, reaction_bound)
+        !> System and factor of the scheme, see gapbeam_band; is there no factor, so that every solve is one with pivoting
         type(node_type), intent(in) :: nodes(0:)
         type(link_type), intent(in) :: links(:)
         type(pivot_type), intent(in) :: pivots(0:)
+        logical, intent(in) :: pivoting
         !> Residuals and sizes of the rows, see gapbeam_residual
         type(rhs_type), intent(in) :: residual(0:)
         type(size_type), intent(in) :: sizes(0:)
@@ -58,18 +60,31 @@ contains
             do
                 call estimate_norm(estimate, x, largest)
                 if (estimate%wanted == 0) exit
-                answers = answer_type()
                 if (estimate%wanted == 1) then
                     call spread_functional(nodes, links, of_reactions, x, rhs)
-                    call solve_chain(nodes, links, pivots, rhs, answers)
+                    call solve(rhs, answers)
                     call weigh_answers(weight, answers, x)
                 else
                     call weigh_rows(weight, x, rhs)
-                    call solve_chain(nodes, links, pivots, rhs, answers)
+                    call solve(rhs, answers)
                     call take_functional(links, of_reactions, answers, x)
                 end if
             end do
         end function norm
+
+        !> K^-1 times a right-hand side
+        subroutine solve(rhs, answers)
+            type(rhs_type), intent(inout) :: rhs(0:)
+            type(answer_type), intent(inout) :: answers(0:)
+            logical :: regular
+
+            answers = answer_type()
+            if (pivoting) then
+                call solve_pivoting(nodes, links, rhs, answers, regular)
+            else
+                call solve_chain(nodes, links, pivots, rhs, answers)
+            end if
+        end subroutine solve
 
     end subroutine bound_errors
 

@@ -149,7 +149,7 @@ subroutine gbcert(nl, ns, link, kind, compli, force, couple, snode, sside, sstif
     integer, intent(in) :: closed(ns)
     ! Relative residuals of compatibility, equilibrium, complementarity
     double precision, intent(out) :: resid(3)
-    ! Largest errors of deflections and of reactions; 1 if they are known, 0 where the scheme has no factor without pivoting
+    ! Largest errors of deflections and of reactions; 1 if they are known, 0 where the position is free
     double precision, intent(out) :: bound(2)
     integer, intent(out) :: known
     !f2py threadsafe

@@ -105,7 +105,7 @@ contains
         regular = info == 0
         if (.not. regular) return
         do i = 0, n
-            answers(i)%deflection = x(deflection(i))
+            answers(i)%deflection = merge(rhs(i)%deflection, x(deflection(i)), nodes(i)%held)
             answers(i)%moment_left = x(left(i))
             if (right(i) /= left(i)) then
                 answers(i)%moment_right = x(right(i))

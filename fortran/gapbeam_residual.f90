@@ -20,7 +20,8 @@ module gapbeam_residual
     !> Splits a double into two halves of 26 bits
     real(wp), parameter :: splitter = 134217729.0_wp
 
-    !> Sums of the absolute values of the terms of a node's rows
+    !> Sums of the absolute values of the terms of a node's rows. A difference of deflections or moments is one term: only
+    !> the length that divides it can be off
     type :: size_type
         !> Compatibility left and right of the node (plain nodes: both in right), equilibrium
         real(wp) :: left = 0.0_wp, right = 0.0_wp, shear = 0.0_wp
@@ -67,14 +68,22 @@ contains
         largest_turn = tiny(largest_turn)
         largest_shear = tiny(largest_shear)
         left = end_type()
-        if (begin > 0) call ends_of_link(links(begin), answers(begin - 1), answers(begin), right, left)
+        if (begin > 0) call ends_of_link(links(begin), nodes(begin - 1:begin), answers(begin - 1), answers(begin), &
+                                          right, left)
         do i = begin, finish
             right = end_type()
             left_of_next = end_type()
-            if (i < n) call ends_of_link(links(i + 1), answers(i), answers(i + 1), right, left_of_next)
+            if (i < n) call ends_of_link(links(i + 1), nodes(i:i + 1), answers(i), answers(i + 1), right, left_of_next)
             residual(i) = rhs_type()
             sizes(i) = size_type()
             associate (node => nodes(i), a => answers(i), b => rhs(i), r => residual(i), s => sizes(i))
+                if (i < n) then
+                    ! Residuals are given relative to the terms as they are, not to their differences
+                    associate (h => links(i + 1)%inverse, z => answers(i + 1))
+                        largest_turn = max(largest_turn, (abs(z%deflection) + abs(a%deflection))*h)
+                        largest_shear = max(largest_shear, (abs(z%moment_left) + abs(a%moment_right))*h)
+                    end associate
+                end if
                 if (node%kind == restrained) then
                     turn = plus(plus(double_double(a%moment_left, 0.0_wp), -a%moment_right), b%couple)
                     turn = plus_product(double_double(node%compliance*turn%low, 0.0_wp), node%compliance, turn%high)
@@ -106,9 +115,10 @@ contains
     end subroutine residual_chain
 
     !> Rotations and shear at the two ends of a link
-    pure subroutine ends_of_link(link, a, b, end_a, end_b)
+    pure subroutine ends_of_link(link, nodes, a, b, end_a, end_b)
         type(link_type), intent(in) :: link
         !> The nodes to its left and right
+        type(node_type), intent(in) :: nodes(2)
         type(answer_type), intent(in) :: a, b
         type(end_type), intent(out) :: end_a, end_b
         type(double_double) :: turn
@@ -119,12 +129,34 @@ contains
         end_b%psi = plus_product(plus_product(turn, -link%fab, a%moment_right), -link%fbb, b%moment_left)
         end_a%shear = divided(plus(double_double(b%moment_left, 0.0_wp), -a%moment_right), link%length)
         end_b%shear = end_a%shear
-        size_of_turn = (abs(b%deflection) + abs(a%deflection))/link%length
+        size_of_turn = slope_size(nodes(1), nodes(2), link, a, b)
         end_a%size_of_psi = size_of_turn + link%faa*abs(a%moment_right) + abs(link%fab*b%moment_left)
         end_b%size_of_psi = size_of_turn + abs(link%fab*a%moment_right) + link%fbb*abs(b%moment_left)
-        end_a%size_of_shear = (abs(b%moment_left) + abs(a%moment_right))/link%length
+        end_a%size_of_shear = difference_size(b%moment_left, a%moment_right)/link%length
         end_b%size_of_shear = end_a%size_of_shear
     end subroutine ends_of_link
+
+    !> Size of the slope of a link as a term
+    pure function slope_size(node, next, link, a, z) result(total)
+        type(node_type), intent(in) :: node, next
+        type(link_type), intent(in) :: link
+        type(answer_type), intent(in) :: a, z
+        real(wp) :: total
+
+        total = difference_size(z%deflection, a%deflection)
+        ! Contact levels are sums, rounded once
+        if (node%held) total = total + abs(a%deflection)/8
+        if (next%held) total = total + abs(z%deflection)/8
+        total = total/link%length
+    end function slope_size
+
+    !> A difference, and what double-double arithmetic may lose of it
+    elemental function difference_size(x, y) result(total)
+        real(wp), intent(in) :: x, y
+        real(wp) :: total
+
+        total = abs(x - y) + epsilon(x)*(abs(x) + abs(y))
+    end function difference_size
 
     !> x + y with a double y; the low part collects the rounding errors and is not normalized
     elemental function plus(x, y) result(z)

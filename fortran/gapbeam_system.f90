@@ -141,18 +141,19 @@ contains
         type(workspace_type), intent(inout) :: work
         !> Largest error of any deflection of a node, and of any reaction
         real(wp), intent(out) :: deflection_bound, reaction_bound
-        !> False where there is no factor without pivoting to bound them with
+        !> False where the position is free
         logical, intent(out) :: known
         integer :: state, place
 
         deflection_bound = 0.0_wp
         reaction_bound = 0.0_wp
         call factor_chain(work%nodes, beam%links, work%pivots, state, place)
-        known = state == band_ok
+        known = state /= band_mechanism
         if (.not. known) return
         call check_scheme(beam, work)
         call add_load_sizes(beam, factor, work)
-        call bound_errors(work%nodes, beam%links, work%pivots, work%eliminated, work%sizes, deflection_bound, reaction_bound)
+        call bound_errors(work%nodes, beam%links, work%pivots, state == band_needs_pivoting, work%eliminated, work%sizes, &
+                          deflection_bound, reaction_bound)
         ! The numbers given are rounded once more, and contact levels are given to half a unit in the last place
         deflection_bound = deflection_bound + 2*epsilon(1.0_wp)*maxval(max(abs(work%answers%deflection), abs(work%rhs%deflection)))
         if (size(work%reaction) > 0) reaction_bound = reaction_bound &

@@ -7,7 +7,9 @@ import numpy as np
 import oracle
 import pytest
 from mpmath import mpf
-from scenes import at, force, random_scene, scene, uniform
+from scenes import INF, at, force, random_scene, scene, uniform
+
+PIVOTING = 2  # of Solution.method
 
 
 def true_errors(made, step, supports):
@@ -52,6 +54,30 @@ def test_stiff_and_soft_together():
     result = gapbeam.solve(made)
     errors = true_errors(made, result.steps[-1], range(3))
     assert all(error <= bound for error, bound in zip(errors, result.steps[-1].bounds, strict=True))
+
+
+def test_bound_where_pivoting_is_needed():
+    """Rigid stretches beside clamps and rigid supports: LAPACK solves them, and the bound holds as well."""
+    compared = 0
+    for seed in range(400):
+        rng = random.Random(seed)
+        spans = [1.3] * rng.randint(2, 5)
+        EI = [rng.choice((1.0, 7.0, INF, INF)) for _ in spans]
+        kinds = ({}, {}, {"stiffness": rng.choice((0.3, 50.0))}, {"rotation": "fixed"}, None, None)
+        supports = [at(i, **kind) for i in range(len(spans) + 1) if (kind := rng.choice(kinds)) is not None]
+        made = scene(spans, supports, [uniform(1.7), force(rng.uniform(0.0, 2.5), 3.3)], EI=EI)
+        try:
+            step = gapbeam.solve(made).steps[-1]
+        except (gapbeam.EngineError, IndexError):
+            continue
+        if step.solution.method != PIVOTING:
+            continue
+        compared += 1
+        errors = true_errors(made, step, range(len(supports)))
+        sizes = (np.abs(step.solution.deflection).max(), np.abs(step.reaction).max(initial=0.0))
+        for error, bound, size in zip(errors, step.bounds, sizes, strict=True):
+            assert error <= bound <= 1e-9 * size, seed
+    assert compared > 20
 
 
 def test_tie_is_named():

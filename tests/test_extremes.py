@@ -17,28 +17,16 @@ TOLERANCE = 1e-12
 DOCS = Path(__file__).parent.parent / "docs" / "extremes.md"
 CASES = list(cases(10**4))
 
-# What the program does not reach yet, and why
-MISSED = {
-    ("span beside span", "1e-06, 1e+06"): "a load of 1e18 at 1e-6 from a clamp of a beam of 2e6: deflections off by 2e-10 "
-    "(the moments beyond the load, 1e6, come from the clamp's 1e12 instead of from the free tip)",
-}
 
-
-def parameters():
-    """Every case, those that are missed marked."""
-    for case in CASES:
-        if case.ill_conditioned:
-            continue
-        reason = MISSED.get((case.corner, case.value))
-        marks = [pytest.mark.xfail(strict=True, reason=reason)] if reason else []
-        yield pytest.param(case, id=f"{case.corner}: {case.value}", marks=marks)
-
-
-@pytest.mark.parametrize("case", list(parameters()))
+@pytest.mark.parametrize(
+    "case", [pytest.param(case, id=f"{case.corner}: {case.value}") for case in CASES if not case.ill_conditioned]
+)
 def test_corner(case):
     (row,) = study.extremes([case])
     assert row.covered, (row.error, row.bound)
     assert row.error <= TOLERANCE, (row.kind, row.worst)
+    if row.error > 1e-14:
+        assert row.bound <= 1000 * row.error, (row.error, row.bound)
 
 
 @pytest.mark.parametrize("value", ["0.001", "1e-06", "1e-09"])
@@ -46,10 +34,6 @@ def test_bound_says_what_is_ill_conditioned(value):
     case = next(case for case in CASES if case.ill_conditioned and case.value == value)
     (row,) = study.extremes([case])
     assert row.covered, (row.error, row.bound)
-
-
-def test_missed_cases_exist():
-    assert MISSED.keys() <= {(case.corner, case.value) for case in CASES}
 
 
 # The exact solution itself

@@ -2,7 +2,8 @@
 
 The beam is cut into pieces wherever anything changes: at span ends, supports, hinges, ends of sections and of
 distributed loads, point loads. A place is kept as a span and the distance from its left end, so that a short span
-far from the origin keeps its digits. Only beam ends, supports and hinges become nodes of the system.
+far from the origin keeps its digits. Only beam ends, supports and hinges become nodes of the system, and on overhangs
+the places of loads: the moments there follow from the loads farther out alone.
 """
 
 from __future__ import annotations
@@ -300,6 +301,7 @@ def lower_by_load(scene: Scene) -> tuple[Arrays, LoadRows]:
     is_node[[0, -1]] = True
     is_node[at_hinges] = True
     is_node[at_supports[normal]] = True
+    is_node |= _beyond(at_supports[normal], len(span)) & _bears(len(span), at_loads, load_from, load_to)
     node_points = np.flatnonzero(is_node)
     node_of_point = np.cumsum(is_node) - 1
 
@@ -337,6 +339,23 @@ def lower_by_load(scene: Scene) -> tuple[Arrays, LoadRows]:
         axial=_axial(scene, np.flatnonzero(axial_support), at_supports, axial_load, at_pulls, pieces[:, 0] * axial_flexibility),
     )
     return arrays, rows
+
+
+def _beyond(at_supports: np.ndarray, count: int) -> np.ndarray:
+    """Which points lie beyond the outermost supports."""
+    beyond = np.zeros(count, dtype=bool)
+    if at_supports.size:
+        beyond[: at_supports.min()] = True
+        beyond[at_supports.max() + 1 :] = True
+    return beyond
+
+
+def _bears(count: int, *places: np.ndarray) -> np.ndarray:
+    """Which points are among places of loads."""
+    bears = np.zeros(count, dtype=bool)
+    for part in places:
+        bears[part] = True
+    return bears
 
 
 def locate(x: np.ndarray, ends: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
