@@ -41,7 +41,8 @@ contains
         allocate (weight(3, 0:n))
         call row_weights(nodes, residual, sizes, weight)
         deflection_bound = safety*norm(.false.)
-        reaction_bound = safety*norm(.true.)
+        ! Held nodes have no row in the system, but their loads and shears go into the reactions
+        reaction_bound = safety*norm(.true.) + gamma*epsilon(1.0_wp)*maxval(merge(sizes%shear, 0.0_wp, nodes%held))
 
     contains
 

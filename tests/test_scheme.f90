@@ -12,6 +12,7 @@ program test_scheme
     call smallest_cycle()
     call plank()
     call rigid_plank()
+    call fronts()
     call finish(status)
     if (status /= 0) stop 1, quiet=.true.
 
@@ -159,5 +160,44 @@ contains
         call check(allocated(error), "refused")
         if (allocated(error)) call check(error%code == gapbeam_indeterminate, "as not determined")
     end subroutine rigid_plank
+
+    !> A beam on 2,001 rigid one-sided supports, its weight as nodal forces, lifted at its left end and in the middle, and the
+    !> same with its left half turned upside down; then lifted a little less, from the scheme found
+    subroutine fronts()
+        integer, parameter :: n = 2000
+        real(wp), parameter :: spacing = 0.01_wp
+        type(beam_type) :: beam
+        type(workspace_type) :: work
+        type(outcome_type) :: outcome
+        type(error_type), allocatable :: error
+        logical, allocatable :: closed(:)
+        integer :: i, side, step
+        real(wp) :: lift
+
+        call make(n, spacing, 1.0_wp, beam)
+        allocate (closed(n + 1))
+        do side = -1, 1, 2
+            call place_supports([(support_type(i, merge(side, 1, i < n/2), infinite(), 0.0_wp), i=0, n)], beam)
+            do i = 0, n
+                beam%force(1, i) = merge(side, 1, i < n/2)*spacing
+            end do
+            closed = .true.
+            do step = 1, 2
+                lift = merge(1.0_wp, 0.999_wp, step == 1)
+                beam%force(2, 0) = -side*1.5_wp*lift
+                beam%force(2, 3*n/4) = -lift
+                call new_workspace(beam, work)
+                call set_loads(beam, 1.0_wp, work)
+                call find_scheme(beam, 1.0_wp, rule_block, closed, work, outcome, error)
+                call check(.not. allocated(error) .and. outcome%status == gapbeam_solved, "solved")
+                call check(work%solves <= merge(30, 8, step == 1), "in few solves")
+                ! Statics of the lifted end: 1.5 x = q x**2/2 at x = 3
+                call check(all(.not. closed(:298)) .and. any(closed(299:303)), "3 long")
+                call check(.not. any(closed(3*n/4 - 20:3*n/4 + 20)), "lifted in the middle")
+                call check(minval(beam%supports%side*work%reaction) > -1e-9_wp, "no support pulls")
+                call check(maxval(beam%supports%side*work%answers%deflection) < 1e-12_wp, "none is penetrated")
+            end do
+        end do
+    end subroutine fronts
 
 end program test_scheme
