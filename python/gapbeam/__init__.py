@@ -23,7 +23,7 @@ except ImportError:
 
 from importlib.metadata import version as _version
 
-from .errors import EngineError, GapbeamError, SceneError
+from .errors import EngineError, GapbeamError, SceneError, Status
 from .results import Fields, Result, System
 from .scene import (
     Analysis,
@@ -63,6 +63,7 @@ __all__ = [
     "Scene",
     "SceneError",
     "Section",
+    "Status",
     "Step",
     "Support",
     "System",
