@@ -23,7 +23,7 @@ module gapbeam_band
     use gapbeam_link, only: link_type
     implicit none
     private
-    public :: node_type, rhs_type, pivot_type, answer_type, factor_chain, solve_chain
+    public :: node_type, rhs_type, pivot_type, answer_type, factor_chain, solve_chain, correct_chain
     public :: band_ok, band_mechanism, band_needs_pivoting
     public :: plain, hinge, restrained
 
@@ -63,7 +63,9 @@ module gapbeam_band
     end type answer_type
 
     !> How a node was eliminated
-    integer, parameter :: full = 1, w_known = 2, m_known = 3, both_known = 4, statics = 5, last = 6
+    integer, parameter :: full = 1, w_known = 2, m_known = 3, both_known = 4, statics = 5, end_of_beam = 6
+    !> Relative to the solution, what cannot be seen in it even if it comes back a thousand times
+    real(wp), parameter :: unseen = 2.0_wp**(-10)*epsilon(1.0_wp)
 
     !> The factor at a node
     type :: pivot_type
@@ -79,20 +81,25 @@ module gapbeam_band
 
 contains
 
-    !> Factor the system of a working scheme
-    pure subroutine factor_chain(nodes, links, pivots, state, place)
+    !> Factor the system of a working scheme, or factor anew what changes when some of its nodes have changed
+    pure subroutine factor_chain(nodes, links, pivots, state, place, changed, last)
         !> Nodes, shape (0:n), and the links between them, shape (n)
         type(node_type), intent(in) :: nodes(0:)
         type(link_type), intent(in) :: links(:)
-        !> The factor, shape (0:n)
-        type(pivot_type), intent(out) :: pivots(0:)
+        !> The factor, shape (0:n); a factor of the system before the change, if nodes have changed
+        type(pivot_type), intent(inout) :: pivots(0:)
         !> band_ok, band_mechanism or band_needs_pivoting
         integer, intent(out) :: state
         !> Node at which a state other than band_ok was found
         integer, intent(out) :: place
+        !> First and last node that changed; the factor is right left of them already, and right of them from where
+        !> the left side passes on what it did before
+        integer, intent(in), optional :: changed(2)
+        !> Last node whose pivot is new
+        integer, intent(out), optional :: last
         real(wp) :: phi, beta, delta, h, divisor
         logical :: floating
-        integer :: i, n
+        integer :: i, n, begin, finish
 
         n = size(links)
         state = band_ok
@@ -100,8 +107,25 @@ contains
         beta = 0.0_wp
         delta = 0.0_wp
         floating = .true.
-        do i = 0, n
+        begin = 0
+        finish = n
+        if (present(last)) last = n
+        if (present(changed)) then
+            begin = changed(1)
+            finish = changed(2)
+            phi = pivots(begin)%phi
+            beta = pivots(begin)%beta
+            delta = pivots(begin)%delta
+            floating = pivots(begin)%floating
+        end if
+        do i = begin, n
             place = i
+            if (i > finish) then
+                if (repeats(pivots(i), phi, beta, delta, floating)) then
+                    if (present(last)) last = i - 1
+                    return
+                end if
+            end if
             associate (node => nodes(i), p => pivots(i))
                 p%floating = floating
                 p%phi = phi
@@ -173,6 +197,18 @@ contains
         call factor_last(nodes(n), pivots(n), phi, beta, delta, floating, state)
     end subroutine factor_chain
 
+    !> Does the left side pass on to a node what it did before, but for the last digits
+    pure function repeats(pivot, phi, beta, delta, floating) result(same)
+        type(pivot_type), intent(in) :: pivot
+        real(wp), intent(in) :: phi, beta, delta
+        logical, intent(in) :: floating
+        logical :: same
+        real(wp), parameter :: digits = 4*epsilon(1.0_wp)
+
+        same = (floating .eqv. pivot%floating) .and. abs(phi - pivot%phi) <= digits*phi &
+            .and. abs(beta - pivot%beta) <= digits*beta .and. abs(delta - pivot%delta) <= digits*delta
+    end function repeats
+
     !> The right end of the beam: no link follows
     pure subroutine factor_last(node, pivot, phi, beta, delta, floating, state)
         type(node_type), intent(in) :: node
@@ -181,7 +217,7 @@ contains
         logical, intent(in) :: floating
         integer, intent(inout) :: state
 
-        pivot%kind = last
+        pivot%kind = end_of_beam
         pivot%a = phi
         pivot%b = beta
         pivot%c = delta + node%stiffness
@@ -205,18 +241,45 @@ contains
         !> The solution, shape (0:n)
         type(answer_type), intent(out) :: answers(0:)
 
-        call eliminate(nodes, links, pivots, rhs, answers)
-        call substitute(nodes, links, pivots, rhs, answers)
+        integer :: last, first
+
+        call eliminate(nodes, links, pivots, rhs, [0, size(links)], answers, last)
+        call substitute(nodes, links, pivots, rhs, [0, size(links)], answers, first)
     end subroutine solve_chain
+
+    !> The correction of a solution for a right-hand side that is zero but at some nodes, as far as it can be seen in the solution
+    pure subroutine correct_chain(nodes, links, pivots, rhs, changed, solution, correction, window)
+        !> As for solve_chain
+        type(node_type), intent(in) :: nodes(0:)
+        type(link_type), intent(in) :: links(:)
+        type(pivot_type), intent(in) :: pivots(0:)
+        !> Right-hand side at the nodes changed(1) to changed(2); overwritten, beyond them as well
+        type(rhs_type), intent(inout) :: rhs(0:)
+        integer, intent(in) :: changed(2)
+        !> The solution to be corrected
+        type(answer_type), intent(in) :: solution(0:)
+        !> The correction at the nodes window(1) to window(2); elsewhere it is smaller than rounding errors
+        type(answer_type), intent(inout) :: correction(0:)
+        integer, intent(out) :: window(2)
+
+        call eliminate(nodes, links, pivots, rhs, changed, correction, window(2), solution)
+        call substitute(nodes, links, pivots, rhs, [changed(1), window(2)], correction, window(1), solution)
+    end subroutine correct_chain
 
     !> Forward: rhs(i)%left becomes the e that the left side passes to node i, rhs(i)%right and %shear the
     !> right-hand sides E and G of its pivot; moments known by statics go into the answers at once
-    pure subroutine eliminate(nodes, links, pivots, rhs, answers)
+    pure subroutine eliminate(nodes, links, pivots, rhs, range, answers, last, solution)
         type(node_type), intent(in) :: nodes(0:)
         type(link_type), intent(in) :: links(:)
         type(pivot_type), intent(in) :: pivots(0:)
         type(rhs_type), intent(inout) :: rhs(0:)
+        !> Nodes outside of which the right-hand side is zero
+        integer, intent(in) :: range(2)
         type(answer_type), intent(inout) :: answers(0:)
+        !> The last node with an effect
+        integer, intent(out) :: last
+        !> What makes effects negligible beyond them, needed if there is something beyond them
+        type(answer_type), intent(in), optional :: solution(0:)
         real(wp) :: e, p, m, h, divisor, m_star, w_star
         integer :: i, n
 
@@ -224,7 +287,15 @@ contains
         m = 0.0_wp
         e = 0.0_wp
         p = 0.0_wp
-        do i = 0, n
+        last = n
+        do i = range(1), n
+            if (i > range(2)) then
+                if (fades(pivots(i), solution(i), e, p, m)) then
+                    last = i - 1
+                    return
+                end if
+                rhs(i) = rhs_type()
+            end if
             associate (node => nodes(i), v => pivots(i), r => rhs(i))
                 ! Across the node; keep what came from the left for the moment left of the node
                 if (v%floating) then
@@ -279,23 +350,61 @@ contains
         end do
     end subroutine eliminate
 
+    !> Is what the left side of a node passes on too small to be seen in the solution there
+    pure function fades(pivot, solution, e, p, m) result(small)
+        type(pivot_type), intent(in) :: pivot
+        type(answer_type), intent(in) :: solution
+        real(wp), intent(in) :: e, p, m
+        logical :: small
+
+        associate (moment => abs(solution%moment_left), w => abs(solution%deflection))
+            if (pivot%floating) then
+                small = .not. (abs(m) > 0.0_wp .or. abs(p) > 0.0_wp)
+            else
+                small = abs(e) <= unseen*(pivot%phi*moment + pivot%beta*w) &
+                    .and. abs(p) <= unseen*(pivot%beta*moment + pivot%delta*w)
+            end if
+        end associate
+    end function fades
+
     !> Backward
-    pure subroutine substitute(nodes, links, pivots, rhs, answers)
+    pure subroutine substitute(nodes, links, pivots, rhs, range, answers, first, solution)
         type(node_type), intent(in) :: nodes(0:)
         type(link_type), intent(in) :: links(:)
         type(pivot_type), intent(in) :: pivots(0:)
-        type(rhs_type), intent(in) :: rhs(0:)
+        type(rhs_type), intent(inout) :: rhs(0:)
+        !> Nodes outside of which the eliminated right-hand side is zero
+        integer, intent(in) :: range(2)
         type(answer_type), intent(inout) :: answers(0:)
+        !> The first node with an effect
+        integer, intent(out) :: first
+        !> What makes effects negligible left of them, needed if there is something left of them
+        type(answer_type), intent(in), optional :: solution(0:)
         real(wp) :: m_next, w_next, m, w, h, psi_right
-        integer :: i, n
+        integer :: i, small
 
-        n = size(links)
         m_next = 0.0_wp
         w_next = 0.0_wp
         psi_right = 0.0_wp
-        do i = n, 0, -1
+        small = 0
+        first = 0
+        do i = range(2), 0, -1
+            if (i < range(1)) then
+                ! Two nodes in a row, so that a deflection that passes through zero does not deceive
+                associate (a => answers(i + 1), s => solution(i + 1))
+                    small = merge(small + 1, 0, .not. pivots(i)%floating .and. &
+                                  abs(a%deflection) <= unseen*abs(s%deflection) .and. &
+                                  abs(a%moment_left) <= unseen*abs(s%moment_left))
+                end associate
+                if (small == 2) then
+                    first = i + 1
+                    return
+                end if
+                rhs(i) = rhs_type()
+                answers(i) = answer_type()
+            end if
             associate (node => nodes(i), v => pivots(i), r => rhs(i))
-                if (v%kind == last) then
+                if (v%kind == end_of_beam) then
                     m = 0.0_wp
                     if (node%held) then
                         w = r%deflection

@@ -46,7 +46,8 @@ subroutine gbsolv(nl, ns, link, kind, compli, force, couple, snode, sside, sstif
     use gapbeam_error, only: error_type, gapbeam_solved
     use gapbeam_link, only: link_type
     use gapbeam_model, only: beam_type, new_beam
-    use gapbeam_system, only: workspace_type, new_workspace, set_loads, check_scheme
+    use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
+    use gapbeam_system, only: check_scheme
     use gapbeam_rules, only: complementarity
     use gapbeam_scheme, only: find_scheme, outcome_type
     use gapbeam_path, only: find_marginal
@@ -134,7 +135,8 @@ subroutine gbcert(nl, ns, link, kind, compli, force, couple, snode, sside, sstif
     use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
     use gapbeam_link, only: link_type
     use gapbeam_model, only: beam_type, new_beam
-    use gapbeam_system, only: workspace_type, new_workspace, set_loads, solve_scheme, refine_scheme, certify_scheme
+    use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
+    use gapbeam_system, only: solve_scheme, refine_scheme, certify_scheme
     use gapbeam_band, only: band_ok
     implicit none
     ! As for GBSOLV
@@ -175,37 +177,46 @@ subroutine gbcert(nl, ns, link, kind, compli, force, couple, snode, sside, sstif
     known = merge(1, 0, found)
 end subroutine gbcert
 
-! The scheme just above a load factor and the factor at which it changes next
-subroutine gbnext(nl, ns, link, kind, compli, force, couple, snode, sside, sstiff, scont, factor, rule, &
-                  closed, margin, next, motion, solves, status, message)
+! Follow the load from one factor to another, from event to event
+subroutine gbpath(nl, ns, most, link, kind, compli, force, couple, snode, sside, sstiff, scont, limit, rule, &
+                  factor, closed, margin, events, at, which, motion, solves, nodes, status, message)
     use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
     use gapbeam_error, only: error_type
     use gapbeam_link, only: link_type
     use gapbeam_model, only: beam_type, new_beam
     use gapbeam_scheme, only: outcome_type
-    use gapbeam_path, only: next_event
+    use gapbeam_path, only: follow_load, path_type
     implicit none
-    ! As for GBSOLV
-    integer, intent(in) :: nl, ns
+    ! As for GBSOLV; it stops after about MOST changes of the scheme, to be called again
+    integer, intent(in) :: nl, ns, most
     double precision, intent(in), target :: link(21, nl)
     integer, intent(in) :: kind(0:nl)
     double precision, intent(in) :: compli(0:nl)
     double precision, intent(in) :: force(2, 0:nl), couple(2, 0:nl)
     integer, intent(in) :: snode(ns), sside(ns)
     double precision, intent(in) :: sstiff(ns), scont(ns)
-    double precision, intent(in) :: factor
+    ! Load factor to go to
+    double precision, intent(in) :: limit
     integer, intent(in) :: rule
-    ! Scheme at FACTOR in, just above it out; supports at zero at FACTOR in, at NEXT out
+    ! Load factor of the state at hand in; how far it went out, or above which there is no equilibrium
+    double precision, intent(inout) :: factor
+    ! Scheme at FACTOR and supports at zero there
     integer, intent(inout) :: closed(ns), margin(ns)
-    ! Factor of the next event, huge if there is none; motion that begins where there is no equilibrium above FACTOR
-    double precision, intent(out) :: next, motion(0:nl)
-    integer, intent(out) :: solves, status
+    ! Changes of the scheme, EVENTS of them: load factors and supports (from 1)
+    integer, intent(out) :: events
+    double precision, intent(out) :: at(most + ns)
+    integer, intent(out) :: which(most + ns)
+    ! Motion that begins where there is no equilibrium above FACTOR
+    double precision, intent(out) :: motion(0:nl)
+    ! Linear solves of the whole beam; nodes at which the solution was made anew besides
+    integer, intent(out) :: solves, nodes, status
     character(len=240), intent(out) :: message
     !f2py threadsafe
     !f2py integer, intent(hide), depend(link) :: nl = shape(link, 1)
     !f2py integer, intent(hide), depend(snode) :: ns = shape(snode, 0)
     type(link_type), pointer :: links(:)
     type(beam_type) :: beam
+    type(path_type) :: path
     type(outcome_type) :: outcome
     type(error_type), allocatable :: error
     logical, allocatable :: acting(:), zero(:)
@@ -215,18 +226,25 @@ subroutine gbnext(nl, ns, link, kind, compli, force, couple, snode, sside, sstif
     allocate (acting(ns), zero(ns))
     acting(:) = closed /= 0
     zero(:) = margin /= 0
+    at = 0.0d0
+    which = 0
     motion = 0.0d0
     message = " "
-    call next_event(beam, factor, rule, acting, zero, next, solves, outcome, error)
+    call follow_load(beam, limit, rule, most, factor, acting, zero, path, outcome, error)
     closed = merge(1, 0, acting)
     margin = merge(1, 0, zero)
+    events = path%count
+    at(:events) = path%factor(:events)
+    which(:events) = path%support(:events)
+    solves = path%solves
+    nodes = path%nodes
     status = outcome%status
     if (allocated(outcome%motion)) motion = outcome%motion
     if (allocated(error)) then
         status = error%code
         message = error%message
     end if
-end subroutine gbnext
+end subroutine gbpath
 
 ! Fields at the left end of every piece
 subroutine gbreco(np, nl, piece, dead, live, factor, link, last, kind, w, ml, mr, shear, start)
@@ -327,3 +345,27 @@ subroutine gbaxia(n, flex, force, stiff, settle, u, pull, react, state, place)
 
     call solve_axial(flex, force, stiff, settle, u, pull, react, state, place)
 end subroutine gbaxia
+
+! Deflections and moments of a beam of N elements over two-sided supports, REPEAT times (for measuring)
+subroutine gbkern(n, length, ei, q, stiff, force, repeat, w, m, status)
+    use gapbeam_kernel, only: eliminated_type, last_step
+    use gapbeam_elements, only: solve_elements
+    implicit none
+    integer, intent(in) :: n
+    double precision, intent(in) :: length(n), ei(n), q(n)
+    ! At the nodes: stiffness of the supports (infinite: rigid), forces down
+    double precision, intent(in) :: stiff(0:n), force(0:n)
+    integer, intent(in) :: repeat
+    double precision, intent(out) :: w(0:n), m(0:n)
+    ! 0 solved, 1 an end without support, 2 a length or EI that is not positive
+    integer, intent(out) :: status
+    !f2py threadsafe
+    !f2py integer, intent(hide), depend(length) :: n = shape(length, 0)
+    type(eliminated_type), allocatable :: eliminated(:)
+    integer :: k
+
+    allocate (eliminated(0:last_step(n)))
+    do k = 1, repeat
+        call solve_elements(length, ei, q, stiff, force, eliminated, w, m, status)
+    end do
+end subroutine gbkern

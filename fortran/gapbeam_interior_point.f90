@@ -10,7 +10,8 @@ module gapbeam_interior_point
     use gapbeam_kinds, only: wp
     use gapbeam_band, only: band_ok
     use gapbeam_model, only: beam_type, both, is_rigid, softest
-    use gapbeam_system, only: workspace_type, solve_scheme
+    use gapbeam_workspace, only: workspace_type
+    use gapbeam_system, only: solve_scheme
     implicit none
     private
     public :: interior_type, start_interior, step_interior, product_of

@@ -5,7 +5,7 @@ module gapbeam_lower_supports
     use gapbeam_band, only: plain, hinge, restrained
     use gapbeam_scene, only: support_type, gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_normal, gapbeam_axial, &
         gapbeam_axial_force
-    use gapbeam_model, only: node_support_type => support_type
+    use gapbeam_model, only: node_support_type => support_type, order_supports => place_supports
     use gapbeam_lowered, only: lowered_type, position_tolerance
     use gapbeam_check, only: refuse, shown, of_supports
     implicit none
@@ -158,6 +158,7 @@ contains
     subroutine place_supports(lowered, error)
         type(lowered_type), intent(inout) :: lowered
         type(error_type), allocatable, intent(out) :: error
+        type(node_support_type), allocatable :: supports(:)
         real(wp), allocatable :: turning(:)
         integer :: k, j, m, n, stat
 
@@ -165,7 +166,9 @@ contains
         m = count(lowered%model%supports%direction == gapbeam_normal)
         associate (beam => lowered%beam, l => lowered%length_exponent, f => lowered%force_exponent)
             allocate (beam%links(n), beam%kind(0:n), beam%compliance(0:n), beam%force(2, 0:n), beam%couple(2, 0:n), &
-                      beam%supports(m), lowered%normal(m), lowered%couple_share(m), turning(0:n), stat=stat)
+                      lowered%normal(m), lowered%couple_share(m), turning(0:n), supports(m), stat=stat)
+            ! order_supports frees and allocates these again
+            if (stat == 0) allocate (beam%supports(m), beam%order(m), beam%first(0:n + 1), stat=stat)
             if (stat /= 0) then
                 call no_memory(error)
                 return
@@ -178,11 +181,12 @@ contains
                     if (s%direction /= gapbeam_normal) cycle
                     j = j + 1
                     lowered%normal(j) = k
-                    beam%supports(j) = node_support_type(lowered%node_of_point(lowered%support_point(k)), s%side, &
+                    supports(j) = node_support_type(lowered%node_of_point(lowered%support_point(k)), s%side, &
                                                          scale(s%stiffness, l - f), scale(contact_level(s), -l))
-                    turning(beam%supports(j)%node) = turning(beam%supports(j)%node) + s%rotation
+                    turning(supports(j)%node) = turning(supports(j)%node) + s%rotation
                 end associate
             end do
+            call order_supports(supports, beam)
             beam%compliance(:) = 0.0_wp
             do j = 0, n
                 if (.not. turning(j) > 0.0_wp) cycle

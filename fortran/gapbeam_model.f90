@@ -4,7 +4,7 @@ module gapbeam_model
     use gapbeam_link, only: link_type
     implicit none
     private
-    public :: beam_type, support_type, new_beam, below, above, both, is_rigid, softest
+    public :: beam_type, support_type, new_beam, place_supports, below, above, both, is_rigid, softest
 
     !> Sides of a support: pushes up only, pushes down only, both
     integer, parameter :: below = 1, above = -1, both = 0
@@ -33,6 +33,8 @@ module gapbeam_model
         real(wp), allocatable :: force(:, :), couple(:, :)
         !> Supports in the caller's order
         type(support_type), allocatable :: supports(:)
+        !> Their numbers from left to right; those at node i are order(first(i)) to order(first(i + 1) - 1)
+        integer, allocatable :: order(:), first(:)
     end type beam_type
 
 contains
@@ -49,20 +51,55 @@ contains
         real(wp), intent(in) :: stiffness(:), contact(:)
         !> The beam
         type(beam_type), intent(out) :: beam
+        type(support_type), allocatable :: supports(:)
         integer :: k, n
 
         n = size(links)
         allocate (beam%links(n), beam%kind(0:n), beam%compliance(0:n), beam%force(2, 0:n), beam%couple(2, 0:n))
-        allocate (beam%supports(size(node)))
+        allocate (supports(size(node)))
         beam%links(:) = links
         beam%kind(:) = kind
         beam%compliance(:) = compliance
         beam%force(:, :) = force
         beam%couple(:, :) = couple
         do k = 1, size(node)
-            beam%supports(k) = support_type(node(k), side(k), stiffness(k), contact(k))
+            supports(k) = support_type(node(k), side(k), stiffness(k), contact(k))
         end do
+        call place_supports(supports, beam)
     end subroutine new_beam
+
+    !> Give a beam its supports, and put them in order from left to right, those at the same node in the caller's order
+    pure subroutine place_supports(supports, beam)
+        !> The supports
+        type(support_type), intent(in) :: supports(:)
+        !> A beam whose links are there
+        type(beam_type), intent(inout) :: beam
+        integer :: k, i, n
+
+        n = size(beam%links)
+        if (allocated(beam%supports)) deallocate (beam%supports, beam%order, beam%first)
+        allocate (beam%supports(size(supports)), beam%order(size(supports)), beam%first(0:n + 1))
+        beam%supports(:) = supports
+        beam%first(:) = 0
+        do k = 1, size(beam%supports)
+            i = beam%supports(k)%node + 1
+            beam%first(i) = beam%first(i) + 1
+        end do
+        beam%first(0) = 1
+        do i = 1, n + 1
+            beam%first(i) = beam%first(i) + beam%first(i - 1)
+        end do
+        ! first(i) moves up to first(i + 1) while the supports of node i are put in place
+        do k = 1, size(beam%supports)
+            i = beam%supports(k)%node
+            beam%order(beam%first(i)) = k
+            beam%first(i) = beam%first(i) + 1
+        end do
+        do i = n + 1, 1, -1
+            beam%first(i) = beam%first(i - 1)
+        end do
+        beam%first(0) = 1
+    end subroutine place_supports
 
     !> Is a support rigid
     elemental function is_rigid(support) result(rigid)

@@ -44,6 +44,8 @@ contains
         call exchange(tape, lowered%beam%force)
         call exchange(tape, lowered%beam%couple)
         call exchange_node_supports(tape, lowered%beam%supports)
+        call exchange(tape, lowered%beam%order, 1)
+        call exchange(tape, lowered%beam%first, 0)
         call exchange(tape, lowered%normal, 1)
         call exchange(tape, lowered%couple_share, 1)
         call exchange(tape, lowered%axial%point, 0)

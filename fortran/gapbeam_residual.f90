@@ -26,10 +26,16 @@ module gapbeam_residual
         real(wp) :: left = 0.0_wp, right = 0.0_wp, shear = 0.0_wp
     end type size_type
 
+    !> Rotation and shear at an end of a link, and the sizes of their terms
+    type :: end_type
+        type(double_double) :: psi, shear
+        real(wp) :: size_of_psi = 0.0_wp, size_of_shear = 0.0_wp
+    end type end_type
+
 contains
 
     !> Residuals of all rows, with differences of neighbouring deflections and moments formed first
-    pure subroutine residual_chain(nodes, links, rhs, answers, residual, sizes, compatibility, equilibrium)
+    pure subroutine residual_chain(nodes, links, rhs, answers, residual, sizes, compatibility, equilibrium, range)
         !> Nodes, links and right-hand side (as before elimination) of the system, see gapbeam_band
         type(node_type), intent(in) :: nodes(0:)
         type(link_type), intent(in) :: links(:)
@@ -37,77 +43,88 @@ contains
         !> A solution
         type(answer_type), intent(in) :: answers(0:)
         !> Right-hand side of the correction, shape (0:n)
-        type(rhs_type), intent(out) :: residual(0:)
+        type(rhs_type), intent(inout) :: residual(0:)
         !> Sizes of the terms, shape (0:n)
-        type(size_type), intent(out) :: sizes(0:)
+        type(size_type), intent(inout) :: sizes(0:)
         !> Largest residual of the two kinds of rows relative to the largest term of its kind
         real(wp), intent(out) :: compatibility, equilibrium
-        type(double_double) :: psi_left, psi_right, v_left, v_right, turn
-        real(wp) :: size_left, size_right, size_v_left, size_v_right, largest_turn, largest_shear
-        integer :: i, n
+        !> First and last node of interest, if not all are
+        integer, intent(in), optional :: range(2)
+        type(end_type) :: left, right, left_of_next
+        type(double_double) :: turn
+        real(wp) :: largest_turn, largest_shear
+        integer :: i, n, begin, finish
 
         n = size(links)
+        begin = 0
+        finish = n
+        if (present(range)) then
+            begin = range(1)
+            finish = range(2)
+        end if
         compatibility = 0.0_wp
         equilibrium = 0.0_wp
         largest_turn = tiny(largest_turn)
         largest_shear = tiny(largest_shear)
-        psi_left = double_double()
-        v_left = double_double()
-        size_left = 0.0_wp
-        size_v_left = 0.0_wp
-        do i = 0, n
-            psi_right = double_double()
-            v_right = double_double()
-            size_right = 0.0_wp
-            size_v_right = 0.0_wp
+        left = end_type()
+        if (begin > 0) call ends_of_link(links(begin), answers(begin - 1), answers(begin), right, left)
+        do i = begin, finish
+            right = end_type()
+            left_of_next = end_type()
+            if (i < n) call ends_of_link(links(i + 1), answers(i), answers(i + 1), right, left_of_next)
+            residual(i) = rhs_type()
+            sizes(i) = size_type()
             associate (node => nodes(i), a => answers(i), b => rhs(i), r => residual(i), s => sizes(i))
-                if (i < n) then
-                    associate (link => links(i + 1), z => answers(i + 1))
-                        psi_right = divided(plus(double_double(z%deflection, 0.0_wp), -a%deflection), link%length)
-                        psi_right = plus_product(psi_right, link%faa, a%moment_right)
-                        psi_right = plus_product(psi_right, link%fab, z%moment_left)
-                        v_right = divided(plus(double_double(z%moment_left, 0.0_wp), -a%moment_right), link%length)
-                        size_right = (abs(z%deflection) + abs(a%deflection))/link%length + link%faa*abs(a%moment_right) &
-                            + abs(link%fab*z%moment_left)
-                        size_v_right = (abs(z%moment_left) + abs(a%moment_right))/link%length
-                    end associate
-                end if
                 if (node%kind == restrained) then
                     turn = plus(plus(double_double(a%moment_left, 0.0_wp), -a%moment_right), b%couple)
                     turn = plus_product(double_double(node%compliance*turn%low, 0.0_wp), node%compliance, turn%high)
-                    if (i > 0) r%left = value_of(plus(plus(minus(turn, psi_left), b%left), 0.0_wp))
-                    if (i < n) r%right = value_of(plus(minus(psi_right, turn), b%right))
-                    s%left = size_left + abs(turn%high) + abs(b%left)
-                    s%right = size_right + abs(turn%high) + abs(b%right)
+                    if (i > 0) r%left = value_of(plus(plus(minus(turn, left%psi), b%left), 0.0_wp))
+                    if (i < n) r%right = value_of(plus(minus(right%psi, turn), b%right))
+                    s%left = left%size_of_psi + abs(turn%high) + abs(b%left)
+                    s%right = right%size_of_psi + abs(turn%high) + abs(b%right)
                     compatibility = max(compatibility, abs(r%left), abs(r%right))
                 else if (node%kind == plain .and. i > 0 .and. i < n) then
-                    r%right = value_of(plus(plus(minus(psi_right, psi_left), b%left), b%right))
-                    s%right = size_left + size_right + abs(b%left) + abs(b%right)
+                    r%right = value_of(plus(plus(minus(right%psi, left%psi), b%left), b%right))
+                    s%right = left%size_of_psi + right%size_of_psi + abs(b%left) + abs(b%right)
                     compatibility = max(compatibility, abs(r%right))
                 end if
                 largest_turn = max(largest_turn, s%left, s%right)
-                s%shear = size_v_left + size_v_right + abs(b%shear) + node%stiffness*abs(a%deflection)
+                s%shear = left%size_of_shear + right%size_of_shear + abs(b%shear) + node%stiffness*abs(a%deflection)
                 largest_shear = max(largest_shear, s%shear)
-                if (.not. node%held) then
-                    r%shear = value_of(plus_product(plus(minus(v_right, v_left), b%shear), -node%stiffness, a%deflection))
+                if (node%held) then
+                    r%deflection = b%deflection - a%deflection
+                else
+                    r%shear = value_of(plus_product(plus(minus(right%shear, left%shear), b%shear), &
+                                                    -node%stiffness, a%deflection))
                     equilibrium = max(equilibrium, abs(r%shear))
                 end if
-                if (i < n) then
-                    associate (link => links(i + 1), z => answers(i + 1))
-                        psi_left = divided(plus(double_double(z%deflection, 0.0_wp), -a%deflection), link%length)
-                        psi_left = plus_product(psi_left, -link%fab, a%moment_right)
-                        psi_left = plus_product(psi_left, -link%fbb, z%moment_left)
-                        size_left = (abs(z%deflection) + abs(a%deflection))/link%length &
-                            + abs(link%fab*a%moment_right) + link%fbb*abs(z%moment_left)
-                        v_left = v_right
-                        size_v_left = size_v_right
-                    end associate
-                end if
             end associate
+            left = left_of_next
         end do
         compatibility = compatibility/largest_turn
         equilibrium = equilibrium/largest_shear
     end subroutine residual_chain
+
+    !> Rotations and shear at the two ends of a link
+    pure subroutine ends_of_link(link, a, b, end_a, end_b)
+        type(link_type), intent(in) :: link
+        !> The nodes to its left and right
+        type(answer_type), intent(in) :: a, b
+        type(end_type), intent(out) :: end_a, end_b
+        type(double_double) :: turn
+        real(wp) :: size_of_turn
+
+        turn = divided(plus(double_double(b%deflection, 0.0_wp), -a%deflection), link%length)
+        end_a%psi = plus_product(plus_product(turn, link%faa, a%moment_right), link%fab, b%moment_left)
+        end_b%psi = plus_product(plus_product(turn, -link%fab, a%moment_right), -link%fbb, b%moment_left)
+        end_a%shear = divided(plus(double_double(b%moment_left, 0.0_wp), -a%moment_right), link%length)
+        end_b%shear = end_a%shear
+        size_of_turn = (abs(b%deflection) + abs(a%deflection))/link%length
+        end_a%size_of_psi = size_of_turn + link%faa*abs(a%moment_right) + abs(link%fab*b%moment_left)
+        end_b%size_of_psi = size_of_turn + abs(link%fab*a%moment_right) + link%fbb*abs(b%moment_left)
+        end_a%size_of_shear = (abs(b%moment_left) + abs(a%moment_right))/link%length
+        end_b%size_of_shear = end_a%size_of_shear
+    end subroutine ends_of_link
 
     !> x + y with a double y; the low part collects the rounding errors and is not normalized
     elemental function plus(x, y) result(z)

@@ -2,10 +2,10 @@
 module gapbeam_rules
     use gapbeam_kinds, only: wp
     use gapbeam_model, only: beam_type, both, is_rigid
-    use gapbeam_system, only: workspace_type
+    use gapbeam_workspace, only: workspace_type
     implicit none
     private
-    public :: find_wrong, complementarity, keep_worst, keep_least_index, left_to_right, separate_rigid_pairs
+    public :: find_wrong, complementarity, keep_worst, keep_least_index, separate_rigid_pairs
 
 contains
 
@@ -61,10 +61,8 @@ contains
     !> The paper's rule. Put back first: of neighbouring open supports the most penetrated one. Release only where
     !> no open stretch beside waits for a support to be put back: of neighbouring closed supports the one that
     !> pulls most. With local this is done in all neighbourhoods at once, otherwise one release in the whole beam.
-    pure subroutine keep_worst(beam, order, closed, work, local, wrong)
+    pure subroutine keep_worst(beam, closed, work, local, wrong)
         type(beam_type), intent(in) :: beam
-        !> Supports from left to right
-        integer, intent(in) :: order(:)
         logical, intent(in) :: closed(:)
         type(workspace_type), intent(in) :: work
         logical, intent(in) :: local
@@ -74,7 +72,7 @@ contains
         real(wp), allocatable :: badness(:)
         integer :: n, first, last, k, worst
 
-        n = size(order)
+        n = size(closed)
         allocate (waits(0:n + 1), badness(size(closed)))
         waits = .false.
         do k = 1, n
@@ -85,20 +83,20 @@ contains
         last = 0
         do while (last < n)
             first = last + 1
-            last = end_of_run(closed, order, first)
-            if (closed(order(first))) cycle
-            waits(first:last) = any(wrong(order(first:last)))
-            call keep_one(order(first:last), badness, wrong)
+            last = end_of_run(closed, beam%order, first)
+            if (closed(beam%order(first))) cycle
+            waits(first:last) = any(wrong(beam%order(first:last)))
+            call keep_one(beam%order(first:last), badness, wrong)
         end do
         last = 0
         do while (last < n)
             first = last + 1
-            last = end_of_run(closed, order, first)
-            if (.not. closed(order(first))) cycle
+            last = end_of_run(closed, beam%order, first)
+            if (.not. closed(beam%order(first))) cycle
             if (waits(first - 1) .or. waits(last + 1) .or. (any(waits) .and. .not. local)) then
-                wrong(order(first:last)) = .false.
+                wrong(beam%order(first:last)) = .false.
             else if (local) then
-                call keep_one_of_each(order(first:last), badness, wrong)
+                call keep_one_of_each(beam%order(first:last), badness, wrong)
             end if
         end do
         if (local .or. any(waits)) return
@@ -160,28 +158,6 @@ contains
         first = findloc(wrong, .true., 1)
         wrong(first + 1:) = .false.
     end subroutine keep_least_index
-
-    !> Numbers of the supports from left to right
-    pure function left_to_right(beam) result(order)
-        type(beam_type), intent(in) :: beam
-        integer, allocatable :: order(:)
-        integer, allocatable :: place(:)
-        integer :: k, i
-
-        allocate (place(0:size(beam%links)), order(size(beam%supports)))
-        place = 0
-        do k = 1, size(beam%supports)
-            place(beam%supports(k)%node) = place(beam%supports(k)%node) + 1
-        end do
-        do i = 1, size(beam%links)
-            place(i) = place(i) + place(i - 1)
-        end do
-        do k = size(beam%supports), 1, -1
-            i = beam%supports(k)%node
-            order(place(i)) = k
-            place(i) = place(i) - 1
-        end do
-    end function left_to_right
 
     !> Two rigid supports with clearance at one node cannot both act: begin with the first of them
     pure subroutine separate_rigid_pairs(beam, closed)

@@ -12,7 +12,8 @@ module gapbeam_scheme
     use gapbeam_band, only: band_ok, band_needs_pivoting, hinge, restrained
     use gapbeam_model, only: beam_type, both, softest
     use gapbeam_kinematics, only: free_motions, motion_type, work_of_loads
-    use gapbeam_system, only: workspace_type, new_workspace, set_loads, solve_scheme, refine_scheme
+    use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
+    use gapbeam_system, only: solve_scheme, refine_scheme
     use gapbeam_rules, only: find_wrong, separate_rigid_pairs
     use gapbeam_search, only: settle, refuse, first_width
     implicit none

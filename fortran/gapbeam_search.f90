@@ -18,8 +18,9 @@ module gapbeam_search
     use gapbeam_error, only: error_type, fatal_error, gapbeam_indeterminate, gapbeam_not_converged
     use gapbeam_band, only: band_ok, band_mechanism, band_needs_pivoting
     use gapbeam_model, only: beam_type
-    use gapbeam_system, only: workspace_type, solve_scheme, refine_scheme
-    use gapbeam_rules, only: find_wrong, keep_worst, keep_least_index, left_to_right, separate_rigid_pairs
+    use gapbeam_workspace, only: workspace_type
+    use gapbeam_system, only: solve_scheme, refine_scheme
+    use gapbeam_rules, only: find_wrong, keep_worst, keep_least_index, separate_rigid_pairs
     use gapbeam_interior_point, only: interior_type, start_interior, step_interior, product_of
     implicit none
     private
@@ -44,8 +45,6 @@ module gapbeam_search
 
     !> A search on its way
     type :: search_type
-        !> Supports from left to right
-        integer, allocatable :: order(:)
         !> Which are wrong in the scheme solved last, how many, and the least number so far
         logical, allocatable :: wrong(:)
         integer :: wrong_now = 0, fewest = 0
@@ -82,8 +81,7 @@ contains
         type(error_type), allocatable, intent(out) :: error
         type(search_type) :: search
 
-        allocate (search%order(size(closed)), search%wrong(size(closed)))
-        search%order(:) = left_to_right(beam)
+        allocate (search%wrong(size(closed)))
         settled = .false.
         if (rule == rule_single) call change_single(beam, closed, work, search, settled)
         if (.not. settled .and. search%state == band_ok) then
@@ -139,7 +137,7 @@ contains
         do
             call look(beam, closed, work, search, settled)
             if (settled .or. search%state /= band_ok) return
-            call keep_worst(beam, search%order, closed, work, .false., search%wrong)
+            call keep_worst(beam, closed, work, .false., search%wrong)
             closed = closed .neqv. search%wrong
             if (came_back(mark, closed)) return
         end do
@@ -191,7 +189,7 @@ contains
                 idle = idle + 1
                 if (idle > idle_solves) return
                 if (search%wrong_now <= few) then
-                    call keep_worst(beam, search%order, closed, work, .true., search%wrong)
+                    call keep_worst(beam, closed, work, .true., search%wrong)
                 end if
             end if
             closed = closed .neqv. search%wrong

@@ -6,10 +6,11 @@ module gapbeam_state
     use gapbeam_element, only: field_type
     use gapbeam_band, only: band_ok
     use gapbeam_model, only: both
-    use gapbeam_system, only: workspace_type, new_workspace, set_loads, solve_scheme, refine_scheme, check_scheme, certify_scheme
+    use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
+    use gapbeam_system, only: solve_scheme, refine_scheme, check_scheme, certify_scheme
     use gapbeam_rules, only: complementarity
     use gapbeam_scheme, only: find_scheme, outcome_type
-    use gapbeam_path, only: find_marginal, next_event
+    use gapbeam_path, only: find_marginal, follow_load, path_type
     use gapbeam_axial, only: solve_axial, axial_ok, axial_slides, axial_indeterminate
     use gapbeam_check, only: shown
     use gapbeam_lowered, only: lowered_type
@@ -20,6 +21,8 @@ module gapbeam_state
 
     !> A path has finitely many events; more than this many per support say that rounding decides them
     integer, parameter :: most_events_per_support = 50
+    !> Changes of the scheme followed at a time
+    integer, parameter :: changes_at_a_time = 1000
 
     !> A state, in the engine's units but for the axial system; arrays have one entry per support of the engine's beam, or
     !> per node 0..n
@@ -236,12 +239,13 @@ contains
         !> As for solve_state; or no single path
         type(error_type), allocatable, intent(out) :: error
         type(outcome_type) :: outcome
-        logical, allocatable :: before(:)
-        real(wp) :: at, next
-        integer :: solves, more, k, segments, stat
+        type(path_type) :: path
+        logical, allocatable :: now(:)
+        real(wp) :: at
+        integer :: solves, changes, k, stat
 
         number = 0
-        allocate (events(2*size(state%closed) + 8), before(size(state%closed)), stat=stat)
+        allocate (events(2*size(state%closed) + 8), now(size(state%closed)), stat=stat)
         if (stat /= 0) then
             call no_memory(error)
             return
@@ -249,19 +253,24 @@ contains
         state%closed(:) = .true.
         call solve_state(lowered, 0.0_wp, rule, state, error)
         if (allocated(error) .or. state%status /= gapbeam_solved) return
+        now(:) = state%closed
         at = 0.0_wp
         solves = state%solves
-        segments = 0
+        changes = 0
         do while (at < factor)
-            before(:) = state%closed
             call reserve_memory(lowered, error)
             if (allocated(error)) return
-            call next_event(lowered%beam, at, rule, state%closed, state%marginal, next, more, outcome, error)
-            solves = solves + more
+            call follow_load(lowered%beam, factor, rule, changes_at_a_time, at, state%closed, state%marginal, path, outcome, error)
             if (allocated(error)) then
                 error%message = "at load factor "//shown(at)//": "//error%message
                 return
             end if
+            solves = solves + path%solves
+            changes = changes + path%count
+            do k = 1, path%count
+                call note(path%factor(k), path%support(k))
+                if (allocated(error)) return
+            end do
             if (outcome%status == gapbeam_no_equilibrium) then
                 call forget(state)
                 state%status = gapbeam_no_equilibrium
@@ -270,28 +279,25 @@ contains
                 if (allocated(outcome%motion)) state%motion(:) = outcome%motion
                 return
             end if
-            do k = 1, size(before)
-                if (at > 0.0_wp .and. (before(k) .neqv. state%closed(k))) call note(k)
-                if (allocated(error)) return
-            end do
-            if (next > at .or. segments == 0) segments = segments + 1
-            if (segments > 10 + most_events_per_support*size(before)) then
-                call fatal_error(error, gapbeam_not_converged, "more events than supports can have: rounding decides them; "// &
+            if (changes > 10 + most_events_per_support*size(now)) then
+                call fatal_error(error, gapbeam_not_converged, "more changes than supports can have: rounding decides them; "// &
                                  "follow the load by steps")
                 return
             end if
-            at = next
         end do
         call solve_state(lowered, factor, rule, state, error)
         if (.not. allocated(error)) state%solves = state%solves + solves
 
     contains
 
-        !> Add an event to the list
-        subroutine note(which)
+        !> A support changes; above factor 0 that is an event
+        subroutine note(when, which)
+            real(wp), intent(in) :: when
             integer, intent(in) :: which
             type(event_type), allocatable :: longer(:)
 
+            now(which) = .not. now(which)
+            if (.not. when > 0.0_wp) return
             if (number == size(events)) then
                 allocate (longer(2*number), stat=stat)
                 if (stat /= 0) then
@@ -302,7 +308,7 @@ contains
                 call move_alloc(longer, events)
             end if
             number = number + 1
-            events(number) = event_type(at, lowered%normal(which), merge(1, 0, state%closed(which)))
+            events(number) = event_type(when, lowered%normal(which), merge(1, 0, now(which)))
         end subroutine note
 
     end subroutine follow_events

@@ -74,14 +74,13 @@ def test_abaqus_stops():
     assert 120 < 200 * result.events[1].factor < 140
 
 
-def crossing(made, segment, support):
+def crossing(made, segment, opens, support):
     """Exact load factor at which reaction or opening of a support is zero, from two states inside a segment."""
     exact = oracle.Oracle(made)
     factors = [segment.start + (segment.stop - segment.start) * share for share in (0.25, 0.75)]
     states = [exact.solve(factor) for factor in factors]
     if any(not state.reaction for state in states):
         return None  # indifferent: the position is not unique, so gaps have no values
-    opens = segment.closed[support]
     values = [mpf(state.reaction[support] if opens else state.opening[support]) for state in states]
     if values[0] == values[1] == 0:
         return None  # it touched without force and left when another support began to act
@@ -120,6 +119,30 @@ def test_random_paths(block):
             normal = path.arrays.supports.tolist().index(event.support)
             if not before or normal != event.support:
                 continue  # axial supports shift the numbering; other seeds do
-            true = crossing(made, before[0], event.support)
+            true = crossing(made, before[0], path.path.closed(before[0])[event.support], event.support)
             assert true is None or abs(true - event.factor) <= 1e-12, (seed, event)
     assert followed > 50
+
+
+def long_beam(spans):
+    """A beam over supports with gaps that close one by one, here and there."""
+    supports = [at(i, side="below", gap=0.02 * ((7 * i) % 11) / 11) for i in range(spans + 1)]
+    supports[0] = at(0)
+    supports[-1] = at(spans)
+    loads = [{**uniform(0.2 + 1.8 * ((13 * i) % 17) / 17), "from": float(i), "to": i + 1.0} for i in range(spans)]
+    return scene([1.0] * spans, supports, [*loads, uniform(0.5, case="dead")], EI=3.0)
+
+
+def test_an_event_costs_what_it_changes():
+    """Not more nodes an event in a beam ten times as long, and no solve of the whole beam for it."""
+    costs, solves = [], []
+    for spans in (300, 3000):
+        result = solve(long_beam(spans))
+        assert len(result.events) > spans / 20
+        assert result.path.solves < 15
+        costs.append(result.path.nodes / len(result.events))
+        solves.append(result.path.solves)
+        last = gapbeam.solve({**long_beam(spans), "analysis": {}}).steps[-1]
+        assert last.state == result.steps[-1].state
+        assert result.steps[-1].solves == 1
+    assert costs[1] < 1.2 * costs[0] < 200

@@ -5,8 +5,8 @@ program test_scheme
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_indeterminate
     use gapbeam_link, only: piece_type, load_type, condense_link
     use gapbeam_band, only: restrained
-    use gapbeam_model, only: beam_type, support_type, below, above, both
-    use gapbeam_system, only: workspace_type, new_workspace, set_loads
+    use gapbeam_model, only: beam_type, support_type, place_supports, below, above, both
+    use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_search, only: rule_block, rule_single
     use gapbeam_scheme, only: find_scheme, outcome_type
     implicit none
@@ -62,8 +62,8 @@ contains
         call make(3, 2.0_wp, 44.5_wp, beam)
         beam%kind(0) = restrained
         beam%force(2, :) = [0.0_wp, f2, f3, f4]
-        beam%supports = [support_type(0, both, infinite(), 0.0_wp), support_type(1, above, infinite(), 0.0_wp), &
-                         support_type(2, below, infinite(), 0.0_wp), support_type(3, below, infinite(), 0.0_wp)]
+        call place_supports([support_type(0, both, infinite(), 0.0_wp), support_type(1, above, infinite(), 0.0_wp), &
+                         support_type(2, below, infinite(), 0.0_wp), support_type(3, below, infinite(), 0.0_wp)], beam)
         most = 0
         do rule = rule_block, rule_single
             do start = 0, 7
@@ -92,9 +92,9 @@ contains
 
         call make(4, 1.0_wp, 1000.0_wp, beam)
         beam%force(2, 1:2) = [-80.0_wp, 35.0_wp]
-        beam%supports = [support_type(0, both, infinite(), 0.0_wp), support_type(1, above, 1e6_wp, 0.009_wp), &
+        call place_supports([support_type(0, both, infinite(), 0.0_wp), support_type(1, above, 1e6_wp, 0.009_wp), &
                          support_type(2, below, 1e8_wp, 0.018_wp), support_type(3, below, 1e6_wp, -0.012_wp), &
-                         support_type(4, both, infinite(), 0.0_wp)]
+                         support_type(4, both, infinite(), 0.0_wp)], beam)
         do rule = rule_block, rule_single
             do start = 0, 7
                 closed = [.true., btest(start, 0), btest(start, 1), btest(start, 2), .true.]
@@ -126,7 +126,7 @@ contains
             live = load_type(merge(10.0_wp, 0.0_wp, i == 1), merge(10.0_wp, 0.0_wp, i == 1), 0, 0, 0)
             call condense_link([piece_type(1.0_wp, 1.0_wp, 0.0_wp)], dead, live, space, beam%links(i))
         end do
-        beam%supports = [(support_type(i, below, infinite(), 0.0_wp), i=0, 2)]
+        call place_supports([(support_type(i, below, infinite(), 0.0_wp), i=0, 2)], beam)
         closed = .true.
         call new_workspace(beam, work)
         call set_loads(beam, 1.0_wp, work)
@@ -134,7 +134,7 @@ contains
         call check_close(work%reaction, [5.0_wp, 7.0_wp, 0.0_wp], "the far end lifts")
         call check_close(work%answers(2)%deflection, -1/6.0_wp, "by (q - 6 g) l**4/24 EI")
         beam%supports(3)%node = 1
-        beam%supports = beam%supports(1:2)
+        call place_supports([(support_type(i, below, infinite(), 0.0_wp), i=0, 1)], beam)
         beam%force(2, 2) = 100.0_wp
         closed = .true.
         call new_workspace(beam, work)
@@ -154,7 +154,7 @@ contains
         integer :: i
 
         call make(2, 1.0_wp, infinite(), beam)
-        beam%supports = [(support_type(i, both, infinite(), 0.0_wp), i=0, 2)]
+        call place_supports([(support_type(i, both, infinite(), 0.0_wp), i=0, 2)], beam)
         beam%force(1, 1) = 1.0_wp
         closed = .true.
         call new_workspace(beam, work)

@@ -43,7 +43,6 @@ int main(void)
     double value[GAPBEAM_FIELDS][2], place[GAPBEAM_FIELDS][2];
     int condition[4], events = 0;
     gapbeam_model model;
-    gapbeam_info info = {.size = sizeof info};
     gapbeam_certificate certificate = {.size = sizeof certificate};
     gapbeam_beam *beam = NULL;
     gapbeam_state *state = NULL;
@@ -87,7 +86,6 @@ int main(void)
                            certificate.reaction_bound};
     row("certificate", good, 4, 1);
     status = gapbeam_follow(beam, 1.0, NULL, 0, NULL, NULL, NULL, &events, state, message, sizeof message);
-    gapbeam_get_info(state, &info);
-    printf("%-12s%4d%4d\n", "events", events, info.solves);
+    printf("%-12s%4d\n", "events", events);
     return quit(beam, state, status, message);
 }

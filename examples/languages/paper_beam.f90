@@ -58,7 +58,7 @@ contains
                                  certificate%reaction_bound])
         call follow_load(beam, 1.0_real64, options_type(), events, result, error)
         if (allocated(error)) error stop error%message
-        print "(a12, 2i4)", "events      ", size(events), result%solves
+        print "(a12, i4)", "events      ", size(events)
     end subroutine run
 
     !> A name and its values, all digits of them

@@ -115,10 +115,47 @@ def solve(arrays: Arrays, links: np.ndarray, factor: float, rule: str, closed: n
     return _outer(solution, *arrays.exponents)
 
 
-def next_event(
-    arrays: Arrays, links: np.ndarray, factor: float, rule: str, closed: np.ndarray, marginal: np.ndarray
-) -> tuple[int, float, np.ndarray, np.ndarray, np.ndarray, int]:
-    """Find the scheme just above a load factor and the factor at which it changes next.
+@dataclass(frozen=True, slots=True)
+class Path:
+    """A piece of the load path.
+
+    Attributes
+    ----------
+    status : int
+        SOLVED, or NO_EQUILIBRIUM if the beam begins to move above `factor`.
+    factor : float
+        How far it goes.
+    closed : numpy.ndarray of int
+        The scheme there, before what changes there.
+    marginal : numpy.ndarray of int
+        1 for the supports at zero there.
+    factors : numpy.ndarray
+        Load factors of the changes of the scheme, those at its beginning included.
+    supports : numpy.ndarray of int
+        The supports that change, from 0.
+    motion : numpy.ndarray
+        As in `Solution`.
+    solves : int
+        Linear solves of the whole beam.
+    nodes : int
+        Nodes at which the solution was made anew besides.
+    """
+
+    status: int
+    factor: float
+    closed: np.ndarray
+    marginal: np.ndarray
+    factors: np.ndarray
+    supports: np.ndarray
+    motion: np.ndarray
+    solves: int
+    nodes: int
+
+
+def follow(
+    arrays: Arrays, links: np.ndarray, factor: float, rule: str, closed: np.ndarray, marginal: np.ndarray, most: int
+) -> Path:
+    """Follow the load from a factor to 1, from event to event.
 
     Parameters
     ----------
@@ -126,21 +163,13 @@ def next_event(
         As for `solve`; `closed` is the scheme at the factor.
     marginal : numpy.ndarray of int
         1 for the supports at zero there.
+    most : int
+        Number of changes after which it stops short of 1.
 
     Returns
     -------
-    status : int
-        SOLVED, or NO_EQUILIBRIUM if the beam begins to move there.
-    next : float
-        Factor of the next event; inf if there is none.
-    closed : numpy.ndarray of int
-        The scheme just above `factor`.
-    marginal : numpy.ndarray of int
-        Supports at zero at `next`.
-    motion : numpy.ndarray
-        As in `Solution`.
-    solves : int
-        Linear solves.
+    Path
+        The changes on the way.
 
     Raises
     ------
@@ -148,15 +177,24 @@ def next_event(
         Where no single path exists, with the engine's message.
     """
     supports = len(closed)
-    closed, marginal = _scheme(closed), _scheme(marginal)
-    following, motion, solves, status, message = _f77.gbnext(
-        *_beam(arrays, links), factor, RULES[rule], closed, marginal
+    closed, marginal, at = _scheme(closed), _scheme(marginal), np.array(factor)
+    count, factors, which, motion, solves, nodes, status, message = _f77.gbpath(
+        most, *_beam(arrays, links), 1.0, RULES[rule], at, closed, marginal
     )
+    factor = float(at)
     if status not in (SOLVED, NO_EQUILIBRIUM):
         raise EngineError(f"at load factor {factor:g}: {message.decode().strip()}", status)
-    if following > 1e300:
-        following = np.inf
-    return status, following, closed[:supports], marginal[:supports], motion, solves
+    return Path(
+        status,
+        factor,
+        closed[:supports],
+        marginal[:supports],
+        factors[:count],
+        which[:count] - 1,
+        motion,
+        solves,
+        nodes,
+    )
 
 
 def certify(arrays: Arrays, links: np.ndarray, factor: float, closed: np.ndarray) -> tuple[float, float] | None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from time import perf_counter
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,11 +12,11 @@ from . import engine
 from .errors import EngineError
 
 if TYPE_CHECKING:
-    from .lowering import Arrays
     from .results import Result
 
-MOST_EVENTS_PER_SUPPORT = 50
+MOST_CHANGES_PER_SUPPORT = 50
 """A path has finitely many events; more than this many say that rounding decides them."""
+CHANGES_AT_A_TIME = 1000
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,25 +49,107 @@ class Segment:
     ----------
     start, stop : float
         Load factors.
-    closed : numpy.ndarray of int
-        1 where a support acts.
-    solves : int
-        Linear solves it took to find it.
+    changes : int
+        Changes of the scheme before it.
     """
 
     start: float
     stop: float
-    closed: np.ndarray
-    solves: int
+    changes: int
 
 
-def follow(result: Result, rule: str, closed: np.ndarray) -> list[Segment]:
+class Path:
+    """The schemes along the load, kept as the changes from one to the next.
+
+    Attributes
+    ----------
+    events : list of Event
+        Every change above load factor 0.
+    segments : list of Segment
+        From 0 to 1, or to the factor above which there is no equilibrium; between events.
+    solves : int
+        Linear solves of the whole beam.
+    nodes : int
+        Nodes at which the solution was made anew besides.
+    seconds : float
+        Time of these.
+    """
+
+    def __init__(self, closed: np.ndarray, pieces: list[engine.Path], solves: int, seconds: float):
+        self._closed = closed
+        self._changes = np.concatenate([piece.supports for piece in pieces])
+        self._factors = np.concatenate([piece.factors for piece in pieces])
+        self.solves = solves + sum(piece.solves for piece in pieces)
+        self.nodes = sum(piece.nodes for piece in pieces)
+        self.seconds = seconds
+        self.events: list[Event] = []
+        self.segments = self._between(pieces[-1].factor)
+
+    def _between(self, end: float) -> list[Segment]:
+        counts = np.flatnonzero(np.append(np.diff(self._factors) > 0.0, True)) + 1 if len(self._factors) else []
+        starts = {0.0: 0} | {float(self._factors[count - 1]): int(count) for count in counts}
+        stops = [*list(starts)[1:], end]
+        return [
+            Segment(start, stop, changes)
+            for (start, changes), stop in zip(starts.items(), stops, strict=True)
+            if start < stop
+        ]
+
+    def closed(self, segment: Segment) -> np.ndarray:
+        """Give the scheme of a segment.
+
+        Parameters
+        ----------
+        segment : Segment
+            One of the segments.
+
+        Returns
+        -------
+        numpy.ndarray of int
+            1 where a support acts.
+        """
+        times = np.bincount(self._changes[: segment.changes], minlength=len(self._closed))
+        return self._closed ^ (times & 1).astype(np.int32)
+
+    def at(self, factor: float) -> np.ndarray:
+        """Give the scheme at a load factor.
+
+        Parameters
+        ----------
+        factor : float
+            Load factor.
+
+        Returns
+        -------
+        numpy.ndarray of int
+            1 where a support acts; at an event after the change.
+        """
+        return self.closed([segment for segment in self.segments if segment.start <= max(factor, 0.0)][-1])
+
+    def name_events(self, result: Result) -> None:
+        """List the events.
+
+        Parameters
+        ----------
+        result : Result
+            Knows where the supports are.
+        """
+        arrays = result.arrays
+        places, numbers = arrays.node_x[arrays.support_nodes].tolist(), arrays.supports.tolist()
+        closed = self._closed.tolist()
+        for factor, k in zip(self._factors.tolist(), self._changes.tolist(), strict=True):
+            closed[k] = 1 - closed[k]
+            if factor > 0.0:
+                self.events.append(Event(factor, numbers[k], places[k], "closes" if closed[k] else "opens"))
+
+
+def follow(result: Result, rule: str, closed: np.ndarray) -> Path | None:
     """Follow the load from factor 0 to 1, from event to event.
 
     Parameters
     ----------
     result : Result
-        Receives events, and the reason where the beam cannot stand.
+        Receives the reason where the beam cannot stand.
     rule : {"block", "single"}
         How schemes are found.
     closed : numpy.ndarray of int
@@ -74,36 +157,26 @@ def follow(result: Result, rule: str, closed: np.ndarray) -> list[Segment]:
 
     Returns
     -------
-    list of Segment
-        From 0 to 1, or to the factor above which there is no equilibrium.
+    Path or None
+        From 0 to 1, or to the factor above which there is no equilibrium; None if there is none at 0.
     """
+    begin = perf_counter()
     arrays, links = result.arrays, result.links
     solution = engine.solve(arrays, links, 0.0, rule, closed)
     if solution.status == engine.NO_EQUILIBRIUM:
         result.refuse("at load factor 0", solution.motion)
-        return []
-    factor, closed, marginal, solves = 0.0, solution.closed, solution.marginal, solution.solves
-    segments: list[Segment] = []
-    limit = 10 + MOST_EVENTS_PER_SUPPORT * len(closed)
+        return None
+    limit = 10 + MOST_CHANGES_PER_SUPPORT * len(closed)
+    factor, scheme, marginal, pieces, changes = 0.0, solution.closed, solution.marginal, [], 0
     while factor < 1.0:
-        before = closed
-        status, following, closed, marginal, motion, more = engine.next_event(
-            arrays, links, factor, rule, closed, marginal
-        )
-        if status == engine.NO_EQUILIBRIUM:
-            result.refuse(f"above load factor {factor:.16g}", motion)
+        piece = engine.follow(arrays, links, factor, rule, scheme, marginal, CHANGES_AT_A_TIME)
+        pieces.append(piece)
+        factor, scheme, marginal, changes = piece.factor, piece.closed, piece.marginal, changes + len(piece.supports)
+        if piece.status == engine.NO_EQUILIBRIUM:
+            result.refuse(f"above load factor {factor:.16g}", piece.motion)
             break
-        if factor > 0.0:
-            result.events += [_event(arrays, factor, k, closed[k]) for k in np.flatnonzero(closed != before)]
-        if following > factor or not segments:
-            segments.append(Segment(factor, min(following, 1.0), closed, solves + more))
-        if len(segments) > limit:
-            raise EngineError(f"more than {limit} events: rounding decides them; follow the load by steps")
-        factor, solves = following, 0
-    return segments
-
-
-def _event(arrays: Arrays, factor: float, k: int, now_closed: int) -> Event:
-    x = float(arrays.node_x[arrays.support_nodes[k]])
-    return Event(factor, int(arrays.supports[k]), x, "closes" if now_closed else "opens")
-
+        if changes > limit:
+            raise EngineError(f"more than {limit} changes: rounding decides them; follow the load by steps")
+    path = Path(solution.closed, pieces, solution.solves, perf_counter() - begin)
+    path.name_events(result)
+    return path

@@ -143,11 +143,13 @@ def to_csv(result: "Result", points: int = 20) -> str:
 
 def _headline(say: "Writer", result: "Result") -> None:
     say.line(result.scene.title or "Beam without a title", "bold")
-    solves = sum(step.solves for step in result.steps)
-    seconds = sum(step.seconds for step in result.steps)
-    if result.status == "solved":
-        steps = fmt.count(len(result.steps), "load step")
-        say.line(f"solved in {steps}, {fmt.count(solves, 'linear solve')}, {fmt.duration(seconds)}")
+    if result.status != "solved":
+        return
+    way = fmt.count(len(result.steps), "load step") if result.path is None else fmt.count(len(result.events), "event")
+    solves = fmt.count(result.solves, "linear solve")
+    if result.path is not None and result.path.nodes:
+        solves += f" and {fmt.count(result.path.nodes, 'node')} anew"
+    say.line(f"solved in {way}, {solves}, {fmt.duration(result.seconds)}")
 
 
 def _system(say: "Writer", result: "Result") -> None:
@@ -245,7 +247,8 @@ def _extremes(say: "Writer", result: "Result", at: str) -> None:
 
 
 def _steps(say: "Writer", result: "Result") -> None:
-    steps = result.steps
+    # Following events, the states between are solved only if asked for
+    steps = result.steps if result.path is None else result.steps[-1:]
     kinds = list(steps[0].residuals)
     say.heading("Residuals against run time")
     rows = [
@@ -256,10 +259,8 @@ def _steps(say: "Writer", result: "Result") -> None:
     say.table(["load factor", "solves", "time", *kinds], rows)
     if len(steps) > 1:
         worst = max(max(step.residuals.values()) for step in steps)
-        solves, seconds = sum(step.solves for step in steps), sum(step.seconds for step in steps)
-        say.line(
-            f"Together {fmt.count(solves, 'solve')}, {fmt.duration(seconds)}; largest residual {worst:.1e}.", "dim"
-        )
+        solves, seconds = fmt.count(result.solves, "solve"), fmt.duration(result.seconds)
+        say.line(f"Together {solves}, {seconds}; largest residual {worst:.1e}.", "dim")
     _doubts(say, result)
 
 

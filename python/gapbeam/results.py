@@ -20,7 +20,7 @@ from .scene import POSITION_TOLERANCE, Scene
 from .states import Step, solve_step
 
 if TYPE_CHECKING:
-    from .path import Event, Segment
+    from .path import Event, Path, Segment
 
 BENDING = ("deflection", "rotation", "moment", "shear")
 
@@ -109,8 +109,8 @@ class Result:
         The free motion then: x and displacement (positive downward, largest 1), straight lines between.
     steps : list of Step
         The load steps up to there; following events, the states at every event and at the end.
-    events : list of Event
-        Every change of the working scheme with its exact load factor, following events.
+    path : Path or None
+        Following events, the schemes along the load.
     """
 
     def __init__(self, scene: Scene, arrays: Arrays, links: np.ndarray, rule: str):
@@ -122,8 +122,27 @@ class Result:
         self.arrays = arrays
         self.links = links
         self.rule = rule
-        self.events: list[Event] = []
-        self.segments: list[Segment] = []
+        self.path: Path | None = None
+
+    @property
+    def events(self) -> list[Event]:
+        """Every change of the working scheme with its exact load factor, following events."""
+        return [] if self.path is None else self.path.events
+
+    @property
+    def segments(self) -> list[Segment]:
+        """The stretches between the events, following events."""
+        return [] if self.path is None else self.path.segments
+
+    @property
+    def solves(self) -> int:
+        """Linear solves of the whole beam until all schemes were found."""
+        return sum(step.solves for step in self.steps) if self.path is None else self.path.solves
+
+    @property
+    def seconds(self) -> float:
+        """Time of these."""
+        return sum(step.seconds for step in self.steps) if self.path is None else self.path.seconds
 
     def refuse(self, where: str, motion: np.ndarray | None) -> None:
         """Note that there is no equilibrium.
@@ -162,10 +181,9 @@ class Result:
         """
         arrays = self.arrays
         closed = np.ones(len(arrays.supports), dtype=np.int32)
-        for segment in self.segments:
-            if segment.start <= factor:
-                closed = segment.closed
-        if not self.segments and self.steps:
+        if self.segments:
+            closed = self.path.at(factor)
+        elif self.steps:
             closed = min(self.steps, key=lambda step: abs(step.factor - factor)).solution.closed
         step = solve_step(arrays, self.links, factor, self.rule, closed)
         if isinstance(step, Solution) or step is None:

@@ -5,6 +5,7 @@ Signs: deflections positive downward, reactions upward, couples clockwise; at ax
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cached_property
 from time import perf_counter
 
@@ -18,27 +19,54 @@ from .lowering import Arrays
 class Step:
     """The state at one load factor; arrays have one entry per support, in the order of the scene.
 
+    It is solved when something is first asked for.
+
     Attributes
     ----------
     factor : float
         Load factor of the live loads.
-    solves : int
-        Linear solves it took to find the working scheme.
-    seconds : float
-        Time of these.
-    indifferent : bool
-        Whether the beam can move freely without work of the loads: its forces are unique, its position is not.
     """
 
-    def __init__(self, arrays: Arrays, links: np.ndarray, factor: float, seconds: float, solution: Solution, axial):
+    def __init__(
+        self, arrays: Arrays, links: np.ndarray, factor: float, rule: str, closed: Callable[[], np.ndarray]
+    ):
         self.factor = factor
-        self.seconds = seconds
-        self.solves = solution.solves
-        self.solution = solution
-        self.axial = axial
         self._arrays = arrays
         self._links = links
-        self.indifferent = solution.indifferent
+        self._rule = rule
+        self._closed = closed
+
+    @cached_property
+    def _solved(self) -> tuple[Solution, tuple[np.ndarray, ...] | None, float]:
+        begin = perf_counter()
+        axial = engine.solve_axial(self._arrays, self.factor) if self._arrays.axial is not None else None
+        solution = engine.solve(self._arrays, self._links, self.factor, self._rule, self._closed())
+        return solution, axial, perf_counter() - begin
+
+    @property
+    def solution(self) -> Solution:
+        """What the engine found."""
+        return self._solved[0]
+
+    @property
+    def axial(self) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
+        """Displacements, tensions and reactions of the axial system, if there is one."""
+        return self._solved[1]
+
+    @property
+    def seconds(self) -> float:
+        """Time it took to find the working scheme."""
+        return self._solved[2]
+
+    @property
+    def solves(self) -> int:
+        """Linear solves it took to find the working scheme."""
+        return self.solution.solves
+
+    @property
+    def indifferent(self) -> bool:
+        """Whether the beam can move freely without work of the loads: its forces are unique, its position is not."""
+        return self.solution.indifferent
 
     def _scatter(self, normal: np.ndarray, axial: np.ndarray | None = None) -> np.ndarray:
         """Values of the supports across the beam and along it, in the order of the scene."""
@@ -149,10 +177,7 @@ def solve_step(
     Step, Solution or None
         The step; the solution with its motion where there is no equilibrium; None where the beam slides.
     """
-    begin = perf_counter()
-    axial = engine.solve_axial(arrays, factor) if arrays.axial is not None else None
-    solution = engine.solve(arrays, links, factor, rule, closed)
-    seconds = perf_counter() - begin
-    if arrays.axial is not None and axial is None:
+    step = Step(arrays, links, factor, rule, lambda: closed)
+    if arrays.axial is not None and step.axial is None:
         return None
-    return Step(arrays, links, factor, seconds, solution, axial) if solution.status == engine.SOLVED else solution
+    return step if step.solution.status == engine.SOLVED else step.solution

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -67,16 +68,21 @@ def solve(
     links = engine.condense(arrays)
     result = Result(scene, arrays, links, rule)
     if scene.analysis.follow == "events":
-        result.segments = follow(result, rule, closed)
-        plan = [(segment.stop, segment.closed, segment.solves) for segment in result.segments]
-    else:
-        plan = [(k / scene.analysis.steps, None, 0) for k in range(1, scene.analysis.steps + 1)]
-    for factor, scheme, solves in plan:
-        step = solve_step(arrays, links, factor, rule, closed if scheme is None else scheme)
+        if arrays.axial is not None and engine.solve_axial(arrays, 1.0) is None:
+            result.refuse("above load factor 0", None)
+            return result
+        result.path = follow(result, rule, closed)
+        result.steps = [
+            Step(arrays, links, segment.stop, rule, partial(result.path.closed, segment))
+            for segment in result.segments
+        ]
+        return result
+    for k in range(1, scene.analysis.steps + 1):
+        factor = k / scene.analysis.steps
+        step = solve_step(arrays, links, factor, rule, closed)
         if not isinstance(step, Step):
             result.refuse(f"at load factor {factor:g}", None if step is None else step.motion)
             break
-        step.solves += solves
         closed = step.solution.closed
         result.steps.append(step)
     return result

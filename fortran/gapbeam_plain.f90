@@ -1,0 +1,139 @@
+!> Beams without hinges and couples at nodes, whose links are not rigid: solved from both ends by gapbeam_kernel.
+!>
+!> Nearly all schemes of nearly all beams are such; the others go to gapbeam_band. Nothing of the factor is kept: to
+!> solve again costs less than to read one.
+module gapbeam_plain
+    use gapbeam_kinds, only: wp
+    use gapbeam_link, only: link_type
+    use gapbeam_band, only: node_type, rhs_type, answer_type, plain, restrained
+    use gapbeam_kernel, only: cell_type, row_type, eliminated_type, sweep_type, last_step, start_at_free_end, step_alone, &
+        sweep_inward, meet, sweep_outward
+    implicit none
+    private
+    public :: plain_type, prepare_plain, is_plain, ends_hold, solve_plain
+
+    !> A plain beam prepared for solves, and room for them
+    type :: plain_type
+        type(cell_type), allocatable :: cells(:)
+        type(row_type), allocatable :: rows(:)
+        type(eliminated_type), allocatable :: eliminated(:)
+        real(wp), allocatable :: moment(:), deflection(:)
+    end type plain_type
+
+contains
+
+    !> Can a beam be solved here, whatever its supports do
+    pure function is_plain(links, kind) result(fits)
+        !> Links, shape (n), and kinds of the nodes, shape (0:n)
+        type(link_type), intent(in) :: links(:)
+        integer, intent(in) :: kind(0:)
+        logical :: fits
+        integer :: n
+
+        n = size(links)
+        fits = n >= 2
+        if (.not. fits) return
+        fits = all(kind(1:n - 1) == plain) .and. all(links%faa > 0.0_wp .and. links%fbb > 0.0_wp)
+    end function is_plain
+
+    !> Does each end have a support or a restraint in a scheme
+    pure function ends_hold(nodes) result(fits)
+        type(node_type), intent(in) :: nodes(:)
+        logical :: fits
+
+        associate (a => nodes(1), b => nodes(size(nodes)))
+            fits = (a%held .or. a%stiffness > 0.0_wp .or. a%kind == restrained) &
+                .and. (b%held .or. b%stiffness > 0.0_wp .or. b%kind == restrained)
+        end associate
+    end function ends_hold
+
+    !> Prepare a beam for which is_plain holds
+    pure subroutine prepare_plain(links, beam)
+        type(link_type), intent(in) :: links(:)
+        type(plain_type), intent(out) :: beam
+        integer :: n, s
+
+        n = size(links)
+        allocate (beam%cells(0:last_step(n)), beam%rows(0:last_step(n)), beam%eliminated(0:last_step(n)))
+        allocate (beam%moment(0:n), beam%deflection(0:n))
+        do s = 0, last_step(n)
+            ! With an odd number of links lane 1 has nothing to do at step 0
+            associate (l => links(max(s + 1 - modulo(n, 2), 1)), r => links(n - s))
+                beam%cells(s) = cell_type([l%inverse, r%inverse], [l%faa, r%fbb], [l%fbb, r%faa], [l%fab, r%fab], &
+                                          [l%sum_a, r%sum_b], [l%sum_b, r%sum_a], [l%bending, r%bending], &
+                                          [l%determinant, r%determinant])
+            end associate
+        end do
+    end subroutine prepare_plain
+
+    !> Solve a scheme for which ends_hold is true, without couples at nodes
+    pure subroutine solve_plain(beam, nodes, rhs, answers)
+        type(plain_type), intent(inout) :: beam
+        !> Nodes and right-hand side as for gapbeam_band, shape (0:n)
+        type(node_type), intent(in) :: nodes(0:)
+        type(rhs_type), intent(in) :: rhs(0:)
+        !> The solution
+        type(answer_type), intent(inout) :: answers(0:)
+        type(sweep_type) :: sweep
+        type(row_type) :: row
+        integer :: n, s, i, odd, last
+
+        n = ubound(nodes, 1)
+        odd = modulo(n, 2)
+        last = last_step(n)
+        do s = 0, last
+            call set_row(nodes(max(s - odd, 0)), rhs(max(s - odd, 0)), 1, beam%rows(s))
+            call set_row(nodes(n - s), rhs(n - s), 2, beam%rows(s))
+        end do
+        call start_lane(2, nodes(n), beam%cells(0), beam%rows(0), sweep, beam%eliminated(0))
+        if (odd == 1) call step_alone(2, beam%cells(1), beam%rows(1), sweep, beam%eliminated(1))
+        call start_lane(1, nodes(0), beam%cells(odd), beam%rows(odd), sweep, beam%eliminated(odd))
+        call sweep_inward(beam%cells(odd + 1:), beam%rows(odd + 1:), sweep, beam%eliminated(odd + 1:))
+        i = n/2
+        call set_row(nodes(i), rhs(i), 1, row)
+        call meet(row%stiffness(1), row%free(1), row%turn(1), row%shear(1), sweep, beam%moment(i), beam%deflection(i))
+        call sweep_outward(n, beam%eliminated, beam%moment, beam%deflection)
+        do i = 0, n
+            answers(i) = answer_type(beam%deflection(i), beam%moment(i), beam%moment(i))
+        end do
+        answers(0)%moment_left = 0.0_wp
+        answers(n)%moment_right = 0.0_wp
+    end subroutine solve_plain
+
+    !> The first node of a lane: without a moment, or with its restraint as what lies outside
+    pure subroutine start_lane(lane, node, cell, row, sweep, eliminated)
+        integer, intent(in) :: lane
+        type(node_type), intent(in) :: node
+        type(cell_type), intent(in) :: cell
+        type(row_type), intent(in) :: row
+        type(sweep_type), intent(inout) :: sweep
+        type(eliminated_type), intent(inout) :: eliminated
+
+        if (node%kind == restrained) then
+            sweep%phi(lane) = node%compliance
+            call step_alone(lane, cell, row, sweep, eliminated)
+        else
+            call start_at_free_end(lane, cell, row, sweep, eliminated)
+        end if
+    end subroutine start_lane
+
+    !> The rows of a node
+    pure subroutine set_row(node, rhs, lane, row)
+        type(node_type), intent(in) :: node
+        type(rhs_type), intent(in) :: rhs
+        integer, intent(in) :: lane
+        type(row_type), intent(inout) :: row
+
+        row%turn(lane) = rhs%left + rhs%right
+        if (node%held) then
+            row%stiffness(lane) = 1.0_wp
+            row%free(lane) = 0.0_wp
+            row%shear(lane) = rhs%deflection
+        else
+            row%stiffness(lane) = node%stiffness
+            row%free(lane) = 1.0_wp
+            row%shear(lane) = rhs%shear
+        end if
+    end subroutine set_row
+
+end module gapbeam_plain

@@ -1,0 +1,209 @@
+!> What follows from a solution: shears, reactions, and how far rounding errors reach
+module gapbeam_reactions
+    use gapbeam_kinds, only: wp
+    use gapbeam_model, only: beam_type, is_rigid
+    use gapbeam_workspace, only: workspace_type, reach_type
+    implicit none
+    private
+    public :: find_sizes, find_shears, find_reactions
+
+contains
+
+    !> Shears of the links. From the moments at its ends a short link between long ones gets a poor one; then the
+    !> equilibrium of a node that no rigid support holds gives a better one from its neighbour
+    pure subroutine find_shears(beam, range, work)
+        type(beam_type), intent(in) :: beam
+        !> First and last link
+        integer, intent(in) :: range(2)
+        type(workspace_type), intent(inout) :: work
+        real(wp) :: change, passed
+        integer :: i
+
+        associate (v => work%shear, e => work%shear_error, a => work%answers, links => beam%links)
+            do i = range(1), range(2)
+                v(i) = (a(i)%moment_left - a(i - 1)%moment_right)*links(i)%inverse
+                e(i) = epsilon(1.0_wp)*(abs(a(i)%moment_left) + abs(a(i - 1)%moment_right)) &
+                    *links(i)%inverse
+                if (i == 1 .or. work%nodes(i - 1)%held) cycle
+                call change_at_node(work, i - 1, change, passed)
+                if (e(i - 1) + passed < e(i)) then
+                    v(i) = v(i - 1) + change
+                    e(i) = e(i - 1) + passed
+                end if
+            end do
+            do i = min(range(2), size(links) - 1), range(1), -1
+                if (work%nodes(i)%held) cycle
+                call change_at_node(work, i, change, passed)
+                if (e(i + 1) + passed < e(i)) then
+                    v(i) = v(i + 1) - change
+                    e(i) = e(i + 1) + passed
+                end if
+            end do
+        end associate
+    end subroutine find_shears
+
+    !> By how much the shear changes at a node that is not held, and the rounding error of that
+    pure subroutine change_at_node(work, i, change, error)
+        type(workspace_type), intent(in) :: work
+        integer, intent(in) :: i
+        real(wp), intent(out) :: change, error
+
+        change = work%nodes(i)%stiffness*work%answers(i)%deflection - work%rhs(i)%shear
+        error = epsilon(1.0_wp)*(work%nodes(i)%stiffness*abs(work%answers(i)%deflection) + abs(work%rhs(i)%shear))
+    end subroutine change_at_node
+
+    !> Sizes whose rounding errors reach a node: those beside it, and those of its neighbours; what crosses
+    !> a rigid support is halved at least, so sizes far away do not count
+    pure subroutine find_sizes(beam, range, work)
+        type(beam_type), intent(in) :: beam
+        !> First and last node; others follow as far as their sizes change
+        integer, intent(in) :: range(2)
+        type(workspace_type), intent(inout) :: work
+        type(reach_type) :: reach
+        integer :: i, n, first, last
+
+        n = size(beam%links)
+        call find_own_sizes(beam, range, work)
+        reach = reach_type()
+        if (range(1) > 0) reach = work%reach_left(range(1) - 1)
+        do i = range(1), n
+            reach = passed_on(reach, work%reach_own(i), work%nodes(i)%held)
+            if (i > range(2)) then
+                if (same(reach, work%reach_left(i))) exit
+            end if
+            work%reach_left(i) = reach
+        end do
+        last = i - 1
+        reach = reach_type()
+        if (range(2) < n) reach = work%reach_right(range(2) + 1)
+        do i = range(2), 0, -1
+            reach = passed_on(reach, work%reach_own(i), work%nodes(i)%held)
+            if (i < range(1)) then
+                if (same(reach, work%reach_right(i))) exit
+            end if
+            work%reach_right(i) = reach
+        end do
+        first = i + 1
+        do i = first, last
+            work%shear_size(i) = max(work%reach_left(i)%shear, work%reach_right(i)%shear)
+            work%deflection_size(i) = max(work%reach_left(i)%deflection, work%reach_right(i)%deflection)
+        end do
+    end subroutine find_sizes
+
+    !> Sizes beside a node
+    pure subroutine find_own_sizes(beam, range, work)
+        type(beam_type), intent(in) :: beam
+        integer, intent(in) :: range(2)
+        type(workspace_type), intent(inout) :: work
+        type(reach_type) :: beside
+        real(wp) :: moment, turn
+        integer :: i
+
+        do i = range(1), range(2)
+            work%reach_own(i) = reach_type(abs(work%loads(i)%shear), abs(work%answers(i)%deflection))
+        end do
+        do i = max(range(1), 1), min(range(2) + 1, size(beam%links))
+            associate (link => beam%links(i), a => work%answers(i - 1), b => work%answers(i))
+                ! Also the moments that imposed rotations and contact levels would make if they were held fast
+                turn = abs(work%loads(i - 1)%right) + abs(work%loads(i)%left) &
+                    + (work%level(i) + work%level(i - 1))*link%inverse
+                moment = max(abs(a%moment_right), abs(b%moment_left), turn*work%fixity(i))
+                beside = reach_type(2*moment*link%inverse, link%bending*link%length*moment)
+                if (i > range(1)) work%reach_own(i - 1) = passed_on(beside, work%reach_own(i - 1), .false.)
+                if (i <= range(2)) work%reach_own(i) = passed_on(beside, work%reach_own(i), .false.)
+            end associate
+        end do
+    end subroutine find_own_sizes
+
+    !> Sizes at a node: its own, and those that come from its neighbour
+    pure function passed_on(from, own, held) result(reach)
+        type(reach_type), intent(in) :: from, own
+        logical, intent(in) :: held
+        type(reach_type) :: reach
+        real(wp) :: share
+
+        share = merge(0.5_wp, 1.0_wp, held)
+        reach = reach_type(max(own%shear, share*from%shear), max(own%deflection, share*from%deflection))
+    end function passed_on
+
+    !> Are two sizes the same
+    elemental function same(a, b)
+        type(reach_type), intent(in) :: a, b
+        logical :: same
+
+        same = .not. (abs(a%shear - b%shear) > 0.0_wp .or. abs(a%deflection - b%deflection) > 0.0_wp)
+    end function same
+
+    !> Reactions from the equilibrium of the nodes, or from the spring where that is more exact
+    pure subroutine find_reactions(beam, acting, range, work)
+        type(beam_type), intent(in) :: beam
+        logical, intent(in) :: acting(:)
+        !> First and last node
+        integer, intent(in) :: range(2)
+        type(workspace_type), intent(inout) :: work
+        real(wp) :: by_spring, by_node, spring_error, node_error, elastic
+        integer :: i, j, k, company
+
+        do i = range(1), range(2)
+            company = 0
+            elastic = 0.0_wp
+            do j = beam%first(i), beam%first(i + 1) - 1
+                k = beam%order(j)
+                work%reaction(k) = 0.0_wp
+                work%reaction_error(k) = 0.0_wp
+                if (.not. acting(k)) cycle
+                company = company + 1
+                associate (s => beam%supports(k))
+                    if (.not. is_rigid(s)) elastic = elastic + s%stiffness*(work%answers(i)%deflection - s%contact)
+                end associate
+            end do
+            if (company == 0) cycle
+            call force_at_node(work, i, size(beam%links), by_node, node_error)
+            ! For signs, rounding that comes from farther away counts as well
+            node_error = max(node_error, epsilon(1.0_wp)*work%shear_size(i))
+            do j = beam%first(i), beam%first(i + 1) - 1
+                k = beam%order(j)
+                if (.not. acting(k)) cycle
+                associate (s => beam%supports(k))
+                    if (is_rigid(s)) then
+                        work%reaction(k) = by_node - elastic
+                        work%reaction_error(k) = node_error + epsilon(1.0_wp)*abs(elastic)
+                        cycle
+                    end if
+                    by_spring = s%stiffness*(work%answers(i)%deflection - s%contact)
+                    spring_error = epsilon(1.0_wp)*s%stiffness*max(work%deflection_size(i), abs(s%contact))
+                    if (company == 1 .and. node_error < spring_error) then
+                        work%reaction(k) = by_node
+                        work%reaction_error(k) = node_error
+                    else
+                        work%reaction(k) = by_spring
+                        work%reaction_error(k) = spring_error
+                    end if
+                end associate
+            end do
+        end do
+    end subroutine find_reactions
+
+    !> Force of all supports together at a node, from the shears beside it
+    pure subroutine force_at_node(work, i, n, reaction, error)
+        type(workspace_type), intent(in) :: work
+        !> Node, and number of links
+        integer, intent(in) :: i, n
+        real(wp), intent(out) :: reaction, error
+        real(wp) :: left, right
+
+        left = 0.0_wp
+        right = 0.0_wp
+        error = epsilon(1.0_wp)*abs(work%loads(i)%shear)
+        if (i > 0) then
+            left = work%shear(i)
+            error = error + work%shear_error(i)
+        end if
+        if (i < n) then
+            right = work%shear(i + 1)
+            error = error + work%shear_error(i + 1)
+        end if
+        reaction = (work%loads(i)%shear - (left - right)) + work%ease(i)*(work%reference(i) - work%answers(i)%deflection)
+    end subroutine force_at_node
+
+end module gapbeam_reactions

@@ -1,0 +1,111 @@
+!> A solution kept up to date while a few supports change: the cost is that of the stretch in which something changes.
+!>
+!> What a changed support sends to either side fades within a few spans, so the factor is made anew from the changed node to
+!> where the left side passes on what it did before, and the solution is corrected as far as that can be seen in it.
+!> Residuals in twice the working precision, formed from the solution itself, keep errors from adding up over many changes.
+module gapbeam_update
+    use gapbeam_kinds, only: wp
+    use gapbeam_band, only: answer_type, factor_chain, correct_chain, band_ok
+    use gapbeam_residual, only: residual_chain
+    use gapbeam_model, only: beam_type
+    use gapbeam_workspace, only: workspace_type, apply_scheme, method_three_moment, method_pivoting
+    use gapbeam_system, only: solve_scheme, refine_scheme
+    use gapbeam_reactions, only: find_sizes, find_shears, find_reactions
+    implicit none
+    private
+    public :: start_updates, update_scheme
+
+    !> A correction this small relative to the solution is the last one; how many there may be
+    real(wp), parameter :: last_correction = sqrt(epsilon(1.0_wp))
+    integer, parameter :: most_corrections = 5
+
+contains
+
+    !> Solve a scheme so that its solution can be kept up to date
+    subroutine start_updates(beam, acting, work, solved, follows)
+        !> The beam
+        type(beam_type), intent(in) :: beam
+        !> Which supports act
+        logical, intent(in) :: acting(:)
+        !> Loads in, factor and solution out
+        type(workspace_type), intent(inout) :: work
+        !> Is there a unique solution
+        logical, intent(out) :: solved
+        !> Can update_scheme go on from it: it took no pivoting
+        logical, intent(out) :: follows
+        integer :: state, place
+
+        call solve_scheme(beam, acting, work, state, place)
+        solved = state == band_ok
+        follows = solved .and. work%method /= method_pivoting
+        if (.not. follows) return
+        call refine_scheme(beam, acting, work)
+        if (work%method /= method_three_moment .and. .not. work%from_both_ends) return
+        call factor_chain(work%nodes, beam%links, work%pivots, state, place)
+        follows = state == band_ok
+    end subroutine start_updates
+
+    !> Solve a scheme from the solution of another one that differs at one node, or at some nodes beside each other
+    subroutine update_scheme(beam, acting, changed, work, window, state)
+        !> The beam
+        type(beam_type), intent(in) :: beam
+        !> Which supports act now
+        logical, intent(in) :: acting(:)
+        !> First and last node at which that has changed
+        integer, intent(in) :: changed(2)
+        !> Factor and solution of the other scheme in (gapbeam_band), of this one out
+        type(workspace_type), intent(inout) :: work
+        !> First and last node at which the solution is another one
+        integer, intent(out) :: window(2)
+        !> band_ok; otherwise nothing in the workspace can be used any more
+        integer, intent(out) :: state
+        real(wp) :: compatibility, equilibrium
+        integer :: place, correction, touched(2), n
+        logical :: small
+
+        n = size(beam%links)
+        call apply_scheme(beam, acting, changed, work)
+        call factor_chain(work%nodes, beam%links, work%pivots, state, place, changed)
+        if (state /= band_ok) return
+        window = changed
+        do correction = 1, most_corrections
+            call residual_chain(work%nodes, beam%links, work%rhs, work%answers, work%eliminated, work%sizes, &
+                                compatibility, equilibrium, window)
+            call correct_chain(work%nodes, beam%links, work%pivots, work%eliminated, window, work%answers, &
+                               work%correction, touched)
+            call add_correction(touched, work, small)
+            window = [max(0, min(window(1), touched(1) - 1)), min(n, max(window(2), touched(2) + 1))]
+            if (small .and. correction > 1) exit
+        end do
+        call find_sizes(beam, window, work)
+        call find_shears(beam, [max(1, window(1)), min(n, window(2) + 1)], work)
+        call find_reactions(beam, acting, window, work)
+    end subroutine update_scheme
+
+    !> Add a correction to the solution
+    pure subroutine add_correction(range, work, small)
+        !> First and last node
+        integer, intent(in) :: range(2)
+        type(workspace_type), intent(inout) :: work
+        !> Is it so small that the next one cannot be seen
+        logical, intent(out) :: small
+        real(wp) :: deflection, moment, largest_deflection, largest_moment
+        integer :: i
+
+        deflection = 0.0_wp
+        moment = 0.0_wp
+        largest_deflection = 0.0_wp
+        largest_moment = 0.0_wp
+        do i = range(1), range(2)
+            associate (a => work%answers(i), d => work%correction(i))
+                a = answer_type(a%deflection + d%deflection, a%moment_left + d%moment_left, a%moment_right + d%moment_right)
+                deflection = max(deflection, abs(d%deflection))
+                moment = max(moment, abs(d%moment_left), abs(d%moment_right))
+                largest_deflection = max(largest_deflection, abs(a%deflection))
+                largest_moment = max(largest_moment, abs(a%moment_left), abs(a%moment_right))
+            end associate
+        end do
+        small = deflection <= last_correction*largest_deflection .and. moment <= last_correction*largest_moment
+    end subroutine add_correction
+
+end module gapbeam_update

@@ -1,0 +1,157 @@
+!> What solving a beam needs beside it: loads and scheme as they reach the nodes, factor, solution
+module gapbeam_workspace
+    use gapbeam_kinds, only: wp
+    use gapbeam_band, only: node_type, rhs_type, pivot_type, answer_type
+    use gapbeam_residual, only: size_type
+    use gapbeam_plain, only: plain_type, is_plain, prepare_plain
+    use gapbeam_model, only: beam_type, both, is_rigid
+    implicit none
+    private
+    public :: workspace_type, reach_type, new_workspace, set_loads, apply_scheme
+    public :: method_mixed, method_three_moment, method_pivoting
+
+    !> Which system was solved last
+    integer, parameter :: method_mixed = 0, method_three_moment = 1, method_pivoting = 2
+
+    !> Sizes of a shear and of a deflection
+    type :: reach_type
+        real(wp) :: shear = 0.0_wp, deflection = 0.0_wp
+    end type reach_type
+
+    !> Everything a solve needs beside the beam; reused from solve to solve
+    type :: workspace_type
+        type(node_type), allocatable :: nodes(:)
+        !> Loads of the current factor; with the supports of the scheme; and what elimination makes of it
+        type(rhs_type), allocatable :: loads(:), rhs(:), eliminated(:)
+        type(pivot_type), allocatable :: pivots(:)
+        !> For plain beams: can the loads and the scheme at hand be solved so
+        type(plain_type) :: plain
+        logical :: without_couples = .false., from_both_ends = .false.
+        !> The solution, and a correction of it
+        type(answer_type), allocatable :: answers(:), correction(:)
+        !> Sizes of the terms of every row, by check_scheme
+        type(size_type), allocatable :: sizes(:)
+        real(wp), allocatable :: moment_work(:, :)
+        !> Reaction of every support, positive up, and the rounding error it may have
+        real(wp), allocatable :: reaction(:), reaction_error(:)
+        !> Shear of every link beside that of the simple bar, (M_b - M_a)/L, and its rounding error
+        real(wp), allocatable :: shear(:), shear_error(:)
+        !> Moment per rotation of every link held at both ends, 1/int 1/EI; 0 for a rigid one
+        real(wp), allocatable :: fixity(:)
+        !> Largest contact level of the supports that act at a node
+        real(wp), allocatable :: level(:)
+        !> Sizes of the shears and deflections whose rounding reaches a node: from beside it, from the left, from the
+        !> right, from everywhere
+        type(reach_type), allocatable :: reach_own(:), reach_left(:), reach_right(:)
+        real(wp), allocatable :: shear_size(:), deflection_size(:)
+        !> Springs towards a reference deflection that keep schemes which are mechanisms solvable; zero if unused
+        real(wp), allocatable :: ease(:), reference(:)
+        !> Is every one-sided support, acting or not, a spring instead (gapbeam_interior_point), and which
+        logical :: sprung = .false.
+        real(wp), allocatable :: spring(:), spring_contact(:)
+        !> Linear solves so far, and the system solved last
+        integer :: solves = 0
+        integer :: method = method_mixed
+        !> Relative residuals of the last solve
+        real(wp) :: compatibility = 0.0_wp, equilibrium = 0.0_wp
+    end type workspace_type
+
+contains
+
+    !> Workspace for a beam
+    pure subroutine new_workspace(beam, work)
+        !> The beam
+        type(beam_type), intent(in) :: beam
+        !> The workspace, no load set
+        type(workspace_type), intent(out) :: work
+        integer :: n, m
+
+        n = size(beam%links)
+        m = size(beam%supports)
+        allocate (work%nodes(0:n), work%loads(0:n), work%rhs(0:n), work%eliminated(0:n), work%pivots(0:n))
+        allocate (work%answers(0:n), work%correction(0:n), work%moment_work(2, 0:n), work%sizes(0:n))
+        allocate (work%shear(n), work%shear_error(n))
+        allocate (work%level(0:n))
+        allocate (work%reach_own(0:n), work%reach_left(0:n), work%reach_right(0:n))
+        allocate (work%shear_size(0:n), work%deflection_size(0:n))
+        allocate (work%reaction(m), work%reaction_error(m))
+        allocate (work%ease(0:n), work%reference(0:n))
+        work%ease = 0.0_wp
+        work%reference = 0.0_wp
+        allocate (work%fixity(n))
+        work%fixity = 0.0_wp
+        where (beam%links%bending > 0.0_wp) work%fixity = 1/beam%links%bending
+        if (is_plain(beam%links, beam%kind)) call prepare_plain(beam%links, work%plain)
+    end subroutine new_workspace
+
+    !> Set the loads: dead plus factor times live
+    pure subroutine set_loads(beam, factor, work)
+        type(beam_type), intent(in) :: beam
+        !> Load factor of the live loads
+        real(wp), intent(in) :: factor
+        type(workspace_type), intent(inout) :: work
+        real(wp) :: share(2)
+        integer :: i, n
+
+        n = size(beam%links)
+        share = [1.0_wp, factor]
+        do i = 0, n
+            associate (r => work%loads(i))
+                r = rhs_type()
+                r%couple = dot_product(share, beam%couple(:, i))
+                r%shear = dot_product(share, beam%force(:, i))
+            end associate
+        end do
+        do i = 1, n
+            associate (link => beam%links(i), a => work%loads(i - 1), b => work%loads(i))
+                a%right = dot_product(share, link%turn_a)
+                a%shear = a%shear + dot_product(share, link%shear_a)
+                b%left = dot_product(share, link%turn_b)
+                b%shear = b%shear - dot_product(share, link%shear_b)
+            end associate
+        end do
+        work%without_couples = .not. any(abs(work%loads%couple) > 0.0_wp)
+    end subroutine set_loads
+
+    !> Nodes and right-hand side as the scheme sees them
+    pure subroutine apply_scheme(beam, acting, range, work)
+        type(beam_type), intent(in) :: beam
+        !> Which supports act
+        logical, intent(in) :: acting(:)
+        !> First and last node
+        integer, intent(in) :: range(2)
+        type(workspace_type), intent(inout) :: work
+        integer :: i, j, k
+
+        do i = range(1), range(2)
+            associate (node => work%nodes(i), r => work%rhs(i))
+                node%kind = beam%kind(i)
+                node%compliance = beam%compliance(i)
+                node%held = .false.
+                node%stiffness = work%ease(i)
+                r = work%loads(i)
+                r%shear = r%shear + work%ease(i)*work%reference(i)
+                work%level(i) = 0.0_wp
+                do j = beam%first(i), beam%first(i + 1) - 1
+                    k = beam%order(j)
+                    associate (s => beam%supports(k))
+                        if (work%sprung .and. s%side /= both) then
+                            node%stiffness = node%stiffness + work%spring(k)
+                            r%shear = r%shear + work%spring(k)*work%spring_contact(k)
+                        else if (acting(k)) then
+                            work%level(i) = max(work%level(i), abs(s%contact))
+                            if (is_rigid(s)) then
+                                node%held = .true.
+                                r%deflection = s%contact
+                            else
+                                node%stiffness = node%stiffness + s%stiffness
+                                r%shear = r%shear + s%stiffness*s%contact
+                            end if
+                        end if
+                    end associate
+                end do
+            end associate
+        end do
+    end subroutine apply_scheme
+
+end module gapbeam_workspace
