@@ -45,8 +45,10 @@ module gapbeam_capi
         type(result_type) :: result
     end type state_handle
 
-    !> Constants whose addresses C is given; never written to
-    character(len=len(status_texts) + 1), target :: texts(size(status_texts)) = status_texts//c_null_char
+    !> Constants whose addresses C is given, never written to; and what counts them where they are listed
+    integer :: i_text
+    character(len=len(status_texts) + 1), target :: texts(size(status_texts)) = [character(len=len(status_texts) + 1) :: &
+        (trim(status_texts(i_text))//c_null_char, i_text=1, size(status_texts))]
     character(len=len(unknown_status) + 1), target :: no_text = unknown_status//c_null_char
     character(len=len(gapbeam_version_string) + 1), target :: version = gapbeam_version_string//c_null_char
 

@@ -65,7 +65,7 @@ contains
         call exchange_beam(tape, beam%lowered)
         fits = tape%reals <= lwork .and. tape%integers + header <= liwork
         if (.not. fits) return
-        call start(tape, writing, work, tape%reals, iwork, tape%integers + header)
+        call start(tape, writing, work, int(lwork, int64), iwork, int(liwork, int64))
         iwork(1:header) = [beam_mark, lwork, liwork]
         call exchange_beam(tape, beam%lowered)
     end subroutine put_beam
@@ -107,7 +107,7 @@ contains
         call exchange_state(tape, result%state)
         fits = tape%reals <= lwork .and. tape%integers + header <= liwork
         if (.not. fits) return
-        call start(tape, writing, work, tape%reals, iwork, tape%integers + header)
+        call start(tape, writing, work, int(lwork, int64), iwork, int(liwork, int64))
         iwork(1:header) = [state_mark, lwork, liwork]
         call exchange_state(tape, result%state)
     end subroutine put_result
