@@ -219,7 +219,7 @@ contains
         call require_beam(beam, error)
         if (.not. allocated(error)) call check_call(factor, options, error)
         if (.not. allocated(error) .and. .not. factor > 0.0_wp) then
-            call fatal_error(error, gapbeam_bad_input, "factor: expected a number above 0, got "//shown(factor))
+            call fatal_error(error, gapbeam_bad_input, "factor: expected a number above 0, got "//trim(shown(factor)))
         end if
         if (.not. allocated(error)) call make_state(beam, result, error)
         if (.not. allocated(error)) then
@@ -436,7 +436,7 @@ contains
         character(len=20) :: text
 
         if (.not. ieee_is_finite(factor)) then
-            call fatal_error(error, gapbeam_bad_input, "factor: expected a finite number, got "//shown(factor))
+            call fatal_error(error, gapbeam_bad_input, "factor: expected a finite number, got "//trim(shown(factor)))
         else if (options%rule /= rule_block .and. options%rule /= rule_single) then
             write (text, "(i0)") options%rule
             call fatal_error(error, gapbeam_bad_input, "rule: expected 0 (block) or 1 (single), got "//trim(text))

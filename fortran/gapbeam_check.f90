@@ -14,6 +14,8 @@ module gapbeam_check
 
     !> The arrays of a model
     integer, parameter :: of_spans = 1, of_hinges = 2, of_supports = 3, of_loads = 4
+    !> Room for a number
+    integer, parameter :: shown_length = 24
     character(len=*), parameter :: names(4) = [character(len=7) :: "span", "hinge", "support", "load"]
 
 contains
@@ -34,23 +36,21 @@ contains
         error%entry = entry
     end subroutine refuse
 
-    !> A number as a user would write it
+    !> A number as a user would write it, blanks behind it. Not of deferred length: gfortran keeps the length of such a result in
+    !> static storage, which threads share
     pure function shown(value) result(text)
         real(wp), intent(in) :: value
-        character(len=:), allocatable :: text
-        character(len=40) :: buffer
+        character(len=shown_length) :: text
 
         if (ieee_is_nan(value)) then
             text = "NaN"
         else if (abs(value) > huge(value)) then
             text = merge("inf ", "-inf", value > 0)
-            text = trim(text)
         else if (abs(value) < 1e9_wp .and. abs(value - anint(value)) <= 0.0_wp) then
-            write (buffer, "(i0)") nint(value)
-            text = trim(buffer)
+            write (text, "(i0)") nint(value)
         else
-            write (buffer, "(g0.9)") value
-            text = trim(adjustl(buffer))
+            write (text, "(g0.9)") value
+            text = adjustl(text)
         end if
     end function shown
 
@@ -90,7 +90,7 @@ contains
             character(len=*), intent(in) :: key, expected
             real(wp), intent(in) :: value
 
-            call refuse(error, of_spans, entry, size(spans), key//": expected "//expected//", got "//shown(value))
+            call refuse(error, of_spans, entry, size(spans), key//": expected "//expected//", got "//trim(shown(value)))
         end subroutine wrong
 
     end subroutine check_spans
@@ -102,6 +102,7 @@ contains
         !> Span ends, shape (0:n)
         real(wp), intent(in) :: ends(0:)
         type(error_type), allocatable, intent(out) :: error
+        character(len=:), allocatable :: problem
         integer :: i, n
 
         n = ubound(ends, 1)
@@ -109,14 +110,15 @@ contains
             if (.not. ieee_is_finite(ends(i))) then
                 call refuse(error, of_spans, i, n, "the beam is too long for the range of numbers")
             else if (ends(i) - ends(i - 1) <= position_tolerance*ends(i)) then
-                call refuse(error, of_spans, i, n, "a length of "//shown(model%spans(i)%length)// &
-                            " is lost in rounding at x = "//shown(ends(i - 1))//"; give a greater length or remove it")
+                call refuse(error, of_spans, i, n, "a length of "//trim(shown(model%spans(i)%length))// &
+                            " is lost in rounding at x = "//trim(shown(ends(i - 1)))//"; give a greater length or remove it")
             end if
             if (allocated(error)) return
         end do
         do i = 1, size(model%hinges)
             if (.not. is_inside(model%hinges(i), ends(n))) then
-                call refuse(error, of_hinges, i, size(model%hinges), outside("x", model%hinges(i), ends(n)))
+                call outside("x", model%hinges(i), ends(n), problem)
+                call refuse(error, of_hinges, i, size(model%hinges), problem)
                 return
             end if
         end do
@@ -138,23 +140,23 @@ contains
         if (allocated(problem)) then
             call refuse(error, of_supports, i, count, problem)
         else if (all(s%side /= [gapbeam_both, gapbeam_below, gapbeam_above])) then
-            call wrong("side: expected 0 (both), 1 (below) or -1 (above), got "//whole(s%side))
+            call wrong("side: expected 0 (both), 1 (below) or -1 (above), got "//trim(whole(s%side)))
         else if (all(s%direction /= [gapbeam_normal, gapbeam_axial])) then
-            call wrong("direction: expected 0 (normal) or 1 (axial), got "//whole(s%direction))
+            call wrong("direction: expected 0 (normal) or 1 (axial), got "//trim(whole(s%direction)))
         else if (.not. s%stiffness >= 0.0_wp) then
-            call wrong("stiffness: expected a number, 0 or more (infinite: rigid), got "//shown(s%stiffness))
+            call wrong("stiffness: expected a number, 0 or more (infinite: rigid), got "//trim(shown(s%stiffness)))
         else if (.not. ieee_is_finite(s%gap)) then
-            call wrong("gap: expected a finite number, got "//shown(s%gap))
+            call wrong("gap: expected a finite number, got "//trim(shown(s%gap)))
         else if (.not. ieee_is_finite(s%settlement)) then
-            call wrong("settlement: expected a finite number, got "//shown(s%settlement))
+            call wrong("settlement: expected a finite number, got "//trim(shown(s%settlement)))
         else if (.not. s%rotation >= 0.0_wp) then
-            call wrong("rotation: expected a number, 0 or more (infinite: clamped), got "//shown(s%rotation))
+            call wrong("rotation: expected a number, 0 or more (infinite: clamped), got "//trim(shown(s%rotation)))
         else if (s%direction == gapbeam_axial .and. s%side /= gapbeam_both) then
             call wrong("side: an axial support holds on both sides; give 0 (both)")
         else if (s%direction == gapbeam_axial .and. s%rotation > 0.0_wp) then
             call wrong("rotation: an axial support holds no rotation; a normal one here can do that")
         else if (s%side == gapbeam_both .and. abs(s%gap) > 0.0_wp) then
-            call wrong("gap: only a support of side below or above has a gap, got "//shown(s%gap))
+            call wrong("gap: only a support of side below or above has a gap, got "//trim(shown(s%gap)))
         end if
 
     contains
@@ -188,16 +190,16 @@ contains
                     call check_stretch(load%x, load%to, ends, problem)
                 case default
                     problem = "kind: expected 1 (force), 2 (couple), 3 (distributed), 4 (curvature) or 5 (axial force), got "// &
-                        whole(load%kind)
+                        trim(whole(load%kind))
                 end select
                 if (allocated(problem)) then
                     continue
                 else if (all(load%case /= [gapbeam_live, gapbeam_dead])) then
-                    problem = "case: expected 0 (live) or 1 (dead), got "//whole(load%case)
+                    problem = "case: expected 0 (live) or 1 (dead), got "//trim(whole(load%case))
                 else if (.not. ieee_is_finite(load%value)) then
-                    problem = "value: expected a finite number, got "//shown(load%value)
+                    problem = "value: expected a finite number, got "//trim(shown(load%value))
                 else if (load%kind == gapbeam_distributed .and. .not. ieee_is_finite(load%value_to)) then
-                    problem = "value_to: expected a finite number, got "//shown(load%value_to)
+                    problem = "value_to: expected a finite number, got "//trim(shown(load%value_to))
                 else if (load%kind == gapbeam_axial_force .and. .not. axially_held) then
                     problem = "nothing holds the beam along its axis; give a support with direction 1 (axial)"
                 end if
@@ -219,13 +221,13 @@ contains
 
         n = ubound(ends, 1)
         if (node < gapbeam_by_x .or. node > n) then
-            problem = "node: expected 0 to "//whole(n)//", or -1 where x is given, got "//whole(node)
+            problem = "node: expected 0 to "//trim(whole(n))//", or -1 where x is given, got "//trim(whole(node))
         else if (node /= gapbeam_by_x) then
             return
         else if (x <= -huge(x)) then
             problem = "its place is missing; give node or x"
         else if (.not. is_inside(x, ends(n))) then
-            problem = outside("x", x, ends(n))
+            call outside("x", x, ends(n), problem)
         end if
     end subroutine check_place
 
@@ -238,9 +240,9 @@ contains
 
         n = ubound(ends, 1)
         if (.not. is_inside(x, ends(n))) then
-            problem = outside("from", x, ends(n))
+            call outside("from", x, ends(n), problem)
         else if (.not. is_inside(to, ends(n))) then
-            problem = outside("to", to, ends(n))
+            call outside("to", to, ends(n), problem)
         end if
     end subroutine check_stretch
 
@@ -253,22 +255,20 @@ contains
     end function is_inside
 
     !> Say that a place is off the beam
-    pure function outside(key, x, end) result(text)
+    pure subroutine outside(key, x, end, problem)
         character(len=*), intent(in) :: key
         real(wp), intent(in) :: x, end
-        character(len=:), allocatable :: text
+        character(len=:), allocatable, intent(out) :: problem
 
-        text = key//": "//shown(x)//" is outside the beam, which runs from x = 0 to x = "//shown(end)
-    end function outside
+        problem = key//": "//trim(shown(x))//" is outside the beam, which runs from x = 0 to x = "//trim(shown(end))
+    end subroutine outside
 
-    !> A whole number as text
+    !> A whole number as text, blanks behind it
     pure function whole(value) result(text)
         integer, intent(in) :: value
-        character(len=:), allocatable :: text
-        character(len=20) :: buffer
+        character(len=shown_length) :: text
 
-        write (buffer, "(i0)") value
-        text = trim(buffer)
+        write (text, "(i0)") value
     end function whole
 
 end module gapbeam_check

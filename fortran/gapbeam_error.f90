@@ -73,22 +73,20 @@ contains
         !> Becomes allocated
         type(error_type), allocatable, intent(out) :: error
 
-        call fatal_error(error, gapbeam_no_memory, status_text(gapbeam_no_memory))
+        call fatal_error(error, gapbeam_no_memory, trim(status_text(gapbeam_no_memory)))
     end subroutine no_memory
 
-    !> What a status code means, in a few words
+    !> What a status code means, in a few words, blanks behind them. Not of deferred length: gfortran keeps the length of such a
+    !> result in static storage, which threads share
     pure function status_text(code) result(text)
         !> Any integer
         integer, intent(in) :: code
-        character(len=:), allocatable :: text
+        character(len=len(status_texts)) :: text
         integer :: i
 
         i = findloc(status_codes, code, 1)
-        if (i == 0) then
-            text = unknown_status
-        else
-            text = trim(status_texts(i))
-        end if
+        text = unknown_status
+        if (i > 0) text = status_texts(i)
     end function status_text
 
 end module gapbeam_error

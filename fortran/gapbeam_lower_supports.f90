@@ -105,8 +105,8 @@ contains
             slack = position_tolerance*max(abs(stop_at), abs(start_at))
             if (stop_at - start_at < -slack .or. (strictly .and. stop_at - start_at <= slack)) then
                 write (other, "(i0)") upper
-                call refuse(error, of_supports, lower, m, "this one acts at a deflection of "//shown(stop_at)//" and support "// &
-                            trim(other)//" at "//shown(start_at)//", so no room is left; give a greater gap")
+                call refuse(error, of_supports, lower, m, "this one acts at a deflection of "//trim(shown(stop_at))// &
+                            " and support "//trim(other)//" at "//trim(shown(start_at))//", so no room is left; give a greater gap")
             end if
         end subroutine look
 

@@ -129,8 +129,8 @@ contains
         end = lowered%ends(ubound(lowered%ends, 1))
         do i = 1, size(x)
             if (x(i) >= -position_tolerance*end .and. x(i) <= end + position_tolerance*end) cycle
-            call fatal_error(error, gapbeam_bad_input, "x: "//shown(x(i))//" is outside the beam, which runs from x = 0 to x = " &
-                             //shown(end))
+            call fatal_error(error, gapbeam_bad_input, "x: "//trim(shown(x(i)))//" is outside the beam, which runs from x = 0 "// &
+                             "to x = "//trim(shown(end)))
             error%entry = i
             return
         end do

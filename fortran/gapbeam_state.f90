@@ -185,7 +185,7 @@ contains
             if (found /= axial_indeterminate) return
             associate (point => axial%point(place))
                 call fatal_error(error, gapbeam_indeterminate, "the axial support at x = " &
-                                 //shown(lowered%ends(lowered%point_span(point)) + lowered%point_offset(point))// &
+                                 //trim(shown(lowered%ends(lowered%point_span(point)) + lowered%point_offset(point)))// &
                                  " and another one hold a stretch with infinite EA at both ends, so their forces cannot "// &
                                  "be told apart: give the beam a finite EA")
             end associate
@@ -262,7 +262,7 @@ contains
             if (allocated(error)) return
             call follow_load(lowered%beam, factor, rule, changes_at_a_time, at, state%closed, state%marginal, path, outcome, error)
             if (allocated(error)) then
-                error%message = "at load factor "//shown(at)//": "//error%message
+                error%message = "at load factor "//trim(shown(at))//": "//error%message
                 return
             end if
             solves = solves + path%solves

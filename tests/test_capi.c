@@ -35,6 +35,7 @@ static const double zero[] = {0.0}, four[] = {4.0}, three[] = {3.0};
 static gapbeam_model two_spans(void)
 {
     gapbeam_model model;
+    memset(&model, 0, sizeof model); /* padding too, for memcmp */
     gapbeam_model_init(&model, sizeof model);
     model.spans = 2;
     model.length = length;
@@ -296,9 +297,10 @@ static void environment(void)
     fesetround(FE_UPWARD);
     feclearexcept(FE_ALL_EXCEPT);
     feenableexcept(FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW);
+    const int traps = fegetexcept(); /* none under valgrind */
     status = gapbeam_solve_model(&model, 1.0, NULL, reaction, NULL, NULL, NULL, NULL, 0, NULL, NULL, NULL, 0);
     check(status > 10, "numbers out of range are an error");
-    check(fegetexcept() == (FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW), "traps are as they were");
+    check(fegetexcept() == traps, "traps are as they were");
     check(fegetround() == FE_UPWARD, "rounding is as it was");
     check(fetestexcept(FE_ALL_EXCEPT) == 0, "no flags are raised");
     model = two_spans();
