@@ -5,28 +5,32 @@ module gapbeam_memory
     use gapbeam_lowered, only: lowered_type
     implicit none
     private
-    public :: reserve_memory
+    public :: reserve_memory, for_solving, for_following
 
-    !> Bytes a solve takes at most for every link, support, piece and axial bar, one and a half times what was measured
-    !> (tests/test_memory.py), and what small arrays and the allocator itself take
-    integer(int64), parameter :: per_link = 2400, per_support = 1200, per_piece = 160, per_bar = 160, besides = 262144
+    !> What the memory is for
+    integer, parameter :: for_solving = 1, for_following = 2
+    !> Bytes it takes for every link and every support: one and a half times the most that was measured (1050 and 100, 2300 and 250,
+    !> tests/test_memory.c shows that it is enough); for every piece and axial bar; for small arrays and the allocator itself
+    integer(int64), parameter :: per_link(2) = [1600, 3600], per_support(2) = [200, 600], per_piece = 160, besides = 65536
 
 contains
 
     !> Ask the system for as much memory as the engine may want, and give it back. The engine's own allocations, many and
     !> small, then succeed, unless another thread or process takes the memory in between
-    subroutine reserve_memory(lowered, error)
+    subroutine reserve_memory(lowered, purpose, error)
         !> The beam that is to be solved
         type(lowered_type), intent(in) :: lowered
+        !> for_solving or for_following
+        integer, intent(in) :: purpose
         !> Set where the system refuses
         type(error_type), allocatable, intent(out) :: error
         integer(int64), allocatable :: block(:)
         integer(int64) :: bytes
         integer :: stat
 
-        bytes = besides + per_link*size(lowered%beam%links) + per_support*size(lowered%beam%supports) &
+        ! Axial bars are made of pieces
+        bytes = besides + per_link(purpose)*size(lowered%beam%links) + per_support(purpose)*size(lowered%beam%supports) &
             + per_piece*size(lowered%pieces)
-        if (allocated(lowered%axial%flexibility)) bytes = bytes + per_bar*size(lowered%axial%flexibility)
         allocate (block(bytes/8), stat=stat)
         if (stat /= 0) call no_memory(error)
     end subroutine reserve_memory

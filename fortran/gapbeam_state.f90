@@ -14,7 +14,7 @@ module gapbeam_state
     use gapbeam_axial, only: solve_axial, axial_ok, axial_slides, axial_indeterminate
     use gapbeam_check, only: shown
     use gapbeam_lowered, only: lowered_type
-    use gapbeam_memory, only: reserve_memory
+    use gapbeam_memory, only: reserve_memory, for_solving, for_following
     implicit none
     private
     public :: state_type, event_type, new_state, solve_state, certify_state, follow_events
@@ -131,7 +131,7 @@ contains
 
         call forget(state)
         state%factor = factor
-        call reserve_memory(lowered, error)
+        call reserve_memory(lowered, for_solving, error)
         if (allocated(error)) return
         allocate (acting(size(state%closed)), stat=stat)
         if (stat /= 0) then
@@ -210,7 +210,7 @@ contains
         deflection_bound = 0.0_wp
         reaction_bound = 0.0_wp
         known = .false.
-        call reserve_memory(lowered, error)
+        call reserve_memory(lowered, for_solving, error)
         if (allocated(error)) return
         associate (beam => lowered%beam)
             call new_workspace(beam, work)
@@ -258,7 +258,7 @@ contains
         solves = state%solves
         changes = 0
         do while (at < factor)
-            call reserve_memory(lowered, error)
+            call reserve_memory(lowered, for_following, error)
             if (allocated(error)) return
             call follow_load(lowered%beam, factor, rule, changes_at_a_time, at, state%closed, state%marginal, path, outcome, error)
             if (allocated(error)) then

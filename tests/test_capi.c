@@ -35,7 +35,6 @@ static const double zero[] = {0.0}, four[] = {4.0}, three[] = {3.0};
 static gapbeam_model two_spans(void)
 {
     gapbeam_model model;
-    memset(&model, 0, sizeof model); /* padding too, for memcmp */
     gapbeam_model_init(&model, sizeof model);
     model.spans = 2;
     model.length = length;
@@ -74,7 +73,7 @@ static void refused_arguments(void)
 
     check(gapbeam_model_init(NULL, sizeof model) == GAPBEAM_BAD_INPUT, "no model");
     check(gapbeam_model_init(&other, sizeof model - 8) == GAPBEAM_OTHER_VERSION, "model of another size");
-    check(!memcmp(&model, &other, sizeof model), "and left as it is");
+    check(other.spans == 2 && other.length == length && other.loads == 1, "and left as it is");
     check(gapbeam_options_init(NULL, sizeof options) == GAPBEAM_BAD_INPUT, "no options");
     check(gapbeam_options_init(&options, 4) == GAPBEAM_OTHER_VERSION, "options of another size");
     check(gapbeam_options_init(&options, sizeof options) == GAPBEAM_SOLVED && options.rule == GAPBEAM_RULE_BLOCK, "options");
