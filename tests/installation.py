@@ -20,12 +20,9 @@ class Installation:
     ----------
     prefix : Path
         Where it is.
-    flags : list of str
-        What its users' compilers need beside what pkg-config says, for sanitizers.
     """
 
     prefix: Path
-    flags: list[str]
 
     @property
     def library(self) -> Path:
@@ -60,19 +57,19 @@ class Installation:
             ".f90": ["gfortran", "-std=f2018", "-J", program.parent],
             ".f": ["gfortran", "-std=legacy"],
         }
-        flags = [*self.flags, "-Wall", "-Wextra", "-Werror", *options, *self.pkg_config("--cflags", "--libs")]
+        flags = ["-Wall", "-Wextra", "-Werror", *options, *self.pkg_config("--cflags", "--libs")]
         self.run(*compilers[source.suffix], source, "-o", program, *flags)
         return program
 
 
-def install(folder: Path, *options: str, flags: list[str] | None = None) -> Installation:
+def install(folder: Path) -> Installation:
     """Build and install the library under a folder; skip the test where a tool for that is missing."""
     missing = [name for name in NEEDED if shutil.which(name) is None]
     if missing:
         pytest.skip(f"not on this machine: {', '.join(missing)}")
     prefix, build = folder / "prefix", folder / "build"
-    setup = ["meson", "setup", build, TOP, f"--prefix={prefix}", "-Dlibdir=lib", "-Dtests=disabled", *options]
+    setup = ["meson", "setup", build, TOP, f"--prefix={prefix}", "-Dlibdir=lib", "-Dtests=disabled"]
     for command in (setup, ["meson", "install", "-C", build]):
         done = subprocess.run(list(map(str, command)), capture_output=True, text=True)
         assert done.returncode == 0, f"{done.stdout}\n{done.stderr}"
-    return Installation(prefix, flags or [])
+    return Installation(prefix)
