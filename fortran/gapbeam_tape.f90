@@ -61,9 +61,10 @@ contains
         logical, intent(inout) :: value
         integer :: number
 
-        number = merge(1, 0, value)
+        number = 0
+        if (tape%mode /= reading) number = merge(1, 0, value)   ! what is to be read is no truth yet
         call exchange_integer(tape, number)
-        value = number /= 0
+        if (tape%mode == reading) value = number /= 0
     end subroutine exchange_logical
 
     !> Numbers of known count
