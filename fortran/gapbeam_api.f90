@@ -355,7 +355,7 @@ contains
         !> gapbeam_not_prepared, gapbeam_no_memory, or gapbeam_bad_input for an array of another size
         type(error_type), allocatable, intent(out) :: error
         type(ieee_status_type) :: environment
-        real(wp) :: deflection, reaction
+        real(wp) :: residual(3), deflection, reaction
 
         call require_result(beam, result, gapbeam_solved, error)
         if (allocated(error)) return
@@ -364,12 +364,12 @@ contains
         call ieee_get_status(environment)
         call ieee_set_halting_mode(ieee_all, .false.)
         call ieee_set_rounding_mode(ieee_nearest)
-        certificate%compatibility = result%state%residual(1)
-        certificate%equilibrium = result%state%residual(2)
-        certificate%complementarity = result%state%residual(3)
-        call certify_state(beam%lowered, result%state, deflection, reaction, certificate%known, error)
+        call certify_state(beam%lowered, result%state, residual, deflection, reaction, certificate%known, error)
         if (.not. allocated(error)) then
             call find_undecided(beam%lowered, result%state, deflection, reaction, certificate%known, undecided)
+            certificate%compatibility = residual(1)
+            certificate%equilibrium = residual(2)
+            certificate%complementarity = residual(3)
             certificate%deflection_bound = scale(deflection, beam%lowered%length_exponent)
             certificate%reaction_bound = scale(reaction, beam%lowered%force_exponent)
         end if

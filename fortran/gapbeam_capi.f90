@@ -5,9 +5,7 @@ module gapbeam_capi
     use gapbeam_error, only: error_type, fatal_error, no_memory, status_codes, status_texts, unknown_status, &
         gapbeam_solved, gapbeam_bad_input, gapbeam_no_memory, gapbeam_not_prepared, gapbeam_other_version
     use gapbeam_version, only: gapbeam_version_major, gapbeam_version_minor, gapbeam_version_patch, gapbeam_version_string
-    use gapbeam_scene, only: model_type, load_type, gapbeam_inf => gapbeam_infinity, gapbeam_by_x, gapbeam_both, gapbeam_normal, &
-        gapbeam_live
-    use gapbeam_query, only: gapbeam_closed
+    use gapbeam_scene, only: model_type, load_type, gapbeam_inf => gapbeam_infinity
     use gapbeam_state, only: event_type
     use gapbeam_api, only: prepared_type, options_type, result_type, certificate_type, prepare_model, replace_loads, &
         count_supports, count_nodes, solve_beam, follow_load, get_supports, get_fields, get_extremes, get_motion, get_certificate

@@ -41,14 +41,12 @@ end subroutine gbcond
 
 ! Find the working scheme at one load factor and solve it
 subroutine gbsolv(nl, ns, link, kind, compli, force, couple, snode, sside, sstiff, scont, factor, rule, &
-                  closed, margin, w, ml, mr, shear, react, motion, resid, solves, method, indiff, status, message)
+                  closed, margin, w, ml, mr, shear, react, motion, solves, method, indiff, status, message)
     use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
     use gapbeam_error, only: error_type, gapbeam_solved
     use gapbeam_link, only: link_type
     use gapbeam_model, only: beam_type, new_beam
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
-    use gapbeam_system, only: check_scheme
-    use gapbeam_rules, only: complementarity
     use gapbeam_scheme, only: find_scheme, outcome_type
     use gapbeam_path, only: find_marginal
     implicit none
@@ -72,8 +70,8 @@ subroutine gbsolv(nl, ns, link, kind, compli, force, couple, snode, sside, sstif
     integer, intent(out) :: margin(ns)
     ! Deflections, moments left and right of the nodes, shears of the links beside those of the simple bar, reactions (up)
     double precision, intent(out) :: w(0:nl), ml(0:nl), mr(0:nl), shear(nl), react(ns)
-    ! Free motion where there is no equilibrium; residuals of compatibility, equilibrium, complementarity
-    double precision, intent(out) :: motion(0:nl), resid(3)
+    ! Free motion where there is no equilibrium
+    double precision, intent(out) :: motion(0:nl)
     ! Linear solves; system solved last: 0 mixed, 1 three-moment, 2 with pivoting; 1 where the beam can move freely
     ! without work of the loads (the forces are unique, the position is not)
     integer, intent(out) :: solves, method, indiff, status
@@ -101,7 +99,6 @@ subroutine gbsolv(nl, ns, link, kind, compli, force, couple, snode, sside, sstif
     shear = 0.0d0
     react = 0.0d0
     motion = 0.0d0
-    resid = 0.0d0
     margin = 0
     indiff = 0
     solves = work%solves
@@ -125,19 +122,20 @@ subroutine gbsolv(nl, ns, link, kind, compli, force, couple, snode, sside, sstif
     mr = work%answers%moment_right
     shear = work%shear
     react = work%reaction
-    call check_scheme(beam, work)
-    resid = [work%compatibility, work%equilibrium, complementarity(beam, acting, work)]
 end subroutine gbsolv
 
-! Bounds for the errors of deflections and reactions of a working scheme that GBSOLV found
+! Residuals, and bounds for the errors of deflections and reactions, of a working scheme that GBSOLV found
 subroutine gbcert(nl, ns, link, kind, compli, force, couple, snode, sside, sstiff, scont, factor, &
-                  closed, bound, known)
+                  closed, resid, bound, known)
     use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
     use gapbeam_link, only: link_type
     use gapbeam_model, only: beam_type, new_beam
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
-    use gapbeam_system, only: solve_scheme, refine_scheme, certify_scheme
-    use gapbeam_band, only: band_ok
+    use gapbeam_system, only: check_scheme, certify_scheme
+    use gapbeam_rules, only: complementarity
+    use gapbeam_error, only: error_type, gapbeam_solved
+    use gapbeam_scheme, only: find_scheme, outcome_type
+    use gapbeam_search, only: rule_block
     implicit none
     ! As for GBSOLV
     integer, intent(in) :: nl, ns
@@ -149,6 +147,8 @@ subroutine gbcert(nl, ns, link, kind, compli, force, couple, snode, sside, sstif
     double precision, intent(in) :: sstiff(ns), scont(ns)
     double precision, intent(in) :: factor
     integer, intent(in) :: closed(ns)
+    ! Relative residuals of compatibility, equilibrium, complementarity
+    double precision, intent(out) :: resid(3)
     ! Largest errors of deflections and of reactions; 1 if they are known, 0 where the scheme has no factor without pivoting
     double precision, intent(out) :: bound(2)
     integer, intent(out) :: known
@@ -160,7 +160,8 @@ subroutine gbcert(nl, ns, link, kind, compli, force, couple, snode, sside, sstif
     type(workspace_type) :: work
     logical, allocatable :: acting(:)
     logical :: found
-    integer :: state, place
+    type(outcome_type) :: outcome
+    type(error_type), allocatable :: error
 
     call c_f_pointer(c_loc(link), links, [nl])
     call new_beam(links, kind, compli, force, couple, snode, sside, sstiff, scont, beam)
@@ -168,11 +169,15 @@ subroutine gbcert(nl, ns, link, kind, compli, force, couple, snode, sside, sstif
     call set_loads(beam, factor, work)
     allocate (acting(ns))
     acting(:) = closed /= 0
+    resid = 0.0d0
     bound = 0.0d0
     known = 0
-    call solve_scheme(beam, acting, work, state, place)
-    if (state /= band_ok) return
-    call refine_scheme(beam, acting, work)
+    ! From the working scheme that is one solve
+    call find_scheme(beam, factor, rule_block, acting, work, outcome, error)
+    if (allocated(error) .or. outcome%status /= gapbeam_solved) return
+    call check_scheme(beam, work)
+    resid = [work%compatibility, work%equilibrium, complementarity(beam, acting, work)]
+    if (outcome%indifferent) return
     call certify_scheme(beam, factor, work, bound(1), bound(2), found)
     known = merge(1, 0, found)
 end subroutine gbcert
@@ -245,6 +250,108 @@ subroutine gbpath(nl, ns, most, link, kind, compli, force, couple, snode, sside,
         message = error%message
     end if
 end subroutine gbpath
+
+! What each load does to the links, for GBCASE: rows of loads on pieces, sorted by load, then piece (both from 1)
+subroutine gbshar(np, nl, nr, piece, link, last, rload, rpiece, rvalue, nshare, sload, slink, share)
+    use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
+    use gapbeam_link, only: link_type, piece_type, load_type
+    use gapbeam_cases, only: share_type, condense_shares
+    implicit none
+    integer, intent(in) :: np, nl, nr
+    double precision, intent(in), target :: piece(3, np), link(21, nl)
+    integer, intent(in) :: last(nl)
+    integer, intent(in) :: rload(nr), rpiece(nr)
+    double precision, intent(in), target :: rvalue(5, nr)
+    ! NSHARE shares: load, link, values
+    integer, intent(out) :: nshare, sload(nr), slink(nr)
+    double precision, intent(out), target :: share(6, nr)
+    !f2py threadsafe
+    !f2py integer, intent(hide), depend(piece) :: np = shape(piece, 1)
+    !f2py integer, intent(hide), depend(link) :: nl = shape(link, 1)
+    !f2py integer, intent(hide), depend(rload) :: nr = shape(rload, 0)
+    type(piece_type), pointer :: pieces(:)
+    type(link_type), pointer :: links(:)
+    type(load_type), pointer :: values(:)
+    type(share_type), pointer :: shares(:)
+
+    call c_f_pointer(c_loc(piece), pieces, [np])
+    call c_f_pointer(c_loc(link), links, [nl])
+    call c_f_pointer(c_loc(rvalue), values, [nr])
+    call c_f_pointer(c_loc(share), shares, [nr])
+    call condense_shares(pieces, links, last, rload, rpiece, values, nshare, sload, slink, shares)
+end subroutine gbshar
+
+! Solve NC cases of loads; every load counts with its factor
+subroutine gbcase(nl, ns, nd, nsh, nno, nc, link, kind, compli, snode, sside, sstiff, scont, &
+                  sload, slink, share, pload, pnode, pshare, factor, rule, closed, &
+                  w, ml, mr, shear, react, solves, status)
+    use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
+    use gapbeam_link, only: link_type
+    use gapbeam_model, only: beam_type, new_beam
+    use gapbeam_workspace, only: workspace_type, new_workspace
+    use gapbeam_cases, only: share_type, node_share_type, solve_case
+    use gapbeam_error, only: gapbeam_solved
+    implicit none
+    ! As for GBSOLV; ND loads, NSH shares of links, NNO shares of nodes, NC cases
+    integer, intent(in) :: nl, ns, nd, nsh, nno, nc
+    double precision, intent(in), target :: link(21, nl)
+    integer, intent(in) :: kind(0:nl)
+    double precision, intent(in) :: compli(0:nl)
+    integer, intent(in) :: snode(ns), sside(ns)
+    double precision, intent(in) :: sstiff(ns), scont(ns)
+    ! Shares by GBSHAR; forces and couples at nodes (load from 1, node from 0, values)
+    integer, intent(in) :: sload(nsh), slink(nsh)
+    double precision, intent(in), target :: share(6, nsh)
+    integer, intent(in) :: pload(nno), pnode(nno)
+    double precision, intent(in), target :: pshare(2, nno)
+    ! Factor of every load in every case
+    double precision, intent(in) :: factor(nd, nc)
+    integer, intent(in) :: rule
+    ! Schemes: start in, working scheme out; zeros in the results of a case that is not solved
+    integer, intent(inout) :: closed(ns, nc)
+    double precision, intent(out) :: w(0:nl, nc), ml(0:nl, nc), mr(0:nl, nc), shear(nl, nc), react(ns, nc)
+    integer, intent(out) :: solves(nc), status(nc)
+    !f2py threadsafe
+    !f2py integer, intent(hide), depend(link) :: nl = shape(link, 1)
+    !f2py integer, intent(hide), depend(snode) :: ns = shape(snode, 0)
+    !f2py integer, intent(hide), depend(sload) :: nsh = shape(sload, 0)
+    !f2py integer, intent(hide), depend(pload) :: nno = shape(pload, 0)
+    !f2py integer, intent(hide), depend(factor) :: nd = shape(factor, 0)
+    !f2py integer, intent(hide), depend(factor) :: nc = shape(factor, 1)
+    type(link_type), pointer :: links(:)
+    type(share_type), pointer :: shares(:)
+    type(node_share_type), pointer :: node_shares(:)
+    type(beam_type) :: beam
+    type(workspace_type) :: work
+    logical, allocatable :: acting(:)
+    double precision, allocatable :: none(:, :)
+    integer :: i
+
+    call c_f_pointer(c_loc(link), links, [nl])
+    call c_f_pointer(c_loc(share), shares, [nsh])
+    call c_f_pointer(c_loc(pshare), node_shares, [nno])
+    allocate (acting(ns), none(2, 0:nl))
+    none(:, :) = 0.0d0
+    call new_beam(links, kind, compli, none, none, snode, sside, sstiff, scont, beam)
+    call new_workspace(beam, work)
+    w = 0.0d0
+    ml = 0.0d0
+    mr = 0.0d0
+    shear = 0.0d0
+    react = 0.0d0
+    do i = 1, nc
+        acting(:) = closed(:, i) /= 0
+        call solve_case(factor(:, i), sload, slink, shares, pload, pnode, node_shares, rule, beam, acting, work, status(i))
+        solves(i) = work%solves
+        if (status(i) /= gapbeam_solved) cycle
+        closed(:, i) = merge(1, 0, acting)
+        w(:, i) = work%answers%deflection
+        ml(:, i) = work%answers%moment_left
+        mr(:, i) = work%answers%moment_right
+        shear(:, i) = work%shear
+        react(:, i) = work%reaction
+    end do
+end subroutine gbcase
 
 ! Fields at the left end of every piece
 subroutine gbreco(np, nl, piece, dead, live, factor, link, last, kind, w, ml, mr, shear, start)

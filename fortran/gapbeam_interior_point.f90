@@ -11,7 +11,7 @@ module gapbeam_interior_point
     use gapbeam_band, only: band_ok
     use gapbeam_model, only: beam_type, both, is_rigid, softest
     use gapbeam_workspace, only: workspace_type
-    use gapbeam_system, only: solve_scheme
+    use gapbeam_system, only: solve_deflections
     implicit none
     private
     public :: interior_type, start_interior, step_interior, product_of
@@ -145,7 +145,7 @@ contains
         integer, intent(out) :: state, place
 
         work%sprung = .true.
-        call solve_scheme(beam, closed, work, state, place)
+        call solve_deflections(beam, closed, work, state, place)
         work%sprung = .false.
         allocate (deflection(size(support)))
         deflection(:) = work%answers(beam%supports(support)%node)%deflection

@@ -8,7 +8,7 @@ module gapbeam_link
     use gapbeam_element, only: sum_type, add, total, moment_integrals, field_type
     implicit none
     private
-    public :: link_type, piece_type, load_type, condense_link, recover_link, combine_loads
+    public :: link_type, piece_type, load_type, condense_link, condense_loads, recover_link, combine_loads
 
     !> A prismatic piece
     type, bind(c) :: piece_type

@@ -7,14 +7,12 @@ module gapbeam_lower
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
-    use gapbeam_band, only: hinge, restrained
-    use gapbeam_link, only: piece_type, condense_link, piece_load_type => load_type
-    use gapbeam_scene, only: model_type, load_type, gapbeam_by_x, gapbeam_both, gapbeam_below, gapbeam_above, &
-        gapbeam_normal, gapbeam_axial, gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, &
-        gapbeam_axial_force, gapbeam_dead
+    use gapbeam_link, only: condense_link, piece_load_type => load_type
+    use gapbeam_scene, only: load_type, gapbeam_by_x, gapbeam_axial, gapbeam_force, gapbeam_couple, gapbeam_distributed, &
+        gapbeam_curvature, gapbeam_axial_force, gapbeam_dead
     use gapbeam_lowered, only: lowered_type
     use gapbeam_places, only: place_span_ends, locate, merge_places
-    use gapbeam_check, only: check_spans, check_rest, check_loads, refuse, of_hinges, of_supports, of_loads
+    use gapbeam_check, only: check_spans, check_rest, check_loads, refuse, of_hinges, of_loads
     use gapbeam_lower_supports, only: lower_supports
     implicit none
     private

@@ -1,10 +1,9 @@
 !> Prepared beams and their states in the work arrays of Fortran 77, and back
 module gapbeam_pack
     use gapbeam_kinds, only: wp
-    use gapbeam_element, only: field_type
     use gapbeam_link, only: link_type, piece_type, piece_load_type => load_type
     use gapbeam_model, only: node_support_type => support_type
-    use gapbeam_scene, only: model_type, span_type, support_type, load_type
+    use gapbeam_scene, only: model_type
     use gapbeam_lowered, only: lowered_type
     use gapbeam_state, only: state_type
     use gapbeam_tape, only: tape_type, exchange, exchange_size, reading
@@ -70,7 +69,6 @@ contains
         call exchange(tape, state%method)
         call exchange(tape, state%indifferent)
         call exchange(tape, state%slides)
-        call exchange(tape, 3, state%residual)
         call exchange(tape, state%closed, 1)
         call exchange(tape, state%marginal, 1)
         call exchange(tape, state%deflection, 0)

@@ -18,16 +18,13 @@ module gapbeam_path
     use gapbeam_band, only: band_ok
     use gapbeam_model, only: beam_type, both
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
-    use gapbeam_update, only: start_updates, update_scheme
+    use gapbeam_update, only: start_updates, update_scheme, groups_of
     use gapbeam_queue, only: queue_type, new_queue, set_key, first_key, all_up_to
     use gapbeam_scheme, only: find_scheme, outcome_type
     use gapbeam_search, only: first_width
     implicit none
     private
     public :: follow_load, find_marginal, path_type
-
-    !> Nodes between two changes that are made in one
-    integer, parameter :: apart = 16
 
     !> Changes of the scheme along the path, in the order in which they happen
     type :: path_type
@@ -198,24 +195,14 @@ contains
         logical, intent(inout) :: closed(:)
         type(stretch_type), intent(inout) :: stretch
         type(path_type), intent(inout) :: path
-        integer, allocatable :: nodes(:)
-        integer :: first, last, window(2), window_of_live(2), state, i
+        integer, allocatable :: groups(:, :)
+        integer :: window(2), window_of_live(2), state, i, j
 
         closed(changed) = .not. closed(changed)
-        allocate (nodes(size(changed)))
-        nodes(:) = beam%supports(changed)%node
-        call sort(nodes)
-        last = 0
-        do while (last < size(nodes))
-            first = last + 1
-            last = first
-            do while (last < size(nodes))
-                if (nodes(last + 1) - nodes(last) > apart) exit
-                last = last + 1
-            end do
-            call update_scheme(beam, closed, [nodes(first), nodes(last)], stretch%dead, window, state)
-            if (state == band_ok) call update_scheme(stretch%incremental, closed, [nodes(first), nodes(last)], stretch%live, &
-                                                     window_of_live, state)
+        groups = groups_of(beam, changed)
+        do j = 1, size(groups, 2)
+            call update_scheme(beam, closed, groups(:, j), stretch%dead, window, state)
+            if (state == band_ok) call update_scheme(stretch%incremental, closed, groups(:, j), stretch%live, window_of_live, state)
             stretch%current = state == band_ok
             if (.not. stretch%current) return
             window = [min(window(1), window_of_live(1)), max(window(2), window_of_live(2))]
@@ -225,23 +212,6 @@ contains
             end do
         end do
     end subroutine change_supports
-
-    !> Put a few numbers in ascending order (insertion)
-    pure subroutine sort(list)
-        integer, intent(inout) :: list(:)
-        integer :: i, j, number
-
-        do i = 2, size(list)
-            number = list(i)
-            j = i - 1
-            do while (j >= 1)
-                if (list(j) <= number) exit
-                list(j + 1) = list(j)
-                j = j - 1
-            end do
-            list(j + 1) = number
-        end do
-    end subroutine sort
 
     !> Solve v0 and v1 of a scheme anew
     subroutine start_stretch(beam, factor, closed, stretch, path, error)

@@ -5,7 +5,7 @@ module gapbeam_reactions
     use gapbeam_workspace, only: workspace_type, reach_type
     implicit none
     private
-    public :: find_sizes, find_shears, find_reactions
+    public :: find_sizes, find_own_sizes, find_shears, find_reactions
 
 contains
 

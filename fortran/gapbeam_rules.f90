@@ -3,9 +3,13 @@ module gapbeam_rules
     use gapbeam_kinds, only: wp
     use gapbeam_model, only: beam_type, both, is_rigid
     use gapbeam_workspace, only: workspace_type
+    use gapbeam_reactions, only: find_own_sizes
     implicit none
     private
-    public :: find_wrong, complementarity, keep_worst, keep_least_index, separate_rigid_pairs
+    public :: find_wrong, find_clearly_wrong, complementarity, keep_worst, keep_least_index, separate_rigid_pairs
+
+    !> Far above all rounding errors
+    real(wp), parameter :: near_zero = 1e-10_wp
 
 contains
 
@@ -33,6 +37,47 @@ contains
             end associate
         end do
     end subroutine find_wrong
+
+    !> The same from deflections and moments alone, as long as nothing is near zero
+    pure subroutine find_clearly_wrong(beam, closed, work, wrong, doubtful)
+        type(beam_type), intent(in) :: beam
+        logical, intent(in) :: closed(:)
+        !> Solved by solve_deflections
+        type(workspace_type), intent(inout) :: work
+        logical, intent(out) :: wrong(:)
+        !> Something is so near zero that only find_wrong can tell
+        logical, intent(out) :: doubtful
+        real(wp) :: largest_shear, largest_deflection, pressing, force
+        integer :: i, k, n
+
+        n = size(beam%links)
+        doubtful = .false.
+        ! No rounding error that find_wrong allows for can be larger than these times some epsilon
+        call find_own_sizes(beam, [0, n], work)
+        largest_shear = near_zero*maxval(work%reach_own%shear)
+        largest_deflection = near_zero*maxval(work%reach_own%deflection)
+        do k = 1, size(closed)
+            associate (s => beam%supports(k))
+                wrong(k) = .false.
+                if (s%side == both .or. .not. s%stiffness > 0.0_wp) cycle
+                i = s%node
+                if (closed(k) .and. is_rigid(s)) then
+                    force = work%loads(i)%shear
+                    if (i > 0) force = force - (work%answers(i)%moment_left - work%answers(i - 1)%moment_right) &
+                        *beam%links(i)%inverse
+                    if (i < n) force = force + (work%answers(i + 1)%moment_left - work%answers(i)%moment_right) &
+                        *beam%links(i + 1)%inverse
+                    if (abs(force) <= largest_shear .or. beam%first(i + 1) - beam%first(i) > 1) doubtful = .true.
+                    wrong(k) = s%side*force < 0.0_wp
+                else
+                    pressing = s%side*(work%answers(i)%deflection - s%contact)
+                    if (abs(pressing) <= largest_deflection + near_zero*abs(s%contact)) doubtful = .true.
+                    wrong(k) = closed(k) .neqv. pressing > 0.0_wp
+                end if
+                if (doubtful) return
+            end associate
+        end do
+    end subroutine find_clearly_wrong
 
     !> Largest wrong-signed reaction relative to the largest reaction, or penetration relative to the largest deflection
     pure function complementarity(beam, closed, work) result(violation)

@@ -19,8 +19,9 @@ module gapbeam_search
     use gapbeam_band, only: band_ok, band_mechanism, band_needs_pivoting
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type
-    use gapbeam_system, only: solve_scheme, refine_scheme
-    use gapbeam_rules, only: find_wrong, keep_worst, keep_least_index, separate_rigid_pairs
+    use gapbeam_system, only: solve_deflections, complete_scheme, refine_scheme
+    use gapbeam_update, only: keep_factor, update_scheme, groups_of
+    use gapbeam_rules, only: find_wrong, find_clearly_wrong, keep_worst, keep_least_index, separate_rigid_pairs
     use gapbeam_interior_point, only: interior_type, start_interior, step_interior, product_of
     implicit none
     private
@@ -33,6 +34,8 @@ module gapbeam_search
     integer, parameter :: patience = 4, warm_patience = 12, polish_patience = 3, last_patience = 2
     !> Where fewer are wrong than this, a step that made no progress is followed by one of the paper's rule
     integer, parameter :: few = 8
+    !> Links from which on a changed support does not change everything
+    integer, parameter :: long_beam = 300
     !> Such solves after the last guess. When reactions times openings have fallen by this much, so many changes of a
     !> guess in a step show that rounding has taken over
     integer, parameter :: final_patience = 16, rounding_changes = 40
@@ -50,6 +53,8 @@ module gapbeam_search
         integer :: wrong_now = 0, fewest = 0
         !> Rounding errors beyond which a sign counts
         real(wp) :: width = first_width
+        !> The scheme solved last, if its solution can be kept up to date
+        logical, allocatable :: kept(:)
         !> How the last solve went, and where not well
         integer :: state = 0, place = 0
     end type search_type
@@ -103,16 +108,32 @@ contains
     end subroutine settle
 
     !> Solve and see what is wrong
-    subroutine look(beam, closed, work, search, settled)
+    subroutine look(beam, closed, reactions, work, search, settled)
         type(beam_type), intent(in) :: beam
         logical, intent(in) :: closed(:)
+        !> Are reactions needed, and not only what is wrong; a few wrong supports always have them
+        logical, intent(in) :: reactions
         type(workspace_type), intent(inout) :: work
         type(search_type), intent(inout) :: search
         logical, intent(out) :: settled
+        logical :: doubtful, follows
 
         settled = .false.
-        call solve_scheme(beam, closed, work, search%state, search%place)
+        if (allocated(search%kept)) then
+            call look_around_changes(beam, closed, work, search)
+            if (allocated(search%kept)) then
+                settled = search%wrong_now == 0
+                return
+            end if
+        end if
+        call solve_deflections(beam, closed, work, search%state, search%place)
         if (search%state /= band_ok) return
+        if (.not. reactions) then
+            call find_clearly_wrong(beam, closed, work, search%wrong, doubtful)
+            search%wrong_now = count(search%wrong)
+            if (.not. doubtful .and. search%wrong_now > few) return
+        end if
+        call complete_scheme(beam, closed, work)
         call find_wrong(beam, closed, search%width, work, search%wrong)
         search%wrong_now = count(search%wrong)
         if (search%wrong_now > 0 .and. search%wrong_now <= few) then
@@ -120,9 +141,46 @@ contains
             call refine_scheme(beam, closed, work)
             call find_wrong(beam, closed, search%width, work, search%wrong)
             search%wrong_now = count(search%wrong)
+            if (size(beam%links) >= long_beam .and. search%wrong_now > 0 .and. search%wrong_now <= few) then
+                ! And little changes any more
+                call keep_factor(beam, work, follows)
+                if (follows) then
+                    allocate (search%kept(size(closed)))
+                    search%kept(:) = closed
+                end if
+            end if
         end if
         settled = search%wrong_now == 0
     end subroutine look
+
+    !> The same where few supports have changed since the last solve; nothing is kept any more where that does not do
+    subroutine look_around_changes(beam, closed, work, search)
+        type(beam_type), intent(in) :: beam
+        logical, intent(in) :: closed(:)
+        type(workspace_type), intent(inout) :: work
+        type(search_type), intent(inout) :: search
+        integer, allocatable :: changed(:), groups(:, :)
+        integer :: k, j, window(2), state
+
+        changed = pack([(k, k=1, size(closed))], closed .neqv. search%kept)
+        if (size(changed) > few) then
+            deallocate (search%kept)
+            return
+        end if
+        groups = groups_of(beam, changed)
+        do j = 1, size(groups, 2)
+            call update_scheme(beam, closed, groups(:, j), work, window, state)
+            if (state /= band_ok) then
+                deallocate (search%kept)
+                return
+            end if
+        end do
+        work%solves = work%solves + 1
+        search%kept(:) = closed
+        search%state = band_ok
+        call find_wrong(beam, closed, search%width, work, search%wrong)
+        search%wrong_now = count(search%wrong)
+    end subroutine look_around_changes
 
     !> The paper's rule; returns unsettled when a scheme comes back
     subroutine change_single(beam, closed, work, search, settled)
@@ -135,7 +193,7 @@ contains
 
         call set_mark(mark, closed)
         do
-            call look(beam, closed, work, search, settled)
+            call look(beam, closed, .true., work, search, settled)
             if (settled .or. search%state /= band_ok) return
             call keep_worst(beam, closed, work, .false., search%wrong)
             closed = closed .neqv. search%wrong
@@ -180,7 +238,7 @@ contains
 
         idle = 0
         do
-            call look(beam, closed, work, search, settled)
+            call look(beam, closed, .false., work, search, settled)
             if (settled .or. search%state /= band_ok) return
             if (search%wrong_now < search%fewest) then
                 search%fewest = search%wrong_now
@@ -209,6 +267,7 @@ contains
         real(wp) :: first_product
 
         settled = .false.
+        if (allocated(search%kept)) deallocate (search%kept)
         allocate (guess(size(closed)), last_guess(size(closed)))
         call start_interior(beam, closed, work, iterate, search%state, search%place)
         last_guess(:) = closed
@@ -216,6 +275,7 @@ contains
         first_product = product_of(iterate)
         do step = 1, most_steps
             if (search%state /= band_ok) exit
+            if (allocated(search%kept)) deallocate (search%kept)
             call step_interior(beam, closed, work, iterate, guess, search%state, search%place)
             if (search%state /= band_ok) exit
             changes = count(guess .neqv. last_guess)
@@ -257,7 +317,7 @@ contains
             if (settled .or. search%state /= band_ok) return
             call set_mark(mark, closed)
             do
-                call look(beam, closed, work, search, settled)
+                call look(beam, closed, .false., work, search, settled)
                 if (settled .or. search%state /= band_ok) return
                 if (search%wrong_now < search%fewest) exit
                 call keep_least_index(search%wrong)

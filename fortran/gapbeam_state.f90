@@ -4,14 +4,13 @@ module gapbeam_state
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_no_equilibrium, &
         gapbeam_indeterminate, gapbeam_not_converged
     use gapbeam_element, only: field_type
-    use gapbeam_band, only: band_ok
-    use gapbeam_model, only: both
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
-    use gapbeam_system, only: solve_scheme, refine_scheme, check_scheme, certify_scheme
+    use gapbeam_system, only: check_scheme, certify_scheme
+    use gapbeam_search, only: rule_block
     use gapbeam_rules, only: complementarity
     use gapbeam_scheme, only: find_scheme, outcome_type
     use gapbeam_path, only: find_marginal, follow_load, path_type
-    use gapbeam_axial, only: solve_axial, axial_ok, axial_slides, axial_indeterminate
+    use gapbeam_axial, only: solve_axial, axial_slides, axial_indeterminate
     use gapbeam_check, only: shown
     use gapbeam_lowered, only: lowered_type
     use gapbeam_memory, only: reserve_memory, for_solving, for_following
@@ -35,8 +34,6 @@ module gapbeam_state
         integer :: solves = 0, method = 0
         !> Can the beam move freely without work of the loads; does it slide along its axis
         logical :: indifferent = .false., slides = .false.
-        !> Relative residuals of compatibility and equilibrium, and the largest violation of a sign
-        real(wp) :: residual(3) = 0.0_wp
         !> The scheme: which supports act, and whose reaction or opening is zero as far as rounding tells
         logical, allocatable :: closed(:), marginal(:)
         !> Deflections and moments left and right of the nodes; the free motion where there is no equilibrium
@@ -102,7 +99,6 @@ contains
         state%indifferent = .false.
         state%slides = .false.
         state%has_starts = .false.
-        state%residual(:) = 0.0_wp
         state%marginal(:) = .false.
         state%reaction(:) = 0.0_wp
         state%deflection(:) = 0.0_wp
@@ -165,8 +161,6 @@ contains
             state%moment_right(:) = work%answers%moment_right
             state%shear(:) = work%shear
             state%reaction(:) = work%reaction
-            call check_scheme(beam, work)
-            state%residual(:) = [work%compatibility, work%equilibrium, complementarity(beam, acting, work)]
         end associate
     end subroutine solve_state
 
@@ -192,12 +186,14 @@ contains
         end associate
     end subroutine solve_along_axis
 
-    !> Bounds for the errors of a solved state, in the engine's units
-    subroutine certify_state(lowered, state, deflection_bound, reaction_bound, known, error)
+    !> Residuals of a solved state, and bounds for its errors in the engine's units
+    subroutine certify_state(lowered, state, residual, deflection_bound, reaction_bound, known, error)
         !> The beam
         type(lowered_type), intent(in) :: lowered
         !> Solved
         type(state_type), intent(in) :: state
+        !> Relative residuals of compatibility and equilibrium, and the largest violation of a sign
+        real(wp), intent(out) :: residual(3)
         !> Largest error of any deflection of a node, and of any reaction
         real(wp), intent(out) :: deflection_bound, reaction_bound
         !> False where pivoting was needed or the beam is free to move
@@ -205,19 +201,31 @@ contains
         !> No memory
         type(error_type), allocatable, intent(out) :: error
         type(workspace_type) :: work
-        integer :: found, place
+        type(outcome_type) :: outcome
+        logical, allocatable :: acting(:)
+        integer :: stat
 
+        residual(:) = 0.0_wp
         deflection_bound = 0.0_wp
         reaction_bound = 0.0_wp
         known = .false.
         call reserve_memory(lowered, for_solving, error)
         if (allocated(error)) return
+        allocate (acting(size(state%closed)), stat=stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        acting(:) = state%closed
         associate (beam => lowered%beam)
             call new_workspace(beam, work)
             call set_loads(beam, state%factor, work)
-            call solve_scheme(beam, state%closed, work, found, place)
-            if (found /= band_ok) return
-            call refine_scheme(beam, state%closed, work)
+            ! From the working scheme that is one solve
+            call find_scheme(beam, state%factor, rule_block, acting, work, outcome, error)
+            if (allocated(error) .or. outcome%status /= gapbeam_solved) return
+            call check_scheme(beam, work)
+            residual(:) = [work%compatibility, work%equilibrium, complementarity(beam, acting, work)]
+            if (outcome%indifferent) return
             call certify_scheme(beam, state%factor, work, deflection_bound, reaction_bound, known)
         end associate
     end subroutine certify_state

@@ -13,12 +13,36 @@ module gapbeam_system
     use gapbeam_reactions, only: find_sizes, find_shears, find_reactions
     implicit none
     private
-    public :: solve_scheme, refine_scheme, check_scheme, certify_scheme
+    public :: solve_scheme, solve_deflections, complete_scheme, refine_scheme, check_scheme, certify_scheme
 
 contains
 
     !> Solve a scheme and find the reactions of its supports
     subroutine solve_scheme(beam, acting, work, state, place)
+        !> As for solve_deflections
+        type(beam_type), intent(in) :: beam
+        logical, intent(in) :: acting(:)
+        type(workspace_type), intent(inout) :: work
+        integer, intent(out) :: state, place
+
+        call solve_deflections(beam, acting, work, state, place)
+        if (state == band_ok) call complete_scheme(beam, acting, work)
+    end subroutine solve_scheme
+
+    !> Shears and reactions of a scheme of which deflections and moments are solved, and the sizes of rounding errors
+    pure subroutine complete_scheme(beam, acting, work)
+        !> The beam and its scheme
+        type(beam_type), intent(in) :: beam
+        logical, intent(in) :: acting(:)
+        type(workspace_type), intent(inout) :: work
+
+        call find_sizes(beam, [0, size(beam%links)], work)
+        call find_shears(beam, [1, size(beam%links)], work)
+        call find_reactions(beam, acting, [0, size(beam%links)], work)
+    end subroutine complete_scheme
+
+    !> Solve a scheme for deflections and moments only
+    subroutine solve_deflections(beam, acting, work, state, place)
         !> The beam
         type(beam_type), intent(in) :: beam
         !> Which supports act
@@ -40,7 +64,7 @@ contains
             call solve_three_moment(work%nodes, beam%links, work%rhs, work%moment_work, work%answers, regular)
         else
             work%method = method_mixed
-            work%from_both_ends = allocated(work%plain%cells) .and. work%without_couples .and. ends_hold(work%nodes)
+            work%from_both_ends = fits_both_ends(work)
             if (work%from_both_ends) then
                 call solve_plain(work%plain, work%nodes, work%rhs, work%answers)
                 regular = .true.
@@ -63,13 +87,17 @@ contains
             ! Singular because something moves, or because statics cannot tell reactions apart
             call free_motions(beam, acting, motions)
             if (size(motions) > 0 .and. .not. any(work%ease > 0.0_wp)) state = band_mechanism
-            return
         end if
-        if (work%sprung) return
-        call find_sizes(beam, [0, size(beam%links)], work)
-        call find_shears(beam, [1, size(beam%links)], work)
-        call find_reactions(beam, acting, [0, size(beam%links)], work)
-    end subroutine solve_scheme
+    end subroutine solve_deflections
+
+    !> Can a scheme be solved from both ends
+    pure function fits_both_ends(work) result(fits)
+        type(workspace_type), intent(in) :: work
+        logical :: fits
+
+        fits = allocated(work%plain%cells) .and. work%without_couples
+        if (fits) fits = ends_hold(work%nodes)
+    end function fits_both_ends
 
     !> One step of iterative refinement of the last solve, with residuals formed from differences
     pure subroutine refine_scheme(beam, acting, work)
@@ -82,9 +110,10 @@ contains
         if (work%method == method_pivoting) return  ! LAPACK's expert driver has refined already
         call residual_chain(work%nodes, beam%links, work%rhs, work%answers, work%eliminated, &
                             work%sizes, work%compatibility, work%equilibrium)
-        if (work%method == method_three_moment) then
+        if (fits_three_moment(work%nodes)) then
+            work%method = method_three_moment
             call solve_three_moment(work%nodes, beam%links, work%eliminated, work%moment_work, work%correction, regular)
-        else if (work%from_both_ends) then
+        else if (fits_both_ends(work)) then
             call solve_plain(work%plain, work%nodes, work%eliminated, work%correction)
         else
             call solve_chain(work%nodes, beam%links, work%pivots, work%eliminated, work%correction)
@@ -92,8 +121,7 @@ contains
         work%answers%deflection = work%answers%deflection + work%correction%deflection
         work%answers%moment_left = work%answers%moment_left + work%correction%moment_left
         work%answers%moment_right = work%answers%moment_right + work%correction%moment_right
-        call find_shears(beam, [1, size(beam%links)], work)
-        call find_reactions(beam, acting, [0, size(beam%links)], work)
+        call complete_scheme(beam, acting, work)
     end subroutine refine_scheme
 
     !> Relative residuals of the last solve, into work%compatibility and work%equilibrium

@@ -8,12 +8,15 @@ module gapbeam_update
     use gapbeam_band, only: answer_type, factor_chain, correct_chain, band_ok
     use gapbeam_residual, only: residual_chain
     use gapbeam_model, only: beam_type
-    use gapbeam_workspace, only: workspace_type, apply_scheme, method_three_moment, method_pivoting
+    use gapbeam_workspace, only: workspace_type, apply_scheme, method_mixed, method_pivoting
     use gapbeam_system, only: solve_scheme, refine_scheme
     use gapbeam_reactions, only: find_sizes, find_shears, find_reactions
     implicit none
     private
-    public :: start_updates, update_scheme
+    public :: start_updates, keep_factor, update_scheme, groups_of
+
+    !> Nodes between two changes that are made in one
+    integer, parameter :: apart = 16
 
     !> A correction this small relative to the solution is the last one; how many there may be
     real(wp), parameter :: last_correction = sqrt(epsilon(1.0_wp))
@@ -37,13 +40,71 @@ contains
 
         call solve_scheme(beam, acting, work, state, place)
         solved = state == band_ok
-        follows = solved .and. work%method /= method_pivoting
-        if (.not. follows) return
+        follows = .false.
+        if (.not. solved) return
         call refine_scheme(beam, acting, work)
-        if (work%method /= method_three_moment .and. .not. work%from_both_ends) return
+        call keep_factor(beam, work, follows)
+    end subroutine start_updates
+
+    !> Make the factor of the scheme solved last, if it was solved without
+    pure subroutine keep_factor(beam, work, follows)
+        type(beam_type), intent(in) :: beam
+        type(workspace_type), intent(inout) :: work
+        !> Can update_scheme go on from the solution at hand: it took no pivoting
+        logical, intent(out) :: follows
+        integer :: state, place
+
+        follows = work%method /= method_pivoting
+        if (.not. follows) return
+        if (work%method == method_mixed .and. .not. work%from_both_ends) return
         call factor_chain(work%nodes, beam%links, work%pivots, state, place)
         follows = state == band_ok
-    end subroutine start_updates
+    end subroutine keep_factor
+
+    !> Supports that change together: first and last node of each group
+    pure function groups_of(beam, changed) result(groups)
+        type(beam_type), intent(in) :: beam
+        !> The supports that change, a few
+        integer, intent(in) :: changed(:)
+        !> Shape (2, number of groups), from left to right
+        integer, allocatable :: groups(:, :)
+        integer, allocatable :: nodes(:), pairs(:, :)
+        integer :: i, count
+
+        allocate (nodes(size(changed)), pairs(2, size(changed)))
+        nodes(:) = beam%supports(changed)%node
+        call sort(nodes)
+        count = 0
+        do i = 1, size(nodes)
+            if (count > 0) then
+                if (nodes(i) - pairs(2, count) <= apart) then
+                    pairs(2, count) = nodes(i)
+                    cycle
+                end if
+            end if
+            count = count + 1
+            pairs(:, count) = nodes(i)
+        end do
+        allocate (groups(2, count))
+        groups(:, :) = pairs(:, :count)
+    end function groups_of
+
+    !> Put a few numbers in ascending order (insertion)
+    pure subroutine sort(list)
+        integer, intent(inout) :: list(:)
+        integer :: i, j, number
+
+        do i = 2, size(list)
+            number = list(i)
+            j = i - 1
+            do while (j >= 1)
+                if (list(j) <= number) exit
+                list(j + 1) = list(j)
+                j = j - 1
+            end do
+            list(j + 1) = number
+        end do
+    end subroutine sort
 
     !> Solve a scheme from the solution of another one that differs at one node, or at some nodes beside each other
     subroutine update_scheme(beam, acting, changed, work, window, state)
@@ -64,6 +125,8 @@ contains
         logical :: small
 
         n = size(beam%links)
+        work%method = method_mixed
+        work%from_both_ends = .false.
         call apply_scheme(beam, acting, changed, work)
         call factor_chain(work%nodes, beam%links, work%pivots, state, place, changed)
         if (state /= band_ok) return

@@ -24,6 +24,7 @@ except ImportError:
 from importlib.metadata import version as _version
 
 from .errors import EngineError, GapbeamError, SceneError, Status
+from .prepared import Cases, Prepared, prepare
 from .results import Fields, Result, System
 from .scene import (
     Analysis,
@@ -51,6 +52,7 @@ __all__ = [
     "Analysis",
     "AxialLoad",
     "Beam",
+    "Cases",
     "CurvatureLoad",
     "EngineError",
     "Fields",
@@ -59,6 +61,7 @@ __all__ = [
     "GapbeamError",
     "LinearLoad",
     "MomentLoad",
+    "Prepared",
     "Result",
     "Scene",
     "SceneError",
@@ -70,6 +73,7 @@ __all__ = [
     "UniformLoad",
     "Units",
     "__version__",
+    "prepare",
     "read_scene",
     "scene_schema",
     "solve",

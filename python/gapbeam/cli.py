@@ -153,24 +153,9 @@ def _parser() -> argparse.ArgumentParser:
     )  # fmt: skip
     schema.set_defaults(command=_schema)
 
-    study = commands.add_parser("study", help="measure the program itself", description="Measure the program itself.")
-    studies = study.add_subparsers(title="studies", metavar="STUDY", required=True)
-    extremes = studies.add_parser(
-        "extremes", help="true errors in the corners, against exact solutions", formatter_class=plain,
-        description="Solve scenes with extreme numbers (stiffnesses, spans, gaps, loads, units, many supports) and print the\n"
-        "true errors, the error bounds the program gives, times and linear solves. Takes about half a minute.",
-    )  # fmt: skip
-    extremes.add_argument("--csv", metavar="FILE", help="write the table with all digits; - is standard output, nothing else")
-    extremes.add_argument("--markdown", metavar="FILE", help="write the table as a page for the documentation; - as above")
-    extremes.add_argument("--largest", metavar="N", type=int, default=10**6, help="most supports (default 1000000)")
-    extremes.set_defaults(command=_study_extremes)
-    schemes = studies.add_parser(
-        "schemes", help="linear solves until the working scheme is found", formatter_class=plain,
-        description="Count the linear solves and events of the reference problems from all starting schemes, of fronts that move\n"
-        "over thousands of supports, cold and warm, and of many spans. Takes some seconds.",
-    )  # fmt: skip
-    schemes.add_argument("--markdown", metavar="FILE", help="write the table as a page for the documentation; - is standard output")
-    schemes.set_defaults(command=_study_schemes)
+    from .cli_studies import add_studies
+
+    add_studies(commands)
     return parser
 
 
@@ -258,7 +243,7 @@ def _check_outputs(outputs: Mapping[str, str | None]) -> None:
         if not os.access(path if path.exists() else path.parent, os.W_OK):
             raise SceneError(option, f'no permission to write "{name}"')
     if len(set(names)) < len(names):
-        raise SceneError("--json, --csv, --plot and --path need different files")
+        raise SceneError(f"{', '.join(option for option, name in outputs.items() if name)} need different files")
 
 
 def _check(arguments: argparse.Namespace) -> int:
@@ -283,34 +268,4 @@ def _schema(_: argparse.Namespace) -> int:
 
     with _until_closed():
         print(json.dumps(scene_schema(), indent=2, allow_nan=False))
-    return SOLVED
-
-
-def _study_extremes(arguments: argparse.Namespace) -> int:
-    outputs = {"--csv": arguments.csv, "--markdown": arguments.markdown}
-    _check_outputs(outputs)
-    from .study import extremes, print_extremes, to_csv, to_markdown
-    from .study_extremes import cases
-
-    rows = list(extremes(cases(arguments.largest)))
-    for name, form in ((arguments.csv, to_csv), (arguments.markdown, to_markdown)):
-        if name:
-            _write(name, form(rows))
-    if "-" not in outputs.values():
-        with _until_closed():
-            print_extremes(rows)
-    return SOLVED
-
-
-def _study_schemes(arguments: argparse.Namespace) -> int:
-    outputs = {"--markdown": arguments.markdown}
-    _check_outputs(outputs)
-    from .study_schemes import print_schemes, schemes, to_markdown
-
-    rows = list(schemes())
-    if arguments.markdown:
-        _write(arguments.markdown, to_markdown(rows))
-    if arguments.markdown != "-":
-        with _until_closed():
-            print_schemes(rows)
     return SOLVED

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -37,8 +38,6 @@ class Solution:
         Of every support, positive upward.
     motion : numpy.ndarray
         Displacements of the nodes in the free motion, positive downward, largest 1.
-    residuals : numpy.ndarray
-        Relative residuals of compatibility, equilibrium and complementarity.
     solves : int
         Linear solves.
     method : int
@@ -56,7 +55,6 @@ class Solution:
     shear: np.ndarray
     reaction: np.ndarray
     motion: np.ndarray
-    residuals: np.ndarray
     solves: int
     method: int
     indifferent: bool
@@ -197,8 +195,71 @@ def follow(
     )
 
 
-def certify(arrays: Arrays, links: np.ndarray, factor: float, closed: np.ndarray) -> tuple[float, float] | None:
-    """Bound the errors of a solved scheme.
+def prepare_cases(
+    arrays: Arrays,
+    links: np.ndarray,
+    row_load: np.ndarray,
+    row_piece: np.ndarray,
+    row_values: np.ndarray,
+    node_load: np.ndarray,
+    node: np.ndarray,
+    node_values: np.ndarray,
+) -> Callable[[np.ndarray, int, np.ndarray], tuple[np.ndarray, ...]]:
+    """Condense the loads of a scene one by one.
+
+    Parameters
+    ----------
+    arrays, links
+        As for `solve`.
+    row_load, row_piece : numpy.ndarray of int
+        Load and piece of every row, in this order.
+    row_values : numpy.ndarray
+        Load at both ends of the piece, imposed curvature, force and couple at its right end, rows by 5.
+    node_load, node : numpy.ndarray of int
+        Load and node of every load at a node.
+    node_values : numpy.ndarray
+        Force and couple, rows by 2.
+
+    Returns
+    -------
+    callable
+        Called with factors (cases by loads), rule, and starting schemes (cases by supports), which become the working
+        schemes; returns deflection, moments left and right, shear, reaction, solves and status, one row a case, in the
+        engine's units.
+    """
+    length, force = arrays.exponents
+    exponents = np.array([length - force, length - force, length, -force, -force - length])
+    row_values = np.ldexp(row_values, exponents)
+    node_values = np.ldexp(node_values, exponents[3:])
+    if len(row_load) == 0:  # f2py takes no arrays of size 0: a load of nothing
+        row_load, row_piece, row_values = np.zeros(1), np.zeros(1), np.zeros((1, 5))
+    if len(node_load) == 0:
+        node_load, node, node_values = np.zeros(1), np.zeros(1), np.zeros((1, 2))
+
+    def integers(values: np.ndarray, first: int) -> np.ndarray:
+        return np.asarray(values + first, dtype=np.int32)
+
+    count, load, link, share = _f77.gbshar(
+        arrays.scaled.pieces.T, links, _last(arrays), integers(row_load, 1), integers(row_piece, 1), row_values.T
+    )
+    links, kinds, compliance, _, _, *supports = _beam(arrays, links)
+    fixed = (
+        *(links, kinds, compliance, *supports),
+        *(load[:count], link[:count], np.asfortranarray(share[:, :count])),
+        *(integers(node_load, 1), integers(node, 0), np.asfortranarray(node_values.T)),
+    )
+
+    def call(factors: np.ndarray, rule: int, closed: np.ndarray) -> tuple[np.ndarray, ...]:
+        *values, solves, status = _f77.gbcase(*fixed, factors.T, rule, closed.T)
+        return (*(value.T for value in values), solves, status)
+
+    return call
+
+
+def certify(
+    arrays: Arrays, links: np.ndarray, factor: float, closed: np.ndarray
+) -> tuple[np.ndarray, tuple[float, float] | None]:
+    """Check a solved scheme, and bound its errors.
 
     Parameters
     ----------
@@ -207,13 +268,16 @@ def certify(arrays: Arrays, links: np.ndarray, factor: float, closed: np.ndarray
 
     Returns
     -------
-    (float, float) or None
+    residuals : numpy.ndarray
+        Relative residuals of compatibility, equilibrium and complementarity, in twice the working precision.
+    bounds : (float, float) or None
         Largest error of the deflections of the nodes and of the reactions; None where the scheme takes pivoting or
         leaves the beam free to move.
     """
-    bound, known = _f77.gbcert(*_beam(arrays, links), factor, _scheme(closed))
+    residuals, bound, known = _f77.gbcert(*_beam(arrays, links), factor, _scheme(closed))
     length, force = arrays.exponents
-    return (float(np.ldexp(bound[0], length)), float(np.ldexp(bound[1], force))) if known else None
+    bounds = (float(np.ldexp(bound[0], length)), float(np.ldexp(bound[1], force))) if known else None
+    return residuals, bounds
 
 
 def _field_exponents(length: int, force: int) -> np.ndarray:

@@ -29,6 +29,8 @@ PLAIN, HINGE, RESTRAINED = 0, 1, 2
 SIDES = {"both": 0, "below": 1, "above": -1}
 """Sides of a support, as in gapbeam_model."""
 CASES = {"dead": 0, "live": 1}
+KINDS_OF_LOADS = (ForceLoad, MomentLoad, AxialLoad, UniformLoad, LinearLoad, CurvatureLoad)
+"""Loads at a point, along the beam, and on a stretch."""
 ORDINARY_EXPONENT = 64
 """Scenes whose lengths or forces are beyond two to this power are solved in other units."""
 
@@ -51,6 +53,10 @@ class Axial:
         Axial supports of the scene, by their number there.
     support_points : numpy.ndarray of int
         The point (0..n) of each of them.
+    loads, load_points : numpy.ndarray of int
+        Axial loads of the scene, by their number there, and the point (0..n) of each of them.
+    load_force : numpy.ndarray
+        Their forces.
     """
 
     points: np.ndarray
@@ -60,6 +66,9 @@ class Axial:
     settlement: np.ndarray
     supports: np.ndarray
     support_points: np.ndarray
+    loads: np.ndarray
+    load_points: np.ndarray
+    load_force: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -160,6 +169,68 @@ class Arrays:
         return self.point_x[self.node_points]
 
 
+@dataclass(frozen=True, slots=True)
+class LoadRows:
+    """What each load of a scene does across the beam, a row for every piece or point that it acts on.
+
+    Attributes
+    ----------
+    piece_load, piece : numpy.ndarray of int
+        Number of the load in the scene, and the piece.
+    piece_values : numpy.ndarray
+        Load at both ends of the piece and imposed curvature, rows by 3.
+    point_load, point : numpy.ndarray of int
+        Number of the load in the scene, and the point.
+    point_values : numpy.ndarray
+        Force and couple, rows by 2.
+    """
+
+    piece_load: np.ndarray
+    piece: np.ndarray
+    piece_values: np.ndarray
+    point_load: np.ndarray
+    point: np.ndarray
+    point_values: np.ndarray
+
+    def on_pieces(self, share: np.ndarray, pieces: int) -> np.ndarray:
+        """Sum the loads of the pieces.
+
+        Parameters
+        ----------
+        share : numpy.ndarray
+            By how much each load of the scene counts.
+        pieces : int
+            Number of pieces.
+
+        Returns
+        -------
+        numpy.ndarray
+            Pieces by 3.
+        """
+        weight = share[self.piece_load]
+        columns = [np.bincount(self.piece, weight * self.piece_values[:, k], pieces) for k in range(3)]
+        return np.stack(columns, axis=1)
+
+    def on_points(self, share: np.ndarray, points: int) -> np.ndarray:
+        """Sum the forces and couples at the points.
+
+        Parameters
+        ----------
+        share : numpy.ndarray
+            As for `on_pieces`.
+        points : int
+            Number of points.
+
+        Returns
+        -------
+        numpy.ndarray
+            Points by 2.
+        """
+        weight = share[self.point_load]
+        columns = [np.bincount(self.point, weight * self.point_values[:, k], points) for k in range(2)]
+        return np.stack(columns, axis=1)
+
+
 def lower(scene: Scene) -> Arrays:
     """Turn a checked scene into arrays.
 
@@ -173,29 +244,55 @@ def lower(scene: Scene) -> Arrays:
     Arrays
         Contiguous double and 32-bit integer arrays.
     """
+    return lower_by_load(scene)[0]
+
+
+def lower_by_load(scene: Scene) -> tuple[Arrays, LoadRows]:
+    """Turn a checked scene into arrays, and say what each of its loads does.
+
+    Parameters
+    ----------
+    scene : Scene
+        As `read_scene` returns it.
+
+    Returns
+    -------
+    Arrays
+        As from `lower`.
+    LoadRows
+        The loads one by one.
+    """
     ends = scene.span_ends()
     lengths = np.asarray(scene.beam.spans, dtype=float)
-    forces = [load for load in scene.loads if isinstance(load, ForceLoad)]
-    moments = [load for load in scene.loads if isinstance(load, MomentLoad)]
-    pulls = [load for load in scene.loads if isinstance(load, AxialLoad)]
-    stretches = [load for load in scene.loads if isinstance(load, UniformLoad | LinearLoad | CurvatureLoad)]
+    kinds_of_loads = np.array(list(map(KINDS_OF_LOADS.index, map(type, scene.loads))), dtype=int)
+    axial_load = np.flatnonzero(kinds_of_loads == KINDS_OF_LOADS.index(AxialLoad))
+    point_load = np.flatnonzero(kinds_of_loads < 2)
+    stretch_load = np.flatnonzero(kinds_of_loads > 2)
+    pulls, at_a_point, stretches = ([scene.loads[k] for k in some] for some in (axial_load, point_load, stretch_load))
 
     points = _Points(ends, lengths)
     at_supports = points.add_items(scene.supports)
     at_hinges = points.add_x(np.asarray(scene.beam.hinges, dtype=float))
-    at_forces, at_moments, at_pulls = (points.add_items(items) for items in (forces, moments, pulls))
+    at_loads, at_pulls = points.add_items(at_a_point), points.add_items(pulls)
     section_from, section_to = points.add_stretches(scene.sections)
     load_from, load_to = points.add_stretches(stretches)
     span, offset, index = points.merge()
-    at_supports, at_hinges, at_forces, at_moments, at_pulls = (
-        index[part] for part in (at_supports, at_hinges, at_forces, at_moments, at_pulls)
-    )
+    at_supports, at_hinges, at_loads, at_pulls = (index[part] for part in (at_supports, at_hinges, at_loads, at_pulls))
     load_from, load_to = index[load_from], index[load_to]
 
     pieces, axial_flexibility = _pieces(scene, lengths, span, offset, index[section_from], index[section_to])
-    loads = _distributed(stretches, ends, span, offset, load_from, load_to)
-    point_force = _sums(len(span), at_forces, forces, "F")
-    point_couple = _sums(len(span), at_moments, moments, "M")
+    q, bent = _end_values(stretches, kinds_of_loads[stretch_load])
+    stretch, piece, piece_values = _distributed(q, bent, ends, span, offset, load_from, load_to)
+    point_values = np.zeros((len(at_a_point), 2))
+    for column, name in enumerate(("F", "M")):
+        some = np.flatnonzero(kinds_of_loads[point_load] == column)
+        point_values[some, column] = [getattr(at_a_point[k], name) for k in some]
+    rows = LoadRows(stretch_load[stretch], piece, piece_values, point_load, at_loads, point_values)
+    shares = [np.array([load.case == case for load in scene.loads], dtype=float) for case in CASES]
+    loads = np.zeros((2, len(span) - 1, 5))
+    for k, share in enumerate(shares):
+        loads[k, :, :3] = rows.on_pieces(share, len(span) - 1)
+    at_points = np.stack([rows.on_points(share, len(span)) for share in shares])
 
     axial_support = np.array([support.direction == "axial" for support in scene.supports], dtype=bool)
     normal = np.flatnonzero(~axial_support)
@@ -206,8 +303,7 @@ def lower(scene: Scene) -> Arrays:
     node_points = np.flatnonzero(is_node)
     node_of_point = np.cumsum(is_node) - 1
 
-    loads[:, :, 3] = np.where(is_node[1:], 0.0, point_force[:, 1:])
-    loads[:, :, 4] = np.where(is_node[1:], 0.0, point_couple[:, 1:])
+    loads[:, :, 3:] = np.where(is_node[1:, None], 0.0, at_points[:, 1:])
     kinds = np.zeros(len(node_points), dtype=np.int32)
     kinds[node_of_point[at_hinges]] = HINGE
     columns = [scene.supports[k] for k in normal]
@@ -217,7 +313,7 @@ def lower(scene: Scene) -> Arrays:
     contact = np.array([s.settlement for s in columns], dtype=float) + sides * np.array(
         [s.gap for s in columns], dtype=float
     )
-    return Arrays(
+    arrays = Arrays(
         ends=ends,
         point_span=span,
         point_offset=offset,
@@ -229,8 +325,8 @@ def lower(scene: Scene) -> Arrays:
         node_points=node_points,
         kinds=kinds,
         compliance=compliance,
-        force=np.ascontiguousarray(point_force[:, node_points].T),
-        couple=np.ascontiguousarray(point_couple[:, node_points].T),
+        force=np.ascontiguousarray(at_points[:, node_points, 0].T),
+        couple=np.ascontiguousarray(at_points[:, node_points, 1].T),
         support_count=len(scene.supports),
         supports=normal,
         support_nodes=support_nodes.astype(np.int32),
@@ -238,8 +334,9 @@ def lower(scene: Scene) -> Arrays:
         support_stiffness=np.array([s.stiffness for s in columns], dtype=float),
         support_contact=contact,
         couple_share=couple_share,
-        axial=_axial(scene, np.flatnonzero(axial_support), at_supports, at_pulls, pulls, pieces[:, 0] * axial_flexibility),
+        axial=_axial(scene, np.flatnonzero(axial_support), at_supports, axial_load, at_pulls, pieces[:, 0] * axial_flexibility),
     )
+    return arrays, rows
 
 
 def locate(x: np.ndarray, ends: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -349,41 +446,38 @@ def _pieces(scene, lengths, span, offset, start, stop) -> tuple[np.ndarray, np.n
     return pieces, axial
 
 
-def _distributed(loads, ends, span, offset, start, stop) -> np.ndarray:
-    """Load at the ends of every piece and imposed curvature, dead and live: 2 by pieces by 5."""
-    result = np.zeros((2, len(span) - 1, 5))
-    if not loads:
-        return result
-    case = np.array([CASES[load.case] for load in loads])
-    q = np.array([_end_values(load) for load in loads], dtype=float)
-    bent = np.array([isinstance(load, CurvatureLoad) for load in loads])
-    covered, owner = _expand(start, stop)
-    size = len(span) - 1
+def _distributed(q, bent, ends, span, offset, start, stop) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """For every piece under a load: the load, the piece, and load at its ends and imposed curvature."""
+    piece, load = _expand(start, stop)
+    values = np.zeros((len(piece), 3))
+    if not len(q):
+        return load, piece, values
 
     def distance(a: np.ndarray, b: np.ndarray) -> np.ndarray:
         return (ends[span[b]] - ends[span[a]]) + (offset[b] - offset[a])
 
-    sloped = q[:, 0] != q[:, 1]
-    whole = distance(start, stop)
-    for k in (0, 1):
-        for column in (0, 1, 2):
-            chosen = (case == k) & (bent == (column == 2))
-            if not chosen.any():
-                continue
-            some = chosen[owner]
-            piece, load = covered[some], owner[some]
-            values = q[load, 0]
-            if column < 2 and sloped[chosen].any():
-                share = distance(start[load], piece + column) / whole[load]
-                values = np.where(sloped[load], values * (1.0 - share) + q[load, 1] * share, values)
-            result[k, :, column] = np.bincount(piece, values, size)
-    return result
+    values[:, :2] = q[load, :1]
+    sloped = np.flatnonzero((q[:, 0] != q[:, 1])[load])
+    if len(sloped):
+        owner, at = load[sloped], piece[sloped]
+        for column in (0, 1):
+            share = distance(start[owner], at + column) / distance(start[owner], stop[owner])
+            values[sloped, column] = q[owner, 0] * (1.0 - share) + q[owner, 1] * share
+    if bent.any():
+        values[:, 2] = np.where(bent[load], values[:, 0], 0.0)
+        values[bent[load], :2] = 0.0
+    return load, piece, values
 
 
-def _end_values(load: UniformLoad | LinearLoad | CurvatureLoad) -> tuple[float, float]:
-    if isinstance(load, CurvatureLoad):
-        return load.kappa, load.kappa
-    return load.q if isinstance(load, LinearLoad) else (load.q, load.q)
+def _end_values(loads, kinds) -> tuple[np.ndarray, np.ndarray]:
+    """Values of distributed loads at both their ends, and which of them are curvatures."""
+    values = np.zeros((len(loads), 2))
+    for kind, name in ((UniformLoad, "q"), (LinearLoad, "q"), (CurvatureLoad, "kappa")):
+        some = np.flatnonzero(kinds == KINDS_OF_LOADS.index(kind))
+        if len(some):
+            found = np.array(list(map(attrgetter(name), map(loads.__getitem__, some.tolist()))), dtype=float)
+            values[some] = found.reshape(len(some), -1)
+    return values, kinds == KINDS_OF_LOADS.index(CurvatureLoad)
 
 
 def _sums(size: int, at: np.ndarray, loads: list, name: str) -> np.ndarray:
@@ -408,14 +502,15 @@ def _restraints(supports, nodes, kinds) -> tuple[np.ndarray, np.ndarray]:
     return compliance, share
 
 
-def _axial(scene, supports, at_supports, at_pulls, pulls, flexibility) -> Axial | None:
+def _axial(scene, supports, at_supports, loads, at_loads, flexibility) -> Axial | None:
     """Build the axial system; None where no axial load and no settlement asks for one."""
+    pulls = [scene.loads[k] for k in loads]
     settles = any(scene.supports[k].settlement for k in supports)
     if not pulls and not settles:
         return None
     last = len(flexibility)
-    points = np.unique(np.concatenate(([0, last], at_pulls, at_supports[supports])))
-    force = _sums(last + 1, at_pulls, pulls, "F")[:, points]
+    points = np.unique(np.concatenate(([0, last], at_loads, at_supports[supports])))
+    force = _sums(last + 1, at_loads, pulls, "F")[:, points]
     support_points = np.searchsorted(points, at_supports[supports])
     stiffness, settlement = np.zeros(len(points)), np.zeros(len(points))
     for k, i in zip(supports, support_points, strict=True):
@@ -430,4 +525,7 @@ def _axial(scene, supports, at_supports, at_pulls, pulls, flexibility) -> Axial 
         settlement=settlement,
         supports=supports,
         support_points=support_points,
+        loads=loads,
+        load_points=np.searchsorted(points, at_loads),
+        load_force=np.array([load.F for load in pulls], dtype=float),
     )

@@ -116,14 +116,18 @@ class Step:
         return tuple(result)
 
     @cached_property
+    def _certified(self) -> tuple[np.ndarray, tuple[float, float] | None]:
+        return engine.certify(self._arrays, self._links, self.factor, self.solution.closed)
+
+    @property
     def bounds(self) -> tuple[float, float] | None:
         """Largest error that the deflections of the nodes, and the reactions, can have; None if not known."""
-        return engine.certify(self._arrays, self._links, self.factor, self.solution.closed)
+        return self._certified[1]
 
     @property
     def residuals(self) -> dict[str, float]:
         """Relative residuals of equilibrium, compatibility and complementarity."""
-        compatibility, equilibrium, complementarity = self.solution.residuals.tolist()
+        compatibility, equilibrium, complementarity = self._certified[0].tolist()
         return {"equilibrium": equilibrium, "compatibility": compatibility, "complementarity": complementarity + 0.0}
 
     @cached_property

@@ -240,10 +240,25 @@ def page(title: str, study: str, words: Iterable[str], columns: Iterable[str], c
     str
     """
     made = f"This page is made by `gapbeam study {study} --markdown docs/{study}.md`."
-    head = [f"# {title}", "", made, "", *words, ""]
+    return "\n".join([f"# {title}", "", made, "", *words, "", *markdown_table(columns, cells, texts)]) + "\n"
+
+
+def markdown_table(columns: Iterable[str], cells: list[list[str]], texts: int) -> list[str]:
+    """Write one table of a page.
+
+    Parameters
+    ----------
+    columns, cells, texts
+        As for `page`.
+
+    Returns
+    -------
+    list of str
+        Its lines.
+    """
     rule = "|---" * texts + "|---:" * (len(cells[0]) - texts) + "|"
     rows = ["| " + " | ".join(row) + " |" for row in (list(columns), *cells)]
-    return "\n".join([*head, rows[0], rule, *rows[1:]]) + "\n"
+    return [rows[0], rule, *rows[1:]]
 
 
 def print_extremes(rows: list[Row], console: Console | None = None) -> None:

@@ -1,0 +1,182 @@
+"""The studies of the command line: ``gapbeam study ...``."""
+
+from __future__ import annotations
+
+import argparse
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from .cli import SOLVED, _check_outputs, _source, _until_closed, _write
+from .errors import SceneError
+
+if TYPE_CHECKING:
+    from .study_page import Page
+
+PLAIN = argparse.RawDescriptionHelpFormatter
+
+
+def add_studies(commands: argparse._SubParsersAction) -> None:
+    """Add the command ``study``.
+
+    Parameters
+    ----------
+    commands : argparse._SubParsersAction
+        The commands of ``gapbeam``.
+    """
+    study = commands.add_parser("study", help="measure the program itself", description="Measure the program itself.")
+    studies = study.add_subparsers(title="studies", metavar="STUDY", required=True)
+    extremes = studies.add_parser(
+        "extremes", help="true errors in the corners, against exact solutions", formatter_class=PLAIN,
+        description="Solve scenes with extreme numbers (stiffnesses, spans, gaps, loads, units, many supports) and print the\n"
+        "true errors, the error bounds the program gives, times and linear solves. Takes about half a minute.",
+    )  # fmt: skip
+    _add_tables(extremes)
+    extremes.add_argument("--largest", metavar="N", type=int, default=10**6, help="most supports (default 1000000)")
+    extremes.set_defaults(command=_study_extremes)
+    accuracy = studies.add_parser(
+        "accuracy", help="error against run time by each method, on families of beams or on a scene", formatter_class=PLAIN,
+        description="Solve the same meshed beams by the engine's methods, by LAPACK's dgbsv and by the displacement method, and\n"
+        "print true errors and times, the Pareto front marked. All families take two minutes, --largest 10000 some seconds.",
+    )  # fmt: skip
+    accuracy.add_argument("scene", metavar="SCENE", nargs="?", help="a .toml or .json file instead of the built-in families")
+    accuracy.add_argument("--family", metavar="NAME", action="append", default=[], help="one built-in family only: span (one span, "
+                          "finely meshed), spans (many), jumps (of EI), springs (soft and stiff), gaps (one-sided)")  # fmt: skip
+    accuracy.add_argument("--parts", metavar="N", type=int, nargs="+", help="elements into which each stretch of SCENE is cut, one "
+                          "comparison for each (default 1 4 16 64)")  # fmt: skip
+    accuracy.add_argument("--largest", metavar="N", type=int, default=10**6, help="most elements (default 1000000)")
+    _add_tables(accuracy)
+    accuracy.add_argument("--plot", metavar="FILE", help="draw error against run time (.png, .pdf or .svg)")
+    accuracy.set_defaults(command=_study_accuracy)
+    contact = studies.add_parser(
+        "contact", help="contact at scale, beside an active set in numpy and scipy", formatter_class=PLAIN,
+        description="Run gapbeam beside the active set that a user would write with numpy and scipy, on up to 10,000 one-sided\n"
+        "supports; print times, linear solves and true errors. Needs scipy. Takes half a minute.",
+    )  # fmt: skip
+    contact.add_argument("--largest", metavar="N", type=int, default=10**4, help="most spans (default 10000)")
+    _add_tables(contact)
+    contact.set_defaults(command=_study_contact)
+    kernel = studies.add_parser(
+        "kernel", help="time and memory traffic a node, beside LAPACK's dgbsv", formatter_class=PLAIN,
+        description="Solve one linear beam of up to a million nodes by the engine's elimination and by LAPACK's dgbsv, and print\n"
+        "nanoseconds a node and the share of the memory's bandwidth that is used. Takes about a minute.",
+    )  # fmt: skip
+    kernel.add_argument("--largest", metavar="N", type=int, default=10**6, help="most nodes (default 1000000)")
+    _add_tables(kernel)
+    kernel.set_defaults(command=_study_kernel)
+    schemes = studies.add_parser(
+        "schemes", help="linear solves until the working scheme is found", formatter_class=PLAIN,
+        description="Count the linear solves and events of the reference problems from all starting schemes, of fronts that move\n"
+        "over thousands of supports, cold and warm, and of many spans. Takes some seconds.",
+    )  # fmt: skip
+    schemes.add_argument("--markdown", metavar="FILE", help="write the table as a page for the documentation; - is standard output")
+    schemes.set_defaults(command=_study_schemes)
+
+
+def _add_tables(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--csv", metavar="FILE", help="write the table with all digits; - is standard output, nothing else")
+    parser.add_argument("--markdown", metavar="FILE", help="write the table as a page for the documentation; - as above")
+
+
+def _study_extremes(arguments: argparse.Namespace) -> int:
+    outputs = {"--csv": arguments.csv, "--markdown": arguments.markdown}
+    _check_outputs(outputs)
+    from .study import extremes, print_extremes, to_csv, to_markdown
+    from .study_extremes import cases
+
+    rows = list(extremes(cases(arguments.largest)))
+    for name, form in ((arguments.csv, to_csv), (arguments.markdown, to_markdown)):
+        if name:
+            _write(name, form(rows))
+    if "-" not in outputs.values():
+        with _until_closed():
+            print_extremes(rows)
+    return SOLVED
+
+
+def _study_accuracy(arguments: argparse.Namespace) -> int:
+    outputs = {"--csv": arguments.csv, "--markdown": arguments.markdown, "--plot": arguments.plot}
+    _check_outputs(outputs)
+    from .study_accuracy import (
+        FAMILIES,
+        PARTS,
+        families,
+        print_comparisons,
+        scene_comparisons,
+        to_csv,
+        to_markdown,
+    )
+
+    for name in arguments.family:
+        if name not in FAMILIES:
+            raise SceneError("--family", f'expected one of {", ".join(FAMILIES)}, got "{name}"')
+    if arguments.scene and arguments.family:
+        raise SceneError("give either SCENE or --family, not both")
+    if arguments.parts and not arguments.scene:
+        raise SceneError("--parts", "needs a SCENE to cut")
+    if min([arguments.largest, *(arguments.parts or [])]) < 1:
+        raise SceneError("--parts and --largest", "expected positive numbers")
+    remark = ""
+    if arguments.scene:
+        comparisons, remark = scene_comparisons(_source(arguments.scene), arguments.parts or PARTS)
+    else:
+        comparisons = list(families(arguments.family, arguments.largest))
+    if not comparisons:
+        raise SceneError("--largest", f"no mesh has as few as {arguments.largest} elements")
+    if arguments.csv:
+        _write(arguments.csv, to_csv(comparisons))
+    if arguments.plot:
+        from .plots_accuracy import plot_accuracy
+
+        plot_accuracy(comparisons, arguments.plot)
+    if arguments.markdown:
+        picture = os.path.relpath(arguments.plot, Path(arguments.markdown).parent) if arguments.plot else ""
+        options = [arguments.scene or "", *(f"--family {name}" for name in arguments.family)]
+        _write(arguments.markdown, to_markdown(comparisons, picture, remark, " ".join(options)))
+    if "-" not in outputs.values():
+        with _until_closed():
+            print_comparisons(comparisons, remark)
+    return SOLVED
+
+
+def _study_contact(arguments: argparse.Namespace) -> int:
+    _check_outputs({"--csv": arguments.csv, "--markdown": arguments.markdown})
+    from .study_contact import PAGE, contact, table, values
+
+    return _tell(arguments, PAGE, list(contact(arguments.largest)), table, values)
+
+
+def _study_kernel(arguments: argparse.Namespace) -> int:
+    _check_outputs({"--csv": arguments.csv, "--markdown": arguments.markdown})
+    from .study_kernel import PAGE, kernels, table, values
+
+    return _tell(arguments, PAGE, list(kernels(arguments.largest)), table, values)
+
+
+def _tell(arguments: argparse.Namespace, page: Page, rows: list, table: Callable, values: Callable) -> int:
+    """Write a study's table into the files asked for, and print it unless one of them is standard output."""
+    if not rows:
+        raise SceneError("--largest", f"nothing is as small as {arguments.largest}")
+    if arguments.csv:
+        _write(arguments.csv, page.csv(values(rows)))
+    if arguments.markdown:
+        _write(arguments.markdown, page.markdown(table(rows)))
+    if "-" not in (arguments.csv, arguments.markdown):
+        with _until_closed():
+            page.show(table(rows))
+    return SOLVED
+
+
+def _study_schemes(arguments: argparse.Namespace) -> int:
+    outputs = {"--markdown": arguments.markdown}
+    _check_outputs(outputs)
+    from .study_schemes import print_schemes, schemes, to_markdown
+
+    rows = list(schemes())
+    if arguments.markdown:
+        _write(arguments.markdown, to_markdown(rows))
+    if arguments.markdown != "-":
+        with _until_closed():
+            print_schemes(rows)
+    return SOLVED

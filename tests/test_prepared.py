@@ -1,0 +1,116 @@
+"""Scenes prepared once and solved for many load cases."""
+
+import random
+
+import gapbeam
+import numpy as np
+import pytest
+from scenes import at, force, random_scene, scene, uniform
+
+
+def scaled(made, factors):
+    """The scene of one load case."""
+    loads = []
+    for load, factor in zip(made["loads"], factors, strict=True):
+        load = dict(load)
+        for key in ("q", "F", "M", "kappa"):
+            if key in load:
+                value = load[key]
+                load[key] = [factor * v for v in value] if isinstance(value, list | tuple) else factor * value
+        loads.append(load)
+    return {**made, "loads": loads, "analysis": {}}
+
+
+@pytest.mark.parametrize("block", range(5))
+def test_cases_are_scenes_with_scaled_loads(block):
+    solved = 0
+    for seed in range(40 * block, 40 * block + 40):
+        rng = random.Random(seed)
+        made = random_scene(rng, held=rng.choice((True, None)))
+        made["analysis"] = {}
+        beam = gapbeam.prepare(made)
+        factors = [[rng.choice((0.0, 1.0, -1.0, 0.5, 3.0)) for _ in made["loads"]] for _ in range(3)]
+        cases = beam.solve(factors)
+        for k, row in enumerate(factors):
+            try:
+                direct = gapbeam.solve(scaled(made, row))
+            except gapbeam.EngineError:
+                assert cases.status[k] > 10
+                continue
+            assert (direct.status == "solved") == (cases.status[k] == 0)
+            full = beam.result(row)
+            assert full.status == direct.status
+            if direct.status != "solved":
+                continue
+            solved += 1
+            step = direct.steps[-1]
+            tolerance = 1e-11 * max(np.abs(step.reaction).max(initial=0.0), np.abs(np.ravel(row)).max(initial=1e-9))
+            assert cases.reaction[k] == pytest.approx(step.solution.reaction, abs=tolerance, rel=1e-11), seed
+            assert cases.closed[k].tolist() == step.solution.closed.tolist() or step.undecided
+            assert full.steps[-1].reaction == pytest.approx(step.reaction, abs=tolerance, rel=1e-11)
+            if not step.indifferent:
+                x = np.linspace(0.0, direct.arrays.ends[-1], 7)
+                for name in ("deflection", "moment"):
+                    a, b = getattr(full.at(x), name), getattr(direct.at(x), name)
+                    assert a == pytest.approx(b, rel=1e-9, abs=1e-10 * max(np.abs(b).max(), 1e-6)), (seed, name)
+    assert solved > 60
+
+
+def test_one_case_is_the_row_of_many():
+    made = scene([2.0, 3.0, 2.0], [at(0), at(1, side="below", gap=0.01), at(2, side="below"), at(3)],
+                 [uniform(3.0), force(4.0, 10.0), uniform(1.0, case="dead")])  # fmt: skip
+    beam = gapbeam.prepare(made)
+    rows = np.random.default_rng(3).uniform(-2.0, 5.0, (50, 3))
+    many = beam.solve(rows)
+    for k, row in enumerate(rows):
+        one = beam.solve(row)
+        assert one.reaction.shape == (4,)
+        assert np.array_equal(one.reaction, many.reaction[k])
+        assert np.array_equal(one.deflection, many.deflection[k])
+        assert one.solves == many.solves[k]
+    assert np.array_equal(beam.solve().reaction, beam.solve([1.0, 1.0, 1.0]).reaction)
+    assert np.array_equal(beam.solve(rows, start=[False] * 4).closed, many.closed)
+
+
+def test_a_case_without_equilibrium_is_recorded():
+    made = scene([1.0, 1.0], [at(0, side="below"), at(1, side="below")], [{**uniform(1.0), "to": 1.0}, force(2.0, 1.0)])
+    beam = gapbeam.prepare(made)
+    cases = beam.solve([[1.0, 0.1], [1.0, 10.0], [2.0, 0.0]])
+    assert cases.status.tolist() == [0, 1, 0]
+    assert np.array_equal(cases.reaction[1], [0.0, 0.0])
+    assert cases.reaction[2] == pytest.approx([1.0, 1.0])
+    assert "tips about the support at x = 1" in beam.result([1.0, 10.0]).reason
+
+
+def test_far_units():
+    """Scenes that are solved in other units inside."""
+    big = 2.0**300
+    made = scene([2.0 * big, 2.0 * big], [at(0), at(1, side="below"), at(2)], [uniform(1.0), force(big, 2.0 * big)])
+    small = scene([2.0, 2.0], [at(0), at(1, side="below"), at(2)], [uniform(1.0), force(1.0, 2.0)])
+    a, b = gapbeam.prepare(made).solve([1.0, 3.0]), gapbeam.prepare(small).solve([1.0, 3.0])
+    assert a.reaction / big == pytest.approx(b.reaction, rel=1e-14)
+
+
+def test_axial_loads_have_factors_too():
+    made = scene([2.0], [at(0), at(1), {"node": 0, "direction": "axial"}],
+                 [{"type": "axial", "node": 1, "F": 3.0}, uniform(1.0)])  # fmt: skip
+    result = gapbeam.prepare(made).result([2.0, 1.0])
+    assert result.steps[-1].reaction[2] == pytest.approx(-6.0)
+
+
+def test_no_loads():
+    beam = gapbeam.prepare(scene([1.0], [at(0), at(1)], []))
+    assert beam.solve().status == 0
+    assert beam.solve().reaction.tolist() == [0.0, 0.0]
+
+
+def test_mistakes():
+    beam = gapbeam.prepare(scene([1.0], [at(0), at(1)], [uniform(1.0), uniform(2.0)]))
+    with pytest.raises(ValueError, match=r"expected 2 numbers a case, one for each load, got shape \(3,\)"):
+        beam.solve([1.0, 2.0, 3.0])
+    with pytest.raises(ValueError, match="the factor of load 1 is nan; give a finite number"):
+        beam.solve([[1.0, 1.0], [1.0, np.nan]])
+    with pytest.raises(ValueError, match="expected one case"):
+        beam.result([[1.0, 1.0]])
+    with pytest.raises(gapbeam.SceneError, match="rule: expected one of block, single"):
+        gapbeam.prepare(scene([1.0], [at(0), at(1)], []), rule="fast")
