@@ -10,11 +10,10 @@ module gapbeam_api
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_no_equilibrium, &
         gapbeam_bad_input, gapbeam_not_prepared
     use gapbeam_search, only: rule_block, rule_single
-    use gapbeam_scene, only: model_type, load_type
+    use gapbeam_scene, only: model_type, load_type, gapbeam_axial
     use gapbeam_lowered, only: lowered_type, copy_model
     use gapbeam_lower, only: lower_model, lower_loads
     use gapbeam_check, only: check_loads, shown
-    use gapbeam_scene, only: gapbeam_axial
     use gapbeam_state, only: state_type, event_type, new_state, solve_state, certify_state, follow_events
     use gapbeam_query, only: support_values, find_undecided, fields_at_places, extremes_of_fields, motion_of_nodes, field_count
     implicit none

@@ -257,7 +257,8 @@ class F77Beam:
             "gbevnt", self.work, self.iwork, float(factor), RULES[rule], 1000,
             self.state, len(self.state), self.istate, len(self.istate), number, at, which,
         )  # fmt: skip
-        return info, [(f, k - 1, s) for f, (k, s) in zip(at, which, strict=True)][: number[0]]
+        n = number[0]
+        return info, [(f, k - 1, s) for f, (k, s) in zip(at[:n], which[:n], strict=True)]
 
     def at_supports(self):
         """As CBeam.at_supports."""
