@@ -9,16 +9,21 @@ module gapbeam_elements
         sweep_inward, step_alone, meet, sweep_outward
     implicit none
     private
-    public :: solve_elements, elements_solved, elements_mechanism, elements_bad_input
+    public :: solve_elements, refine_elements, elements_solved, elements_mechanism, elements_bad_input
 
     !> What solve_elements found: a solution; an end that nothing holds; fewer than two elements, or a length or EI not positive
     integer, parameter :: elements_solved = 0, elements_mechanism = 1, elements_bad_input = 2
     !> Steps assembled at a time
     integer, parameter :: block_size = 64
 
-    !> Loads of the elements outward of the nodes at hand: half of each, and the rotation it would make at their ends
+    !> Splits a double into two halves of 26 bits (Dekker 1971)
+    real(wp), parameter :: splitter = 134217729.0_wp
+
+    !> The elements outward of the nodes at hand: half the load, the rotation it would make at their ends; rotation and shear
+    !> of a solution at their inward ends, high and low part
     type :: outward_type
-        real(wp) :: half(2) = 0.0_wp, turn(2) = 0.0_wp
+        real(wp), dimension(2) :: half = 0.0_wp, turn = 0.0_wp
+        real(wp), dimension(2) :: psi = 0.0_wp, psi_low = 0.0_wp, v = 0.0_wp, v_low = 0.0_wp
     end type outward_type
 
 contains
@@ -35,46 +40,94 @@ contains
         real(wp), intent(inout), contiguous :: deflection(0:), moment(0:)
         !> elements_solved; otherwise nothing is solved
         integer, intent(out) :: state
-        type(cell_type) :: cells(block_size)
-        type(row_type) :: rows(block_size)
-        type(sweep_type) :: sweep
-        type(outward_type) :: outward
-        integer :: n, odd, s, count, middle
+        integer :: n
         logical :: good
 
         n = size(length)
-        odd = modulo(n, 2)
         state = elements_bad_input
         if (n < 2) return
         if (.not. (length(1) > 0.0_wp .and. ei(1) > 0.0_wp .and. length(n) > 0.0_wp .and. ei(n) > 0.0_wp)) return
         state = elements_mechanism
         if (.not. (stiffness(0) > 0.0_wp .and. stiffness(n) > 0.0_wp)) return
-        state = elements_bad_input
+        call sweep(length, ei, q, stiffness, force, eliminated, deflection, moment, good)
+        state = merge(elements_solved, elements_bad_input, good)
+    end subroutine solve_elements
+
+    !> One step of iterative refinement of that solution.
+    !>
+    !> On a fine mesh the residual is lost in the rounding of (w_b - w_a)/L and (M_b - M_a)/L, quotients that nearly cancel from
+    !> element to element; so these are kept with their remainders, and plain double does for the rest.
+    pure subroutine refine_elements(length, ei, q, stiffness, force, eliminated, correction, deflection, moment)
+        !> As for solve_elements
+        real(wp), intent(in), contiguous :: length(:), ei(:), q(:), stiffness(0:), force(0:)
+        type(eliminated_type), intent(inout), contiguous :: eliminated(0:)
+        !> Room, shape (0:n, 2)
+        real(wp), intent(inout), contiguous :: correction(0:, :)
+        !> The solution
+        real(wp), intent(inout), contiguous :: deflection(0:), moment(0:)
+        logical :: good
+        integer :: i
+
+        call sweep(length, ei, q, stiffness, force, eliminated, correction(:, 1), correction(:, 2), good, deflection, moment)
+        do i = 0, size(length)
+            deflection(i) = deflection(i) + correction(i, 1)
+            moment(i) = moment(i) + correction(i, 2)
+        end do
+    end subroutine refine_elements
+
+    !> Assemble and solve, for the loads or for what a solution still lacks
+    pure subroutine sweep(length, ei, q, stiffness, force, eliminated, deflection, moment, good, solved_w, solved_m)
+        real(wp), intent(in), contiguous :: length(:), ei(:), q(:), stiffness(0:), force(0:)
+        type(eliminated_type), intent(inout), contiguous :: eliminated(0:)
+        real(wp), intent(inout), contiguous :: deflection(0:), moment(0:)
+        !> Are all lengths and stiffnesses positive
+        logical, intent(out) :: good
+        !> Deflections and moments of a solution whose residuals take the place of the loads
+        real(wp), intent(in), contiguous, optional :: solved_w(0:), solved_m(0:)
+        type(cell_type) :: cells(block_size)
+        type(row_type) :: rows(block_size)
+        type(sweep_type) :: both
+        type(outward_type) :: outward
+        real(wp) :: turn, shear
+        integer :: n, odd, s, count, middle
+        logical :: rigid
+
+        n = size(length)
+        odd = modulo(n, 2)
         ! The ends; with an odd number of elements lane 2 is one step ahead
         call assemble(0, 1, cells, rows, outward, good)
         if (.not. good) return
-        call start_at_free_end(2, cells(1), rows(1), sweep, eliminated(0))
+        call start_at_free_end(2, cells(1), rows(1), both, eliminated(0))
         if (odd == 1) then
             outward%half(1) = 0.0_wp
             outward%turn(1) = 0.0_wp
+            outward%psi(1) = 0.0_wp
+            outward%psi_low(1) = 0.0_wp
+            outward%v(1) = 0.0_wp
+            outward%v_low(1) = 0.0_wp
             call assemble(1, 1, cells, rows, outward, good)
             if (.not. good) return
-            call step_alone(2, cells(1), rows(1), sweep, eliminated(1))
+            call step_alone(2, cells(1), rows(1), both, eliminated(1))
         end if
-        call start_at_free_end(1, cells(1), rows(1), sweep, eliminated(odd))
+        call start_at_free_end(1, cells(1), rows(1), both, eliminated(odd))
         do s = odd + 1, last_step(n), block_size
             count = min(block_size, last_step(n) - s + 1)
             call assemble(s, count, cells, rows, outward, good)
             if (.not. good) return
-            call sweep_inward(cells(:count), rows(:count), sweep, eliminated(s:s + count - 1))
+            call sweep_inward(cells(:count), rows(:count), both, eliminated(s:s + count - 1))
         end do
         middle = n/2
-        associate (rigid => stiffness(middle) > huge(1.0_wp))
-            call meet(merge(1.0_wp, stiffness(middle), rigid), merge(0.0_wp, 1.0_wp, rigid), sum(outward%turn), &
-                      merge(0.0_wp, force(middle) + sum(outward%half), rigid), sweep, moment(middle), deflection(middle))
-        end associate
+        rigid = stiffness(middle) > huge(1.0_wp)
+        turn = sum(outward%turn)
+        shear = force(middle) + sum(outward%half)
+        if (present(solved_w)) then
+            ! Seen from the right lane rotation and shear have the other sign
+            turn = (turn - sum(outward%psi)) - sum(outward%psi_low)
+            shear = ((shear - sum(outward%v)) - sum(outward%v_low)) - merge(0.0_wp, stiffness(middle), rigid)*solved_w(middle)
+        end if
+        call meet(merge(1.0_wp, stiffness(middle), rigid), merge(0.0_wp, 1.0_wp, rigid), turn, merge(0.0_wp, shear, rigid), &
+                  both, moment(middle), deflection(middle))
         call sweep_outward(n, eliminated, moment, deflection)
-        state = elements_solved
 
     contains
 
@@ -87,7 +140,7 @@ contains
             type(outward_type), intent(inout) :: outward
             !> Are all lengths and stiffnesses positive
             logical, intent(out) :: good
-            real(wp), dimension(2) :: l, f, half, turn, c, free, shear
+            real(wp), dimension(2) :: l, f, half, turn, c, free, shear, w, m, m_next, psi, psi_low, v, v_low
             integer :: k, i, j
 
             ! Step s takes lane 1 to node s - odd with element s - odd + 1, lane 2 to node n - s with element n - s
@@ -107,7 +160,6 @@ contains
                 rows(k)%stiffness = merge(1.0_wp, c, c > huge(1.0_wp))
                 rows(k)%free = free
                 rows(k)%turn = outward%turn + turn
-                rows(k)%shear = free*shear
                 cells(k)%inverse = 1/l
                 cells(k)%near = 2*f
                 cells(k)%far = 2*f
@@ -116,6 +168,20 @@ contains
                 cells(k)%sum_far = 3*f
                 cells(k)%bending = 6*f
                 cells(k)%determinant = 3*f*f
+                if (present(solved_w)) then
+                    w = [solved_w(i - 1), solved_w(j)]
+                    m = [solved_m(i - 1), solved_m(j)]
+                    m_next = [solved_m(i), solved_m(j - 1)]
+                    call divide_difference([solved_w(i), solved_w(j - 1)], w, l, cells(k)%inverse, psi, psi_low)
+                    call divide_difference(m_next, m, l, cells(k)%inverse, v, v_low)
+                    rows(k)%turn = ((psi - outward%psi) + rows(k)%turn) + ((psi_low + f*(2*m + m_next)) - outward%psi_low)
+                    shear = (((v - outward%v) + shear) + (v_low - outward%v_low)) - free*rows(k)%stiffness*w
+                    outward%psi = psi
+                    outward%psi_low = psi_low - f*(m + 2*m_next)
+                    outward%v = v
+                    outward%v_low = v_low
+                end if
+                rows(k)%shear = free*shear
                 outward%half = half
                 outward%turn = turn
                 i = i + 1
@@ -123,6 +189,27 @@ contains
             end do
         end subroutine assemble
 
-    end subroutine solve_elements
+    end subroutine sweep
+
+    !> (a - b)/l as a double and what is missing in it, by error-free difference and product (Knuth 1969, Dekker 1971)
+    pure subroutine divide_difference(a, b, l, inverse, high, low)
+        !> inverse is 1/l; what high lacks by its rounding is in low
+        real(wp), intent(in) :: a(2), b(2), l(2), inverse(2)
+        real(wp), intent(out) :: high(2), low(2)
+        real(wp), dimension(2) :: d, t, lost, p, h1, h2, l1, l2
+
+        d = a - b
+        t = d - a
+        lost = (a - (d - t)) - (b + t)
+        high = d*inverse
+        p = high*l
+        h1 = splitter*high
+        h1 = h1 - (h1 - high)
+        h2 = high - h1
+        l1 = splitter*l
+        l1 = l1 - (l1 - l)
+        l2 = l - l1
+        low = (((d - p) - (((h1*l1 - p) + h1*l2 + h2*l1) + h2*l2)) + lost)*inverse
+    end subroutine divide_difference
 
 end module gapbeam_elements

@@ -454,25 +454,31 @@ subroutine gbaxia(n, flex, force, stiff, settle, u, pull, react, state, place)
 end subroutine gbaxia
 
 ! Deflections and moments of a beam of N elements over two-sided supports, REPEAT times (for measuring)
-subroutine gbkern(n, length, ei, q, stiff, force, repeat, w, m, status)
+subroutine gbkern(n, length, ei, q, stiff, force, refine, repeat, w, m, status)
     use gapbeam_kernel, only: eliminated_type, last_step
-    use gapbeam_elements, only: solve_elements
+    use gapbeam_elements, only: solve_elements, refine_elements, elements_solved
     implicit none
     integer, intent(in) :: n
     double precision, intent(in) :: length(n), ei(n), q(n)
     ! At the nodes: stiffness of the supports (infinite: rigid), forces down
     double precision, intent(in) :: stiff(0:n), force(0:n)
-    integer, intent(in) :: repeat
+    ! Steps of refinement
+    integer, intent(in) :: refine, repeat
     double precision, intent(out) :: w(0:n), m(0:n)
     ! 0 solved, 1 an end without support, 2 a length or EI that is not positive
     integer, intent(out) :: status
     !f2py threadsafe
     !f2py integer, intent(hide), depend(length) :: n = shape(length, 0)
     type(eliminated_type), allocatable :: eliminated(:)
-    integer :: k
+    double precision, allocatable :: correction(:, :)
+    integer :: k, step
 
-    allocate (eliminated(0:last_step(n)))
+    allocate (eliminated(0:last_step(n)), correction(0:n, 2))
     do k = 1, repeat
         call solve_elements(length, ei, q, stiff, force, eliminated, w, m, status)
+        if (status /= elements_solved) return
+        do step = 1, refine
+            call refine_elements(length, ei, q, stiff, force, eliminated, correction, w, m)
+        end do
     end do
 end subroutine gbkern

@@ -18,7 +18,7 @@ module gapbeam_path
     use gapbeam_band, only: band_ok
     use gapbeam_model, only: beam_type, both
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
-    use gapbeam_update, only: start_updates, update_scheme, groups_of
+    use gapbeam_update, only: start_updates, update_scheme, find_groups
     use gapbeam_queue, only: queue_type, new_queue, set_key, first_key, all_up_to
     use gapbeam_scheme, only: find_scheme, outcome_type
     use gapbeam_search, only: first_width
@@ -195,14 +195,14 @@ contains
         logical, intent(inout) :: closed(:)
         type(stretch_type), intent(inout) :: stretch
         type(path_type), intent(inout) :: path
-        integer, allocatable :: groups(:, :)
-        integer :: window(2), window_of_live(2), state, i, j
+        integer :: groups(2, size(changed)), count, window(2), window_of_live(2), state, i, j
 
         closed(changed) = .not. closed(changed)
-        groups = groups_of(beam, changed)
-        do j = 1, size(groups, 2)
-            call update_scheme(beam, closed, groups(:, j), stretch%dead, window, state)
-            if (state == band_ok) call update_scheme(stretch%incremental, closed, groups(:, j), stretch%live, window_of_live, state)
+        call find_groups(beam, changed, groups, count)
+        do j = 1, count
+            call update_scheme(beam, closed, groups(:, j), .true., stretch%dead, window, state)
+            if (state == band_ok) call update_scheme(stretch%incremental, closed, groups(:, j), .true., stretch%live, &
+                                                     window_of_live, state)
             stretch%current = state == band_ok
             if (.not. stretch%current) return
             window = [min(window(1), window_of_live(1)), max(window(2), window_of_live(2))]

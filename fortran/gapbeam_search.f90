@@ -20,7 +20,7 @@ module gapbeam_search
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type
     use gapbeam_system, only: solve_deflections, complete_scheme, refine_scheme
-    use gapbeam_update, only: keep_factor, update_scheme, groups_of
+    use gapbeam_update, only: keep_factor, update_scheme, find_groups
     use gapbeam_rules, only: find_wrong, find_clearly_wrong, keep_worst, keep_least_index, separate_rigid_pairs
     use gapbeam_interior_point, only: interior_type, start_interior, step_interior, product_of
     implicit none
@@ -159,17 +159,21 @@ contains
         logical, intent(in) :: closed(:)
         type(workspace_type), intent(inout) :: work
         type(search_type), intent(inout) :: search
-        integer, allocatable :: changed(:), groups(:, :)
-        integer :: k, j, window(2), state
+        integer :: changed(few), groups(2, few), number, parts, k, j, window(2), state
 
-        changed = pack([(k, k=1, size(closed))], closed .neqv. search%kept)
-        if (size(changed) > few) then
-            deallocate (search%kept)
-            return
-        end if
-        groups = groups_of(beam, changed)
-        do j = 1, size(groups, 2)
-            call update_scheme(beam, closed, groups(:, j), work, window, state)
+        number = 0
+        do k = 1, size(closed)
+            if (closed(k) .eqv. search%kept(k)) cycle
+            if (number == few) then
+                deallocate (search%kept)
+                return
+            end if
+            number = number + 1
+            changed(number) = k
+        end do
+        call find_groups(beam, changed(:number), groups(:, :number), parts)
+        do j = 1, parts
+            call update_scheme(beam, closed, groups(:, j), .false., work, window, state)
             if (state /= band_ok) then
                 deallocate (search%kept)
                 return

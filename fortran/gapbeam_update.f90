@@ -13,13 +13,13 @@ module gapbeam_update
     use gapbeam_reactions, only: find_sizes, find_shears, find_reactions
     implicit none
     private
-    public :: start_updates, keep_factor, update_scheme, groups_of
+    public :: start_updates, keep_factor, update_scheme, find_groups
 
     !> Nodes between two changes that are made in one
     integer, parameter :: apart = 16
 
-    !> A correction this small relative to the solution is the last one; how many there may be
-    real(wp), parameter :: last_correction = sqrt(epsilon(1.0_wp))
+    !> A correction this small relative to the solution is the last one; one this small did not cost digits; how many there may be
+    real(wp), parameter :: last_correction = sqrt(epsilon(1.0_wp)), harmless_correction = 10.0_wp
     integer, parameter :: most_corrections = 5
 
 contains
@@ -62,32 +62,31 @@ contains
     end subroutine keep_factor
 
     !> Supports that change together: first and last node of each group
-    pure function groups_of(beam, changed) result(groups)
+    pure subroutine find_groups(beam, changed, groups, count)
         type(beam_type), intent(in) :: beam
         !> The supports that change, a few
         integer, intent(in) :: changed(:)
-        !> Shape (2, number of groups), from left to right
-        integer, allocatable :: groups(:, :)
-        integer, allocatable :: nodes(:), pairs(:, :)
-        integer :: i, count
+        !> From left to right, shape (2, size(changed)), and how many there are
+        integer, intent(out) :: groups(:, :), count
+        integer, allocatable :: nodes(:)
+        integer :: i
 
-        allocate (nodes(size(changed)), pairs(2, size(changed)))
+        allocate (nodes(size(changed)))
         nodes(:) = beam%supports(changed)%node
         call sort(nodes)
+        groups = 0
         count = 0
         do i = 1, size(nodes)
             if (count > 0) then
-                if (nodes(i) - pairs(2, count) <= apart) then
-                    pairs(2, count) = nodes(i)
+                if (nodes(i) - groups(2, count) <= apart) then
+                    groups(2, count) = nodes(i)
                     cycle
                 end if
             end if
             count = count + 1
-            pairs(:, count) = nodes(i)
+            groups(:, count) = nodes(i)
         end do
-        allocate (groups(2, count))
-        groups(:, :) = pairs(:, :count)
-    end function groups_of
+    end subroutine find_groups
 
     !> Put a few numbers in ascending order (insertion)
     pure subroutine sort(list)
@@ -107,13 +106,15 @@ contains
     end subroutine sort
 
     !> Solve a scheme from the solution of another one that differs at one node, or at some nodes beside each other
-    subroutine update_scheme(beam, acting, changed, work, window, state)
+    subroutine update_scheme(beam, acting, changed, refined, work, window, state)
         !> The beam
         type(beam_type), intent(in) :: beam
         !> Which supports act now
         logical, intent(in) :: acting(:)
         !> First and last node at which that has changed
         integer, intent(in) :: changed(2)
+        !> Is the solution to be right to the last digits, or as a plain solve gives it
+        logical, intent(in) :: refined
         !> Factor and solution of the other scheme in (gapbeam_band), of this one out
         type(workspace_type), intent(inout) :: work
         !> First and last node at which the solution is another one
@@ -122,7 +123,7 @@ contains
         integer, intent(out) :: state
         real(wp) :: compatibility, equilibrium
         integer :: place, correction, touched(2), n
-        logical :: small
+        real(wp) :: relative
 
         n = size(beam%links)
         work%method = method_mixed
@@ -136,9 +137,11 @@ contains
                                 compatibility, equilibrium, window)
             call correct_chain(work%nodes, beam%links, work%pivots, work%eliminated, window, work%answers, &
                                work%correction, touched)
-            call add_correction(touched, work, small)
+            call add_correction(touched, work, relative)
             window = [max(0, min(window(1), touched(1) - 1)), min(n, max(window(2), touched(2) + 1))]
-            if (small .and. correction > 1) exit
+            if (relative <= last_correction .and. correction > 1) exit
+            ! What was much larger before has left its rounding errors
+            if (relative <= harmless_correction .and. .not. refined) exit
         end do
         call find_sizes(beam, window, work)
         call find_shears(beam, [max(1, window(1)), min(n, window(2) + 1)], work)
@@ -146,12 +149,12 @@ contains
     end subroutine update_scheme
 
     !> Add a correction to the solution
-    pure subroutine add_correction(range, work, small)
+    pure subroutine add_correction(range, work, relative)
         !> First and last node
         integer, intent(in) :: range(2)
         type(workspace_type), intent(inout) :: work
-        !> Is it so small that the next one cannot be seen
-        logical, intent(out) :: small
+        !> How large it is, relative to the largest deflection and moment in the range
+        real(wp), intent(out) :: relative
         real(wp) :: deflection, moment, largest_deflection, largest_moment
         integer :: i
 
@@ -168,7 +171,16 @@ contains
                 largest_moment = max(largest_moment, abs(a%moment_left), abs(a%moment_right))
             end associate
         end do
-        small = deflection <= last_correction*largest_deflection .and. moment <= last_correction*largest_moment
+        relative = max(ratio(deflection, largest_deflection), ratio(moment, largest_moment))
     end subroutine add_correction
+
+    !> a/b, and 0/0 = 0
+    elemental function ratio(a, b)
+        real(wp), intent(in) :: a, b
+        real(wp) :: ratio
+
+        ratio = 0.0_wp
+        if (a > 0.0_wp) ratio = a/max(b, a*epsilon(a), tiny(a))
+    end function ratio
 
 end module gapbeam_update

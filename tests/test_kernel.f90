@@ -6,7 +6,7 @@ program test_kernel
     use gapbeam_link, only: link_type, piece_type, load_type, condense_link
     use gapbeam_plain, only: plain_type, prepare_plain, is_plain, ends_hold, solve_plain
     use gapbeam_kernel, only: eliminated_type, last_step
-    use gapbeam_elements, only: solve_elements, elements_solved, elements_mechanism, elements_bad_input
+    use gapbeam_elements, only: solve_elements, refine_elements, elements_solved, elements_mechanism, elements_bad_input
     implicit none
     integer :: status, n, ends
 
@@ -22,6 +22,8 @@ program test_kernel
     call elements(128)
     call elements(131)
     call elements(1000)
+    call refined(7)
+    call refined(20000)
     call refused()
     call finish(status)
     if (status /= 0) stop 1, quiet=.true.
@@ -124,6 +126,26 @@ contains
         call check_close(m(1:n - 1), answers(1:n - 1)%moment_left, "moments of elements", 1e-12_wp)
         call check(abs(m(0)) + abs(m(n)) <= 0.0_wp, "no moments at the ends")
     end subroutine elements
+
+    !> A simple beam under uniform load on a fine mesh: the closed form to all digits
+    subroutine refined(n)
+        integer, intent(in) :: n
+        real(wp) :: length(n), one(n), stiffness(0:n), force(0:n), w(0:n), m(0:n), correction(0:n, 2), x(0:n)
+        type(eliminated_type) :: eliminated(0:last_step(n))
+        integer :: i, state
+
+        length = 1.0_wp/n
+        one = 1.0_wp
+        force = 0.0_wp
+        stiffness = 0.0_wp
+        stiffness(0) = infinite()
+        stiffness(n) = infinite()
+        x = [(real(i, wp)/n, i=0, n)]
+        call solve_elements(length, one, one, stiffness, force, eliminated, w, m, state)
+        call refine_elements(length, one, one, stiffness, force, eliminated, correction, w, m)
+        call check_close(w, x*(1 - x)*(1 + x*(1 - x))/24, "refined deflections", 2e-15_wp)
+        call check_close(m, x*(1 - x)/2, "refined moments", 2e-15_wp)
+    end subroutine refined
 
     !> What cannot be solved is not solved
     subroutine refused()

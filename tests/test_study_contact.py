@@ -13,7 +13,7 @@ from gapbeam.study_active_set import active_set
 from gapbeam.study_beam import one_span
 from gapbeam.study_methods import kernel, yardstick
 from gapbeam.study_schemes import gapped_spans, sprung_base
-from gapbeam.study_truth import error, solve_exactly
+from gapbeam.study_truth import error, solve_exactly, solve_one_span
 
 WORKS = {"A": (gapped_spans, 4), "B": (sprung_base, 1)}
 
@@ -45,12 +45,12 @@ def test_gapbeam_is_right_to_the_last_digit_at_scale():
 def test_contact_table(capsys):
     pytest.importorskip("scipy")
     rows = list(study_contact.contact(largest=100))
-    assert [row.problem for row in rows[::5]] == ["work A, 10 spans", "work A, 100 spans", "work B, 100 springs"]
+    assert [row.problem for row in rows[::6]] == ["work A, 10 spans", "work A, 100 spans", "work B, 100 springs"]
     assert not any(row.wrong for row in rows)
     for row in rows:
         largest = {"active set": 1e-10, "active set, incremental": 1e-14}.get(row.program, 1e-15)
         assert max(row.deflection, row.reaction) < largest
-    assert {row.program: row.solves for row in rows[:5]}["gapbeam.solve"] == 2
+    assert {row.program: row.solves for row in rows[:6]}["gapbeam.solve"] == 2
     page, table = study_contact.PAGE, study_contact.table(rows)
     written = list(csv.reader(io.StringIO(page.csv(study_contact.values(rows)))))
     assert tuple(written[0]) == study_contact.COLUMNS
@@ -88,10 +88,22 @@ def test_kernel_table(monkeypatch, capsys):
 def test_what_the_kernel_study_times_is_right(make):
     beam = make(300)
     truth = solve_exactly(beam)
-    for method in (yardstick("nodal mixed", 0, reactions=False), yardstick("dgbsv", 1, reactions=False), kernel()):
+    plain = (yardstick("nodal mixed", 0, reactions=False), yardstick("dgbsv", 1, reactions=False), kernel())
+    for method, allowed in (*((method, 1e-11) for method in plain), (kernel(1), 4e-16)):
         answer = method.run(beam, 1)
-        assert error(answer.deflection, truth.deflection) < 1e-11
-        assert error(answer.moment, truth.moment) < 1e-11
+        assert error(answer.deflection, truth.deflection) < allowed
+        assert error(answer.moment, truth.moment) < allowed
+
+
+def test_a_refined_kernel_keeps_all_digits_on_fine_meshes():
+    beam = one_span(100_000)
+    truth = solve_one_span(beam)
+    errors = []
+    for method in (kernel(), kernel(1)):
+        answer = method.run(beam, 1)
+        errors.append(max(error(answer.deflection, truth.deflection), error(answer.moment, truth.moment)))
+    assert errors[0] > 1e-14
+    assert errors[1] < 1e-15
 
 
 def test_bandwidth_is_measured():

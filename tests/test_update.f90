@@ -73,7 +73,7 @@ contains
         do round = 1, 2
             do k = 3, n - 2, 4
                 acting(k) = .not. acting(k)
-                call update_scheme(beam, acting, [k - 1, k - 1], kept, window, state)
+                call update_scheme(beam, acting, [k - 1, k - 1], .true., kept, window, state)
                 call check(state == band_ok, "up to date")
                 most = max(most, window(2) - window(1) + 1)
             end do
@@ -103,7 +103,7 @@ contains
         call set_loads(beam, 1.0_wp, work)
         call start_updates(beam, acting, work, solved, follows)
         acting(2:n + 1) = .false.
-        call update_scheme(beam, acting, [1, n], work, window, state)
+        call update_scheme(beam, acting, [1, n], .true., work, window, state)
         call check(state /= band_ok, "mechanism")
     end subroutine mechanism
 

@@ -1,44 +1,19 @@
-!> The engine's normal route, called as Fortran 77 calls it: what is not a support is condensed and recovered afterwards
+!> The engine's normal route: what is not a support is condensed and recovered afterwards
 module yardstick_condensed
     use gapbeam_kinds, only: wp
+    use gapbeam_band, only: restrained
+    use gapbeam_element, only: field_type
+    use gapbeam_error, only: error_type, gapbeam_solved
+    use gapbeam_link, only: link_type, piece_type, load_type, condense_link
+    use gapbeam_model, only: chain_type => beam_type, new_beam
+    use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
+    use gapbeam_scheme, only: find_scheme, outcome_type
+    use gapbeam_search, only: rule_block
+    use gapbeam_fields, only: recover_beam
     use yardstick_beam, only: beam_type, answer_type, solved, singular
     implicit none
     private
     public :: solve_condensed
-
-    !> Numbers of an opaque link, see gapbeam_f2py.f90
-    integer, parameter :: link_size = 21
-
-    interface
-        subroutine gbcond(np, nl, piece, dead, live, last, link)
-            import :: wp, link_size
-            implicit none
-            integer, intent(in) :: np, nl
-            real(wp), intent(in) :: piece(3, np), dead(5, np), live(5, np)
-            integer, intent(in) :: last(nl)
-            real(wp), intent(out) :: link(link_size, nl)
-        end subroutine gbcond
-        subroutine gbsolv(nl, ns, link, kind, compli, force, couple, snode, sside, sstiff, scont, factor, rule, &
-                          closed, margin, w, ml, mr, shear, react, motion, resid, solves, method, indiff, status, message)
-            import :: wp, link_size
-            implicit none
-            integer, intent(in) :: nl, ns, kind(0:nl), snode(ns), sside(ns), rule
-            real(wp), intent(in) :: link(link_size, nl), compli(0:nl), force(2, 0:nl), couple(2, 0:nl)
-            real(wp), intent(in) :: sstiff(ns), scont(ns), factor
-            integer, intent(inout) :: closed(ns)
-            integer, intent(out) :: margin(ns), solves, method, indiff, status
-            real(wp), intent(out) :: w(0:nl), ml(0:nl), mr(0:nl), shear(nl), react(ns), motion(0:nl), resid(3)
-            character(len=240), intent(out) :: message
-        end subroutine gbsolv
-        subroutine gbreco(np, nl, piece, dead, live, factor, link, last, kind, w, ml, mr, shear, start)
-            import :: wp, link_size
-            implicit none
-            integer, intent(in) :: np, nl, last(nl), kind(0:nl)
-            real(wp), intent(in) :: piece(3, np), dead(5, np), live(5, np), factor, link(link_size, nl)
-            real(wp), intent(in) :: w(0:nl), ml(0:nl), mr(0:nl), shear(nl)
-            real(wp), intent(out) :: start(4, np)
-        end subroutine gbreco
-    end interface
 
 contains
 
@@ -53,60 +28,75 @@ contains
         integer, intent(out) :: solves
         !> solved or singular
         integer, intent(out) :: status
-        real(wp), allocatable :: piece(:, :), load(:, :), none(:, :), link(:, :), start(:, :), force(:, :), couple(:, :)
-        real(wp), allocatable :: compliance(:), w(:), ml(:), mr(:), shear(:), react(:), motion(:)
-        integer, allocatable :: at(:), kind(:), node(:), acting(:), margin(:), support(:)
-        real(wp) :: residuals(3)
-        integer :: n, nl, ns, i, k, method, indifferent
-        character(len=240) :: message
+        type(piece_type), allocatable :: pieces(:)
+        type(load_type), allocatable :: loads(:), none(:)
+        type(link_type), allocatable :: links(:)
+        type(field_type), allocatable :: starts(:)
+        type(chain_type) :: chain
+        type(workspace_type) :: work
+        type(outcome_type) :: outcome
+        type(error_type), allocatable :: error
+        real(wp), allocatable :: force(:, :), couple(:, :), compliance(:), room(:)
+        integer, allocatable :: at(:), kind(:), node(:), support(:)
+        logical, allocatable :: acting(:)
+        integer :: n, nl, i, k, first
 
         n = size(beam%length)
         support = pack([(i, i=0, n)], beam%stiff > 0.0_wp)
         at = pack([(i, i=0, n)], beam%stiff > 0.0_wp .or. [(i == 0 .or. i == n, i=0, n)])
-        ns = size(support)
         nl = size(at) - 1
-        allocate (piece(3, n), load(5, n), none(5, n), link(link_size, nl), start(4, n))
-        allocate (force(2, 0:nl), couple(2, 0:nl), compliance(0:nl), w(0:nl), ml(0:nl), mr(0:nl), motion(0:nl), kind(0:nl))
-        allocate (shear(nl), react(ns), node(ns), acting(ns), margin(ns))
-        none = 0.0_wp
+        allocate (pieces(n), loads(n), none(n), links(nl), starts(n), room(n))
+        allocate (force(2, 0:nl), couple(2, 0:nl), compliance(0:nl), kind(0:nl), node(size(support)), acting(size(support)))
+        none(:) = load_type(0, 0, 0, 0, 0)
         do i = 1, n
-            piece(:, i) = [beam%length(i), 1/beam%ei(i), 0.0_wp]
-            load(:, i) = [beam%q(i), beam%q(i), 0.0_wp, beam%force(i), 0.0_wp]
+            pieces(i) = piece_type(beam%length(i), 1/beam%ei(i), 0.0_wp)
+            loads(i) = load_type(beam%q(i), beam%q(i), 0.0_wp, beam%force(i), 0.0_wp)
         end do
-        force = 0.0_wp
-        couple = 0.0_wp
-        compliance = 0.0_wp
-        kind = 0
+        force(:, :) = 0.0_wp
+        couple(:, :) = 0.0_wp
+        compliance(:) = 0.0_wp
+        kind(:) = 0
         do k = 0, nl
             i = at(k + 1)
             force(2, k) = beam%force(i)
-            if (i > 0) load(4, i) = 0.0_wp
+            if (i > 0) loads(i)%force = 0.0_wp
         end do
-        if (beam%clamped(1)) kind(0) = 2
-        if (beam%clamped(2)) kind(nl) = 2
+        if (beam%clamped(1)) kind(0) = restrained
+        if (beam%clamped(2)) kind(nl) = restrained
         k = 0
-        do i = 1, ns
+        do i = 1, size(support)
             do while (at(k + 1) /= support(i))
                 k = k + 1
             end do
             node(i) = k
         end do
-        acting = 1
-        call gbcond(n, nl, piece, none, load, at(2:), link)
-        call gbsolv(nl, ns, link, kind, compliance, force, couple, node, beam%side(support), beam%stiff(support), &
-                    beam%level(support), 1.0_wp, 0, acting, margin, w, ml, mr, shear, react, motion, residuals, &
-                    solves, method, indifferent, status, message)
+        first = 1
+        do k = 1, nl
+            associate (last => at(k + 1))
+                call condense_link(pieces(first:last), none(first:last), loads(first:last), room, links(k))
+                first = last + 1
+            end associate
+        end do
+        call new_beam(links, kind, compliance, force, couple, node, beam%side(support), beam%stiff(support), &
+                      beam%level(support), chain)
+        call new_workspace(chain, work)
+        call set_loads(chain, 1.0_wp, work)
+        acting(:) = .true.
+        call find_scheme(chain, 1.0_wp, rule_block, acting, work, outcome, error)
+        solves = work%solves
         closed = .false.
-        status = merge(solved, singular, status == 0)
-        if (status /= solved) return
-        call gbreco(n, nl, piece, none, load, 1.0_wp, link, at(2:), kind, w, ml, mr, shear, start)
-        answer%w(0:n - 1) = start(1, :)
-        answer%m(0:n - 1) = start(3, :)
-        answer%w(n) = w(nl)
-        answer%m(n) = ml(nl)
+        status = singular
+        if (allocated(error) .or. outcome%status /= gapbeam_solved) return
+        status = solved
+        call recover_beam(pieces, none, loads, 1.0_wp, links, at(2:), kind, work%answers%deflection, work%answers%moment_left, &
+                          work%answers%moment_right, work%shear, starts)
+        answer%w(0:n - 1) = starts%deflection
+        answer%m(0:n - 1) = starts%moment
+        answer%w(n) = work%answers(nl)%deflection
+        answer%m(n) = work%answers(nl)%moment_left
         answer%r = 0.0_wp
-        answer%r(support) = react
-        closed(support) = acting /= 0
+        answer%r(support) = work%reaction
+        closed(support) = acting
     end subroutine solve_condensed
 
 end module yardstick_condensed

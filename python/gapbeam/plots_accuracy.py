@@ -16,6 +16,7 @@ from .study_methods import front
 STYLES = {
     "condensed mixed": ("black", "-", "o"),
     "fused kernel": ("#0072b2", "-", "D"),
+    "fused kernel + 1": ("#0072b2", "--", "D"),
     "nodal mixed": ("#56b4e9", "-", "s"),
     "nodal mixed + 1": ("#56b4e9", "--", "s"),
     "nodal mixed + 2": ("#56b4e9", ":", "s"),

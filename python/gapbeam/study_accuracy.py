@@ -22,6 +22,7 @@ from .study_methods import (
     CONDENSED,
     DISPLACEMENT,
     KERNEL,
+    KERNEL_REFINED,
     Measured,
     Method,
     compare,
@@ -50,7 +51,8 @@ METHODS = (
     "condensed mixed: the engine's normal route; only supports are nodes, everything else is condensed exactly and recovered.",
     "nodal mixed: every mesh point a node (deflection and moment unknown), by the engine's 2x2 block elimination; fused kernel:",
     "the same by its kernel for plain beams, without reactions; dgbsv: the same by LAPACK; + 1, + 2: steps of refinement,",
-    "residuals in plain double with differences first; dd: in double-double.",
+    "residuals in plain double with differences first (those of the kernel with the remainders of the divisions); dd: in",
+    "double-double.",
     "displacement: cubic Hermite elements and banded Cholesky (dpbtrf), what most programs do; incremental: its residual is",
     "summed element by element, differences first, and corrected until it no longer falls.",
 )
@@ -270,8 +272,9 @@ def findings(comparisons: Sequence[Comparison]) -> list[str]:
             line += f"keeps {_kept(plain[worst])} at {sizes[worst]:,}"
         line += f"; it takes {_times(rows, DISPLACEMENT, CONDENSED)} the time of condensed mixed"
         if all(KERNEL in found for found in rows):
-            error = max(found[KERNEL].error for found in rows)
-            line += f", {_times(rows, DISPLACEMENT, KERNEL)} that of the fused kernel, which is right to {error:.0e}"
+            error, refined = (max(found[name].error for found in rows) for name in (KERNEL, KERNEL_REFINED))
+            line += f", {_times(rows, DISPLACEMENT, KERNEL)} that of the fused kernel, which is right to {error:.0e}, and"
+            line += f" {_times(rows, DISPLACEMENT, KERNEL_REFINED)} that of the refined one, which is right to {refined:.0e}"
         lines.append(f"{line}.")
     return lines
 

@@ -21,7 +21,7 @@ from .stepping import solve
 from .study_beam import MeshedBeam
 from .study_truth import Truth, error
 
-CONDENSED, KERNEL = "condensed mixed", "fused kernel"
+CONDENSED, KERNEL, KERNEL_REFINED = "condensed mixed", "fused kernel", "fused kernel + 1"
 DISPLACEMENT, INCREMENTAL = "displacement", "displacement, incremental"
 """Names that other modules ask for."""
 SHORTEST = 4e-3
@@ -134,8 +134,13 @@ def yardstick(name: str, number: int, refinements: int = 0, precise: bool = Fals
     return Method(name, run)
 
 
-def kernel() -> Method:
+def kernel(refinements: int = 0) -> Method:
     """Make the method of the engine's fused kernel: linear beams, their ends supported, supports at level 0.
+
+    Parameters
+    ----------
+    refinements : int
+        Steps of refinement.
 
     Returns
     -------
@@ -143,14 +148,14 @@ def kernel() -> Method:
     """
 
     def run(beam: MeshedBeam, repeat: int) -> Answer:
-        w, m, status = _f77.gbkern(beam.length, beam.EI, beam.q, beam.stiffness, beam.force, repeat)
+        w, m, status = _f77.gbkern(beam.length, beam.EI, beam.q, beam.stiffness, beam.force, refinements, repeat)
         return Answer(w, m, None, beam.stiffness > 0.0, 1, WHY[1] if status else "")
 
     def fits(beam: MeshedBeam) -> bool:
         supported = beam.elements > 1 and min(beam.stiffness[[0, -1]]) > 0.0
         return bool(supported and not (beam.one_sided or np.any(beam.level) or any(beam.clamped)))
 
-    return Method(KERNEL, run, fits)
+    return Method(KERNEL_REFINED if refinements else KERNEL, run, fits)
 
 
 def from_scene(name: str, **analysis) -> Method:
@@ -200,6 +205,7 @@ def methods() -> list[Method]:
     return [
         yardstick(CONDENSED, 4),
         kernel(),
+        kernel(1),
         yardstick("nodal mixed", 0),
         yardstick("nodal mixed + 1", 0, 1),
         yardstick("nodal mixed + 2", 0, 2),
