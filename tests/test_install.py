@@ -1,6 +1,7 @@
 """The installed library: what is there, what it exports, programs in four languages built with pkg-config alone, and that all
 spellings of names and codes agree."""
 
+import os
 import re
 import shutil
 import subprocess
@@ -85,6 +86,15 @@ def test_same_digits_in_every_language(installed, tmp_path, python_digits, name)
     program = installed.compile(LANGUAGES / name, tmp_path / "paper_beam")
     assert installed.run(program).stdout == python_digits
     assert len(python_digits.splitlines()) == 12
+
+
+@pytest.mark.parametrize("name", ["test_capi.c", "test_f77.f", "test_threads.c", "test_memory.c"])
+def test_interfaces_as_installed(installed, tmp_path, name):
+    """The tests of the interfaces once more, with the shared library; failures within it print nothing."""
+    program = installed.compile(TOP / "tests" / name, tmp_path / "program", "-pthread", "-lm")
+    done = installed.run(program)
+    assert all(line.startswith(("ok ", "1..")) for line in done.stdout.splitlines())
+    assert not done.stderr
 
 
 def test_headers_are_cpp_and_c99(installed, tmp_path):
@@ -206,6 +216,19 @@ def test_valgrind_finds_nothing(installed, tmp_path, python_digits, name):
     done = installed.run("valgrind", "--quiet", "--leak-check=full", "--error-exitcode=9", program)
     assert done.stdout == python_digits
     assert not done.stderr
+
+
+@pytest.mark.skipif(shutil.which("valgrind") is None, reason="no valgrind on this machine")
+def test_valgrind_finds_nothing_in_the_extension(tmp_path, python_digits):
+    """Python and numpy are full of what valgrind minds; nothing of it may come by way of the extension."""
+    log = tmp_path / "log"
+    done = subprocess.run(
+        ["valgrind", "--leak-check=no", f"--log-file={log}", sys.executable, LANGUAGES / "paper_beam.py"],
+        env=os.environ | {"PYTHONMALLOC": "malloc"}, capture_output=True, text=True,
+    )  # fmt: skip
+    assert done.stdout == python_digits
+    assert "f90" not in log.read_text()
+    assert "_f77" not in log.read_text()
 
 
 @pytest.mark.skipif(shutil.which("valgrind") is None, reason="no valgrind on this machine")
