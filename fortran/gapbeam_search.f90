@@ -4,15 +4,16 @@
 !>
 !> single   the paper's: put back the open supports that are penetrated, else release the closed one that pulls
 !>          most, until nothing changes. Not proved finite; if a scheme comes back, block goes on.
-!> block    change every wrong support at once while their number keeps falling within a few solves. If it does not,
-!>          guess the scheme by interior points (a front then moves over any number of supports) and go on from
-!>          there. If that fails too, change the wrong support of least index until fewer are wrong than ever
-!>          before, and so on.
+!> block    where the wrong supports lie in a part of a long beam, find the scheme of that part by itself, with what the
+!>          rest does to it as loads, and solve the whole again (domain decomposition after Schwarz); fronts
+!>          are moved by statics first. Otherwise change every wrong support at once while their number keeps
+!>          falling within a few solves. If it does not, guess the scheme by interior points and go on from there. If
+!>          that fails too, change the wrong support of least index until fewer are wrong than ever before, and so on.
 !>
 !> Why block ends: for a stable beam the problem is a linear complementarity problem with a P-matrix, for which the
 !> least-index rule reaches the solution without repeating a scheme (Murty 1974), so the fewest number of wrong
 !> supports falls after finitely many solves, and it can fall only finitely often (Judice and Pires 1994). The phases
-!> before are bounded by counts.
+!> before are bounded by counts, parts by their rounds, which get fewer from beam to part.
 module gapbeam_search
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, fatal_error, gapbeam_indeterminate, gapbeam_not_converged
@@ -22,6 +23,9 @@ module gapbeam_search
     use gapbeam_system, only: solve_deflections, complete_scheme, refine_scheme
     use gapbeam_update, only: keep_factor, update_scheme, find_groups
     use gapbeam_rules, only: find_wrong, find_clearly_wrong, keep_worst, keep_least_index, separate_rigid_pairs
+    use gapbeam_reactions, only: find_shears
+    use gapbeam_fronts, only: base_type, find_base, move_fronts
+    use gapbeam_part, only: next_stretch, cut_out, least_margin
     use gapbeam_interior_point, only: interior_type, start_interior, step_interior, product_of
     implicit none
     private
@@ -43,6 +47,10 @@ module gapbeam_search
     !> Steps of the interior-point method at most; changes of its guess in a step at which the guess is tried; steps
     !> between two trials
     integer, parameter :: most_steps = 60, few_changes = 4, steps_between = 4
+    !> Rounds in which parts are settled by themselves: a few in the whole beam, half as many within a part, and so on
+    integer, parameter :: part_rounds = 8
+    !> Largest share of the beam that the parts of a round may have
+    real(wp), parameter :: largest_share = 0.7_wp
     !> Signs are decided beyond this many rounding errors; widened where they still flicker, up to a limit
     real(wp), parameter :: first_width = 32.0_wp, last_width = 1e7_wp
 
@@ -55,6 +63,10 @@ module gapbeam_search
         real(wp) :: width = first_width
         !> The scheme solved last, if its solution can be kept up to date
         logical, allocatable :: kept(:)
+        !> Supports by nodes, for fronts
+        type(base_type) :: base
+        !> Rounds of parts that are left, and the nodes that go with a part in the next one
+        integer :: rounds = 0, next_rounds = 0, margin = 0
         !> How the last solve went, and where not well
         integer :: state = 0, place = 0
     end type search_type
@@ -69,7 +81,7 @@ module gapbeam_search
 contains
 
     !> Change supports until none is wrong
-    subroutine settle(beam, rule, may_float, closed, work, settled, error)
+    recursive subroutine settle(beam, rule, may_float, closed, work, settled, error, rounds)
         !> The beam
         type(beam_type), intent(in) :: beam
         !> rule_block or rule_single
@@ -84,9 +96,16 @@ contains
         logical, intent(out) :: settled
         !> No unique solution, or signs that cannot be told from rounding
         type(error_type), allocatable, intent(out) :: error
+        !> Rounds of parts, if this is a part itself
+        integer, intent(in), optional :: rounds
         type(search_type) :: search
 
         allocate (search%wrong(size(closed)))
+        search%rounds = part_rounds
+        if (present(rounds)) search%rounds = rounds
+        search%next_rounds = search%rounds/2
+        search%margin = least_margin(beam)
+        call find_base(beam, search%base)
         settled = .false.
         if (rule == rule_single) call change_single(beam, closed, work, search, settled)
         if (.not. settled .and. search%state == band_ok) then
@@ -228,9 +247,9 @@ contains
         mark%next = 2*mark%next
     end function came_back
 
-    !> Change all wrong supports at once, until their number did not fall for some solves. Where few are wrong, a step without
-    !> progress is followed by one of the paper's rule in every neighbourhood
-    subroutine change_all(beam, idle_solves, closed, work, search, settled)
+    !> Change what is wrong, in parts or all at once, until the number of wrong supports did not fall for some solves.
+    !> Where few are wrong, a step without progress is followed by one of the paper's rule in every neighbourhood
+    recursive subroutine change_all(beam, idle_solves, closed, work, search, settled)
         type(beam_type), intent(in) :: beam
         !> Solves without progress that are allowed
         integer, intent(in) :: idle_solves
@@ -239,11 +258,17 @@ contains
         type(search_type), intent(inout) :: search
         logical, intent(out) :: settled
         integer :: idle
+        logical :: changed
 
         idle = 0
         do
             call look(beam, closed, .false., work, search, settled)
             if (settled .or. search%state /= band_ok) return
+            if (search%margin > 0) then
+                call move_fronts(beam, closed, work, search%base, search%margin/2, search%wrong)
+                call settle_parts(beam, closed, work, search, changed)
+                if (changed) cycle
+            end if
             if (search%wrong_now < search%fewest) then
                 search%fewest = search%wrong_now
                 idle = 0
@@ -258,8 +283,61 @@ contains
         end do
     end subroutine change_all
 
+    !> Where the wrong supports lie in a part of the beam only, find its scheme by itself
+    recursive subroutine settle_parts(beam, closed, work, search, changed)
+        type(beam_type), intent(in) :: beam
+        logical, intent(inout) :: closed(:)
+        type(workspace_type), intent(inout) :: work
+        type(search_type), intent(inout) :: search
+        !> Is there a new scheme
+        logical, intent(out) :: changed
+        type(beam_type) :: part
+        type(workspace_type) :: part_work
+        type(error_type), allocatable :: error
+        logical, allocatable :: part_closed(:), before(:)
+        integer, allocatable :: number(:)
+        integer :: place, from, to, nodes
+        real(wp) :: solves
+        logical :: settled
+
+        changed = .false.
+        if (search%rounds == 0) return
+        nodes = 0
+        place = 1
+        do
+            call next_stretch(beam, search%wrong, search%margin, place, from, to)
+            if (from < 0) exit
+            nodes = nodes + (to - from)
+        end do
+        if (nodes > largest_share*size(beam%links)) return
+        allocate (before(size(closed)))
+        before(:) = closed
+        call find_shears(beam, [1, size(beam%links)], work)
+        solves = 0.0_wp
+        place = 1
+        do
+            call next_stretch(beam, search%wrong, search%margin, place, from, to)
+            if (from < 0) exit
+            call cut_out(beam, before, work, from, to, part, part_work, number)
+            part_closed = before(number)
+            call settle(part, rule_block, .true., part_closed, part_work, settled, error, search%next_rounds)
+            solves = solves + part_work%solves*real(to - from, wp)/size(beam%links)
+            if (settled) then
+                changed = .true.
+                closed(number) = part_closed
+            else
+                closed(number) = before(number) .neqv. search%wrong(number)
+            end if
+        end do
+        if (.not. changed) closed(:) = before
+        work%solves = work%solves + ceiling(solves)
+        if (.not. changed) return
+        search%rounds = search%rounds - 1
+        search%margin = (3*search%margin)/2
+    end subroutine settle_parts
+
     !> Guess the scheme by interior points, and settle the guess by pivoting as soon as it hardly changes any more
-    subroutine change_by_interior_point(beam, closed, work, search, settled)
+    recursive subroutine change_by_interior_point(beam, closed, work, search, settled)
         type(beam_type), intent(in) :: beam
         logical, intent(inout) :: closed(:)
         type(workspace_type), intent(inout) :: work
@@ -308,7 +386,7 @@ contains
 
     !> The least-index rule until fewer supports are wrong than before, then all at once again. A scheme that comes back
     !> can only mean that rounding decides signs: then fewer signs count
-    subroutine change_least_index(beam, closed, work, search, settled)
+    recursive subroutine change_least_index(beam, closed, work, search, settled)
         type(beam_type), intent(in) :: beam
         logical, intent(inout) :: closed(:)
         type(workspace_type), intent(inout) :: work

@@ -49,7 +49,7 @@ module gapbeam_workspace
         !> Is every one-sided support, acting or not, a spring instead (gapbeam_interior_point), and which
         logical :: sprung = .false.
         real(wp), allocatable :: spring(:), spring_contact(:)
-        !> Linear solves so far, and the system solved last
+        !> Linear solves so far, those of parts of the beam by their share of it, and the system solved last
         integer :: solves = 0
         integer :: method = method_mixed
         !> Relative residuals of the last solve

@@ -13,6 +13,7 @@ import numpy as np
 from . import formatting as fmt
 from .stepping import solve
 from .study import page
+from .study_fronts import random_front, scaled
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -24,11 +25,14 @@ COLUMNS = ("problem", "one-sided", "block", "single", "events", "closed", "time"
 WORDS = (
     "Linear solves until the working scheme is found; with few supports the largest number over all starting schemes, else",
     "from all supports closed. block and single are the two rules, events the number of changes along the load from 0 to 1.",
-    "A warm start is the scheme of a load that is smaller by 0.1, 1 or 10 %. The time is that of the rule block, from scene",
-    "to result, the fastest of 3.",
+    "A warm start is the scheme of a load that is smaller by 0.1, 1 or 10 %. Solves of a part of the beam count by the part's",
+    "share of it. The time is that of the rule block, from scene to result, the fastest of 3. Fronts are drawn at random:",
+    "what lifts the beam, its base, the spacing of the supports.",
 )
 """What the table shows."""
 
+FRONTS = 12
+"""Random fronts that are counted."""
 MOST_STARTS = 4
 """Supports up to which all starting schemes are tried."""
 MOST_SINGLE = 400
@@ -214,12 +218,17 @@ def schemes(largest: int = 10_000) -> Iterator[Row]:
     for count in (100, 1000, 10_000):
         if count <= largest:
             yield _count(f"work B, {count:,} springs", sprung_base(count))
-            yield _count_warm(f"work B, {count:,} springs, warm, 10 %", sprung_base, count, 0.1)
+            yield _count_warm(f"work B, {count:,} springs, warm, 10 %", sprung_base(count, 0.9), sprung_base(count))
     for count in (100, 1000, 10_000):
         if count <= largest:
             yield _count(f"lifted end, {count:,} supports", lifted_end(count))
             for less in (0.001, 0.01, 0.1):
-                yield _count_warm(f"lifted end, {count:,}, warm, {less:.1%}", lifted_end, count, less)
+                yield _count_warm(f"lifted end, {count:,}, warm, {less:.1%}", lifted_end(count, 1.0 - less), lifted_end(count))
+    for seed in range(FRONTS):
+        name, scene = random_front(seed, min(largest, 10_000))
+        yield _count(f"front {seed}: {name}", scene)
+        for less in (0.001, 0.01, 0.1):
+            yield _count_warm(f"front {seed}, warm, {less:.1%}", scaled(scene, 1.0 - less), scene)
 
 
 def _timed(scene: dict[str, Any], **options: Any) -> tuple[Result, float]:
@@ -246,9 +255,9 @@ def _count(name: str, scene: dict[str, Any]) -> Row:
     return Row(name, supports, block, single, events, closed, seconds)
 
 
-def _count_warm(name: str, make: Any, count: int, less: float) -> Row:
-    start = [state == "closed" for state in solve(make(count, 1.0 - less)).steps[-1].state]
-    result, seconds = _timed(make(count, 1.0), start=start)
+def _count_warm(name: str, before: dict[str, Any], scene: dict[str, Any]) -> Row:
+    start = [state == "closed" for state in solve(before).steps[-1].state]
+    result, seconds = _timed(scene, start=start)
     step = result.steps[-1]
     return Row(name, len(start), step.solves, None, None, step.state.count("closed"), seconds)
 

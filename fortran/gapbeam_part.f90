@@ -1,0 +1,123 @@
+!> A stretch of the beam as a beam of its own
+module gapbeam_part
+    use gapbeam_kinds, only: wp
+    use gapbeam_band, only: plain
+    use gapbeam_model, only: beam_type, support_type, place_supports, both, is_rigid
+    use gapbeam_workspace, only: workspace_type, new_workspace
+    implicit none
+    private
+    public :: next_stretch, cut_out, least_margin
+
+    !> Nodes to be taken along on both sides of wrong supports: at least these, at least the root of all, for stretches in
+    !> which the beam hardly lifts are about that long
+    integer, parameter :: few = 20
+    !> How often the length over which a front is felt has to go into this margin
+    real(wp), parameter :: lengths = 3.0_wp
+
+contains
+
+    !> Nodes to be taken along with a part at first; 0 where supports are so soft that all at once are changed better
+    pure function least_margin(beam) result(margin)
+        type(beam_type), intent(in) :: beam
+        integer :: margin
+        real(wp) :: felt, bending
+        integer :: k, count
+
+        felt = 0.0_wp
+        count = 0
+        do k = 1, size(beam%supports)
+            associate (s => beam%supports(k))
+                if (s%side == both .or. .not. s%stiffness > 0.0_wp) cycle
+                count = count + 1
+                associate (link => beam%links(max(1, s%node)))
+                    bending = link%bending*link%length**2
+                    ! (4 EI/k)**(1/4), k = stiffness/length, in lengths of the link (Hetenyi 1946)
+                    if (.not. bending > 0.0_wp .or. is_rigid(s)) cycle
+                    felt = felt + min(real(size(beam%links), wp), sqrt(sqrt(4/(bending*s%stiffness))))
+                end associate
+            end associate
+        end do
+        margin = max(few, int(sqrt(real(size(beam%links), wp))))
+        if (lengths*felt > margin*count) margin = 0
+    end function least_margin
+
+    !> The next stretch around supports, from left to right
+    pure subroutine next_stretch(beam, chosen, margin, place, from, to)
+        type(beam_type), intent(in) :: beam
+        !> The supports
+        logical, intent(in) :: chosen(:)
+        !> Nodes to be taken along on both sides
+        integer, intent(in) :: margin
+        !> Place in order at which to look on, 1 at first
+        integer, intent(inout) :: place
+        !> First and last node; from < 0 if there is no further stretch
+        integer, intent(out) :: from, to
+        integer :: node
+
+        from = -1
+        to = -1
+        do while (place <= size(chosen))
+            node = beam%supports(beam%order(place))%node
+            if (chosen(beam%order(place))) then
+                if (from >= 0 .and. node > to + margin) return
+                if (from < 0) from = max(0, node - margin)
+                to = min(node + margin, size(beam%links))
+            end if
+            place = place + 1
+        end do
+    end subroutine next_stretch
+
+    !> Cut the beam at two nodes. What the rest does to the stretch becomes loads at its ends; the two outermost supports
+    !> at a cut hold both ways if they are closed, so that the stretch stays in its place
+    pure subroutine cut_out(beam, closed, work, from, to, part, part_work, number)
+        !> The beam and a scheme solved in work
+        type(beam_type), intent(in) :: beam
+        logical, intent(in) :: closed(:)
+        type(workspace_type), intent(in) :: work
+        !> First and last node of the stretch
+        integer, intent(in) :: from, to
+        !> The stretch, its loads in its own workspace
+        type(beam_type), intent(out) :: part
+        type(workspace_type), intent(out) :: part_work
+        !> Numbers of its supports in the whole beam
+        integer, allocatable, intent(out) :: number(:)
+        type(support_type), allocatable :: supports(:)
+        integer :: m, k
+
+        m = to - from
+        allocate (part%links(m), part%kind(0:m), part%compliance(0:m), part%force(2, 0:m), part%couple(2, 0:m))
+        part%links(:) = beam%links(from + 1:to)
+        part%kind(:) = beam%kind(from:to)
+        part%compliance(:) = beam%compliance(from:to)
+        part%force(:, :) = beam%force(:, from:to)
+        part%couple(:, :) = beam%couple(:, from:to)
+        number = pack([(k, k=1, size(closed))], beam%supports%node >= from .and. beam%supports%node <= to)
+        allocate (supports(size(number)))
+        supports(:) = beam%supports(number)
+        supports%node = supports%node - from
+        call place_supports(supports, part)
+        call new_workspace(part, part_work)
+        part_work%loads(:) = work%loads(from:to)
+        part_work%ease(:) = work%ease(from:to)
+        part_work%reference(:) = work%reference(from:to)
+        if (from > 0) then
+            part%kind(0) = plain
+            associate (first => part_work%loads(0))
+                first%left = 0.0_wp
+                first%couple = work%answers(from)%moment_right
+                first%shear = first%shear - work%shear(from)
+            end associate
+            where (closed(number) .and. part%supports%node <= 1) part%supports%side = both
+        end if
+        if (to < size(beam%links)) then
+            part%kind(m) = plain
+            associate (last => part_work%loads(m))
+                last%right = 0.0_wp
+                last%couple = -work%answers(to)%moment_left
+                last%shear = last%shear + work%shear(to + 1)
+            end associate
+            where (closed(number) .and. part%supports%node >= m - 1) part%supports%side = both
+        end if
+    end subroutine cut_out
+
+end module gapbeam_part
