@@ -277,7 +277,7 @@ contains
         !> Deflection (down), rotation (clockwise), moment (sagging), shear, axial force (tension), axial displacement (to the
         !> right), shape (6, n)
         real(wp), intent(out) :: fields(:, :)
-        !> gapbeam_not_prepared, or gapbeam_bad_input for a place off the beam
+        !> gapbeam_not_prepared, gapbeam_no_memory, or gapbeam_bad_input for a place off the beam
         type(error_type), allocatable, intent(out) :: error
         !> Where a field jumps: its value left of the place; default right of it
         logical, intent(in), optional :: from_left
@@ -306,7 +306,7 @@ contains
         type(result_type), intent(inout) :: result
         !> Maximum (1) and minimum (2) of the fields in the order of get_fields, and where they are, shape (2, 6)
         real(wp), intent(out) :: value(:, :), x(:, :)
-        !> gapbeam_not_prepared, or gapbeam_bad_input for arrays of another size
+        !> gapbeam_not_prepared, gapbeam_no_memory, or gapbeam_bad_input for arrays of another size
         type(error_type), allocatable, intent(out) :: error
         type(ieee_status_type) :: environment
 
@@ -319,7 +319,7 @@ contains
         call ieee_get_status(environment)
         call ieee_set_halting_mode(ieee_all, .false.)
         call ieee_set_rounding_mode(ieee_nearest)
-        call extremes_of_fields(beam%lowered, result%state, value, x)
+        call extremes_of_fields(beam%lowered, result%state, value, x, error)
         call ieee_set_status(environment)
     end subroutine get_extremes
 

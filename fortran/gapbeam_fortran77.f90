@@ -13,8 +13,8 @@
 ! LSTATE or LISTAT = -1 a routine does nothing but return the lengths it needs in WORK(1) and IWORK(1), or STATE(1) and ISTATE(1).
 !
 ! INFO  0   solved, or done
-!      -i   the i-th argument has an illegal value; from GBPREP and GBLOAD IWORK(1) is then the number of the entry (column) of
-!           that array, or 0; the work arrays hold no beam any more after GBPREP, the old one after GBLOAD
+!      -i   the i-th argument has an illegal value; from GBPREP IWORK(1) is then the number of the entry (column) of that array,
+!           or 0, and the work arrays hold no beam any more; after GBLOAD they hold the old one
 !       1   no equilibrium: GBMOTN gives the motion
 !     >10   an error, see gapbeam_error: 12 indeterminate, 13 not converged, 14 not finite, 15 no memory, 16 nothing solved
 ! Nothing but INFO (and IWORK(1)) is written where INFO is not 0 or 1.
@@ -271,7 +271,7 @@ end subroutine gbsupp
 
 ! Exact fields anywhere along the beam
 subroutine gbflds(work, iwork, state, istate, nx, x, left, field, info)
-    use gapbeam_error, only: error_type, gapbeam_bad_input
+    use gapbeam_error, only: error_type, gapbeam_bad_input, gapbeam_no_memory
     use gapbeam_api, only: prepared_type, result_type, get_fields
     use gapbeam_work, only: take_both
     implicit none
@@ -295,12 +295,15 @@ subroutine gbflds(work, iwork, state, istate, nx, x, left, field, info)
     if (nx < 0) info = -5
     if (info /= 0) return
     call get_fields(beam, result, x(1:nx), field(:, 1:nx), error, left /= 0)
-    if (allocated(error)) info = merge(-6, -3, error%code == gapbeam_bad_input)
+    if (.not. allocated(error)) return
+    info = -3
+    if (error%code == gapbeam_bad_input) info = -6
+    if (error%code == gapbeam_no_memory) info = gapbeam_no_memory
 end subroutine gbflds
 
 ! Exact extremes of all fields
 subroutine gbxtrm(work, iwork, state, istate, value, xvalue, info)
-    use gapbeam_error, only: error_type
+    use gapbeam_error, only: error_type, gapbeam_no_memory
     use gapbeam_api, only: prepared_type, result_type, get_extremes
     use gapbeam_work, only: take_both
     implicit none
@@ -318,7 +321,7 @@ subroutine gbxtrm(work, iwork, state, istate, value, xvalue, info)
     call take_both(work, iwork, state, istate, beam, result, info)
     if (info /= 0) return
     call get_extremes(beam, result, value, xvalue, error)
-    if (allocated(error)) info = -3
+    if (allocated(error)) info = merge(error%code, -3, error%code == gapbeam_no_memory)
 end subroutine gbxtrm
 
 ! The free motion where there is no equilibrium

@@ -9,6 +9,7 @@ module gapbeam_query
     use gapbeam_lowered, only: lowered_type, position_tolerance
     use gapbeam_places, only: locate
     use gapbeam_check, only: shown
+    use gapbeam_memory, only: reserve_memory, for_fields
     use gapbeam_state, only: state_type
     implicit none
     private
@@ -96,11 +97,14 @@ contains
     end subroutine find_undecided
 
     !> Fields at the left ends of all pieces, if they are not there yet
-    subroutine make_starts(lowered, state)
+    subroutine make_starts(lowered, state, error)
         type(lowered_type), intent(in) :: lowered
         type(state_type), intent(inout) :: state
+        type(error_type), allocatable, intent(out) :: error
 
         if (state%has_starts) return
+        call reserve_memory(lowered, for_fields, error)
+        if (allocated(error)) return
         associate (n => size(lowered%beam%links))
             call recover_beam(lowered%pieces, lowered%dead, lowered%live, state%factor, lowered%beam%links, &
                               lowered%node_point(1:n), lowered%beam%kind, state%deflection, state%moment_left, &
@@ -120,7 +124,7 @@ contains
         logical, intent(in) :: from_left
         !> Shape (field_count, n)
         real(wp), intent(out) :: fields(:, :)
-        !> A place outside the beam
+        !> A place outside the beam, or no memory
         type(error_type), allocatable, intent(out) :: error
         type(field_type) :: field(1)
         real(wp) :: distance, end
@@ -134,7 +138,8 @@ contains
             error%entry = i
             return
         end do
-        call make_starts(lowered, state)
+        call make_starts(lowered, state, error)
+        if (allocated(error)) return
         associate (l => lowered%length_exponent, f => lowered%force_exponent)
             do i = 1, size(x)
                 call find_piece(lowered, x(i), from_left, piece, distance)
@@ -217,16 +222,19 @@ contains
     end subroutine axial_fields
 
     !> Largest and smallest values of all fields, and where they are
-    subroutine extremes_of_fields(lowered, state, value, x)
+    subroutine extremes_of_fields(lowered, state, value, x, error)
         !> The beam, and its solved state
         type(lowered_type), intent(in) :: lowered
         type(state_type), intent(inout) :: state
         !> Maximum (1) and minimum (2) of every field, and their places, shape (2, field_count)
         real(wp), intent(out) :: value(:, :), x(:, :)
+        !> No memory
+        type(error_type), allocatable, intent(out) :: error
         real(wp) :: distance(2, 4)
         integer :: piece(2, 4), exponents(4), i, k
 
-        call make_starts(lowered, state)
+        call make_starts(lowered, state, error)
+        if (allocated(error)) return
         call find_extremes(lowered%pieces, lowered%dead, lowered%live, state%factor, state%starts, value(:, 1:4), piece, distance)
         associate (l => lowered%length_exponent, f => lowered%force_exponent)
             exponents = [l, 0, f + l, f]

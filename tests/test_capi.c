@@ -245,7 +245,8 @@ static void all_loads(void)
     const int kinds[] = {GAPBEAM_FORCE, GAPBEAM_COUPLE, GAPBEAM_DISTRIBUTED, GAPBEAM_DISTRIBUTED,
                                              GAPBEAM_CURVATURE, GAPBEAM_AXIAL_FORCE};
     const double rigid[] = {INFINITY, 0.0}, l[] = {3.0}, ei[] = {50.0}, ga[] = {20.0}, ea[] = {40.0}, tip[] = {3.0};
-    const double begin[] = {3.0, 3.0, 0.0, 0.0, 0.0, 3.0}, value[] = {2.0, 5.0, 4.0, 0.0, 0.01, 8.0}, value_to[] = {0, 0, 4.0, 6.0, 0, 0};
+    const double begin[] = {3.0, 3.0, 0.0, 0.0, 0.0, 3.0};
+    const double value[] = {2.0, 5.0, 4.0, 0.0, 0.01, 8.0}, value_to[] = {0.0, 0.0, 4.0, 6.0, 0.0, 0.0};
     const double expected[] = {2.0 * 27 / (3 * 50.0) + 2.0 * 3 / 20.0, 5.0 * 9 / (2 * 50.0),
                                4.0 * 81 / (8 * 50.0) + 4.0 * 9 / (2 * 20.0), 11 * 6.0 * 81 / (120 * 50.0) + 6.0 * 9 / (3 * 20.0),
                                0.01 * 9 / 2, 8.0 * 3 / 40.0};

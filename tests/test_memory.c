@@ -86,6 +86,7 @@ static int attempt(const gapbeam_model *model, size_t limit)
     gapbeam_beam *beam = NULL;
     gapbeam_state *state = NULL;
     gapbeam_certificate certificate = {.size = sizeof certificate};
+    double extreme[GAPBEAM_FIELDS][2], place[GAPBEAM_FIELDS][2];
     char message[200];
     int number = 0;
 
@@ -98,6 +99,8 @@ static int attempt(const gapbeam_model *model, size_t limit)
         status = gapbeam_solve(beam, 1.0, NULL, state, message, sizeof message);
     if (!status)
         status = gapbeam_get_supports(beam, state, reaction, NULL, NULL, NULL, NULL);
+    if (!status)
+        status = gapbeam_get_extremes(beam, state, extreme, place);
     if (!status)
         status = gapbeam_get_certificate(beam, state, &certificate, undecided);
     if (!status)
