@@ -1,25 +1,38 @@
-!> The engine's modules under one name. A caller does three things:
+!> Beams on supports that act one way only: the library's Fortran interface.
 !>
-!>     call condense_link(pieces, dead, live, work, link)                           ! once for every span
-!>     call find_scheme(beam, factor, rule, closed, work, outcome, error)           ! at every load factor
-!>     call recover_beam(pieces, dead, live, factor, links, last, kind, w, ml, mr, v, starts) ! for fields
+!>     use gapbeam
+!>     type(model_type) :: model
+!>     type(prepared_type) :: beam
+!>     type(result_type) :: result
+!>     type(error_type), allocatable :: error
 !>
-!> Units: any consistent set. Signs: x to the right, deflection and loads down, reactions up, moments sagging,
-!> couples and rotations clockwise. No procedure prints, stops, or keeps data between calls.
+!>     model%spans = [span_type(6d0, EI=1d4), span_type(6d0, EI=1d4)]            ! what there is
+!>     model%supports = [support_type(node=0), support_type(node=1, side=gapbeam_below), support_type(node=2)]
+!>     model%loads = [uniform_load(5d0, from=0d0, to=6d0)]
+!>     call prepare_model(model, beam, error)                                    ! once
+!>     call solve_beam(beam, 1d0, options_type(), result, error)                 ! at every load factor
+!>     call get_fields(beam, result, [3d0], fields, error)                       ! and what it says
+!>
+!> Units: any consistent set. Signs: x to the right, deflections, settlements and loads down, reactions up, moments sagging,
+!> couples and rotations clockwise, axial forces on the beam to the right. Supports and loads count from 1, nodes from 0.
+!> Errors: `error` is allocated where something failed, with one of the codes of gapbeam_error and a message. That a beam has
+!> no equilibrium is no error: result%status says it.
 module gapbeam
-    use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_indeterminate, &
-        gapbeam_not_converged, gapbeam_not_finite
-    use gapbeam_element, only: field_type
-    use gapbeam_link, only: piece_type, load_type, link_type, condense_link
-    use gapbeam_band, only: plain, hinge, restrained
-    use gapbeam_model, only: beam_type, support_type, new_beam, place_supports, below, above, both
-    use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
-    use gapbeam_system, only: check_scheme
-    use gapbeam_search, only: rule_block, rule_single
-    use gapbeam_scheme, only: find_scheme, outcome_type
-    use gapbeam_path, only: follow_load, path_type, find_marginal
-    use gapbeam_fields, only: recover_beam, values_at, find_extremes
-    use gapbeam_axial, only: solve_axial
+    use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_bad_input, gapbeam_indeterminate, &
+        gapbeam_not_converged, gapbeam_not_finite, gapbeam_no_memory, gapbeam_not_prepared, gapbeam_other_version, &
+        gapbeam_status_message => status_text
+    use gapbeam_version, only: gapbeam_version_major, gapbeam_version_minor, gapbeam_version_patch, gapbeam_version_string
+    use gapbeam_search, only: gapbeam_rule_block => rule_block, gapbeam_rule_single => rule_single
+    use gapbeam_scene, only: span_type, support_type, load_type, model_type, &
+        point_force, point_couple, uniform_load, linear_load, imposed_curvature, axial_force, &
+        gapbeam_infinity, gapbeam_by_x, gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_normal, gapbeam_axial, &
+        gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, &
+        gapbeam_live, gapbeam_dead
+    use gapbeam_state, only: event_type
+    use gapbeam_query, only: gapbeam_open, gapbeam_closed, gapbeam_bilateral
+    use gapbeam_api, only: prepared_type, options_type, result_type, certificate_type, &
+        prepare_model, replace_loads, count_supports, count_nodes, &
+        solve_beam, follow_load, get_supports, get_fields, get_extremes, get_motion, get_certificate
     implicit none
     public
 end module gapbeam

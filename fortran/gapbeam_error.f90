@@ -2,20 +2,45 @@
 module gapbeam_error
     implicit none
     private
-    public :: error_type, fatal_error
+    public :: error_type, fatal_error, no_memory, status_text, status_codes, status_texts, unknown_status
     public :: gapbeam_solved, gapbeam_no_equilibrium
-    public :: gapbeam_indeterminate, gapbeam_not_converged, gapbeam_not_finite
+    public :: gapbeam_bad_input, gapbeam_indeterminate, gapbeam_not_converged, gapbeam_not_finite
+    public :: gapbeam_no_memory, gapbeam_not_prepared, gapbeam_other_version
 
     !> Outcome: the scene is solved
     integer, parameter :: gapbeam_solved = 0
     !> Outcome: a free motion along which nothing resists; no numbers are returned
     integer, parameter :: gapbeam_no_equilibrium = 1
+    !> Error: a number or an array makes no sense; nothing was done
+    integer, parameter :: gapbeam_bad_input = 11
     !> Error: a rigid stretch rests on more rigid supports than statics can tell apart
     integer, parameter :: gapbeam_indeterminate = 12
     !> Error: the working scheme could not be settled in the precision at hand
     integer, parameter :: gapbeam_not_converged = 13
     !> Error: numbers left the range of double precision
     integer, parameter :: gapbeam_not_finite = 14
+    !> Error: the system gives no more memory
+    integer, parameter :: gapbeam_no_memory = 15
+    !> Error: no beam has been prepared, or no state solved, in what was passed
+    integer, parameter :: gapbeam_not_prepared = 16
+    !> Error: caller and library were built with different versions of a structure
+    integer, parameter :: gapbeam_other_version = 17
+
+    !> All codes, and what they mean
+    integer, parameter :: status_codes(9) = [gapbeam_solved, gapbeam_no_equilibrium, gapbeam_bad_input, gapbeam_indeterminate, &
+                                             gapbeam_not_converged, gapbeam_not_finite, gapbeam_no_memory, gapbeam_not_prepared, &
+                                             gapbeam_other_version]
+    character(len=*), parameter :: status_texts(9) = [character(len=88) :: &
+        "solved", &
+        "no equilibrium: the loads push the beam along a free motion that no support resists", &
+        "bad input: a number or an array makes no sense", &
+        "a rigid stretch rests on more rigid supports than statics can tell apart", &
+        "the working scheme could not be settled in double precision", &
+        "numbers left the range of double precision", &
+        "not enough memory", &
+        "no beam has been prepared, or no state solved, in what was passed", &
+        "caller and library were built with different versions of a structure"]
+    character(len=*), parameter :: unknown_status = "unknown status"
 
     !> An error: allocated means failed
     type :: error_type
@@ -23,6 +48,8 @@ module gapbeam_error
         integer :: code
         !> What happened, where, and what to do about it
         character(len=:), allocatable :: message
+        !> Of bad input the array, 1 spans, 2 hinges, 3 supports, 4 loads, 0 another argument, and the entry in it, from 1
+        integer :: table = 0, entry = 0
     end type error_type
 
 contains
@@ -40,5 +67,26 @@ contains
         error%code = code
         error%message = message
     end subroutine fatal_error
+
+    !> Set the error that says that memory is at an end
+    pure subroutine no_memory(error)
+        !> Becomes allocated
+        type(error_type), allocatable, intent(out) :: error
+
+        call fatal_error(error, gapbeam_no_memory, trim(status_text(gapbeam_no_memory)))
+    end subroutine no_memory
+
+    !> What a status code means, in a few words, blanks behind them. Not of deferred length: gfortran keeps the length of such a
+    !> result in static storage, which threads share
+    pure function status_text(code) result(text)
+        !> Any integer
+        integer, intent(in) :: code
+        character(len=len(status_texts)) :: text
+        integer :: i
+
+        i = findloc(status_codes, code, 1)
+        text = unknown_status
+        if (i > 0) text = status_texts(i)
+    end function status_text
 
 end module gapbeam_error

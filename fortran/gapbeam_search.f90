@@ -149,8 +149,10 @@ contains
         if (search%state /= band_ok) return
         if (.not. reactions) then
             call find_clearly_wrong(beam, closed, work, search%wrong, doubtful)
-            search%wrong_now = count(search%wrong)
-            if (.not. doubtful .and. search%wrong_now > few) return
+            if (.not. doubtful) then
+                search%wrong_now = count(search%wrong)
+                if (search%wrong_now > few) return
+            end if
         end if
         call complete_scheme(beam, closed, work)
         call find_wrong(beam, closed, search%width, work, search%wrong)

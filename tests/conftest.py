@@ -1,11 +1,14 @@
-"""Settings of hypothesis: the same examples in every run; HYPOTHESIS_PROFILE=explore draws many new ones."""
+"""Settings of hypothesis (the same examples in every run; HYPOTHESIS_PROFILE=explore draws many new ones), and fixtures."""
 
 import os
 import sys
 
+import pytest
 from hypothesis import HealthCheck, settings
 
 sys.path.insert(0, os.path.dirname(__file__))  # the helper modules beside the tests
+
+from installation import install
 
 CALM = [HealthCheck.too_slow, HealthCheck.data_too_large, HealthCheck.filter_too_much]
 settings.register_profile(
@@ -13,3 +16,9 @@ settings.register_profile(
 )
 settings.register_profile("explore", deadline=None, max_examples=3000, suppress_health_check=CALM)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "fixed"))
+
+
+@pytest.fixture(scope="session")
+def installed(tmp_path_factory):
+    """The library as `meson install` puts it in place."""
+    return install(tmp_path_factory.mktemp("installed"))

@@ -1,10 +1,14 @@
 !> Working schemes: the paper's beam from every start, cycling, floating beams, free motions
 program test_scheme
     use testing, only: check, check_close, finish
-    use gapbeam, only: piece_type, load_type, condense_link, beam_type, support_type, place_supports, below, above, both, &
-        workspace_type, new_workspace, set_loads, find_scheme, outcome_type, rule_block, rule_single, error_type, restrained, &
-        gapbeam_solved, gapbeam_no_equilibrium, gapbeam_indeterminate
     use gapbeam_kinds, only: wp
+    use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_indeterminate
+    use gapbeam_link, only: piece_type, load_type, condense_link
+    use gapbeam_band, only: restrained
+    use gapbeam_model, only: beam_type, support_type, place_supports, below, above, both
+    use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
+    use gapbeam_search, only: rule_block, rule_single
+    use gapbeam_scheme, only: find_scheme, outcome_type
     implicit none
     integer :: status
 

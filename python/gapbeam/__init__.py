@@ -23,7 +23,7 @@ except ImportError:
 
 from importlib.metadata import version as _version
 
-from .errors import EngineError, GapbeamError, SceneError
+from .errors import EngineError, GapbeamError, SceneError, Status
 from .prepared import Cases, Prepared, prepare
 from .results import Fields, Result, System
 from .scene import (
@@ -66,6 +66,7 @@ __all__ = [
     "Scene",
     "SceneError",
     "Section",
+    "Status",
     "Step",
     "Support",
     "System",

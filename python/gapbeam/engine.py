@@ -8,10 +8,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from . import _f77
-from .errors import EngineError
+from .errors import EngineError, Status
 from .lowering import Arrays
 
-SOLVED, NO_EQUILIBRIUM = 0, 1
+SOLVED, NO_EQUILIBRIUM = Status.SOLVED, Status.NO_EQUILIBRIUM
 """Outcomes, as in gapbeam_error; codes above 10 are errors."""
 RULES = {"block": 0, "single": 1}
 METHODS = ("block tridiagonal mixed", "three-moment", "mixed with pivoting")
@@ -106,7 +106,7 @@ def solve(arrays: Arrays, links: np.ndarray, factor: float, rule: str, closed: n
     scheme = _scheme(closed)
     *values, indifferent, status, message = _f77.gbsolv(*_beam(arrays, links), factor, RULES[rule], scheme)
     if status not in (SOLVED, NO_EQUILIBRIUM):
-        raise EngineError(message.decode().strip())
+        raise EngineError(message.decode().strip(), status)
     solution = Solution(status, scheme, *values, bool(indifferent))
     if len(closed) == 0:
         solution = replace(solution, closed=scheme[:0], marginal=scheme[:0], reaction=solution.reaction[:0])
@@ -181,7 +181,7 @@ def follow(
     )
     factor = float(at)
     if status not in (SOLVED, NO_EQUILIBRIUM):
-        raise EngineError(f"at load factor {factor:g}: {message.decode().strip()}")
+        raise EngineError(f"at load factor {factor:g}: {message.decode().strip()}", status)
     return Path(
         status,
         factor,
@@ -423,7 +423,8 @@ def solve_axial(arrays: Arrays, factor: float) -> tuple[np.ndarray, np.ndarray, 
         x = arrays.point_x[axial.points[place]]
         raise EngineError(
             f"the axial support at x = {x:g} and another one hold a stretch with EA = inf at both ends, so their "
-            "forces cannot be told apart: give the beam a finite EA"
+            "forces cannot be told apart: give the beam a finite EA",
+            Status.INDETERMINATE,
         )
     return None if state == 1 else (u, tension, reaction)
 

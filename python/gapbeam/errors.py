@@ -13,6 +13,7 @@ import difflib
 import json
 import re
 from collections.abc import Iterable, Mapping
+from enum import IntEnum
 from typing import Any
 
 import msgspec
@@ -53,8 +54,43 @@ class SceneError(GapbeamError, ValueError):
         return type(self), (self.place, self.problem)
 
 
+class Status(IntEnum):
+    """Status codes, the same as in Fortran, C and Fortran 77; above 10 they are errors."""
+
+    SOLVED = 0
+    NO_EQUILIBRIUM = 1
+    BAD_INPUT = 11
+    INDETERMINATE = 12
+    NOT_CONVERGED = 13
+    NOT_FINITE = 14
+    NO_MEMORY = 15
+    NOT_PREPARED = 16
+    OTHER_VERSION = 17
+
+
 class EngineError(GapbeamError, RuntimeError):
-    """The engine could not treat a valid scene, for example for want of memory."""
+    """The engine could not treat a valid scene.
+
+    Parameters
+    ----------
+    message : str
+        Why, and what to do about it.
+    status : int
+        Code of the engine.
+
+    Attributes
+    ----------
+    status : Status
+        As above.
+    """
+
+    def __init__(self, message: str, status: int = Status.NOT_CONVERGED) -> None:
+        super().__init__(message)
+        self.status = Status(status)
+
+    def __reduce__(self) -> tuple:
+        """Pickle with the status."""
+        return type(self), (str(self), int(self.status))
 
 
 def shown(value: Any) -> str:

@@ -74,7 +74,7 @@ class Axial:
 
 @dataclass(frozen=True)
 class Arrays:
-    """A scene as the engine takes it; see fortran/gapbeam_f77.f90 for the columns.
+    """A scene as the engine takes it; see fortran/gapbeam_f2py.f90 for the columns.
 
     Attributes
     ----------

@@ -1,0 +1,479 @@
+!> The library's procedures, for Fortran; the C and Fortran 77 interfaces marshal to these and do nothing else.
+!>
+!> Every procedure works in IEEE's default rounding with all traps off, and leaves the floating-point environment of its
+!> caller (rounding, traps, flags) as it found it. None prints, stops, or keeps data between calls. A prepared beam is only read
+!> by all but prepare_model and replace_loads, so that many threads may share one; a result belongs to one thread at a time.
+module gapbeam_api
+    use, intrinsic :: ieee_arithmetic, only: ieee_status_type, ieee_get_status, ieee_set_status, ieee_set_halting_mode, &
+        ieee_set_rounding_mode, ieee_nearest, ieee_all, ieee_is_finite
+    use gapbeam_kinds, only: wp
+    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_no_equilibrium, &
+        gapbeam_bad_input, gapbeam_not_prepared
+    use gapbeam_search, only: rule_block, rule_single
+    use gapbeam_scene, only: model_type, load_type, gapbeam_axial
+    use gapbeam_lowered, only: lowered_type, copy_model
+    use gapbeam_lower, only: lower_model, lower_loads
+    use gapbeam_check, only: check_loads, shown
+    use gapbeam_state, only: state_type, event_type, new_state, solve_state, certify_state, follow_events
+    use gapbeam_query, only: support_values, find_undecided, fields_at_places, extremes_of_fields, motion_of_nodes, field_count
+    implicit none
+    private
+    public :: prepared_type, options_type, result_type, certificate_type
+    public :: prepare_model, replace_loads, count_supports, count_nodes
+    public :: solve_beam, follow_load, get_supports, get_fields, get_extremes, get_motion, get_certificate
+
+    !> A prepared beam: opaque
+    type :: prepared_type
+        type(lowered_type), allocatable :: lowered
+    end type prepared_type
+
+    !> How a beam is solved
+    type :: options_type
+        !> How the working scheme is found: gapbeam_rule_block changes many supports at once and always ends,
+        !> gapbeam_rule_single is the paper's rule
+        integer :: rule = rule_block
+    end type options_type
+
+    !> A solved state; what it says of supports, fields and extremes is asked for with the get_ procedures
+    type :: result_type
+        !> gapbeam_solved, gapbeam_no_equilibrium, or -1: nothing solved
+        integer :: status = -1
+        !> Load factor of the live loads
+        real(wp) :: factor = 0.0_wp
+        !> Linear solves it took
+        integer :: solves = 0
+        !> What was solved: 0 the mixed system, 1 three-moment equations, 2 the mixed system with pivoting
+        integer :: method = 0
+        !> Can the beam move freely without work of the loads: its forces are unique, its position is not
+        logical :: indifferent = .false.
+        !> Without equilibrium: does the beam slide along its axis
+        logical :: slides = .false.
+        !> Opaque
+        type(state_type), allocatable :: state
+    end type result_type
+
+    !> How good a result is
+    type :: certificate_type
+        !> Largest relative residuals of the equations of equilibrium and compatibility
+        real(wp) :: equilibrium = 0.0_wp, compatibility = 0.0_wp
+        !> Largest reaction or penetration of the wrong sign, relative to the largest reaction or deflection
+        real(wp) :: complementarity = 0.0_wp
+        !> Are the bounds known; not where pivoting was needed or the beam is indifferent
+        logical :: known = .false.
+        !> Largest error that any deflection of a node, and any reaction, can have, in units of length and force
+        real(wp) :: deflection_bound = 0.0_wp, reaction_bound = 0.0_wp
+    end type certificate_type
+
+contains
+
+    !> Make a model ready for solving
+    subroutine prepare_model(model, beam, error)
+        !> What is to be solved; copied
+        type(model_type), intent(in) :: model
+        !> Ready for solve_beam and follow_load
+        type(prepared_type), intent(out) :: beam
+        !> gapbeam_bad_input with the array and the entry, or gapbeam_no_memory; beam is then not prepared
+        type(error_type), allocatable, intent(out) :: error
+        type(ieee_status_type) :: environment
+        integer :: stat
+
+        call ieee_get_status(environment)
+        call ieee_set_halting_mode(ieee_all, .false.)
+        call ieee_set_rounding_mode(ieee_nearest)
+        allocate (beam%lowered, stat=stat)
+        if (stat == 0) call copy_model(model, beam%lowered%model, stat)
+        if (stat == 0) then
+            call lower_model(beam%lowered, error)
+        else
+            call no_memory(error)
+        end if
+        if (allocated(error) .and. allocated(beam%lowered)) deallocate (beam%lowered)
+        call ieee_set_status(environment)
+    end subroutine prepare_model
+
+    !> Take other loads instead of those of the model; quick where only values differ and no place does
+    subroutine replace_loads(beam, loads, error)
+        !> Prepared; left as it is if an error is found
+        type(prepared_type), intent(inout) :: beam
+        !> All loads from now on
+        type(load_type), intent(in) :: loads(:)
+        !> As for prepare_model
+        type(error_type), allocatable, intent(out) :: error
+        type(ieee_status_type) :: environment
+        type(lowered_type), allocatable :: other
+        integer :: stat
+
+        call require_beam(beam, error)
+        if (allocated(error)) return
+        call ieee_get_status(environment)
+        call ieee_set_halting_mode(ieee_all, .false.)
+        call ieee_set_rounding_mode(ieee_nearest)
+        if (same_places(beam%lowered%model%loads, loads)) then
+            call check_loads(loads, beam%lowered%ends, any(beam%lowered%model%supports%direction == gapbeam_axial), error)
+            if (.not. allocated(error)) then
+                beam%lowered%model%loads(:) = loads
+                call lower_loads(beam%lowered, error)
+            end if
+        else
+            allocate (other, stat=stat)
+            if (stat == 0) call copy_model(beam%lowered%model, other%model, stat)
+            if (stat == 0) then
+                deallocate (other%model%loads)
+                allocate (other%model%loads(size(loads)), stat=stat)
+            end if
+            if (stat == 0) then
+                other%model%loads(:) = loads
+                call lower_model(other, error)
+            else
+                call no_memory(error)
+            end if
+            if (.not. allocated(error)) call move_alloc(other, beam%lowered)
+        end if
+        call ieee_set_status(environment)
+    end subroutine replace_loads
+
+    !> Do two lists of loads differ in their values only
+    pure function same_places(a, b) result(same)
+        type(load_type), intent(in) :: a(:), b(:)
+        logical :: same
+        integer :: i
+
+        same = .false.
+        if (size(a) /= size(b)) return
+        do i = 1, size(a)
+            if (a(i)%kind /= b(i)%kind .or. a(i)%node /= b(i)%node) return
+            if (.not. abs(a(i)%x - b(i)%x) <= 0.0_wp .or. .not. abs(a(i)%to - b(i)%to) <= 0.0_wp) return
+        end do
+        same = .true.
+    end function same_places
+
+    !> Number of supports of a prepared beam
+    pure function count_supports(beam) result(number)
+        type(prepared_type), intent(in) :: beam
+        !> 0 if it is not prepared
+        integer :: number
+
+        number = 0
+        if (allocated(beam%lowered)) number = size(beam%lowered%model%supports)
+    end function count_supports
+
+    !> Number of nodes of the system: beam ends, hinges, supports
+    pure function count_nodes(beam) result(number)
+        type(prepared_type), intent(in) :: beam
+        !> 0 if it is not prepared
+        integer :: number
+
+        number = 0
+        if (allocated(beam%lowered)) number = size(beam%lowered%node_point)
+    end function count_nodes
+
+    !> Solve at one load factor. Where `result` holds an earlier result of this beam, the search starts from its scheme: that
+    !> changes the number of solves, not the answer
+    subroutine solve_beam(beam, factor, options, result, error)
+        !> Prepared
+        type(prepared_type), intent(in) :: beam
+        !> Factor of the live loads
+        real(wp), intent(in) :: factor
+        type(options_type), intent(in) :: options
+        !> The new state; result%status says whether there is equilibrium
+        type(result_type), intent(inout) :: result
+        !> gapbeam_bad_input, gapbeam_indeterminate, gapbeam_not_converged, gapbeam_not_finite, gapbeam_no_memory or
+        !> gapbeam_not_prepared; result%status is then -1
+        type(error_type), allocatable, intent(out) :: error
+        type(ieee_status_type) :: environment
+
+        call ieee_get_status(environment)
+        call ieee_set_halting_mode(ieee_all, .false.)
+        call ieee_set_rounding_mode(ieee_nearest)
+        result%status = -1
+        call require_beam(beam, error)
+        if (.not. allocated(error)) call check_call(factor, options, error)
+        if (.not. allocated(error)) call make_state(beam, result, error)
+        if (.not. allocated(error)) call solve_state(beam%lowered, factor, options%rule, result%state, error)
+        if (.not. allocated(error)) call summarise(result)
+        call ieee_set_status(environment)
+    end subroutine solve_beam
+
+    !> Follow the load from factor 0 upwards: every change of the working scheme at its exact load factor
+    subroutine follow_load(beam, factor, options, events, result, error)
+        !> Prepared
+        type(prepared_type), intent(in) :: beam
+        !> Where the path ends, above 0
+        real(wp), intent(in) :: factor
+        type(options_type), intent(in) :: options
+        !> The events in their order
+        type(event_type), allocatable, intent(out) :: events(:)
+        !> The state at `factor`; or, with status gapbeam_no_equilibrium, the motion that begins at result%factor
+        type(result_type), intent(inout) :: result
+        !> As for solve_beam; events are then not allocated
+        type(error_type), allocatable, intent(out) :: error
+        type(ieee_status_type) :: environment
+        type(event_type), allocatable :: list(:)
+        integer :: number, stat
+
+        call ieee_get_status(environment)
+        call ieee_set_halting_mode(ieee_all, .false.)
+        call ieee_set_rounding_mode(ieee_nearest)
+        result%status = -1
+        call require_beam(beam, error)
+        if (.not. allocated(error)) call check_call(factor, options, error)
+        if (.not. allocated(error) .and. .not. factor > 0.0_wp) then
+            call fatal_error(error, gapbeam_bad_input, "factor: expected a number above 0, got "//trim(shown(factor)))
+        end if
+        if (.not. allocated(error)) call make_state(beam, result, error)
+        if (.not. allocated(error)) then
+            call follow_events(beam%lowered, factor, options%rule, result%state, list, number, error)
+        end if
+        if (.not. allocated(error)) then
+            allocate (events(number), stat=stat)
+            if (stat == 0) then
+                events(:) = list(1:number)
+                call summarise(result)
+            else
+                call no_memory(error)
+            end if
+        end if
+        call ieee_set_status(environment)
+    end subroutine follow_load
+
+    !> Values at the supports, in the order of the model; shapes (count_supports(beam))
+    subroutine get_supports(beam, result, reaction, deflection, opening, couple, condition, error)
+        !> Prepared; its solved result
+        type(prepared_type), intent(in) :: beam
+        type(result_type), intent(in) :: result
+        !> Force on the beam, up; of an axial support to the right
+        real(wp), intent(out) :: reaction(:)
+        !> Deflection of the beam there, down; at an axial support to the right
+        real(wp), intent(out) :: deflection(:)
+        !> Distance still to go until it acts
+        real(wp), intent(out) :: opening(:)
+        !> Couple on the beam, clockwise
+        real(wp), intent(out) :: couple(:)
+        !> gapbeam_open, gapbeam_closed or gapbeam_bilateral
+        integer, intent(out) :: condition(:)
+        !> gapbeam_not_prepared, or gapbeam_bad_input for arrays of another size
+        type(error_type), allocatable, intent(out) :: error
+        type(ieee_status_type) :: environment
+
+        call require_result(beam, result, gapbeam_solved, error)
+        if (allocated(error)) return
+        call require_size(count_supports(beam), [size(reaction), size(deflection), size(opening), size(couple), &
+                                                 size(condition)], error)
+        if (allocated(error)) return
+        call ieee_get_status(environment)
+        call ieee_set_halting_mode(ieee_all, .false.)
+        call ieee_set_rounding_mode(ieee_nearest)
+        call support_values(beam%lowered, result%state, reaction, deflection, opening, couple, condition)
+        call ieee_set_status(environment)
+    end subroutine get_supports
+
+    !> Exact fields anywhere along the beam
+    subroutine get_fields(beam, result, x, fields, error, from_left)
+        !> Prepared; its solved result, which keeps what the first call has to work out
+        type(prepared_type), intent(in) :: beam
+        type(result_type), intent(inout) :: result
+        !> Places, shape (n)
+        real(wp), intent(in) :: x(:)
+        !> Deflection (down), rotation (clockwise), moment (sagging), shear, axial force (tension), axial displacement (to the
+        !> right), shape (6, n)
+        real(wp), intent(out) :: fields(:, :)
+        !> gapbeam_not_prepared, gapbeam_no_memory, or gapbeam_bad_input for a place off the beam
+        type(error_type), allocatable, intent(out) :: error
+        !> Where a field jumps: its value left of the place; default right of it
+        logical, intent(in), optional :: from_left
+        type(ieee_status_type) :: environment
+        logical :: left
+
+        call require_result(beam, result, gapbeam_solved, error)
+        if (allocated(error)) return
+        call require_size(field_count, [size(fields, 1)], error)
+        if (allocated(error)) return
+        call require_size(size(x), [size(fields, 2)], error)
+        if (allocated(error)) return
+        left = .false.
+        if (present(from_left)) left = from_left
+        call ieee_get_status(environment)
+        call ieee_set_halting_mode(ieee_all, .false.)
+        call ieee_set_rounding_mode(ieee_nearest)
+        call fields_at_places(beam%lowered, result%state, x, left, fields, error)
+        call ieee_set_status(environment)
+    end subroutine get_fields
+
+    !> Exact extremes of all fields along the beam
+    subroutine get_extremes(beam, result, value, x, error)
+        !> Prepared; its solved result
+        type(prepared_type), intent(in) :: beam
+        type(result_type), intent(inout) :: result
+        !> Maximum (1) and minimum (2) of the fields in the order of get_fields, and where they are, shape (2, 6)
+        real(wp), intent(out) :: value(:, :), x(:, :)
+        !> gapbeam_not_prepared, gapbeam_no_memory, or gapbeam_bad_input for arrays of another size
+        type(error_type), allocatable, intent(out) :: error
+        type(ieee_status_type) :: environment
+
+        call require_result(beam, result, gapbeam_solved, error)
+        if (allocated(error)) return
+        call require_size(2, [size(value, 1), size(x, 1)], error)
+        if (allocated(error)) return
+        call require_size(field_count, [size(value, 2), size(x, 2)], error)
+        if (allocated(error)) return
+        call ieee_get_status(environment)
+        call ieee_set_halting_mode(ieee_all, .false.)
+        call ieee_set_rounding_mode(ieee_nearest)
+        call extremes_of_fields(beam%lowered, result%state, value, x, error)
+        call ieee_set_status(environment)
+    end subroutine get_extremes
+
+    !> The free motion of a beam that has no equilibrium; shapes (count_nodes(beam))
+    subroutine get_motion(beam, result, x, motion, error)
+        !> Prepared; its result with status gapbeam_no_equilibrium
+        type(prepared_type), intent(in) :: beam
+        type(result_type), intent(in) :: result
+        !> Places of the nodes
+        real(wp), intent(out) :: x(:)
+        !> Their displacements down, largest 1, straight lines between; all 0 where the beam slides along its axis
+        real(wp), intent(out) :: motion(:)
+        !> gapbeam_not_prepared, or gapbeam_bad_input for arrays of another size
+        type(error_type), allocatable, intent(out) :: error
+
+        call require_result(beam, result, gapbeam_no_equilibrium, error)
+        if (allocated(error)) return
+        call require_size(count_nodes(beam), [size(x), size(motion)], error)
+        if (allocated(error)) return
+        call motion_of_nodes(beam%lowered, result%state, x, motion)
+    end subroutine get_motion
+
+    !> How good a result is, and which supports its digits cannot decide
+    subroutine get_certificate(beam, result, certificate, undecided, error)
+        !> Prepared; its solved result
+        type(prepared_type), intent(in) :: beam
+        type(result_type), intent(in) :: result
+        !> Residuals and bounds
+        type(certificate_type), intent(out) :: certificate
+        !> Supports whose reaction or opening is smaller than its error can be, shape (count_supports(beam))
+        logical, intent(out) :: undecided(:)
+        !> gapbeam_not_prepared, gapbeam_no_memory, or gapbeam_bad_input for an array of another size
+        type(error_type), allocatable, intent(out) :: error
+        type(ieee_status_type) :: environment
+        real(wp) :: residual(3), deflection, reaction
+
+        call require_result(beam, result, gapbeam_solved, error)
+        if (allocated(error)) return
+        call require_size(count_supports(beam), [size(undecided)], error)
+        if (allocated(error)) return
+        call ieee_get_status(environment)
+        call ieee_set_halting_mode(ieee_all, .false.)
+        call ieee_set_rounding_mode(ieee_nearest)
+        call certify_state(beam%lowered, result%state, residual, deflection, reaction, certificate%known, error)
+        if (.not. allocated(error)) then
+            call find_undecided(beam%lowered, result%state, deflection, reaction, certificate%known, undecided)
+            certificate%compatibility = residual(1)
+            certificate%equilibrium = residual(2)
+            certificate%complementarity = residual(3)
+            certificate%deflection_bound = scale(deflection, beam%lowered%length_exponent)
+            certificate%reaction_bound = scale(reaction, beam%lowered%force_exponent)
+        end if
+        call ieee_set_status(environment)
+    end subroutine get_certificate
+
+    !> Refuse a beam that is not prepared
+    subroutine require_beam(beam, error)
+        type(prepared_type), intent(in) :: beam
+        type(error_type), allocatable, intent(out) :: error
+
+        if (.not. allocated(beam%lowered)) then
+            call fatal_error(error, gapbeam_not_prepared, "the beam is not prepared: call prepare_model first")
+        end if
+    end subroutine require_beam
+
+    !> Refuse a result of another beam or of another status
+    subroutine require_result(beam, result, status, error)
+        type(prepared_type), intent(in) :: beam
+        type(result_type), intent(in) :: result
+        integer, intent(in) :: status
+        type(error_type), allocatable, intent(out) :: error
+
+        call require_beam(beam, error)
+        if (allocated(error)) return
+        if (.not. allocated(result%state) .or. (result%status /= status .and. status == gapbeam_solved)) then
+            call fatal_error(error, gapbeam_not_prepared, "nothing is solved: call solve_beam first")
+        else if (result%status /= status) then
+            call fatal_error(error, gapbeam_not_prepared, "there is no motion: the beam was not found without equilibrium")
+        else if (.not. fits(beam, result%state)) then
+            call fatal_error(error, gapbeam_not_prepared, "the result belongs to another beam, or to other loads")
+        end if
+    end subroutine require_result
+
+    !> Has a state the sizes of a beam
+    pure function fits(beam, state) result(same)
+        type(prepared_type), intent(in) :: beam
+        type(state_type), intent(in) :: state
+        logical :: same
+        integer :: bars
+
+        bars = 0
+        if (allocated(beam%lowered%axial%flexibility)) bars = size(beam%lowered%axial%flexibility)
+        same = size(state%closed) == size(beam%lowered%normal) .and. size(state%starts) == size(beam%lowered%pieces) &
+            .and. size(state%deflection) == size(beam%lowered%node_point) .and. size(state%tension) == bars
+    end function fits
+
+    !> Refuse arrays of another size than expected
+    subroutine require_size(expected, found, error)
+        integer, intent(in) :: expected, found(:)
+        type(error_type), allocatable, intent(out) :: error
+        character(len=80) :: text
+
+        if (all(found == expected)) return
+        write (text, "(2(a, i0))") "an array has ", found(findloc(found /= expected, .true., 1)), " entries, expected ", expected
+        call fatal_error(error, gapbeam_bad_input, trim(text))
+    end subroutine require_size
+
+    !> Refuse a factor or a rule that makes no sense
+    subroutine check_call(factor, options, error)
+        real(wp), intent(in) :: factor
+        type(options_type), intent(in) :: options
+        type(error_type), allocatable, intent(out) :: error
+        character(len=20) :: text
+
+        if (.not. ieee_is_finite(factor)) then
+            call fatal_error(error, gapbeam_bad_input, "factor: expected a finite number, got "//trim(shown(factor)))
+        else if (options%rule /= rule_block .and. options%rule /= rule_single) then
+            write (text, "(i0)") options%rule
+            call fatal_error(error, gapbeam_bad_input, "rule: expected 0 (block) or 1 (single), got "//trim(text))
+        end if
+    end subroutine check_call
+
+    !> A state for a result that has none that fits
+    subroutine make_state(beam, result, error)
+        type(prepared_type), intent(in) :: beam
+        type(result_type), intent(inout) :: result
+        type(error_type), allocatable, intent(out) :: error
+        integer :: stat
+
+        if (allocated(result%state)) then
+            if (fits(beam, result%state)) return
+            deallocate (result%state)
+        end if
+        allocate (result%state, stat=stat)
+        if (stat == 0) then
+            call new_state(beam%lowered, result%state, error)
+        else
+            call no_memory(error)
+        end if
+        if (allocated(error) .and. allocated(result%state)) deallocate (result%state)
+    end subroutine make_state
+
+    !> Copy what users look at first
+    subroutine summarise(result)
+        type(result_type), intent(inout) :: result
+
+        associate (state => result%state)
+            result%status = state%status
+            result%factor = state%factor
+            result%solves = state%solves
+            result%method = state%method
+            result%indifferent = state%indifferent
+            result%slides = state%slides
+        end associate
+    end subroutine summarise
+
+end module gapbeam_api

@@ -1,0 +1,576 @@
+!> The C interface: marshalling only. include/gapbeam.h says what every function does.
+module gapbeam_capi
+    use, intrinsic :: iso_c_binding, only: c_int, c_double, c_char, c_size_t, c_ptr, c_loc, c_f_pointer, c_associated, &
+        c_null_ptr, c_null_char, c_sizeof
+    use gapbeam_error, only: error_type, fatal_error, no_memory, status_codes, status_texts, unknown_status, &
+        gapbeam_solved, gapbeam_bad_input, gapbeam_no_memory, gapbeam_not_prepared, gapbeam_other_version
+    use gapbeam_version, only: gapbeam_version_major, gapbeam_version_minor, gapbeam_version_patch, gapbeam_version_string
+    use gapbeam_scene, only: model_type, load_type, gapbeam_inf => gapbeam_infinity
+    use gapbeam_state, only: event_type
+    use gapbeam_api, only: prepared_type, options_type, result_type, certificate_type, prepare_model, replace_loads, &
+        count_supports, count_nodes, solve_beam, follow_load, get_supports, get_fields, get_extremes, get_motion, get_certificate
+    use gapbeam_capi_model, only: c_model, read_model, read_loads
+    implicit none
+    private
+    public :: c_options, c_info, c_certificate
+
+    !> Mirrors of the header's structures; tests/test_capi.c compares their sizes
+    type, bind(c) :: c_options
+        integer(c_size_t) :: size
+        integer(c_int) :: rule, reserved
+    end type c_options
+
+    type, bind(c) :: c_info
+        integer(c_size_t) :: size
+        real(c_double) :: factor
+        integer(c_int) :: status, solves, method, indifferent, slides, reserved
+    end type c_info
+
+    type, bind(c) :: c_certificate
+        integer(c_size_t) :: size
+        real(c_double) :: equilibrium, compatibility, complementarity, deflection_bound, reaction_bound
+        integer(c_int) :: known, reserved
+    end type c_certificate
+
+    !> What the handles point to; the tag tells the kinds of handle apart, and those of the library from others
+    integer, parameter :: beam_tag = 1195528258, state_tag = 1195528275
+    type :: beam_handle
+        integer :: tag = beam_tag
+        type(prepared_type) :: beam
+    end type beam_handle
+    type :: state_handle
+        integer :: tag = state_tag
+        type(result_type) :: result
+    end type state_handle
+
+    !> Constants whose addresses C is given, never written to; and what counts them where they are listed
+    integer :: i_text
+    character(len=len(status_texts) + 1), target :: texts(size(status_texts)) = [character(len=len(status_texts) + 1) :: &
+        (trim(status_texts(i_text))//c_null_char, i_text=1, size(status_texts))]
+    character(len=len(unknown_status) + 1), target :: no_text = unknown_status//c_null_char
+    character(len=len(gapbeam_version_string) + 1), target :: version = gapbeam_version_string//c_null_char
+
+contains
+
+    !> See the header
+    subroutine c_get_version(major, minor, patch) bind(c, name="gapbeam_get_version")
+        integer(c_int), intent(out), optional :: major, minor, patch
+
+        if (present(major)) major = gapbeam_version_major
+        if (present(minor)) minor = gapbeam_version_minor
+        if (present(patch)) patch = gapbeam_version_patch
+    end subroutine c_get_version
+
+    !> See the header
+    function c_version_text() result(text) bind(c, name="gapbeam_version_text")
+        type(c_ptr) :: text
+
+        text = c_loc(version)
+    end function c_version_text
+
+    !> See the header
+    function c_status_message(status) result(text) bind(c, name="gapbeam_status_message")
+        integer(c_int), intent(in), value :: status
+        type(c_ptr) :: text
+        integer :: i
+
+        i = findloc(status_codes, int(status), 1)
+        text = c_loc(no_text)
+        if (i > 0) text = c_loc(texts(i))
+    end function c_status_message
+
+    !> See the header
+    function c_infinity() result(value) bind(c, name="gapbeam_infinity")
+        real(c_double) :: value
+
+        value = gapbeam_inf
+    end function c_infinity
+
+    !> See the header
+    function c_model_init(model, size) result(status) bind(c, name="gapbeam_model_init")
+        type(c_model), intent(inout), optional :: model
+        integer(c_size_t), intent(in), value :: size
+        integer(c_int) :: status
+
+        status = gapbeam_bad_input
+        if (.not. present(model)) return
+        status = gapbeam_other_version
+        if (size /= c_sizeof(model)) return
+        model = c_model(size)
+        status = gapbeam_solved
+    end function c_model_init
+
+    !> See the header
+    function c_options_init(options, size) result(status) bind(c, name="gapbeam_options_init")
+        type(c_options), intent(inout), optional :: options
+        integer(c_size_t), intent(in), value :: size
+        integer(c_int) :: status
+        type(options_type) :: defaults
+
+        status = gapbeam_bad_input
+        if (.not. present(options)) return
+        status = gapbeam_other_version
+        if (size /= c_sizeof(options)) return
+        options = c_options(size, defaults%rule, 0)
+        status = gapbeam_solved
+    end function c_options_init
+
+    !> See the header
+    function c_prepare(model, beam, message, message_size) result(status) bind(c, name="gapbeam_prepare")
+        type(c_model), intent(in), optional :: model
+        type(c_ptr), intent(out), optional :: beam
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), intent(in), value :: message_size
+        integer(c_int) :: status
+        type(beam_handle), pointer :: handle
+        type(error_type), allocatable :: error
+        type(model_type) :: plain
+        integer :: stat
+
+        if (present(beam)) beam = c_null_ptr
+        if (.not. (present(model) .and. present(beam))) then
+            call fatal_error(error, gapbeam_bad_input, "model or beam is NULL")
+        else
+            call read_model(model, plain, error)
+        end if
+        if (.not. allocated(error)) then
+            allocate (handle, stat=stat)
+            if (stat /= 0) then
+                call no_memory(error)
+            else
+                call prepare_model(plain, handle%beam, error)
+                if (allocated(error)) then
+                    deallocate (handle)
+                else
+                    beam = c_loc(handle)
+                end if
+            end if
+        end if
+        call report(error, status, message, message_size)
+    end function c_prepare
+
+    !> See the header
+    subroutine c_free_beam(beam) bind(c, name="gapbeam_free_beam")
+        type(c_ptr), intent(in), value :: beam
+        type(beam_handle), pointer :: handle
+
+        call get_beam(beam, handle)
+        if (.not. associated(handle)) return
+        handle%tag = 0
+        deallocate (handle)
+    end subroutine c_free_beam
+
+    !> See the header
+    function c_replace_loads(beam, loads, message, message_size) result(status) bind(c, name="gapbeam_replace_loads")
+        type(c_ptr), intent(in), value :: beam
+        type(c_model), intent(in), optional :: loads
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), intent(in), value :: message_size
+        integer(c_int) :: status
+        type(beam_handle), pointer :: handle
+        type(error_type), allocatable :: error
+        type(load_type), allocatable :: list(:)
+
+        call get_beam(beam, handle)
+        if (.not. associated(handle)) then
+            call fatal_error(error, gapbeam_not_prepared, "beam is no prepared beam")
+        else if (.not. present(loads)) then
+            call fatal_error(error, gapbeam_bad_input, "loads is NULL")
+        else
+            call read_loads(loads, list, error)
+            if (.not. allocated(error)) call replace_loads(handle%beam, list, error)
+        end if
+        call report(error, status, message, message_size)
+    end function c_replace_loads
+
+    !> See the header
+    function c_count_supports(beam) result(number) bind(c, name="gapbeam_count_supports")
+        type(c_ptr), intent(in), value :: beam
+        integer(c_int) :: number
+        type(beam_handle), pointer :: handle
+
+        call get_beam(beam, handle)
+        number = 0
+        if (associated(handle)) number = count_supports(handle%beam)
+    end function c_count_supports
+
+    !> See the header
+    function c_count_nodes(beam) result(number) bind(c, name="gapbeam_count_nodes")
+        type(c_ptr), intent(in), value :: beam
+        integer(c_int) :: number
+        type(beam_handle), pointer :: handle
+
+        call get_beam(beam, handle)
+        number = 0
+        if (associated(handle)) number = count_nodes(handle%beam)
+    end function c_count_nodes
+
+    !> See the header
+    function c_new_state(state) result(status) bind(c, name="gapbeam_new_state")
+        type(c_ptr), intent(out), optional :: state
+        integer(c_int) :: status
+        type(state_handle), pointer :: handle
+        integer :: stat
+
+        status = gapbeam_bad_input
+        if (.not. present(state)) return
+        state = c_null_ptr
+        allocate (handle, stat=stat)
+        status = gapbeam_no_memory
+        if (stat /= 0) return
+        state = c_loc(handle)
+        status = gapbeam_solved
+    end function c_new_state
+
+    !> See the header
+    subroutine c_free_state(state) bind(c, name="gapbeam_free_state")
+        type(c_ptr), intent(in), value :: state
+        type(state_handle), pointer :: handle
+
+        call get_state(state, handle)
+        if (.not. associated(handle)) return
+        handle%tag = 0
+        deallocate (handle)
+    end subroutine c_free_state
+
+    !> See the header
+    function c_solve(beam, factor, options, state, message, message_size) result(status) bind(c, name="gapbeam_solve")
+        type(c_ptr), intent(in), value :: beam, state
+        real(c_double), intent(in), value :: factor
+        type(c_options), intent(in), optional :: options
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), intent(in), value :: message_size
+        integer(c_int) :: status
+        type(beam_handle), pointer :: prepared
+        type(state_handle), pointer :: solved
+        type(error_type), allocatable :: error
+        type(options_type) :: chosen
+
+        call get_both(beam, state, prepared, solved, error)
+        if (.not. allocated(error)) call read_options(options, chosen, error)
+        if (.not. allocated(error)) call solve_beam(prepared%beam, factor, chosen, solved%result, error)
+        call report(error, status, message, message_size)
+        if (.not. allocated(error)) status = solved%result%status
+    end function c_solve
+
+    !> See the header
+    function c_follow(beam, factor, options, capacity, event_factor, event_support, event_condition, number, state, &
+                      message, message_size) result(status) bind(c, name="gapbeam_follow")
+        type(c_ptr), intent(in), value :: beam, state
+        real(c_double), intent(in), value :: factor
+        type(c_options), intent(in), optional :: options
+        integer(c_int), intent(in), value :: capacity
+        real(c_double), intent(inout), optional :: event_factor(*)
+        integer(c_int), intent(inout), optional :: event_support(*), event_condition(*)
+        integer(c_int), intent(inout), optional :: number
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), intent(in), value :: message_size
+        integer(c_int) :: status
+        type(beam_handle), pointer :: prepared
+        type(state_handle), pointer :: solved
+        type(error_type), allocatable :: error
+        type(options_type) :: chosen
+        type(event_type), allocatable :: events(:)
+        integer :: k
+
+        call get_both(beam, state, prepared, solved, error)
+        if (.not. allocated(error)) call read_options(options, chosen, error)
+        if (.not. allocated(error)) call follow_load(prepared%beam, factor, chosen, events, solved%result, error)
+        call report(error, status, message, message_size)
+        if (allocated(error)) return
+        status = solved%result%status
+        if (present(number)) number = size(events)
+        do k = 1, min(int(capacity), size(events))
+            if (present(event_factor)) event_factor(k) = events(k)%factor
+            if (present(event_support)) event_support(k) = events(k)%support - 1
+            if (present(event_condition)) event_condition(k) = events(k)%state
+        end do
+    end function c_follow
+
+    !> See the header
+    function c_get_info(state, info) result(status) bind(c, name="gapbeam_get_info")
+        type(c_ptr), intent(in), value :: state
+        type(c_info), intent(inout), optional :: info
+        integer(c_int) :: status
+        type(state_handle), pointer :: handle
+
+        call get_state(state, handle)
+        status = gapbeam_bad_input
+        if (.not. present(info)) return
+        status = gapbeam_other_version
+        if (info%size /= c_sizeof(info)) return
+        status = gapbeam_not_prepared
+        if (.not. associated(handle)) return
+        associate (r => handle%result)
+            if (r%status < 0) return
+            info = c_info(info%size, r%factor, r%status, r%solves, r%method, merge(1, 0, r%indifferent), merge(1, 0, r%slides), 0)
+        end associate
+        status = gapbeam_solved
+    end function c_get_info
+
+    !> See the header
+    function c_get_supports(beam, state, reaction, deflection, opening, couple, condition) result(status) &
+        bind(c, name="gapbeam_get_supports")
+        type(c_ptr), intent(in), value :: beam, state
+        real(c_double), intent(inout), optional :: reaction(*), deflection(*), opening(*), couple(*)
+        integer(c_int), intent(inout), optional :: condition(*)
+        integer(c_int) :: status
+        type(beam_handle), pointer :: prepared
+        type(state_handle), pointer :: solved
+        type(error_type), allocatable :: error
+
+        call get_both(beam, state, prepared, solved, error)
+        if (.not. allocated(error)) then
+            call copy_supports(prepared%beam, solved%result, reaction, deflection, opening, couple, condition, error)
+        end if
+        call report(error, status)
+    end function c_get_supports
+
+    !> Values at the supports into the arrays that are there
+    subroutine copy_supports(beam, result, reaction, deflection, opening, couple, condition, error)
+        type(prepared_type), intent(in) :: beam
+        type(result_type), intent(in) :: result
+        real(c_double), intent(inout), optional :: reaction(*), deflection(*), opening(*), couple(*)
+        integer(c_int), intent(inout), optional :: condition(*)
+        type(error_type), allocatable, intent(out) :: error
+        real(c_double), allocatable :: values(:, :)
+        integer, allocatable :: conditions(:)
+        integer :: m, stat
+
+        m = count_supports(beam)
+        allocate (values(m, 4), conditions(m), stat=stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        call get_supports(beam, result, values(:, 1), values(:, 2), values(:, 3), values(:, 4), conditions, error)
+        if (allocated(error)) return
+        if (present(reaction)) reaction(1:m) = values(:, 1)
+        if (present(deflection)) deflection(1:m) = values(:, 2)
+        if (present(opening)) opening(1:m) = values(:, 3)
+        if (present(couple)) couple(1:m) = values(:, 4)
+        if (present(condition)) condition(1:m) = conditions
+    end subroutine copy_supports
+
+    !> See the header
+    function c_get_fields(beam, state, count, x, from_left, fields, message, message_size) result(status) &
+        bind(c, name="gapbeam_get_fields")
+        type(c_ptr), intent(in), value :: beam, state
+        integer(c_int), intent(in), value :: count, from_left
+        real(c_double), intent(in), optional :: x(*)
+        real(c_double), intent(inout), optional :: fields(6, *)
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), intent(in), value :: message_size
+        integer(c_int) :: status
+        type(beam_handle), pointer :: prepared
+        type(state_handle), pointer :: solved
+        type(error_type), allocatable :: error
+
+        call get_both(beam, state, prepared, solved, error)
+        if (.not. allocated(error)) call check_points(count, present(x) .and. present(fields), error)
+        if (.not. allocated(error) .and. count > 0) then
+            call get_fields(prepared%beam, solved%result, x(1:count), fields(:, 1:count), error, from_left /= 0)
+        end if
+        call report(error, status, message, message_size)
+    end function c_get_fields
+
+    !> See the header
+    function c_get_extremes(beam, state, value, x) result(status) bind(c, name="gapbeam_get_extremes")
+        type(c_ptr), intent(in), value :: beam, state
+        real(c_double), intent(inout), optional :: value(2, 6), x(2, 6)
+        integer(c_int) :: status
+        type(beam_handle), pointer :: prepared
+        type(state_handle), pointer :: solved
+        type(error_type), allocatable :: error
+        real(c_double) :: values(2, 6), places(2, 6)
+
+        call get_both(beam, state, prepared, solved, error)
+        if (.not. allocated(error)) call get_extremes(prepared%beam, solved%result, values, places, error)
+        call report(error, status)
+        if (allocated(error)) return
+        if (present(value)) value(:, :) = values
+        if (present(x)) x(:, :) = places
+    end function c_get_extremes
+
+    !> See the header
+    function c_get_motion(beam, state, x, motion) result(status) bind(c, name="gapbeam_get_motion")
+        type(c_ptr), intent(in), value :: beam, state
+        real(c_double), intent(inout), optional :: x(*), motion(*)
+        integer(c_int) :: status
+        type(beam_handle), pointer :: prepared
+        type(state_handle), pointer :: solved
+        type(error_type), allocatable :: error
+        integer :: n
+
+        call get_both(beam, state, prepared, solved, error)
+        if (.not. allocated(error) .and. .not. (present(x) .and. present(motion))) then
+            call fatal_error(error, gapbeam_bad_input, "x or motion is NULL")
+        end if
+        if (.not. allocated(error)) then
+            n = count_nodes(prepared%beam)
+            call get_motion(prepared%beam, solved%result, x(1:n), motion(1:n), error)
+        end if
+        call report(error, status)
+    end function c_get_motion
+
+    !> See the header
+    function c_get_certificate(beam, state, certificate, undecided) result(status) bind(c, name="gapbeam_get_certificate")
+        type(c_ptr), intent(in), value :: beam, state
+        type(c_certificate), intent(inout), optional :: certificate
+        integer(c_int), intent(inout), optional :: undecided(*)
+        integer(c_int) :: status
+        type(beam_handle), pointer :: prepared
+        type(state_handle), pointer :: solved
+        type(error_type), allocatable :: error
+        type(certificate_type) :: found
+        logical, allocatable :: doubtful(:)
+        integer :: stat
+
+        status = gapbeam_bad_input
+        if (.not. present(certificate)) return
+        status = gapbeam_other_version
+        if (certificate%size /= c_sizeof(certificate)) return
+        call get_both(beam, state, prepared, solved, error)
+        if (.not. allocated(error)) then
+            allocate (doubtful(count_supports(prepared%beam)), stat=stat)
+            if (stat /= 0) then
+                call no_memory(error)
+            else
+                call get_certificate(prepared%beam, solved%result, found, doubtful, error)
+            end if
+        end if
+        call report(error, status)
+        if (allocated(error)) return
+        certificate = c_certificate(certificate%size, found%equilibrium, found%compatibility, found%complementarity, &
+                                    found%deflection_bound, found%reaction_bound, merge(1, 0, found%known), 0)
+        if (present(undecided)) undecided(1:size(doubtful)) = merge(1, 0, doubtful)
+    end function c_get_certificate
+
+    !> See the header
+    function c_solve_model(model, factor, options, reaction, deflection, opening, couple, condition, count, x, fields, &
+                           message, message_size) result(status) bind(c, name="gapbeam_solve_model")
+        type(c_model), intent(in), optional :: model
+        real(c_double), intent(in), value :: factor
+        type(c_options), intent(in), optional :: options
+        real(c_double), intent(inout), optional :: reaction(*), deflection(*), opening(*), couple(*)
+        integer(c_int), intent(inout), optional :: condition(*)
+        integer(c_int), intent(in), value :: count
+        real(c_double), intent(in), optional :: x(*)
+        real(c_double), intent(inout), optional :: fields(6, *)
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), intent(in), value :: message_size
+        integer(c_int) :: status
+        type(error_type), allocatable :: error
+        type(model_type) :: plain
+        type(prepared_type) :: beam
+        type(options_type) :: chosen
+        type(result_type) :: result
+        logical :: solved
+
+        if (.not. present(model)) then
+            call fatal_error(error, gapbeam_bad_input, "model is NULL")
+        else
+            call read_model(model, plain, error)
+        end if
+        if (.not. allocated(error)) call read_options(options, chosen, error)
+        if (.not. allocated(error)) call check_points(count, present(x) .and. present(fields), error)
+        if (.not. allocated(error)) call prepare_model(plain, beam, error)
+        if (.not. allocated(error)) call solve_beam(beam, factor, chosen, result, error)
+        solved = .not. allocated(error) .and. result%status == gapbeam_solved
+        ! Fields first: they may be refused, and then nothing else is to be written
+        if (solved .and. count > 0) call get_fields(beam, result, x(1:count), fields(:, 1:count), error)
+        if (solved .and. .not. allocated(error)) then
+            call copy_supports(beam, result, reaction, deflection, opening, couple, condition, error)
+        end if
+        call report(error, status, message, message_size)
+        if (.not. allocated(error)) status = result%status
+    end function c_solve_model
+
+    !> The beam behind a handle
+    subroutine get_beam(handle, beam)
+        type(c_ptr), intent(in) :: handle
+        !> Null where it is no handle of a beam
+        type(beam_handle), pointer, intent(out) :: beam
+
+        nullify (beam)
+        if (.not. c_associated(handle)) return
+        call c_f_pointer(handle, beam)
+        if (beam%tag /= beam_tag) nullify (beam)
+    end subroutine get_beam
+
+    !> The state behind a handle
+    subroutine get_state(handle, state)
+        type(c_ptr), intent(in) :: handle
+        !> Null where it is no handle of a state
+        type(state_handle), pointer, intent(out) :: state
+
+        nullify (state)
+        if (.not. c_associated(handle)) return
+        call c_f_pointer(handle, state)
+        if (state%tag /= state_tag) nullify (state)
+    end subroutine get_state
+
+    !> Both, refused where one is missing
+    subroutine get_both(beam, state, prepared, solved, error)
+        type(c_ptr), intent(in) :: beam, state
+        type(beam_handle), pointer, intent(out) :: prepared
+        type(state_handle), pointer, intent(out) :: solved
+        type(error_type), allocatable, intent(out) :: error
+
+        call get_beam(beam, prepared)
+        call get_state(state, solved)
+        if (.not. associated(prepared)) then
+            call fatal_error(error, gapbeam_not_prepared, "beam is no prepared beam")
+        else if (.not. associated(solved)) then
+            call fatal_error(error, gapbeam_not_prepared, "state is no state: make one with gapbeam_new_state")
+        end if
+    end subroutine get_both
+
+    !> Options, or the defaults
+    subroutine read_options(options, chosen, error)
+        type(c_options), intent(in), optional :: options
+        type(options_type), intent(out) :: chosen
+        type(error_type), allocatable, intent(out) :: error
+
+        if (.not. present(options)) return
+        if (options%size /= c_sizeof(options)) then
+            call fatal_error(error, gapbeam_other_version, "options: size is not the library's; use gapbeam_options_init")
+        else
+            chosen%rule = options%rule
+        end if
+    end subroutine read_options
+
+    !> Refuse a number of places that makes no sense
+    subroutine check_points(count, given, error)
+        integer(c_int), intent(in) :: count
+        logical, intent(in) :: given
+        type(error_type), allocatable, intent(out) :: error
+
+        if (count < 0) then
+            call fatal_error(error, gapbeam_bad_input, "count is negative")
+        else if (count > 0 .and. .not. given) then
+            call fatal_error(error, gapbeam_bad_input, "x or fields is NULL")
+        end if
+    end subroutine check_points
+
+    !> Status and message for C
+    subroutine report(error, status, message, message_size)
+        type(error_type), allocatable, intent(in) :: error
+        integer(c_int), intent(out) :: status
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), intent(in), optional :: message_size
+        integer(c_size_t) :: i, length
+
+        status = gapbeam_solved
+        if (allocated(error)) status = error%code
+        if (.not. present(message) .or. .not. present(message_size)) return
+        if (message_size < 1) return
+        length = 0
+        if (allocated(error)) length = min(len(error%message, c_size_t), message_size - 1)
+        do i = 1, length
+            message(i) = error%message(i:i)
+        end do
+        message(length + 1) = c_null_char
+    end subroutine report
+
+end module gapbeam_capi

@@ -1,0 +1,155 @@
+!> The model of the C interface, pointers to plain arrays, as the library's own
+module gapbeam_capi_model
+    use, intrinsic :: iso_c_binding, only: c_int, c_double, c_size_t, c_ptr, c_null_ptr, c_associated, c_f_pointer, c_sizeof
+    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input, gapbeam_other_version
+    use gapbeam_scene, only: model_type, load_type
+    implicit none
+    private
+    public :: c_model, read_model, read_loads
+
+    !> Mirror of the header's structure; tests/test_capi.c compares the sizes
+    type, bind(c) :: c_model
+        integer(c_size_t) :: size
+        integer(c_int) :: spans = 0
+        type(c_ptr) :: length = c_null_ptr, EI = c_null_ptr, GA = c_null_ptr, EA = c_null_ptr
+        integer(c_int) :: hinges = 0
+        type(c_ptr) :: hinge_x = c_null_ptr
+        integer(c_int) :: supports = 0
+        type(c_ptr) :: support_x = c_null_ptr, support_node = c_null_ptr, support_side = c_null_ptr
+        type(c_ptr) :: support_stiffness = c_null_ptr, support_gap = c_null_ptr, support_settlement = c_null_ptr
+        type(c_ptr) :: support_rotation = c_null_ptr, support_direction = c_null_ptr
+        integer(c_int) :: loads = 0
+        type(c_ptr) :: load_kind = c_null_ptr, load_case = c_null_ptr, load_x = c_null_ptr, load_node = c_null_ptr
+        type(c_ptr) :: load_to = c_null_ptr, load_value = c_null_ptr, load_value_to = c_null_ptr
+    end type c_model
+
+contains
+
+    !> Copy a model; what is NULL keeps its default
+    subroutine read_model(c, model, error)
+        !> As the caller filled it
+        type(c_model), intent(in) :: c
+        type(model_type), intent(out) :: model
+        !> Wrong size, a negative number of entries, a missing array, or no memory
+        type(error_type), allocatable, intent(out) :: error
+        real(c_double), pointer :: reals(:)
+        integer(c_int), pointer :: integers(:)
+        integer :: stat
+
+        call check_size(c, error)
+        if (.not. allocated(error)) call check_array("spans", c%spans, c_associated(c%length) .and. c_associated(c%EI), &
+                                                     "length and EI are needed", error)
+        if (.not. allocated(error)) call check_array("hinges", c%hinges, c_associated(c%hinge_x), "hinge_x is needed", error)
+        if (.not. allocated(error)) call check_array("supports", c%supports, c_associated(c%support_x) &
+                                                     .or. c_associated(c%support_node), "support_x or support_node is needed", &
+                                                     error)
+        if (.not. allocated(error)) call read_loads(c, model%loads, error)
+        if (allocated(error)) return
+        allocate (model%spans(c%spans), model%hinges(c%hinges), model%supports(c%supports), stat=stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        associate (s => model%spans, n => c%spans)
+            if (has_reals(c%length, n, reals)) s%length = reals
+            if (has_reals(c%EI, n, reals)) s%EI = reals
+            if (has_reals(c%GA, n, reals)) s%GA = reals
+            if (has_reals(c%EA, n, reals)) s%EA = reals
+        end associate
+        if (has_reals(c%hinge_x, c%hinges, reals)) model%hinges(:) = reals
+        associate (s => model%supports, n => c%supports)
+            if (has_reals(c%support_x, n, reals)) s%x = reals
+            if (has_integers(c%support_node, n, integers)) s%node = integers
+            if (has_integers(c%support_side, n, integers)) s%side = integers
+            if (has_reals(c%support_stiffness, n, reals)) s%stiffness = reals
+            if (has_reals(c%support_gap, n, reals)) s%gap = reals
+            if (has_reals(c%support_settlement, n, reals)) s%settlement = reals
+            if (has_reals(c%support_rotation, n, reals)) s%rotation = reals
+            if (has_integers(c%support_direction, n, integers)) s%direction = integers
+        end associate
+    end subroutine read_model
+
+    !> Copy the loads of a model
+    subroutine read_loads(c, loads, error)
+        type(c_model), intent(in) :: c
+        type(load_type), allocatable, intent(out) :: loads(:)
+        !> As for read_model
+        type(error_type), allocatable, intent(out) :: error
+        real(c_double), pointer :: reals(:)
+        integer(c_int), pointer :: integers(:)
+        integer :: i, stat
+
+        call check_size(c, error)
+        if (.not. allocated(error)) call check_array("loads", c%loads, c_associated(c%load_kind) .and. &
+                                                     c_associated(c%load_value) .and. (c_associated(c%load_x) .or. &
+                                                                                       c_associated(c%load_node)), &
+                                                     "load_kind, load_value, and load_x or load_node are needed", error)
+        if (allocated(error)) return
+        allocate (loads(c%loads), stat=stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        associate (n => c%loads)
+            if (has_integers(c%load_kind, n, integers)) loads%kind = integers
+            if (has_integers(c%load_case, n, integers)) loads%case = integers
+            if (has_reals(c%load_x, n, reals)) loads%x = reals
+            if (has_integers(c%load_node, n, integers)) loads%node = integers
+            if (has_reals(c%load_to, n, reals)) loads%to = reals
+            if (has_reals(c%load_value, n, reals)) loads%value = reals
+            do i = 1, n
+                loads(i)%value_to = loads(i)%value
+            end do
+            if (has_reals(c%load_value_to, n, reals)) loads%value_to = reals
+        end associate
+    end subroutine read_loads
+
+    !> Is the structure the library's
+    subroutine check_size(c, error)
+        type(c_model), intent(in) :: c
+        type(error_type), allocatable, intent(out) :: error
+
+        if (c%size /= c_sizeof(c)) then
+            call fatal_error(error, gapbeam_other_version, "model: size is not the library's; use gapbeam_model_init")
+        end if
+    end subroutine check_size
+
+    !> Refuse a negative number of entries, and arrays that are needed and not there
+    subroutine check_array(name, number, given, problem, error)
+        character(len=*), intent(in) :: name, problem
+        integer(c_int), intent(in) :: number
+        logical, intent(in) :: given
+        type(error_type), allocatable, intent(out) :: error
+
+        if (number < 0) then
+            call fatal_error(error, gapbeam_bad_input, "model: the number of "//name//" is negative")
+        else if (number > 0 .and. .not. given) then
+            call fatal_error(error, gapbeam_bad_input, "model: "//problem)
+        end if
+    end subroutine check_array
+
+    !> Is there an array of reals
+    function has_reals(address, number, array) result(given)
+        type(c_ptr), intent(in) :: address
+        integer(c_int), intent(in) :: number
+        real(c_double), pointer, intent(out) :: array(:)
+        logical :: given
+
+        nullify (array)
+        given = c_associated(address)
+        if (given) call c_f_pointer(address, array, [number])
+    end function has_reals
+
+    !> Is there an array of integers
+    function has_integers(address, number, array) result(given)
+        type(c_ptr), intent(in) :: address
+        integer(c_int), intent(in) :: number
+        integer(c_int), pointer, intent(out) :: array(:)
+        logical :: given
+
+        nullify (array)
+        given = c_associated(address)
+        if (given) call c_f_pointer(address, array, [number])
+    end function has_integers
+
+end module gapbeam_capi_model

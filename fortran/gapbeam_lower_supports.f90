@@ -1,0 +1,261 @@
+!> Supports and hinges as nodes of the system, and the axial system
+module gapbeam_lower_supports
+    use gapbeam_kinds, only: wp
+    use gapbeam_error, only: error_type, no_memory
+    use gapbeam_band, only: plain, hinge, restrained
+    use gapbeam_scene, only: support_type, gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_normal, gapbeam_axial, &
+        gapbeam_axial_force
+    use gapbeam_model, only: node_support_type => support_type, order_supports => place_supports
+    use gapbeam_lowered, only: lowered_type, position_tolerance
+    use gapbeam_check, only: refuse, shown, of_supports
+    implicit none
+    private
+    public :: lower_supports
+
+contains
+
+    !> Nodes, supports, restraints, and the axial system where it is needed
+    subroutine lower_supports(lowered, error)
+        !> Points and pieces in
+        type(lowered_type), intent(inout) :: lowered
+        type(error_type), allocatable, intent(out) :: error
+
+        call check_neighbours(lowered, error)
+        if (allocated(error)) return
+        call choose_nodes(lowered, error)
+        if (allocated(error)) return
+        call place_supports(lowered, error)
+        if (allocated(error)) return
+        if (any(lowered%model%loads%kind == gapbeam_axial_force) &
+            .or. any(lowered%model%supports%direction == gapbeam_axial &
+                     .and. abs(lowered%model%supports%settlement) > 0.0_wp)) then
+            call build_axial(lowered, error)
+        end if
+    end subroutine lower_supports
+
+    !> Supports at the same place must leave room for each other, and no two may do the same rigidly
+    subroutine check_neighbours(lowered, error)
+        type(lowered_type), intent(in) :: lowered
+        type(error_type), allocatable, intent(out) :: error
+        !> The rigid support of each kind at a point, 0: none; kinds are the sides -1..1, 2 along the beam, elastic ones
+        !> too, 3 clamp
+        integer, allocatable :: rigid(:, :)
+        integer :: k, m, stat, point
+
+        m = size(lowered%model%supports)
+        allocate (rigid(-1:3, 0:ubound(lowered%point_span, 1)), stat=stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        rigid(:, :) = 0
+        do k = 1, m
+            point = lowered%support_point(k)
+            associate (s => lowered%model%supports(k))
+                if (s%rotation > 0.0_wp .and. lowered%hinged(point)) then
+                    call refuse(error, of_supports, k, m, "rotation: there is a hinge here, so it is open which side is "// &
+                                "held; move one aside")
+                else if (s%direction == gapbeam_axial) then
+                    call note(2, "hold the beam along its axis")
+                else if (s%stiffness > huge(s%stiffness)) then
+                    call note(s%side, "do the same rigidly")
+                end if
+                if (.not. allocated(error) .and. s%rotation > huge(s%rotation)) call note(3, "hold the rotation rigidly")
+            end associate
+            if (allocated(error)) return
+        end do
+        do k = 1, m
+            point = lowered%support_point(k)
+            if (rigid(gapbeam_below, point) == k) then
+                call look(k, rigid(gapbeam_above, point), .false.)
+                if (.not. allocated(error)) call look(k, rigid(gapbeam_both, point), .true.)
+            else if (rigid(gapbeam_above, point) == k) then
+                call look(rigid(gapbeam_both, point), k, .true.)
+            end if
+            if (allocated(error)) return
+        end do
+
+    contains
+
+        !> Note a rigid support; only one of its kind may be there
+        subroutine note(kind, what)
+            integer, intent(in) :: kind
+            character(len=*), intent(in) :: what
+            character(len=20) :: other
+
+            if (rigid(kind, point) /= 0) then
+                write (other, "(i0)") rigid(kind, point)
+                call refuse(error, of_supports, k, m, "this one and support "//trim(other)//" stand at the same place and " &
+                            //what//"; remove one of them")
+            else
+                rigid(kind, point) = k
+            end if
+        end subroutine note
+
+        !> The lower one of two rigid supports must not be in the way of the upper one
+        subroutine look(lower, upper, strictly)
+            integer, intent(in) :: lower, upper
+            logical, intent(in) :: strictly
+            real(wp) :: stop_at, start_at, slack
+            character(len=20) :: other
+
+            if (lower == 0 .or. upper == 0) return
+            stop_at = contact_level(lowered%model%supports(lower))
+            start_at = contact_level(lowered%model%supports(upper))
+            slack = position_tolerance*max(abs(stop_at), abs(start_at))
+            if (stop_at - start_at < -slack .or. (strictly .and. stop_at - start_at <= slack)) then
+                write (other, "(i0)") upper
+                call refuse(error, of_supports, lower, m, "this one acts at a deflection of "//trim(shown(stop_at))// &
+                            " and support "//trim(other)//" at "//trim(shown(start_at))//", so no room is left; give a greater gap")
+            end if
+        end subroutine look
+
+    end subroutine check_neighbours
+
+    !> Deflection at which a support begins to act
+    elemental function contact_level(support) result(level)
+        type(support_type), intent(in) :: support
+        real(wp) :: level
+
+        level = support%settlement + support%side*support%gap
+    end function contact_level
+
+    !> Beam ends, hinges and supports across the beam are nodes
+    subroutine choose_nodes(lowered, error)
+        type(lowered_type), intent(inout) :: lowered
+        type(error_type), allocatable, intent(out) :: error
+        integer :: k, j, n, stat
+
+        n = ubound(lowered%point_span, 1)
+        allocate (lowered%node_of_point(0:n), stat=stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        associate (node => lowered%node_of_point)
+            node(:) = merge(0, -1, lowered%hinged)
+            node(0) = 0
+            node(n) = 0
+            do k = 1, size(lowered%support_point)
+                if (lowered%model%supports(k)%direction == gapbeam_normal) node(lowered%support_point(k)) = 0
+            end do
+            allocate (lowered%node_point(0:count(node == 0) - 1), stat=stat)
+            if (stat /= 0) then
+                call no_memory(error)
+                return
+            end if
+            k = 0
+            do j = 0, n
+                if (node(j) < 0) cycle
+                node(j) = k
+                lowered%node_point(k) = j
+                k = k + 1
+            end do
+        end associate
+    end subroutine choose_nodes
+
+    !> The supports across the beam in the engine's units
+    subroutine place_supports(lowered, error)
+        type(lowered_type), intent(inout) :: lowered
+        type(error_type), allocatable, intent(out) :: error
+        type(node_support_type), allocatable :: supports(:)
+        real(wp), allocatable :: turning(:)
+        integer :: k, j, m, n, stat
+
+        n = ubound(lowered%node_point, 1)
+        m = count(lowered%model%supports%direction == gapbeam_normal)
+        associate (beam => lowered%beam, l => lowered%length_exponent, f => lowered%force_exponent)
+            allocate (beam%links(n), beam%kind(0:n), beam%compliance(0:n), beam%force(2, 0:n), beam%couple(2, 0:n), &
+                      lowered%normal(m), lowered%couple_share(m), turning(0:n), supports(m), stat=stat)
+            ! order_supports frees and allocates these again
+            if (stat == 0) allocate (beam%supports(m), beam%order(m), beam%first(0:n + 1), stat=stat)
+            if (stat /= 0) then
+                call no_memory(error)
+                return
+            end if
+            turning(:) = 0.0_wp
+            beam%kind(:) = merge(hinge, plain, lowered%hinged(lowered%node_point))
+            j = 0
+            do k = 1, size(lowered%model%supports)
+                associate (s => lowered%model%supports(k))
+                    if (s%direction /= gapbeam_normal) cycle
+                    j = j + 1
+                    lowered%normal(j) = k
+                    supports(j) = node_support_type(lowered%node_of_point(lowered%support_point(k)), s%side, &
+                                                         scale(s%stiffness, l - f), scale(contact_level(s), -l))
+                    turning(supports(j)%node) = turning(supports(j)%node) + s%rotation
+                end associate
+            end do
+            call order_supports(supports, beam)
+            beam%compliance(:) = 0.0_wp
+            do j = 0, n
+                if (.not. turning(j) > 0.0_wp) cycle
+                beam%kind(j) = restrained
+                beam%compliance(j) = 1/turning(j)
+            end do
+            do j = 1, m
+                associate (turn => lowered%model%supports(lowered%normal(j))%rotation)
+                    ! A clamp takes all of the couple
+                    lowered%couple_share(j) = 1.0_wp
+                    if (turn <= huge(turn)) lowered%couple_share(j) = turn*beam%compliance(beam%supports(j)%node)
+                end associate
+            end do
+            beam%compliance(:) = scale(beam%compliance, f + l)
+        end associate
+    end subroutine place_supports
+
+    !> The axial system: its points are the beam's ends and the places of axial forces and supports
+    subroutine build_axial(lowered, error)
+        type(lowered_type), intent(inout) :: lowered
+        type(error_type), allocatable, intent(out) :: error
+        integer, allocatable :: node(:)
+        integer :: i, j, k, n, stat
+
+        n = ubound(lowered%point_span, 1)
+        associate (axial => lowered%axial, model => lowered%model)
+            allocate (node(0:n), axial%node(size(model%supports)), stat=stat)
+            if (stat /= 0) then
+                call no_memory(error)
+                return
+            end if
+            node(:) = -1
+            node(0) = 0
+            node(n) = 0
+            do k = 1, size(model%supports)
+                if (model%supports(k)%direction == gapbeam_axial) node(lowered%support_point(k)) = 0
+            end do
+            do k = 1, size(model%loads)
+                if (model%loads(k)%kind == gapbeam_axial_force) node(lowered%load_from(k)) = 0
+            end do
+            i = count(node == 0) - 1
+            allocate (axial%point(0:i), axial%flexibility(i), axial%force(2, 0:i), axial%stiffness(0:i), &
+                      axial%settlement(0:i), stat=stat)
+            if (stat /= 0) then
+                call no_memory(error)
+                return
+            end if
+            axial%flexibility(:) = 0.0_wp
+            axial%stiffness(:) = 0.0_wp
+            axial%settlement(:) = 0.0_wp
+            axial%point(0) = 0
+            i = 0
+            do j = 1, n
+                axial%flexibility(i + 1) = axial%flexibility(i + 1) &
+                    + scale(lowered%pieces(j)%length, lowered%length_exponent)*lowered%axial_flexibility(j)
+                if (node(j) < 0) cycle
+                i = i + 1
+                node(j) = i
+                axial%point(i) = j
+            end do
+            do k = 1, size(model%supports)
+                axial%node(k) = -1
+                if (model%supports(k)%direction /= gapbeam_axial) cycle
+                i = node(lowered%support_point(k))
+                axial%node(k) = i
+                axial%stiffness(i) = model%supports(k)%stiffness
+                axial%settlement(i) = model%supports(k)%settlement
+            end do
+        end associate
+    end subroutine build_axial
+
+end module gapbeam_lower_supports

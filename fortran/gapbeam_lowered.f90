@@ -1,0 +1,88 @@
+!> A model made ready: the engine's arrays, and what leads from them back to the user's places and supports
+module gapbeam_lowered
+    use gapbeam_kinds, only: wp
+    use gapbeam_link, only: piece_type, piece_load_type => load_type
+    use gapbeam_model, only: beam_type
+    use gapbeam_scene, only: model_type
+    implicit none
+    private
+    public :: lowered_type, axial_type, copy_model, position_tolerance
+
+    !> Positions whose difference is at most this share of the larger one are the same place
+    real(wp), parameter :: position_tolerance = 64*epsilon(1.0_wp)
+
+    !> The axial system: bars between points with an axial load or support; none allocated if it is not needed
+    type :: axial_type
+        !> Points of the beam that are its nodes, shape (0:n)
+        integer, allocatable :: point(:)
+        !> int 1/EA over each bar, shape (n)
+        real(wp), allocatable :: flexibility(:)
+        !> Dead and live force at each point, to the right, shape (2, 0:n)
+        real(wp), allocatable :: force(:, :)
+        !> Support of each point, 0: none, shape (0:n)
+        real(wp), allocatable :: stiffness(:), settlement(:)
+        !> For every support of the model its node of this system; -1 for supports across the beam
+        integer, allocatable :: node(:)
+    end type axial_type
+
+    !> A model made ready
+    type :: lowered_type
+        !> What the user gave
+        type(model_type) :: model
+        !> The engine's units of length and force, as powers of two; 0 but for models far from 1
+        integer :: length_exponent = 0, force_exponent = 0
+        !> x of the span ends, shape (0:nspan), and the point at each of them
+        real(wp), allocatable :: ends(:)
+        integer, allocatable :: end_point(:)
+        !> Points between pieces: span, distance from the span's left end, shape (0:npiece)
+        integer, allocatable :: point_span(:)
+        real(wp), allocatable :: point_offset(:)
+        !> Point of every support; first and last point of every load
+        integer, allocatable :: support_point(:), load_from(:), load_to(:)
+        !> Is there a hinge at a point, shape (0:npiece)
+        logical, allocatable :: hinged(:)
+        !> Pieces and their loads in the engine's units; 1/EA in the user's, shape (npiece)
+        type(piece_type), allocatable :: pieces(:)
+        type(piece_load_type), allocatable :: dead(:), live(:)
+        real(wp), allocatable :: axial_flexibility(:)
+        !> Points that are nodes, shape (0:nlink); node_point(1:) is also the last piece of every link
+        integer, allocatable :: node_point(:)
+        !> Node of every point, -1: none, shape (0:npiece)
+        integer, allocatable :: node_of_point(:)
+        !> The beam in the engine's units
+        type(beam_type) :: beam
+        !> For every support of the beam its number in the model, and its share in the rotational restraint of its node
+        integer, allocatable :: normal(:)
+        real(wp), allocatable :: couple_share(:)
+        type(axial_type) :: axial
+    end type lowered_type
+
+contains
+
+    !> Copy a model, what is missing as arrays of size 0
+    pure subroutine copy_model(source, copy, stat)
+        !> What the user gave
+        type(model_type), intent(in) :: source
+        !> With all its arrays allocated
+        type(model_type), intent(out) :: copy
+        !> 0, or what allocate says where memory is at an end
+        integer, intent(out) :: stat
+        integer :: spans, hinges, supports, loads
+
+        spans = 0
+        hinges = 0
+        supports = 0
+        loads = 0
+        if (allocated(source%spans)) spans = size(source%spans)
+        if (allocated(source%hinges)) hinges = size(source%hinges)
+        if (allocated(source%supports)) supports = size(source%supports)
+        if (allocated(source%loads)) loads = size(source%loads)
+        allocate (copy%spans(spans), copy%hinges(hinges), copy%supports(supports), copy%loads(loads), stat=stat)
+        if (stat /= 0) return
+        if (spans > 0) copy%spans(:) = source%spans
+        if (hinges > 0) copy%hinges(:) = source%hinges
+        if (supports > 0) copy%supports(:) = source%supports
+        if (loads > 0) copy%loads(:) = source%loads
+    end subroutine copy_model
+
+end module gapbeam_lowered

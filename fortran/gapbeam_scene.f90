@@ -1,0 +1,185 @@
+!> What a user describes: spans, hinges, supports and loads by their places along the beam.
+!>
+!> Units: any consistent set. Signs: x from the left end to the right; deflections, settlements and loads positive down,
+!> reactions up, moments sagging, couples and rotations clockwise; axial forces on the beam to the right, inside it tension.
+module gapbeam_scene
+    use, intrinsic :: iso_fortran_env, only: int64
+    use gapbeam_kinds, only: wp
+    implicit none
+    private
+    public :: span_type, support_type, load_type, model_type
+    public :: point_force, point_couple, uniform_load, linear_load, imposed_curvature, axial_force
+    public :: gapbeam_infinity, gapbeam_by_x
+    public :: gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_normal, gapbeam_axial
+    public :: gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force
+    public :: gapbeam_live, gapbeam_dead
+
+    !> Infinity: a rigid support, a rigid beam
+    real(wp), parameter :: gapbeam_infinity = transfer(int(z"7FF0000000000000", int64), 1.0_wp)
+    !> Instead of a node: the place is given by x
+    integer, parameter :: gapbeam_by_x = -1
+    !> Sides of a support: holds the beam both ways, pushes it up only, pushes it down only
+    integer, parameter :: gapbeam_both = 0, gapbeam_below = 1, gapbeam_above = -1
+    !> Directions of a support: across the beam, along it
+    integer, parameter :: gapbeam_normal = 0, gapbeam_axial = 1
+    !> Kinds of load
+    integer, parameter :: gapbeam_force = 1, gapbeam_couple = 2, gapbeam_distributed = 3, gapbeam_curvature = 4, &
+                          gapbeam_axial_force = 5
+    !> Cases of a load: scaled by the load factor, in full from the start
+    integer, parameter :: gapbeam_live = 0, gapbeam_dead = 1
+    !> A place not given
+    real(wp), parameter :: nowhere = -huge(1.0_wp)
+
+    !> A stretch of constant stiffness; the stretches follow each other from left to right
+    type :: span_type
+        !> Length, above 0
+        real(wp) :: length
+        !> Bending stiffness (force*length**2), above 0; infinite: rigid
+        real(wp) :: EI
+        !> Shear stiffness kappa*G*A (force); infinite: Euler-Bernoulli
+        real(wp) :: GA = gapbeam_infinity
+        !> Axial stiffness (force); needed only with axial loads
+        real(wp) :: EA = gapbeam_infinity
+    end type span_type
+
+    !> A support: it acts where the deflection reaches settlement + gap (below) or settlement - gap (above)
+    type :: support_type
+        !> Place by x, anywhere along the beam
+        real(wp) :: x = nowhere
+        !> Or by node: 0 the left end, i the right end of span i; gapbeam_by_x: x counts
+        integer :: node = gapbeam_by_x
+        !> gapbeam_both, gapbeam_below or gapbeam_above
+        integer :: side = gapbeam_both
+        !> Force per length; infinite: rigid
+        real(wp) :: stiffness = gapbeam_infinity
+        !> Distance to be closed before it acts; negative: lack of fit; one-sided supports only
+        real(wp) :: gap = 0.0_wp
+        !> Movement of the support itself, down; of an axial one to the right
+        real(wp) :: settlement = 0.0_wp
+        !> Rotational stiffness (force*length/rad): 0 free, infinite clamped
+        real(wp) :: rotation = 0.0_wp
+        !> gapbeam_normal or gapbeam_axial
+        integer :: direction = gapbeam_normal
+    end type support_type
+
+    !> A load; the functions below make one of each kind
+    type :: load_type
+        !> gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature or gapbeam_axial_force
+        integer :: kind
+        !> gapbeam_live or gapbeam_dead
+        integer :: case = gapbeam_live
+        !> Place, or left end of the stretch
+        real(wp) :: x = nowhere
+        !> Or place by node, of forces and couples; gapbeam_by_x: x counts
+        integer :: node = gapbeam_by_x
+        !> Right end of the stretch, of distributed loads and curvatures
+        real(wp) :: to = nowhere
+        !> Force, couple, curvature, or force per length at the left end of the stretch
+        real(wp) :: value = 0.0_wp
+        !> Force per length at its right end
+        real(wp) :: value_to = 0.0_wp
+    end type load_type
+
+    !> A beam with all that is on it; what is not allocated is not there
+    type :: model_type
+        type(span_type), allocatable :: spans(:)
+        !> Places of moment hinges
+        real(wp), allocatable :: hinges(:)
+        type(support_type), allocatable :: supports(:)
+        type(load_type), allocatable :: loads(:)
+    end type model_type
+
+contains
+
+    !> A force across the beam
+    elemental function point_force(value, x, node, case) result(load)
+        !> Force, positive down
+        real(wp), intent(in) :: value
+        !> Place by x, or by node
+        real(wp), intent(in), optional :: x
+        integer, intent(in), optional :: node
+        !> gapbeam_live (default) or gapbeam_dead
+        integer, intent(in), optional :: case
+        type(load_type) :: load
+
+        load = point_load(gapbeam_force, value, x, node, case)
+    end function point_force
+
+    !> A couple
+    elemental function point_couple(value, x, node, case) result(load)
+        !> Couple (force*length), positive clockwise; not exactly at a hinge
+        real(wp), intent(in) :: value
+        !> As for point_force
+        real(wp), intent(in), optional :: x
+        integer, intent(in), optional :: node, case
+        type(load_type) :: load
+
+        load = point_load(gapbeam_couple, value, x, node, case)
+    end function point_couple
+
+    !> A force along the beam; some support with direction gapbeam_axial must hold it
+    elemental function axial_force(value, x, node, case) result(load)
+        !> Force, positive to the right
+        real(wp), intent(in) :: value
+        !> As for point_force
+        real(wp), intent(in), optional :: x
+        integer, intent(in), optional :: node, case
+        type(load_type) :: load
+
+        load = point_load(gapbeam_axial_force, value, x, node, case)
+    end function axial_force
+
+    !> A constant load over a stretch
+    elemental function uniform_load(value, from, to, case) result(load)
+        !> Force per length, positive down
+        real(wp), intent(in) :: value
+        !> Ends of the stretch
+        real(wp), intent(in) :: from, to
+        !> gapbeam_live (default) or gapbeam_dead
+        integer, intent(in), optional :: case
+        type(load_type) :: load
+
+        load = linear_load(value, value, from, to, case)
+    end function uniform_load
+
+    !> A linearly varying load over a stretch
+    elemental function linear_load(value, value_to, from, to, case) result(load)
+        !> Force per length at the left and at the right end of the stretch, positive down
+        real(wp), intent(in) :: value, value_to
+        !> As for uniform_load
+        real(wp), intent(in) :: from, to
+        integer, intent(in), optional :: case
+        type(load_type) :: load
+
+        load = load_type(kind=gapbeam_distributed, x=from, to=to, value=value, value_to=value_to)
+        if (present(case)) load%case = case
+    end function linear_load
+
+    !> An imposed curvature over a stretch (temperature, shrinkage, prestress)
+    elemental function imposed_curvature(value, from, to, case) result(load)
+        !> Curvature (1/length), added to w'' = -M/EI; positive where the upper side gets longer
+        real(wp), intent(in) :: value
+        !> As for uniform_load
+        real(wp), intent(in) :: from, to
+        integer, intent(in), optional :: case
+        type(load_type) :: load
+
+        load = load_type(kind=gapbeam_curvature, x=from, to=to, value=value, value_to=value)
+        if (present(case)) load%case = case
+    end function imposed_curvature
+
+    !> A load at one place
+    elemental function point_load(kind, value, x, node, case) result(load)
+        integer, intent(in) :: kind
+        real(wp), intent(in) :: value
+        real(wp), intent(in), optional :: x
+        integer, intent(in), optional :: node, case
+        type(load_type) :: load
+
+        load = load_type(kind=kind, value=value)
+        if (present(x)) load%x = x
+        if (present(node)) load%node = node
+        if (present(case)) load%case = case
+    end function point_load
+
+end module gapbeam_scene

@@ -1,0 +1,324 @@
+!> The state of a beam at one load factor: solved, certified, and followed from event to event
+module gapbeam_state
+    use gapbeam_kinds, only: wp
+    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_no_equilibrium, &
+        gapbeam_indeterminate, gapbeam_not_converged
+    use gapbeam_element, only: field_type
+    use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
+    use gapbeam_system, only: check_scheme, certify_scheme
+    use gapbeam_search, only: rule_block
+    use gapbeam_rules, only: complementarity
+    use gapbeam_scheme, only: find_scheme, outcome_type
+    use gapbeam_path, only: find_marginal, follow_load, path_type
+    use gapbeam_axial, only: solve_axial, axial_slides, axial_indeterminate
+    use gapbeam_check, only: shown
+    use gapbeam_lowered, only: lowered_type
+    use gapbeam_memory, only: reserve_memory, for_solving, for_following
+    implicit none
+    private
+    public :: state_type, event_type, new_state, solve_state, certify_state, follow_events
+
+    !> A path has finitely many events; more than this many per support say that rounding decides them
+    integer, parameter :: most_events_per_support = 50
+    !> Changes of the scheme followed at a time
+    integer, parameter :: changes_at_a_time = 1000
+
+    !> A state, in the engine's units but for the axial system; arrays have one entry per support of the engine's beam, or
+    !> per node 0..n
+    type :: state_type
+        !> gapbeam_solved or gapbeam_no_equilibrium; -1: nothing solved yet
+        integer :: status = -1
+        !> Load factor of the live loads
+        real(wp) :: factor = 0.0_wp
+        !> Linear solves it took, and the system solved last (gapbeam_system)
+        integer :: solves = 0, method = 0
+        !> Can the beam move freely without work of the loads; does it slide along its axis
+        logical :: indifferent = .false., slides = .false.
+        !> The scheme: which supports act, and whose reaction or opening is zero as far as rounding tells
+        logical, allocatable :: closed(:), marginal(:)
+        !> Deflections and moments left and right of the nodes; the free motion where there is no equilibrium
+        real(wp), allocatable :: deflection(:), moment_left(:), moment_right(:), motion(:)
+        !> Shear of every link beside that of the simple bar
+        real(wp), allocatable :: shear(:)
+        real(wp), allocatable :: reaction(:)
+        !> Displacements and reactions of the axial system's points, forces in its bars; of size 0 without one
+        real(wp), allocatable :: displacement(:), axial_reaction(:), tension(:)
+        !> Fields at the left end of every piece; made when first asked for
+        type(field_type), allocatable :: starts(:)
+        logical :: has_starts = .false.
+    end type state_type
+
+    !> A change of the working scheme
+    type :: event_type
+        !> Load factor at which it happens
+        real(wp) :: factor
+        !> Number of the support in the model, from 1
+        integer :: support
+        !> gapbeam_closed or gapbeam_open: what the support is from here on
+        integer :: state
+    end type event_type
+
+contains
+
+    !> A state for a beam, nothing solved, all supports closed
+    subroutine new_state(lowered, state, error)
+        !> The beam
+        type(lowered_type), intent(in) :: lowered
+        !> Ready for solve_state
+        type(state_type), intent(out) :: state
+        !> No memory
+        type(error_type), allocatable, intent(out) :: error
+        integer :: n, m, bars, stat
+
+        n = size(lowered%beam%links)
+        m = size(lowered%beam%supports)
+        bars = 0
+        if (allocated(lowered%axial%point)) bars = ubound(lowered%axial%point, 1)
+        allocate (state%closed(m), state%marginal(m), state%reaction(m), state%deflection(0:n), state%moment_left(0:n), &
+                  state%moment_right(0:n), state%motion(0:n), state%shear(n), state%displacement(0:bars), &
+                  state%axial_reaction(0:bars), state%tension(bars), state%starts(size(lowered%pieces)), stat=stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        state%closed(:) = .true.
+        state%displacement(:) = 0.0_wp
+        state%axial_reaction(:) = 0.0_wp
+        state%tension(:) = 0.0_wp
+        state%starts(:) = field_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
+        call forget(state)
+    end subroutine new_state
+
+    !> Numbers of an earlier solve are not to be taken for those of a later one
+    pure subroutine forget(state)
+        type(state_type), intent(inout) :: state
+
+        state%status = -1
+        state%solves = 0
+        state%method = 0
+        state%indifferent = .false.
+        state%slides = .false.
+        state%has_starts = .false.
+        state%marginal(:) = .false.
+        state%reaction(:) = 0.0_wp
+        state%deflection(:) = 0.0_wp
+        state%moment_left(:) = 0.0_wp
+        state%moment_right(:) = 0.0_wp
+        state%motion(:) = 0.0_wp
+        state%shear(:) = 0.0_wp
+    end subroutine forget
+
+    !> Solve at one load factor; the search starts from the scheme the state holds
+    subroutine solve_state(lowered, factor, rule, state, error)
+        !> The beam
+        type(lowered_type), intent(in) :: lowered
+        !> Factor of the live loads
+        real(wp), intent(in) :: factor
+        !> rule_block or rule_single
+        integer, intent(in) :: rule
+        !> From new_state or an earlier solve
+        type(state_type), intent(inout) :: state
+        !> No unique solution, not settled, not finite, or no memory
+        type(error_type), allocatable, intent(out) :: error
+        type(workspace_type) :: work
+        type(outcome_type) :: outcome
+        logical, allocatable :: acting(:)
+        integer :: stat
+
+        call forget(state)
+        state%factor = factor
+        call reserve_memory(lowered, for_solving, error)
+        if (allocated(error)) return
+        allocate (acting(size(state%closed)), stat=stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        acting(:) = state%closed
+        call solve_along_axis(lowered, state, error)
+        if (allocated(error)) return
+        associate (beam => lowered%beam)
+            call new_workspace(beam, work)
+            call set_loads(beam, factor, work)
+            call find_scheme(beam, factor, rule, acting, work, outcome, error)
+            if (allocated(error)) return
+            state%solves = work%solves
+            state%method = work%method
+            if (state%slides) then
+                state%status = gapbeam_no_equilibrium
+                return
+            end if
+            state%status = outcome%status
+            if (outcome%status /= gapbeam_solved) then
+                if (allocated(outcome%motion)) state%motion(:) = outcome%motion
+                return
+            end if
+            state%indifferent = outcome%indifferent
+            state%closed(:) = acting
+            call find_marginal(beam, acting, work, state%marginal)
+            state%deflection(:) = work%answers%deflection
+            state%moment_left(:) = work%answers%moment_left
+            state%moment_right(:) = work%answers%moment_right
+            state%shear(:) = work%shear
+            state%reaction(:) = work%reaction
+        end associate
+    end subroutine solve_state
+
+    !> The axial system, if there is one
+    subroutine solve_along_axis(lowered, state, error)
+        type(lowered_type), intent(in) :: lowered
+        type(state_type), intent(inout) :: state
+        type(error_type), allocatable, intent(out) :: error
+        integer :: found, place
+
+        if (.not. allocated(lowered%axial%point)) return
+        associate (axial => lowered%axial)
+            call solve_axial(axial%flexibility, axial%force(1, :) + state%factor*axial%force(2, :), axial%stiffness, &
+                             axial%settlement, state%displacement, state%tension, state%axial_reaction, found, place)
+            state%slides = found == axial_slides
+            if (found /= axial_indeterminate) return
+            associate (point => axial%point(place))
+                call fatal_error(error, gapbeam_indeterminate, "the axial support at x = " &
+                                 //trim(shown(lowered%ends(lowered%point_span(point)) + lowered%point_offset(point)))// &
+                                 " and another one hold a stretch with infinite EA at both ends, so their forces cannot "// &
+                                 "be told apart: give the beam a finite EA")
+            end associate
+        end associate
+    end subroutine solve_along_axis
+
+    !> Residuals of a solved state, and bounds for its errors in the engine's units
+    subroutine certify_state(lowered, state, residual, deflection_bound, reaction_bound, known, error)
+        !> The beam
+        type(lowered_type), intent(in) :: lowered
+        !> Solved
+        type(state_type), intent(in) :: state
+        !> Relative residuals of compatibility and equilibrium, and the largest violation of a sign
+        real(wp), intent(out) :: residual(3)
+        !> Largest error of any deflection of a node, and of any reaction
+        real(wp), intent(out) :: deflection_bound, reaction_bound
+        !> False where pivoting was needed or the beam is free to move
+        logical, intent(out) :: known
+        !> No memory
+        type(error_type), allocatable, intent(out) :: error
+        type(workspace_type) :: work
+        type(outcome_type) :: outcome
+        logical, allocatable :: acting(:)
+        integer :: stat
+
+        residual(:) = 0.0_wp
+        deflection_bound = 0.0_wp
+        reaction_bound = 0.0_wp
+        known = .false.
+        call reserve_memory(lowered, for_solving, error)
+        if (allocated(error)) return
+        allocate (acting(size(state%closed)), stat=stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        acting(:) = state%closed
+        associate (beam => lowered%beam)
+            call new_workspace(beam, work)
+            call set_loads(beam, state%factor, work)
+            ! From the working scheme that is one solve
+            call find_scheme(beam, state%factor, rule_block, acting, work, outcome, error)
+            if (allocated(error) .or. outcome%status /= gapbeam_solved) return
+            call check_scheme(beam, work)
+            residual(:) = [work%compatibility, work%equilibrium, complementarity(beam, acting, work)]
+            if (outcome%indifferent) return
+            call certify_scheme(beam, state%factor, work, deflection_bound, reaction_bound, known)
+        end associate
+    end subroutine certify_state
+
+    !> Follow the load from factor 0 to `factor`: every change of the working scheme at its load factor. The state is that at
+    !> the end, or at the factor above which there is no equilibrium, with the motion that begins there
+    subroutine follow_events(lowered, factor, rule, state, events, number, error)
+        !> The beam
+        type(lowered_type), intent(in) :: lowered
+        !> End of the path, above 0
+        real(wp), intent(in) :: factor
+        !> rule_block or rule_single
+        integer, intent(in) :: rule
+        !> From new_state or an earlier solve
+        type(state_type), intent(inout) :: state
+        !> The events in their order, the first `number` entries
+        type(event_type), allocatable, intent(out) :: events(:)
+        integer, intent(out) :: number
+        !> As for solve_state; or no single path
+        type(error_type), allocatable, intent(out) :: error
+        type(outcome_type) :: outcome
+        type(path_type) :: path
+        logical, allocatable :: now(:)
+        real(wp) :: at
+        integer :: solves, changes, k, stat
+
+        number = 0
+        allocate (events(2*size(state%closed) + 8), now(size(state%closed)), stat=stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        state%closed(:) = .true.
+        call solve_state(lowered, 0.0_wp, rule, state, error)
+        if (allocated(error) .or. state%status /= gapbeam_solved) return
+        now(:) = state%closed
+        at = 0.0_wp
+        solves = state%solves
+        changes = 0
+        do while (at < factor)
+            call reserve_memory(lowered, for_following, error)
+            if (allocated(error)) return
+            call follow_load(lowered%beam, factor, rule, changes_at_a_time, at, state%closed, state%marginal, path, outcome, error)
+            if (allocated(error)) then
+                error%message = "at load factor "//trim(shown(at))//": "//error%message
+                return
+            end if
+            solves = solves + path%solves
+            changes = changes + path%count
+            do k = 1, path%count
+                call note(path%factor(k), path%support(k))
+                if (allocated(error)) return
+            end do
+            if (outcome%status == gapbeam_no_equilibrium) then
+                call forget(state)
+                state%status = gapbeam_no_equilibrium
+                state%factor = at
+                state%solves = solves
+                if (allocated(outcome%motion)) state%motion(:) = outcome%motion
+                return
+            end if
+            if (changes > 10 + most_events_per_support*size(now)) then
+                call fatal_error(error, gapbeam_not_converged, "more changes than supports can have: rounding decides them; "// &
+                                 "follow the load by steps")
+                return
+            end if
+        end do
+        call solve_state(lowered, factor, rule, state, error)
+        if (.not. allocated(error)) state%solves = state%solves + solves
+
+    contains
+
+        !> A support changes; above factor 0 that is an event
+        subroutine note(when, which)
+            real(wp), intent(in) :: when
+            integer, intent(in) :: which
+            type(event_type), allocatable :: longer(:)
+
+            now(which) = .not. now(which)
+            if (.not. when > 0.0_wp) return
+            if (number == size(events)) then
+                allocate (longer(2*number), stat=stat)
+                if (stat /= 0) then
+                    call no_memory(error)
+                    return
+                end if
+                longer(1:number) = events
+                call move_alloc(longer, events)
+            end if
+            number = number + 1
+            events(number) = event_type(when, lowered%normal(which), merge(1, 0, now(which)))
+        end subroutine note
+
+    end subroutine follow_events
+
+end module gapbeam_state

@@ -1,0 +1,292 @@
+"""The installed library called through its C and its Fortran 77 interface, by ctypes, for scenes as dicts."""
+
+import ctypes as c
+import math
+
+import numpy as np
+from scenes import nodes_of
+
+SIDES = {"both": 0, "below": 1, "above": -1}
+KINDS = {"force": 1, "moment": 2, "uniform": 3, "linear": 3, "curvature": 4, "axial": 5}
+RULES = {"block": 0, "single": 1}
+REAL, INTEGER = c.POINTER(c.c_double), c.POINTER(c.c_int)
+
+
+class Model(c.Structure):
+    """gapbeam_model of the header."""
+
+    _fields_ = (
+        ("size", c.c_size_t),
+        ("spans", c.c_int),
+        *((name, REAL) for name in ("length", "EI", "GA", "EA")),
+        ("hinges", c.c_int),
+        ("hinge_x", REAL),
+        ("supports", c.c_int),
+        ("support_x", REAL),
+        ("support_node", INTEGER),
+        ("support_side", INTEGER),
+        *((f"support_{name}", REAL) for name in ("stiffness", "gap", "settlement", "rotation")),
+        ("support_direction", INTEGER),
+        ("loads", c.c_int),
+        ("load_kind", INTEGER),
+        ("load_case", INTEGER),
+        ("load_x", REAL),
+        ("load_node", INTEGER),
+        *((f"load_{name}", REAL) for name in ("to", "value", "value_to")),
+    )
+
+
+class Options(c.Structure):
+    """gapbeam_options of the header."""
+
+    _fields_ = (("size", c.c_size_t), ("rule", c.c_int), ("reserved", c.c_int))
+
+
+class Info(c.Structure):
+    """gapbeam_info of the header."""
+
+    _fields_ = (
+        ("size", c.c_size_t),
+        ("factor", c.c_double),
+        *((name, c.c_int) for name in ("status", "solves", "method", "indifferent", "slides", "reserved")),
+    )
+
+
+class Certificate(c.Structure):
+    """gapbeam_certificate of the header."""
+
+    _fields_ = (
+        ("size", c.c_size_t),
+        *((n, c.c_double) for n in ("equilibrium", "compatibility", "complementarity", "deflection_bound", "reaction_bound")),
+        ("known", c.c_int),
+        ("reserved", c.c_int),
+    )
+
+
+def columns(scene):
+    """The arrays of the C interface for a scene without sections."""
+    spans, supports, loads = scene["beam"]["spans"], scene["supports"], scene["loads"]
+    end = nodes_of(scene)[-1]
+
+    def real(rows, key, default):
+        return np.array([default if row.get(key) is None else row[key] for row in rows], dtype=float)
+
+    def spread(key):
+        return np.broadcast_to(np.array(scene["beam"].get(key, math.inf), dtype=float), len(spans)).copy()
+
+    def values(load):
+        value = next(load[key] for key in ("F", "M", "q", "kappa") if key in load)
+        return value if isinstance(value, list) else [value, value]
+
+    turns = {"free": 0.0, "fixed": math.inf}
+    both = np.array([values(load) for load in loads], dtype=float).reshape(len(loads), 2)
+    return {
+        "length": np.array(spans, dtype=float),
+        **{key: spread(key) for key in ("EI", "GA", "EA")},
+        "hinge_x": np.array(scene["beam"].get("hinges", []), dtype=float),
+        "support_x": real(supports, "x", 0.0),
+        "support_node": real(supports, "node", -1).astype(np.int32),
+        "support_side": np.array([SIDES[s.get("side", "both")] for s in supports], dtype=np.int32),
+        "support_stiffness": real(supports, "stiffness", math.inf),
+        "support_gap": real(supports, "gap", 0.0),
+        "support_settlement": real(supports, "settlement", 0.0),
+        "support_rotation": np.array([turns.get(s.get("rotation", "free"), s.get("rotation")) for s in supports], dtype=float),
+        "support_direction": np.array([s.get("direction") == "axial" for s in supports], dtype=np.int32),
+        "load_kind": np.array([KINDS[load["type"]] for load in loads], dtype=np.int32),
+        "load_case": np.array([load.get("case") == "dead" for load in loads], dtype=np.int32),
+        "load_x": np.array([load.get("x", load.get("from", 0.0)) or 0.0 for load in loads], dtype=float),
+        "load_node": real(loads, "node", -1).astype(np.int32),
+        "load_to": real(loads, "to", end),
+        "load_value": both[:, 0].copy(),
+        "load_value_to": both[:, 1].copy(),
+    }
+
+
+def pointer(array):
+    """Where an array is, as ctypes passes it."""
+    return array.ctypes.data_as(INTEGER if array.dtype == np.int32 else REAL)
+
+
+class Library:
+    """The shared library, loaded."""
+
+    def __init__(self, path):
+        self.c = c.CDLL(str(path))
+        self.c.gapbeam_status_message.restype = c.c_char_p
+        self.c.gapbeam_version_text.restype = c.c_char_p
+        self.c.gapbeam_infinity.restype = c.c_double
+        for name in ("gapbeam_free_beam", "gapbeam_free_state", "gapbeam_count_supports", "gapbeam_count_nodes"):
+            getattr(self.c, name).argtypes = [c.c_void_p]
+
+    def model(self, arrays):
+        """A gapbeam_model; the arrays must live as long as it."""
+        made = Model()
+        assert self.c.gapbeam_model_init(c.byref(made), c.c_size_t(c.sizeof(made))) == 0
+        for name, array in arrays.items():
+            setattr(made, name, pointer(array))
+        for name, key in (("spans", "length"), ("hinges", "hinge_x"), ("supports", "support_x"), ("loads", "load_value")):
+            setattr(made, name, len(arrays[key]))
+        return made
+
+    def prepare(self, scene):
+        """A prepared beam, or the status and the message."""
+        arrays = columns(scene)
+        model, message, handle = self.model(arrays), c.create_string_buffer(400), c.c_void_p()
+        status = self.c.gapbeam_prepare(c.byref(model), c.byref(handle), message, c.c_size_t(400))
+        return (CBeam(self, handle, len(scene["supports"])), "") if status == 0 else (status, message.value.decode())
+
+
+class CBeam:
+    """A prepared beam and one state of it, through the C interface."""
+
+    def __init__(self, library, handle, supports):
+        self.c, self.handle, self.supports = library.c, handle, supports
+        self.state = c.c_void_p()
+        assert self.c.gapbeam_new_state(c.byref(self.state)) == 0
+
+    def close(self):
+        """Free everything."""
+        self.c.gapbeam_free_state(self.state)
+        self.c.gapbeam_free_beam(self.handle)
+
+    def solve(self, factor, rule="block"):
+        """Status and message of a solve."""
+        options, message = Options(c.sizeof(Options), RULES[rule], 0), c.create_string_buffer(400)
+        status = self.c.gapbeam_solve(
+            self.handle, c.c_double(factor), c.byref(options), self.state, message, c.c_size_t(400)
+        )
+        return status, message.value.decode()
+
+    def follow(self, factor, rule="block"):
+        """Status, message and events: (factor, support, condition)."""
+        options, message, number = Options(c.sizeof(Options), RULES[rule], 0), c.create_string_buffer(400), c.c_int(-1)
+        room = 1000
+        at, which, what = np.empty(room), np.empty(room, np.int32), np.empty(room, np.int32)
+        status = self.c.gapbeam_follow(
+            self.handle, c.c_double(factor), c.byref(options), room, pointer(at), pointer(which), pointer(what),
+            c.byref(number), self.state, message, c.c_size_t(400),
+        )  # fmt: skip
+        assert number.value <= room
+        return status, message.value.decode(), list(zip(at, which, what, strict=True))[: max(number.value, 0)]
+
+    def info(self):
+        """The structure gapbeam_info."""
+        info = Info(c.sizeof(Info))
+        assert self.c.gapbeam_get_info(self.state, c.byref(info)) == 0
+        return info
+
+    def at_supports(self):
+        """Reaction, deflection, opening, couple, condition."""
+        values = [np.empty(self.supports) for _ in range(4)] + [np.empty(self.supports, np.int32)]
+        assert self.c.gapbeam_get_supports(self.handle, self.state, *map(pointer, values)) == 0
+        return values
+
+    def fields(self, x, left=False):
+        """Fields at places, 6 by places."""
+        x = np.array(x, dtype=float)
+        found = np.empty((len(x), 6))
+        status = self.c.gapbeam_get_fields(
+            self.handle, self.state, len(x), pointer(x), int(left), pointer(found), None, c.c_size_t(0)
+        )
+        assert status == 0
+        return found.T
+
+    def extremes(self):
+        """Values and places, 6 by 2 each."""
+        value, x = np.empty((6, 2)), np.empty((6, 2))
+        assert self.c.gapbeam_get_extremes(self.handle, self.state, pointer(value), pointer(x)) == 0
+        return value, x
+
+    def motion(self):
+        """Places of the nodes and their displacements."""
+        n = self.c.gapbeam_count_nodes(self.handle)
+        x, motion = np.empty(n), np.empty(n)
+        assert self.c.gapbeam_get_motion(self.handle, self.state, pointer(x), pointer(motion)) == 0
+        return x, motion
+
+    def certificate(self):
+        """The structure gapbeam_certificate, and which supports are undecided."""
+        found, undecided = Certificate(c.sizeof(Certificate)), np.empty(self.supports, np.int32)
+        assert self.c.gapbeam_get_certificate(self.handle, self.state, c.byref(found), pointer(undecided)) == 0
+        return found, undecided
+
+
+class F77Beam:
+    """The same through the Fortran 77 interface: arrays and integers by reference."""
+
+    def __init__(self, library, scene):
+        self.c, a = library.c, columns(scene)
+        self.supports, self.hinges = len(scene["supports"]), len(a["hinge_x"])
+        span = np.array([a["length"], a["EI"], a["GA"], a["EA"]]).T.copy()
+        sup = np.array([a[f"support_{n}"] for n in ("x", "stiffness", "gap", "settlement", "rotation")]).T.copy()
+        isup = np.array([a[f"support_{n}"] for n in ("side", "direction", "node")], np.int32).T.copy()
+        aload = np.array([a[f"load_{n}"] for n in ("x", "to", "value", "value_to")]).T.copy()
+        iload = np.array([a[f"load_{n}"] for n in ("kind", "case", "node")], np.int32).T.copy()
+        model = (len(span), span, self.hinges, a["hinge_x"], len(sup), isup, sup, len(aload), iload, aload)
+        real, integer = np.zeros(1), np.zeros(1, np.int32)
+        self.info_ = self.call("gbprep", *model, real, -1, integer, -1)
+        if self.info_ == 0:
+            self.work, self.iwork = np.empty(int(real[0])), np.empty(integer[0], np.int32)
+            self.info_ = self.call("gbprep", *model, self.work, len(self.work), self.iwork, len(self.iwork))
+        if self.info_ == 0:
+            assert self.call("gbsolv", self.work, self.iwork, 1.0, 0, 0, real, -1, integer, -1) == 0
+            self.state, self.istate = np.empty(int(real[0])), np.empty(integer[0], np.int32)
+            self.both = (self.work, self.iwork, self.state, self.istate)
+
+    def call(self, name, *arguments):
+        """INFO of a routine."""
+        info = c.c_int(-999)
+        passed = [
+            pointer(a) if isinstance(a, np.ndarray) else c.byref(c.c_double(a) if isinstance(a, float) else c.c_int(a))
+            for a in arguments
+        ]
+        getattr(self.c, name + "_")(*passed, c.byref(info))
+        return info.value
+
+    def solve(self, factor, rule="block", start=0):
+        """INFO of GBSOLV."""
+        return self.call(
+            "gbsolv", self.work, self.iwork, float(factor), RULES[rule], start,
+            self.state, len(self.state), self.istate, len(self.istate),
+        )  # fmt: skip
+
+    def follow(self, factor, rule="block"):
+        """INFO and events of GBEVNT."""
+        number, at, which = np.zeros(1, np.int32), np.empty(1000), np.empty((1000, 2), np.int32)
+        info = self.call(
+            "gbevnt", self.work, self.iwork, float(factor), RULES[rule], 1000,
+            self.state, len(self.state), self.istate, len(self.istate), number, at, which,
+        )  # fmt: skip
+        n = number[0]
+        return info, [(f, k - 1, s) for f, (k, s) in zip(at[:n], which[:n], strict=True)]
+
+    def at_supports(self):
+        """As CBeam.at_supports."""
+        values, state = np.empty((self.supports, 4)), np.empty(self.supports, np.int32)
+        assert self.call("gbsupp", *self.both, values, state) == 0
+        return [*values.T, state]
+
+    def fields(self, x, left=False):
+        """As CBeam.fields."""
+        found = np.empty((len(x), 6))
+        assert self.call("gbflds", *self.both, len(x), np.array(x, dtype=float), int(left), found) == 0
+        return found.T
+
+    def extremes(self):
+        """As CBeam.extremes."""
+        value, x = np.empty((6, 2)), np.empty((6, 2))
+        assert self.call("gbxtrm", *self.both, value, x) == 0
+        return value, x
+
+    def motion(self):
+        """As CBeam.motion."""
+        room = self.hinges + self.supports + 2
+        n, x, motion = np.zeros(1, np.int32), np.empty(room), np.empty(room)
+        assert self.call("gbmotn", *self.both, room, n, x, motion) == 0
+        return x[: n[0]], motion[: n[0]]
+
+    def certificate(self):
+        """Numbers of the certificate, and which supports are undecided."""
+        numbers, known, undecided = np.empty(5), np.zeros(1, np.int32), np.empty(self.supports, np.int32)
+        assert self.call("gbcert", *self.both, numbers, known, undecided) == 0
+        return numbers, known[0], undecided

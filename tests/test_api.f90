@@ -1,0 +1,338 @@
+!> The Fortran interface, by the module gapbeam alone: what is refused, closed forms, other loads, results and their beams
+program test_api
+    use, intrinsic :: iso_fortran_env, only: wp => real64
+    use testing, only: check, check_close, finish
+    use gapbeam, only: model_type, span_type, support_type, load_type, prepared_type, options_type, result_type, &
+        certificate_type, event_type, error_type, point_force, point_couple, uniform_load, linear_load, imposed_curvature, &
+        axial_force, prepare_model, replace_loads, solve_beam, follow_load, get_supports, get_fields, get_extremes, &
+        get_motion, get_certificate, count_supports, count_nodes, gapbeam_infinity, gapbeam_below, gapbeam_above, &
+        gapbeam_axial, gapbeam_dead, gapbeam_closed, gapbeam_bilateral, gapbeam_rule_single, gapbeam_solved, &
+        gapbeam_no_equilibrium, gapbeam_bad_input, gapbeam_not_prepared, gapbeam_indeterminate, gapbeam_status_message
+    implicit none
+    integer :: status
+
+    call refused_models()
+    call refused_calls()
+    call gap_closes()
+    call every_load()
+    call hinge_and_spring()
+    call clearance()
+    call slides_away()
+    call extreme_units()
+    call finish(status)
+    if (status /= 0) stop 1, quiet=.true.
+
+contains
+
+    !> Two spans of 2 with EI = 100, a support from below with a gap in the middle, a uniform load of 3
+    subroutine two_spans(model)
+        type(model_type), intent(out) :: model
+
+        model%spans = [span_type(2.0_wp, EI=100.0_wp), span_type(2.0_wp, EI=100.0_wp)]
+        model%supports = [support_type(node=0), support_type(node=1, side=gapbeam_below, gap=0.001_wp), support_type(x=4.0_wp)]
+        model%loads = [uniform_load(3.0_wp, from=0.0_wp, to=4.0_wp)]
+    end subroutine two_spans
+
+    !> A model must be refused, with the array, the entry, and a word of the message
+    subroutine refuse(model, table, entry, word)
+        type(model_type), intent(in) :: model
+        integer, intent(in) :: table, entry
+        character(len=*), intent(in) :: word
+        type(prepared_type) :: beam
+        type(error_type), allocatable :: error
+
+        call prepare_model(model, beam, error)
+        call check(allocated(error), "refused: "//word)
+        if (.not. allocated(error)) return
+        call check(error%code == gapbeam_bad_input .and. error%table == table .and. error%entry == entry &
+                   .and. index(error%message, word) > 0, error%message)
+        call check(count_supports(beam) == 0, "not prepared then")
+    end subroutine refuse
+
+    !> Everything that prepare_model refuses
+    subroutine refused_models()
+        type(model_type) :: model, empty
+
+        call refuse(empty, 1, 0, "no span")
+        call two_spans(model)
+        model%spans(2)%length = -1.0_wp
+        call refuse(model, 1, 2, "length")
+        call two_spans(model)
+        model%spans(1)%EI = 0.0_wp
+        call refuse(model, 1, 1, "EI")
+        call two_spans(model)
+        model%spans(2)%EI = 1e-310_wp
+        call refuse(model, 1, 2, "reciprocals")
+        call two_spans(model)
+        model%spans(2)%length = 1e-16_wp
+        call refuse(model, 1, 2, "lost in rounding")
+        call two_spans(model)
+        model%spans%length = 1e308_wp
+        call refuse(model, 1, 2, "too long")
+        call two_spans(model)
+        model%hinges = [1.0_wp, 1.0_wp]
+        call refuse(model, 2, 2, "hinge at this place")
+        model%hinges = [0.0_wp]
+        call refuse(model, 2, 1, "end of the beam")
+        model%hinges = [4.5_wp]
+        call refuse(model, 2, 1, "outside")
+        call two_spans(model)
+        model%supports(2)%x = 4.5_wp
+        model%supports(2)%node = -1
+        call refuse(model, 3, 2, "outside")
+        model%supports(2) = support_type()
+        call refuse(model, 3, 2, "give node or x")
+        model%supports(2) = support_type(node=3)
+        call refuse(model, 3, 2, "expected 0 to 2")
+        model%supports(2) = support_type(node=1, side=2)
+        call refuse(model, 3, 2, "side")
+        model%supports(2) = support_type(node=1, stiffness=-1.0_wp)
+        call refuse(model, 3, 2, "stiffness")
+        model%supports(2) = support_type(node=1, gap=0.1_wp)
+        call refuse(model, 3, 2, "gap")
+        model%supports(2) = support_type(node=1, settlement=gapbeam_infinity)
+        call refuse(model, 3, 2, "settlement")
+        model%supports(2) = support_type(node=1, direction=gapbeam_axial, side=gapbeam_below)
+        call refuse(model, 3, 2, "axial")
+        model%supports(2) = support_type(node=0)
+        call refuse(model, 3, 2, "support 1")
+        model%supports(2) = support_type(node=1, rotation=gapbeam_infinity)
+        model%hinges = [2.0_wp]
+        call refuse(model, 3, 2, "hinge")
+        call two_spans(model)
+        model%supports(1:2) = [support_type(node=1, side=gapbeam_below, gap=0.01_wp), &
+                               support_type(node=1, side=gapbeam_above, gap=-0.02_wp)]
+        model%supports(1)%gap = -0.03_wp
+        call refuse(model, 3, 1, "no room")
+        call two_spans(model)
+        model%loads = [load_type(kind=9, x=1.0_wp)]
+        call refuse(model, 4, 1, "kind")
+        model%loads = [point_force(1.0_wp, x=1.0_wp), point_force(1.0_wp, x=1.0_wp, case=4)]
+        call refuse(model, 4, 2, "case")
+        model%loads = [point_force(gapbeam_infinity, x=1.0_wp)]
+        call refuse(model, 4, 1, "value")
+        model%loads = [uniform_load(1.0_wp, from=2.0_wp, to=2.0_wp)]
+        call refuse(model, 4, 1, "no length")
+        model%loads = [axial_force(1.0_wp, node=1)]
+        call refuse(model, 4, 1, "axial")
+        model%loads = [point_couple(1.0_wp, x=1.0_wp)]
+        model%hinges = [1.0_wp]
+        call refuse(model, 4, 1, "hinge")
+    end subroutine refused_models
+
+    !> Calls in a wrong order, arrays of a wrong size, results of another beam
+    subroutine refused_calls()
+        type(model_type) :: model
+        type(prepared_type) :: beam, other, none
+        type(result_type) :: result
+        type(error_type), allocatable :: error
+        type(event_type), allocatable :: events(:)
+        real(wp) :: r(3), w(3), opening(3), couple(3), short(2), fields(6, 1), x(3)
+        integer :: condition(3)
+
+        call two_spans(model)
+        call solve_beam(none, 1.0_wp, options_type(), result, error)
+        call check(error%code == gapbeam_not_prepared, "solve: not prepared")
+        call replace_loads(none, model%loads, error)
+        call check(error%code == gapbeam_not_prepared, "replace_loads: not prepared")
+        call prepare_model(model, beam, error)
+        call check(.not. allocated(error) .and. count_supports(beam) == 3 .and. count_nodes(beam) == 3, "prepared")
+        call get_supports(beam, result, r, w, opening, couple, condition, error)
+        call check(error%code == gapbeam_not_prepared, "nothing solved")
+        call solve_beam(beam, gapbeam_infinity, options_type(), result, error)
+        call check(error%code == gapbeam_bad_input .and. result%status == -1, "infinite factor")
+        call solve_beam(beam, 1.0_wp, options_type(7), result, error)
+        call check(error%code == gapbeam_bad_input, "no such rule")
+        call follow_load(beam, -1.0_wp, options_type(), events, result, error)
+        call check(error%code == gapbeam_bad_input .and. .not. allocated(events), "follow backwards")
+        call solve_beam(beam, 1.0_wp, options_type(), result, error)
+        call check(.not. allocated(error), "solved")
+        call get_supports(beam, result, short, w, opening, couple, condition, error)
+        call check(error%code == gapbeam_bad_input .and. index(error%message, "2 entries, expected 3") > 0, "array too short")
+        call get_fields(beam, result, [1.0_wp, 2.0_wp], fields, error)
+        call check(error%code == gapbeam_bad_input, "one column for two places")
+        call get_motion(beam, result, x, r, error)
+        call check(error%code == gapbeam_not_prepared, "no motion")
+        model%loads = [point_force(1.0_wp, x=1.0_wp)]
+        call prepare_model(model, other, error)
+        call get_fields(other, result, [1.0_wp], fields, error)
+        call check(error%code == gapbeam_not_prepared .and. index(error%message, "another beam") > 0, "result of another beam")
+        call check(gapbeam_status_message(gapbeam_solved) == "solved", "a status in words")
+    end subroutine refused_calls
+
+    !> The gap closes at 5 q L**4/384 EI
+    subroutine gap_closes()
+        type(model_type) :: model
+        type(prepared_type) :: beam, copy
+        type(result_type) :: result, again
+        type(error_type), allocatable :: error
+        type(event_type), allocatable :: events(:)
+        type(certificate_type) :: certificate
+        real(wp), parameter :: free = 5*3*256.0_wp/(384*100), flexibility = 64/(48*100.0_wp)
+        real(wp) :: reaction(3), deflection(3), opening(3), couple(3), value(2, 6), place(2, 6), fields(6, 2), first(3)
+        integer :: condition(3), rule
+        logical :: undecided(3)
+
+        call two_spans(model)
+        call prepare_model(model, beam, error)
+        do rule = 0, gapbeam_rule_single
+            call solve_beam(beam, 1.0_wp, options_type(rule), result, error)
+            call get_supports(beam, result, reaction, deflection, opening, couple, condition, error)
+            call check_close(reaction(2), (free - 0.001_wp)/flexibility, "reaction past the gap")
+        end do
+        call check_close(sum(reaction), 12.0_wp, "equilibrium")
+        call check(all(condition == [gapbeam_bilateral, gapbeam_closed, gapbeam_bilateral]), "conditions")
+        call get_extremes(beam, result, value, place, error)
+        call check_close(value(1, 4), 6 - reaction(1), "largest shear")
+        call check_close(place(1, 4), 2.0_wp, "right of the support")
+        call get_fields(beam, result, [1.0_wp, 2.0_wp], fields, error, from_left=.true.)
+        call check_close(fields(4, 2), reaction(1) - 6, "shear left of it")
+        call get_certificate(beam, result, certificate, undecided, error)
+        call check(certificate%known .and. certificate%reaction_bound < 1e-11_wp .and. .not. any(undecided), "certificate")
+        call follow_load(beam, 1.0_wp, options_type(), events, again, error)
+        call check(size(events) == 1, "one event")
+        call check_close(events(1)%factor, 0.001_wp/free, "its factor")
+        call check(events(1)%support == 2 .and. events(1)%state == gapbeam_closed, "support 2 closes")
+        first = reaction
+        copy = beam
+        call replace_loads(beam, [uniform_load(6.0_wp, 0.0_wp, 4.0_wp, case=gapbeam_dead)], error)
+        call solve_beam(beam, 0.5_wp, options_type(), result, error)
+        call get_supports(beam, result, reaction, deflection, opening, couple, condition, error)
+        call check_close(sum(reaction), 24.0_wp, "twice the load, dead")
+        call solve_beam(copy, 1.0_wp, options_type(), result, error)
+        call get_supports(copy, result, reaction, deflection, opening, couple, condition, error)
+        call check(all(abs(reaction - first) <= 0), "a copy of a prepared beam is one of its own")
+    end subroutine gap_closes
+
+    !> A cantilever of length 3, EI = 50, GA = 20, EA = 40 under each load: deflection of its tip
+    subroutine every_load()
+        type(model_type) :: model
+        type(prepared_type) :: beam
+        type(result_type) :: result
+        type(error_type), allocatable :: error
+        type(load_type) :: loads(6)
+        real(wp) :: expected(6), fields(6, 1)
+        integer :: k
+
+        loads = [point_force(2.0_wp, x=3.0_wp), point_couple(5.0_wp, node=1), uniform_load(4.0_wp, 0.0_wp, 3.0_wp), &
+                 linear_load(0.0_wp, 6.0_wp, 0.0_wp, 3.0_wp), imposed_curvature(0.01_wp, 0.0_wp, 3.0_wp), &
+                 axial_force(8.0_wp, node=1)]
+        expected = [2*27/150.0_wp + 6/20.0_wp, 45/100.0_wp, 4*81/400.0_wp + 36/40.0_wp, 11*486/6000.0_wp + 54/60.0_wp, &
+                    0.045_wp, 24/40.0_wp]
+        model%spans = [span_type(3.0_wp, EI=50.0_wp, GA=20.0_wp, EA=40.0_wp)]
+        model%supports = [support_type(node=0, rotation=gapbeam_infinity), support_type(node=0, direction=gapbeam_axial)]
+        do k = 1, 6
+            model%loads = [loads(k)]
+            call prepare_model(model, beam, error)
+            call solve_beam(beam, 1.0_wp, options_type(), result, error)
+            call get_fields(beam, result, [3.0_wp], fields, error)
+            call check_close(fields(merge(6, 1, k == 6), 1), expected(k), "tip of a cantilever")
+        end do
+    end subroutine every_load
+
+    !> A Gerber beam whose suspended end rests on a spring: statics give the reactions
+    subroutine hinge_and_spring()
+        type(model_type) :: model
+        type(prepared_type) :: beam
+        type(result_type) :: result
+        type(error_type), allocatable :: error
+        real(wp) :: reaction(2), deflection(2), opening(2), couple(2)
+        integer :: condition(2)
+
+        model%spans = [span_type(6.0_wp, EI=10.0_wp)]
+        model%hinges = [2.0_wp]
+        model%supports = [support_type(x=0.0_wp, rotation=gapbeam_infinity), support_type(x=6.0_wp, stiffness=5.0_wp)]
+        model%loads = [point_force(8.0_wp, x=4.0_wp)]
+        call prepare_model(model, beam, error)
+        call solve_beam(beam, 1.0_wp, options_type(), result, error)
+        call get_supports(beam, result, reaction, deflection, opening, couple, condition, error)
+        call check_close(reaction, [4.0_wp, 4.0_wp], "half each")
+        call check_close(deflection(2), 0.8_wp, "the spring gives")
+        call check_close(couple(1), -8.0_wp, "the clamp holds the cantilever")
+    end subroutine hinge_and_spring
+
+    !> Clearance on both sides, lack of fit and settlement: a rigid plank between stops
+    subroutine clearance()
+        type(model_type) :: model
+        type(prepared_type) :: beam
+        type(result_type) :: result
+        type(error_type), allocatable :: error
+        real(wp) :: reaction(4), deflection(4), opening(4), couple(4)
+        integer :: condition(4)
+
+        model%spans = [span_type(4.0_wp, EI=gapbeam_infinity)]
+        model%supports = [support_type(node=0), support_type(node=1, stiffness=10.0_wp), &
+                          support_type(x=2.0_wp, side=gapbeam_below, gap=0.05_wp, settlement=0.01_wp), &
+                          support_type(x=2.0_wp, side=gapbeam_above, gap=0.02_wp)]
+        model%loads = [point_force(4.0_wp, node=1)]
+        call prepare_model(model, beam, error)
+        call solve_beam(beam, 1.0_wp, options_type(), result, error)
+        call get_supports(beam, result, reaction, deflection, opening, couple, condition, error)
+        call check_close(deflection(2:3), [0.12_wp, 0.06_wp], "down to the lower stop")
+        call check_close(reaction, [-2.8_wp, 1.2_wp, 5.6_wp, 0.0_wp], "its reactions")
+        call check_close(opening(4), 0.08_wp, "way to the upper stop")
+        model%supports = [support_type(node=0), support_type(x=2.0_wp), support_type(node=1)]
+        call prepare_model(model, beam, error)
+        call solve_beam(beam, 1.0_wp, options_type(), result, error)
+        call check(error%code == gapbeam_indeterminate, "a rigid beam over three rigid supports")
+    end subroutine clearance
+
+    !> Nothing holds the beam along its axis, or not stiffly enough to tell
+    subroutine slides_away()
+        type(model_type) :: model
+        type(prepared_type) :: beam
+        type(result_type) :: result
+        type(error_type), allocatable :: error
+        real(wp) :: x(2), motion(2)
+
+        model%spans = [span_type(4.0_wp, EI=1.0_wp, EA=1.0_wp)]
+        model%supports = [support_type(node=0), support_type(node=1), &
+                          support_type(node=0, direction=gapbeam_axial, stiffness=0.0_wp)]
+        model%loads = [axial_force(1.0_wp, node=1)]
+        call prepare_model(model, beam, error)
+        call solve_beam(beam, 1.0_wp, options_type(), result, error)
+        call check(result%status == gapbeam_no_equilibrium .and. result%slides, "slides")
+        call get_motion(beam, result, x, motion, error)
+        call check(.not. allocated(error) .and. all(abs(motion) <= 0), "and does not move across")
+    end subroutine slides_away
+
+    !> The same beam in units far from 1 has the same digits
+    subroutine extreme_units()
+        type(model_type) :: model
+        type(prepared_type) :: beam
+        type(result_type) :: result
+        type(error_type), allocatable :: error
+        real(wp) :: usual(3), reaction(3), deflection(3), opening(3), couple(3), value(2, 6), place(2, 6), usual_value(2, 6)
+        real(wp) :: fields(6, 1)
+        integer :: condition(3), k
+        integer, parameter :: length(3) = [0, 130, -90], force(3) = [0, -240, 300]
+
+        do k = 1, 3
+            call two_spans(model)
+            model%spans%length = scale(model%spans%length, length(k))
+            model%spans%EI = scale(model%spans%EI, force(k) + 2*length(k))
+            model%supports(2)%gap = scale(model%supports(2)%gap, length(k))
+            model%supports(3) = support_type(node=2, stiffness=scale(7.0_wp, force(k) - length(k)))
+            model%loads = [linear_load(scale(3.0_wp, force(k) - length(k)), scale(2.0_wp, force(k) - length(k)), &
+                                       0.0_wp, scale(4.0_wp, length(k))), &
+                           point_couple(scale(1.5_wp, force(k) + length(k)), x=scale(1.0_wp, length(k)))]
+            call prepare_model(model, beam, error)
+            call solve_beam(beam, 1.0_wp, options_type(), result, error)
+            call get_supports(beam, result, reaction, deflection, opening, couple, condition, error)
+            call get_extremes(beam, result, value, place, error)
+            call get_fields(beam, result, [scale(1.25_wp, length(k))], fields, error)
+            call check(abs(scale(fields(3, 1), -force(k) - length(k))) > 0.1_wp, "a moment in its units")
+            reaction = scale(reaction, -force(k))
+            value(:, 1) = scale(value(:, 1), -length(k))
+            value(:, 3) = scale(value(:, 3), -force(k) - length(k))
+            if (k == 1) then
+                usual = reaction
+                usual_value = value
+            end if
+            call check_close(reaction, usual, "reactions in other units", relative=4*epsilon(1.0_wp))
+            call check_close(value(:, 1), usual_value(:, 1), "deflections in other units", relative=4*epsilon(1.0_wp))
+            call check_close(value(:, 3), usual_value(:, 3), "moments in other units", relative=4*epsilon(1.0_wp))
+        end do
+    end subroutine extreme_units
+
+end program test_api

@@ -1,0 +1,270 @@
+C     The Fortran 77 interface: INFO for every argument, workspace
+C     queries, closed forms. Reports in the Test Anything Protocol.
+C     Compiled with -std=legacy.
+      PROGRAM TSTF77
+      INTEGER NFAIL, NCHECK
+      COMMON /TALLY/ NFAIL, NCHECK
+      NFAIL = 0
+      NCHECK = 0
+      CALL REFUSE
+      CALL CLOSED
+      CALL TIPPED
+      WRITE (*, '(A, I2)') '1..', NCHECK
+      IF (NFAIL .GT. 0) STOP 1
+      END
+C
+C     One condition
+      SUBROUTINE CHECK(GOOD, NAME)
+      LOGICAL GOOD
+      CHARACTER*(*) NAME
+      INTEGER NFAIL, NCHECK
+      COMMON /TALLY/ NFAIL, NCHECK
+      NCHECK = NCHECK + 1
+      IF (GOOD) THEN
+         WRITE (*, '(A, I3, 2A)') 'ok ', NCHECK, ' - ', NAME
+      ELSE
+         NFAIL = NFAIL + 1
+         WRITE (*, '(A, I3, 2A)') 'not ok ', NCHECK, ' - ', NAME
+      END IF
+      END
+C
+C     INFO, and the number of the entry
+      SUBROUTINE EXPECT(INFO, WANTED, NAME)
+      INTEGER INFO, WANTED
+      CHARACTER*(*) NAME
+      CALL CHECK(INFO .EQ. WANTED, NAME)
+      IF (INFO .NE. WANTED) WRITE (*, '(A, 2I6)') '#', INFO, WANTED
+      END
+C
+C     A number, to 13 digits
+      SUBROUTINE CLOSE(X, Y, NAME)
+      DOUBLE PRECISION X, Y
+      CHARACTER*(*) NAME
+      CALL CHECK(ABS(X - Y) .LE. 1.0D-13*ABS(Y), NAME)
+      END
+C
+C     Two spans of 2, EI = 100, a gap in the middle, uniform load 3
+      SUBROUTINE TWO(SPAN, ISUP, SUP, ILOAD, ALOAD)
+      DOUBLE PRECISION SPAN(4,2), SUP(5,3), ALOAD(4,1), GBINF
+      INTEGER ISUP(3,3), ILOAD(3,1), I, K
+      EXTERNAL GBINF
+      DO 10 K = 1, 2
+         SPAN(1,K) = 2.0D0
+         SPAN(2,K) = 100.0D0
+         SPAN(3,K) = GBINF()
+         SPAN(4,K) = GBINF()
+   10 CONTINUE
+      DO 30 K = 1, 3
+         DO 20 I = 1, 5
+            SUP(I,K) = 0.0D0
+   20    CONTINUE
+         SUP(2,K) = GBINF()
+         ISUP(1,K) = 0
+         ISUP(2,K) = 0
+         ISUP(3,K) = K - 1
+   30 CONTINUE
+      ISUP(1,2) = 1
+      SUP(3,2) = 0.001D0
+      ILOAD(1,1) = 3
+      ILOAD(2,1) = 0
+      ILOAD(3,1) = -1
+      ALOAD(1,1) = 0.0D0
+      ALOAD(2,1) = 4.0D0
+      ALOAD(3,1) = 3.0D0
+      ALOAD(4,1) = 3.0D0
+      END
+C
+C     What is refused, and how
+      SUBROUTINE REFUSE
+      DOUBLE PRECISION SPAN(4,2), SUP(5,3), ALOAD(4,1), HINGE(1)
+      DOUBLE PRECISION WORK(500), STATE(200), QUERY(1), X(1), F(6)
+      DOUBLE PRECISION V(4,3), A(2,6), B(2,6), E(1)
+      INTEGER ISUP(3,3), ILOAD(3,1), IWORK(300), ISTATE(100), IQ(1)
+      INTEGER INFO, LW, LI, LS, LT, K(3), NEV, IE(2,1), NN
+      EXTERNAL GBPREP, GBLOAD, GBSOLV, GBSUPP, GBFLDS, GBXTRM, GBEVNT
+      EXTERNAL GBMOTN
+      CALL TWO(SPAN, ISUP, SUP, ILOAD, ALOAD)
+      CALL GBPREP(0, SPAN, 0, HINGE, 3, ISUP, SUP, 1, ILOAD, ALOAD,
+     +            WORK, 500, IWORK, 300, INFO)
+      CALL EXPECT(INFO, -1, 'NSPAN = 0')
+      CALL GBPREP(2, SPAN, -1, HINGE, 3, ISUP, SUP, 1, ILOAD, ALOAD,
+     +            WORK, 500, IWORK, 300, INFO)
+      CALL EXPECT(INFO, -3, 'NHINGE = -1')
+      CALL GBPREP(2, SPAN, 0, HINGE, -1, ISUP, SUP, 1, ILOAD, ALOAD,
+     +            WORK, 500, IWORK, 300, INFO)
+      CALL EXPECT(INFO, -5, 'NSUP = -1')
+      CALL GBPREP(2, SPAN, 0, HINGE, 3, ISUP, SUP, -1, ILOAD, ALOAD,
+     +            WORK, 500, IWORK, 300, INFO)
+      CALL EXPECT(INFO, -8, 'NLOAD = -1')
+      CALL GBPREP(2, SPAN, 0, HINGE, 3, ISUP, SUP, 1, ILOAD, ALOAD,
+     +            QUERY, -1, IQ, -1, INFO)
+      CALL EXPECT(INFO, 0, 'query')
+      LW = INT(QUERY(1))
+      LI = IQ(1)
+      CALL CHECK(LW .GT. 0 .AND. LW .LE. 500, 'length of WORK')
+      CALL CHECK(LI .GT. 0 .AND. LI .LE. 300, 'length of IWORK')
+      CALL GBPREP(2, SPAN, 0, HINGE, 3, ISUP, SUP, 1, ILOAD, ALOAD,
+     +            WORK, LW - 1, IWORK, LI, INFO)
+      CALL EXPECT(INFO, -12, 'WORK too short')
+      CALL GBPREP(2, SPAN, 0, HINGE, 3, ISUP, SUP, 1, ILOAD, ALOAD,
+     +            WORK, LW, IWORK, LI - 1, INFO)
+      CALL EXPECT(INFO, -14, 'IWORK too short')
+      SPAN(2,2) = -1.0D0
+      CALL GBPREP(2, SPAN, 0, HINGE, 3, ISUP, SUP, 1, ILOAD, ALOAD,
+     +            WORK, LW, IWORK, LI, INFO)
+      CALL EXPECT(INFO, -2, 'negative EI')
+      CALL EXPECT(IWORK(1), 2, 'of span 2')
+      SPAN(2,2) = 100.0D0
+      HINGE(1) = 4.0D0
+      CALL GBPREP(2, SPAN, 1, HINGE, 3, ISUP, SUP, 0, ILOAD, ALOAD,
+     +            WORK, 500, IWORK, 300, INFO)
+      CALL EXPECT(INFO, -4, 'hinge at the end')
+      ISUP(1,3) = 9
+      CALL GBPREP(2, SPAN, 0, HINGE, 3, ISUP, SUP, 1, ILOAD, ALOAD,
+     +            WORK, LW, IWORK, LI, INFO)
+      CALL EXPECT(INFO, -6, 'no such side')
+      CALL EXPECT(IWORK(1), 3, 'of support 3')
+      ISUP(1,3) = 0
+      ALOAD(2,1) = 5.0D0
+      CALL GBPREP(2, SPAN, 0, HINGE, 3, ISUP, SUP, 1, ILOAD, ALOAD,
+     +            WORK, LW, IWORK, LI, INFO)
+      CALL EXPECT(INFO, -9, 'load off the beam')
+      ALOAD(2,1) = 4.0D0
+      CALL GBSOLV(WORK, IWORK, 1.0D0, 0, 0, STATE, 200, ISTATE, 100,
+     +            INFO)
+      CALL EXPECT(INFO, -1, 'nothing prepared')
+      CALL GBPREP(2, SPAN, 0, HINGE, 3, ISUP, SUP, 1, ILOAD, ALOAD,
+     +            WORK, LW, IWORK, LI, INFO)
+      CALL EXPECT(INFO, 0, 'prepared')
+      CALL GBSOLV(WORK, IWORK, 1.0D0, 0, 0, QUERY, -1, IQ, -1, INFO)
+      CALL EXPECT(INFO, 0, 'query of a state')
+      LS = INT(QUERY(1))
+      LT = IQ(1)
+      CALL GBSOLV(WORK, IWORK, 1.0D0, 0, 0, STATE, LS - 1, ISTATE, LT,
+     +            INFO)
+      CALL EXPECT(INFO, -7, 'STATE too short')
+      CALL GBSOLV(WORK, IWORK, 1.0D0, 0, 0, STATE, LS, ISTATE, LT - 1,
+     +            INFO)
+      CALL EXPECT(INFO, -9, 'ISTATE too short')
+      CALL GBSOLV(WORK, IWORK, 1.0D0, 2, 0, STATE, LS, ISTATE, LT,
+     +            INFO)
+      CALL EXPECT(INFO, -4, 'no such rule')
+      CALL GBSOLV(WORK, IWORK, 1.0D0, 0, 2, STATE, LS, ISTATE, LT,
+     +            INFO)
+      CALL EXPECT(INFO, -5, 'no such start')
+      ISTATE(1) = 0
+      CALL GBSOLV(WORK, IWORK, 1.0D0, 0, 1, STATE, LS, ISTATE, LT,
+     +            INFO)
+      CALL EXPECT(INFO, -6, 'nothing to start from')
+      CALL GBSUPP(WORK, IWORK, STATE, ISTATE, V, K, INFO)
+      CALL EXPECT(INFO, -3, 'nothing solved')
+      CALL GBXTRM(WORK, IWORK, STATE, ISTATE, A, B, INFO)
+      CALL EXPECT(INFO, -3, 'nothing solved, extremes')
+      CALL GBEVNT(WORK, IWORK, 0.0D0, 0, 1, STATE, LS, ISTATE, LT,
+     +            NEV, E, IE, INFO)
+      CALL EXPECT(INFO, -3, 'follow to 0')
+      CALL GBEVNT(WORK, IWORK, 1.0D0, 0, -1, STATE, LS, ISTATE, LT,
+     +            NEV, E, IE, INFO)
+      CALL EXPECT(INFO, -5, 'negative room')
+      CALL GBSOLV(WORK, IWORK, 1.0D0, 0, 0, STATE, LS, ISTATE, LT,
+     +            INFO)
+      CALL EXPECT(INFO, 0, 'solved')
+      X(1) = -0.1D0
+      CALL GBFLDS(WORK, IWORK, STATE, ISTATE, 1, X, 0, F, INFO)
+      CALL EXPECT(INFO, -6, 'place off the beam')
+      CALL GBFLDS(WORK, IWORK, STATE, ISTATE, -1, X, 0, F, INFO)
+      CALL EXPECT(INFO, -5, 'negative number of places')
+      CALL GBMOTN(WORK, IWORK, STATE, ISTATE, 3, NN, F, F, INFO)
+      CALL EXPECT(INFO, -3, 'it does not move')
+      CALL GBMOTN(WORK, IWORK, STATE, ISTATE, 2, NN, F, F, INFO)
+      CALL EXPECT(INFO, -5, 'no room for a motion')
+      ILOAD(1,1) = 0
+      CALL GBLOAD(1, ILOAD, ALOAD, WORK, LW, IWORK, LI, INFO)
+      CALL EXPECT(INFO, -2, 'no such load')
+      CALL GBLOAD(-1, ILOAD, ALOAD, WORK, LW, IWORK, LI, INFO)
+      CALL EXPECT(INFO, -1, 'negative number of loads')
+      ILOAD(1,1) = 3
+      CALL GBLOAD(1, ILOAD, ALOAD, WORK, 10, IWORK, LI, INFO)
+      CALL EXPECT(INFO, -5, 'WORK too short for the loads')
+      IWORK(1) = 5
+      CALL GBLOAD(1, ILOAD, ALOAD, WORK, LW, IWORK, LI, INFO)
+      CALL EXPECT(INFO, -4, 'no beam to load')
+      END
+C
+C     The gap closes at 5 q L**4/384 EI = 0.001
+      SUBROUTINE CLOSED
+      DOUBLE PRECISION SPAN(4,2), SUP(5,3), ALOAD(4,1), HINGE(1)
+      DOUBLE PRECISION WORK(500), STATE(200), V(4,3), X(2), F(6,2)
+      DOUBLE PRECISION A(2,6), B(2,6), C(5), E(4), FREE, R, FLEX
+      INTEGER ISUP(3,3), ILOAD(3,1), IWORK(300), ISTATE(100)
+      INTEGER INFO, K(3), NEV, IE(2,4), KNOWN, IU(3), NI(5)
+      INTEGER MAJOR, MINOR, IPATCH
+      EXTERNAL GBPREP, GBLOAD, GBSOLV, GBSUPP, GBFLDS, GBXTRM, GBEVNT
+      EXTERNAL GBCERT, GBINFO, GBVERS
+      CALL TWO(SPAN, ISUP, SUP, ILOAD, ALOAD)
+      FREE = 5*3.0D0*256/(384*100.0D0)
+      FLEX = 64/(48*100.0D0)
+      R = (FREE - 0.001D0)/FLEX
+      CALL GBPREP(2, SPAN, 0, HINGE, 3, ISUP, SUP, 1, ILOAD, ALOAD,
+     +            WORK, 500, IWORK, 300, INFO)
+      CALL EXPECT(INFO, 0, 'longer arrays do')
+      CALL GBSOLV(WORK, IWORK, 1.0D0, 1, 0, STATE, 200, ISTATE, 100,
+     +            INFO)
+      CALL EXPECT(INFO, 0, 'solved by the paper''s rule')
+      CALL GBSUPP(WORK, IWORK, STATE, ISTATE, V, K, INFO)
+      CALL CLOSE(V(1,2), R, 'reaction past the gap')
+      CALL CLOSE(V(2,2), 0.001D0, 'deflection there')
+      CALL CHECK(K(1) .EQ. 2 .AND. K(2) .EQ. 1, 'conditions')
+      X(1) = 1.0D0
+      X(2) = 2.0D0
+      CALL GBFLDS(WORK, IWORK, STATE, ISTATE, 2, X, 1, F, INFO)
+      CALL CLOSE(F(4,2), V(1,1) - 6, 'shear left of the support')
+      CALL CLOSE(F(3,1), V(1,1) - 1.5D0, 'moment')
+      CALL GBXTRM(WORK, IWORK, STATE, ISTATE, A, B, INFO)
+      CALL CLOSE(A(1,4), 6 - V(1,1), 'largest shear')
+      CALL CLOSE(B(1,4), 2.0D0, 'right of the support')
+      CALL GBCERT(WORK, IWORK, STATE, ISTATE, C, KNOWN, IU, INFO)
+      CALL CHECK(KNOWN .EQ. 1 .AND. C(5) .LT. 1.0D-11, 'bounds')
+      CALL CHECK(IU(1) + IU(2) + IU(3) .EQ. 0, 'all decided')
+      CALL GBEVNT(WORK, IWORK, 1.0D0, 0, 4, STATE, 200, ISTATE, 100,
+     +            NEV, E, IE, INFO)
+      CALL CHECK(NEV .EQ. 1 .AND. IE(1,1) .EQ. 2 .AND. IE(2,1) .EQ. 1,
+     +           'one event')
+      CALL CLOSE(E(1), 0.001D0/FREE, 'its factor')
+      CALL GBINFO(STATE, ISTATE, E(2), NI, INFO)
+      CALL CLOSE(E(2), 1.0D0, 'state at the end')
+      CALL CHECK(NI(1) .EQ. 0 .AND. NI(2) .GT. 0, 'its numbers')
+      ILOAD(1,1) = 1
+      ALOAD(1,1) = 1.0D0
+      ALOAD(3,1) = 25.0D0
+      CALL GBLOAD(1, ILOAD, ALOAD, WORK, 500, IWORK, 300, INFO)
+      CALL EXPECT(INFO, 0, 'another load')
+      CALL GBSOLV(WORK, IWORK, 1.0D0, 0, 0, STATE, 200, ISTATE, 100,
+     +            INFO)
+      CALL GBSUPP(WORK, IWORK, STATE, ISTATE, V, K, INFO)
+      CALL CLOSE(V(1,2), (25*44/4800.0D0 - 0.001D0)/FLEX, 'with it')
+      CALL GBVERS(MAJOR, MINOR, IPATCH)
+      CALL CHECK(MAJOR + MINOR + IPATCH .GT. 0, 'version')
+      END
+C
+C     A load beyond the last support lifts the beam off the first
+      SUBROUTINE TIPPED
+      DOUBLE PRECISION SPAN(4,2), SUP(5,3), ALOAD(4,1), HINGE(1)
+      DOUBLE PRECISION WORK(500), STATE(200), X(4), D(4)
+      INTEGER ISUP(3,3), ILOAD(3,1), IWORK(300), ISTATE(100)
+      INTEGER INFO, NN
+      EXTERNAL GBPREP, GBSOLV, GBMOTN
+      CALL TWO(SPAN, ISUP, SUP, ILOAD, ALOAD)
+      ISUP(1,1) = 1
+      ILOAD(1,1) = 1
+      ALOAD(1,1) = 4.0D0
+      CALL GBPREP(2, SPAN, 0, HINGE, 2, ISUP, SUP, 1, ILOAD, ALOAD,
+     +            WORK, 500, IWORK, 300, INFO)
+      CALL EXPECT(INFO, 0, 'a plank')
+      CALL GBSOLV(WORK, IWORK, 1.0D0, 0, 0, STATE, 200, ISTATE, 100,
+     +            INFO)
+      CALL EXPECT(INFO, 1, 'tips')
+      CALL GBMOTN(WORK, IWORK, STATE, ISTATE, 4, NN, X, D, INFO)
+      CALL CHECK(NN .EQ. 3 .AND. D(1) .LT. 0.0D0 .AND. D(3) .GT. 0.0D0,
+     +           'its right end goes down')
+      END

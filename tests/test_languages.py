@@ -1,0 +1,177 @@
+"""The interfaces say the same: C and Fortran 77, called by ctypes in the installed library, against Python, to the last digit.
+
+The Fortran interface is what the other two marshal to; its own tests are tests/test_api.f90 and the example.
+"""
+
+import random
+
+import gapbeam
+import numpy as np
+import pytest
+from clibrary import F77Beam, Library
+from gapbeam.errors import EngineError, SceneError
+from scenes import nodes_of, random_scene
+
+FIELDS = ("deflection", "rotation", "moment", "shear", "axial_force", "axial_displacement")
+CONDITIONS = {"open": 0, "closed": 1, "bilateral": 2}
+
+
+@pytest.fixture(scope="session")
+def library(installed):
+    return Library(installed.library)
+
+
+def scene_of(seed):
+    """A random scene without sections (stretches of other stiffness are spans in these interfaces), some with axial loads."""
+    rng = random.Random(seed)
+    made = random_scene(rng)
+    made.pop("sections", None)
+    end = nodes_of(made)[-1]
+    if rng.random() < 0.3:
+        made["beam"]["EA"] = 10.0 ** rng.uniform(2, 5)
+        made["supports"].append({"node": 0, "direction": "axial", "settlement": rng.choice((0.0, 0.01))})
+        if rng.random() < 0.5:
+            made["supports"].append({"x": end, "direction": "axial", "stiffness": 3e3})
+        made["loads"] += [{"type": "axial", "x": rng.uniform(0.0, end), "F": rng.uniform(-9, 9)} for _ in range(2)]
+    if rng.random() < 0.05:
+        # Far from 1: these are solved in other units
+        power = rng.choice((-250, 200))
+        made["beam"]["EI"] = (np.array(made["beam"]["EI"]) * 2.0**power).tolist()
+        made["beam"]["GA"] = float("inf")
+        made["beam"].pop("EA", None)
+        for support in made["supports"]:
+            if support.get("direction") != "axial":
+                support.pop("stiffness", None)
+                support.pop("rotation", None) if support.get("rotation") != "fixed" else None
+        for load in made["loads"]:
+            for key in set(load) & {"F", "M", "q"}:
+                load[key] = (np.array(load[key]) * 2.0**power).tolist()
+    return made
+
+
+def python_result(scene):
+    """Result, or the exception."""
+    try:
+        return gapbeam.solve(scene)
+    except (SceneError, EngineError) as error:
+        return error
+
+
+def assert_equal(found, expected, axial):
+    """To the last digit; but numpy adds up the flexibilities of an axial bar in another order."""
+    if axial:
+        np.testing.assert_allclose(found, expected, rtol=1e-13, atol=1e-13 * np.abs(expected).max())
+    else:
+        np.testing.assert_array_equal(found, expected)
+
+
+def assert_same_state(beam, f77, result, scene, rng):
+    """Everything a state says."""
+    step = result.steps[-1]
+    expected = [step.reaction, step.deflection, step.opening, step.couple, [CONDITIONS[s] for s in step.state]]
+    axial = np.array([support.get("direction") == "axial" for support in scene["supports"]], dtype=bool)
+    for one in (beam, f77):
+        for found, values in zip(one.at_supports(), map(np.array, expected), strict=True):
+            assert_equal(found[~axial], values[~axial], False)
+            if axial.any():
+                assert_equal(found[axial], values[axial], True)
+    end = nodes_of(scene)[-1]
+    x = [0.0, end, *(rng.uniform(0.0, end) for _ in range(3)), *nodes_of(scene)]
+    for left in (False, True):
+        fields = result.at(np.clip(x, 0.0, result.arrays.ends[-1]), side="left" if left else "right")
+        for one in (beam, f77):
+            for row, name in zip(one.fields(x, left), FIELDS, strict=True):
+                values = getattr(fields, name)
+                assert_equal(row, np.zeros(len(x)) if values is None else values, name.startswith("axial"))
+    extremes = result.extremes()
+    for one in (beam, f77):
+        value, place = one.extremes()
+        for k, name in enumerate(FIELDS):
+            pairs = extremes.get(name, {"max": (0.0, 0.0), "min": (0.0, 0.0)})
+            assert_equal(np.transpose([value[k], place[k]]), np.array([pairs["max"], pairs["min"]]), name.startswith("axial"))
+    bounds = step.bounds or (0.0, 0.0)
+    residuals = step.residuals
+    numbers = [residuals["equilibrium"], residuals["compatibility"], residuals["complementarity"], *bounds]
+    certificate, undecided = beam.certificate()
+    assert [getattr(certificate, name) for name, _ in certificate._fields_[1:6]] == numbers
+    assert certificate.known == (step.bounds is not None)
+    assert np.flatnonzero(undecided).tolist() == list(step.undecided)
+    of_f77, known, undecided_f77 = f77.certificate()
+    assert [of_f77.tolist(), known, undecided_f77.tolist()] == [numbers, certificate.known, undecided.tolist()]
+
+
+@pytest.mark.parametrize("first", range(0, 600, 100))
+def test_steps_agree(library, first):
+    seen = set()
+    for seed in range(first, first + 100):
+        scene = scene_of(seed)
+        rule, steps = scene["analysis"]["rule"], scene["analysis"]["steps"]
+        result = python_result(scene)
+        beam, message = library.prepare(scene)
+        if isinstance(result, SceneError):
+            assert beam == 11, (seed, str(result))
+            assert F77Beam(library, scene).info_ < 0
+            seen.add(11)
+            continue
+        assert not message
+        f77 = F77Beam(library, scene)
+        assert f77.info_ == 0
+        solves = []
+        for k in range(1, steps + 1):
+            status, message = beam.solve(k / steps, rule)
+            assert f77.solve(k / steps, rule, start=min(k - 1, 1)) == status
+            if status != 0:
+                break
+            solves.append(beam.info().solves)
+        seen.add(status)
+        if isinstance(result, EngineError):
+            assert message == str(result)
+        elif result.status == "no-equilibrium":
+            assert status == 1
+            for one in (beam, f77):
+                x, motion = one.motion()
+                if result.motion is None:
+                    assert beam.info().slides
+                    assert not motion.any()
+                else:
+                    assert list(zip(x, motion, strict=True)) == result.motion
+        else:
+            assert status == 0
+            assert solves == [step.solves for step in result.steps]
+            assert_same_state(beam, f77, result, scene, random.Random(seed))
+        beam.close()
+    assert {0, 1} <= seen
+
+
+@pytest.mark.parametrize("first", range(0, 300, 100))
+def test_events_agree(library, first):
+    events = 0
+    for seed in range(first, first + 100):
+        scene = scene_of(seed)
+        rule = scene["analysis"]["rule"]
+        scene["analysis"] = {"follow": "events", "rule": rule}
+        result = python_result(scene)
+        beam, _ = library.prepare(scene)
+        if isinstance(result, SceneError):
+            continue
+        f77 = F77Beam(library, scene)
+        status, message, found = beam.follow(1.0, rule)
+        info, found_f77 = f77.follow(1.0, rule)
+        assert info == status
+        if isinstance(result, EngineError):
+            assert status > 10
+            assert message == str(result)
+            continue
+        assert (status == 1) == (result.status == "no-equilibrium")
+        if not (status == 1 and beam.info().slides):
+            expected = [(e.factor, e.support, {"opens": 0, "closes": 1}[e.event]) for e in result.events]
+            assert found == expected
+            assert found_f77 == expected
+            events += len(expected)
+        if status == 0:
+            assert_same_state(beam, f77, result, scene, random.Random(seed))
+        elif result.motion is not None:
+            assert list(zip(*beam.motion(), strict=True)) == result.motion
+            assert f"load factor {beam.info().factor:.16g}" in result.reason
+        beam.close()
+    assert events > 10

@@ -1,0 +1,147 @@
+/* Out of memory is a status: a beam is prepared, solved, certified and followed under all limits of the address space from too
+ * little to enough. Each time in a process of its own, which must end with a solution or with GAPBEAM_NO_MEMORY, silently.
+ * Reports in the Test Anything Protocol. Linux only; not with the address sanitizer, which needs terabytes of addresses. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "gapbeam.h"
+
+#if defined(__SANITIZE_ADDRESS__) || !defined(__linux__)
+int main(void)
+{
+    printf("1..0 # SKIP limits of the address space cannot be set here\n");
+    return 0;
+}
+#else
+
+enum { SPANS = 1500, STEPS = 120, SHAPES = 3 };
+enum { SOLVED, REFUSED, WRONG };
+
+/* Addresses in use, bytes */
+static size_t in_use(void)
+{
+    long pages = 0;
+    FILE *file = fopen("/proc/self/statm", "r");
+    if (file) {
+        if (fscanf(file, "%ld", &pages) != 1)
+            pages = 0;
+        fclose(file);
+    }
+    return (size_t)pages * (size_t)sysconf(_SC_PAGESIZE);
+}
+
+static double length[SPANS], EI[SPANS], gap[SPANS + 1], stiffness[SPANS + 1], hinge[SPANS], load_x[2], load_to[2], value[2];
+static double reaction[SPANS + 1], factor[4 * SPANS];
+static int node[SPANS + 1], side[SPANS + 1], undecided[SPANS + 1];
+
+/* 0: a one-sided elastic base under a force; 1: rigid supports with gaps that cannot stand without each other; 2: hinges */
+static gapbeam_model describe(int shape)
+{
+    static const int kind[] = {GAPBEAM_DISTRIBUTED, GAPBEAM_FORCE}, load_case[] = {GAPBEAM_DEAD, GAPBEAM_LIVE};
+    gapbeam_model model;
+    gapbeam_model_init(&model, sizeof model);
+    for (int i = 0; i < SPANS; i++) {
+        length[i] = 1.0;
+        EI[i] = 1e4;
+        hinge[i] = i + 0.5;
+    }
+    for (int i = 0; i <= SPANS; i++) {
+        node[i] = i;
+        side[i] = GAPBEAM_BELOW;
+        gap[i] = shape == 1 ? 1e-5 * (i * 37 % 101) : 0.0;
+        stiffness[i] = shape == 1 ? gapbeam_infinity() : 50.0;
+    }
+    load_to[0] = SPANS;
+    load_x[1] = SPANS / 2 + 0.25;
+    value[0] = 0.1;
+    value[1] = shape == 2 ? 1.0 : 40.0;
+    model.spans = SPANS;
+    model.length = length;
+    model.EI = EI;
+    model.supports = SPANS + 1;
+    model.support_node = node;
+    model.support_side = side;
+    model.support_gap = gap;
+    model.support_stiffness = stiffness;
+    if (shape == 2) {
+        model.hinges = SPANS / 4;
+        model.hinge_x = hinge;
+    }
+    model.loads = 2;
+    model.load_kind = kind;
+    model.load_case = load_case;
+    model.load_x = load_x;
+    model.load_to = load_to;
+    model.load_value = value;
+    return model;
+}
+
+/* Everything under a limit; how it ended */
+static int attempt(const gapbeam_model *model, size_t limit)
+{
+    struct rlimit space = {limit, limit};
+    gapbeam_beam *beam = NULL;
+    gapbeam_state *state = NULL;
+    gapbeam_certificate certificate = {.size = sizeof certificate};
+    double extreme[GAPBEAM_FIELDS][2], place[GAPBEAM_FIELDS][2];
+    char message[200];
+    int number = 0;
+
+    if (limit && setrlimit(RLIMIT_AS, &space))
+        return WRONG;
+    int status = gapbeam_prepare(model, &beam, message, sizeof message);
+    if (!status)
+        status = gapbeam_new_state(&state);
+    if (!status)
+        status = gapbeam_solve(beam, 1.0, NULL, state, message, sizeof message);
+    if (!status)
+        status = gapbeam_get_supports(beam, state, reaction, NULL, NULL, NULL, NULL);
+    if (!status)
+        status = gapbeam_get_extremes(beam, state, extreme, place);
+    if (!status)
+        status = gapbeam_get_certificate(beam, state, &certificate, undecided);
+    if (!status)
+        status = gapbeam_follow(beam, 1.0, NULL, 4 * SPANS, factor, NULL, NULL, &number, state, message, sizeof message);
+    gapbeam_free_state(state);
+    gapbeam_free_beam(beam);
+    return status == GAPBEAM_SOLVED ? SOLVED : status == GAPBEAM_NO_MEMORY ? REFUSED : WRONG;
+}
+
+/* The same in a process of its own, whatever becomes of it */
+static int in_a_process(const gapbeam_model *model, size_t limit)
+{
+    int ended = 0;
+    fflush(stdout);
+    pid_t child = fork();
+    if (child == 0)
+        _exit(attempt(model, limit));
+    if (child < 0 || waitpid(child, &ended, 0) < 0 || !WIFEXITED(ended) || WEXITSTATUS(ended) > WRONG)
+        return WRONG;
+    return WEXITSTATUS(ended);
+}
+
+int main(void)
+{
+    int failures = 0;
+
+    /* Let the run-time library take what it takes once */
+    gapbeam_status_message(0);
+    for (int shape = 0; shape < SHAPES; shape++) {
+        gapbeam_model model = describe(shape);
+        const size_t base = in_use(), enough = (size_t)SPANS * 12000;
+        int ends[3] = {0, 0, 0};
+        int good = in_a_process(&model, 0) == SOLVED;
+        for (int step = 0; step <= STEPS; step++)
+            ends[in_a_process(&model, base + enough / STEPS * step)]++;
+        good = good && ends[WRONG] == 0 && ends[SOLVED] > 0 && ends[REFUSED] > STEPS / 10;
+        failures += !good;
+        printf("%s %d - shape %d: %d solved, %d refused, %d otherwise\n", good ? "ok" : "not ok", shape + 1, shape, ends[SOLVED],
+               ends[REFUSED], ends[WRONG]);
+    }
+    printf("1..%d\n", SHAPES);
+    return failures > 0;
+}
+#endif
