@@ -333,7 +333,7 @@ subroutine gbmotn(work, iwork, state, istate, maxnd, nnode, xnode, motion, info)
     ! Beam and state
     double precision, intent(in) :: work(*), state(*)
     integer, intent(in) :: iwork(*), istate(*)
-    ! Room in the arrays; NHINGE + NSUP + 2 is always enough
+    ! Room in the arrays; NHINGE + NSUP + 2 NLOAD + 2 is always enough
     integer, intent(in) :: maxnd
     ! Number of nodes of the system
     integer, intent(inout) :: nnode

@@ -120,11 +120,12 @@ contains
         level = support%settlement + support%side*support%gap
     end function contact_level
 
-    !> Beam ends, hinges and supports across the beam are nodes
+    !> Beam ends, hinges and supports across the beam are nodes, and on overhangs the places of loads: the moments there
+    !> follow from the loads farther out alone
     subroutine choose_nodes(lowered, error)
         type(lowered_type), intent(inout) :: lowered
         type(error_type), allocatable, intent(out) :: error
-        integer :: k, j, n, stat
+        integer :: k, j, n, first, last, stat
 
         n = ubound(lowered%point_span, 1)
         allocate (lowered%node_of_point(0:n), stat=stat)
@@ -136,8 +137,20 @@ contains
             node(:) = merge(0, -1, lowered%hinged)
             node(0) = 0
             node(n) = 0
+            first = n + 1
+            last = -1
             do k = 1, size(lowered%support_point)
-                if (lowered%model%supports(k)%direction == gapbeam_normal) node(lowered%support_point(k)) = 0
+                if (lowered%model%supports(k)%direction /= gapbeam_normal) cycle
+                node(lowered%support_point(k)) = 0
+                first = min(first, lowered%support_point(k))
+                last = max(last, lowered%support_point(k))
+            end do
+            do k = 1, size(lowered%load_from)
+                if (last < 0 .or. lowered%model%loads(k)%kind == gapbeam_axial_force) cycle
+                associate (a => lowered%load_from(k), b => lowered%load_to(k))
+                    if (a < first .or. a > last) node(a) = 0
+                    if (b < first .or. b > last) node(b) = 0
+                end associate
             end do
             allocate (lowered%node_point(0:count(node == 0) - 1), stat=stat)
             if (stat /= 0) then

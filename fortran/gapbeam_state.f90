@@ -196,7 +196,7 @@ contains
         real(wp), intent(out) :: residual(3)
         !> Largest error of any deflection of a node, and of any reaction
         real(wp), intent(out) :: deflection_bound, reaction_bound
-        !> False where pivoting was needed or the beam is free to move
+        !> False where the beam is free to move
         logical, intent(out) :: known
         !> No memory
         type(error_type), allocatable, intent(out) :: error

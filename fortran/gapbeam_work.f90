@@ -27,9 +27,9 @@ contains
         integer(int64), intent(out) :: reals, integers
         integer(int64) :: points, nodes
 
-        ! No more points than places given, no more nodes than hinges and supports beside the two ends
+        ! No more points than places given, no more nodes than hinges, supports and places of loads beside the two ends
         points = 1_int64 + spans + hinges + supports + 2_int64*loads
-        nodes = min(points, 2_int64 + hinges + supports)
+        nodes = min(points, 2_int64 + hinges + supports + 2_int64*loads)
         reals = 5_int64*spans + hinges + 7_int64*supports + 4_int64*loads + 24*points + 26*nodes + 16
         integers = header + 2_int64*spans + 11_int64*supports + 5_int64*loads + 4*points + 3*nodes + 52
     end subroutine sizes_of_beam

@@ -216,7 +216,7 @@ class F77Beam:
 
     def __init__(self, library, scene):
         self.c, a = library.c, columns(scene)
-        self.supports, self.hinges = len(scene["supports"]), len(a["hinge_x"])
+        self.supports, self.hinges, self.loads = len(scene["supports"]), len(a["hinge_x"]), len(a["load_x"])
         span = np.array([a["length"], a["EI"], a["GA"], a["EA"]]).T.copy()
         sup = np.array([a[f"support_{n}"] for n in ("x", "stiffness", "gap", "settlement", "rotation")]).T.copy()
         isup = np.array([a[f"support_{n}"] for n in ("side", "direction", "node")], np.int32).T.copy()
@@ -280,7 +280,7 @@ class F77Beam:
 
     def motion(self):
         """As CBeam.motion."""
-        room = self.hinges + self.supports + 2
+        room = self.hinges + self.supports + 2 * self.loads + 2
         n, x, motion = np.zeros(1, np.int32), np.empty(room), np.empty(room)
         assert self.call("gbmotn", *self.both, room, n, x, motion) == 0
         return x[: n[0]], motion[: n[0]]

@@ -271,8 +271,8 @@ def certify(
     residuals : numpy.ndarray
         Relative residuals of compatibility, equilibrium and complementarity, in twice the working precision.
     bounds : (float, float) or None
-        Largest error of the deflections of the nodes and of the reactions; None where the scheme takes pivoting or
-        leaves the beam free to move.
+        Largest error of the deflections of the nodes and of the reactions; None where the
+        beam is free to move.
     """
     residuals, bound, known = _f77.gbcert(*_beam(arrays, links), factor, _scheme(closed))
     length, force = arrays.exponents
