@@ -62,7 +62,7 @@ contains
                 if (s%side == both .or. .not. s%stiffness > 0.0_wp) cycle
                 i = s%node
                 if (closed(k) .and. is_rigid(s)) then
-                    force = work%loads(i)%shear
+                    force = work%loads(i)%shear + work%ease(i)*(work%reference(i) - work%answers(i)%deflection)
                     if (i > 0) force = force - (work%answers(i)%moment_left - work%answers(i - 1)%moment_right) &
                         *beam%links(i)%inverse
                     if (i < n) force = force + (work%answers(i + 1)%moment_left - work%answers(i)%moment_right) &

@@ -236,7 +236,7 @@ def test_rotation_held_at_a_hinge(place):
         ({}, {}, 'are rigid with side = "both"'),
         ({"side": "below"}, {"side": "below", "gap": 0.1}, 'are rigid with side = "below"'),
         ({"side": "above"}, {"side": "above"}, 'are rigid with side = "above"'),
-        ({"direction": "axial"}, {"direction": "axial"}, "hold the beam horizontally and rigidly"),
+        ({"direction": "axial"}, {"direction": "axial", "stiffness": 5.0}, "hold the beam horizontally"),
         ({"side": "below", "rotation": "fixed"}, {"rotation": inf}, "hold the rotation of the beam rigidly"),
     ],
 )

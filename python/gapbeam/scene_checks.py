@@ -378,7 +378,7 @@ def _check_supports(scene: Scene, ends: np.ndarray, hinges: np.ndarray) -> None:
         rows.refuse_first(wrong, key, problem)
 
     rigid = np.isinf(stiffness)
-    _check_one_each(rows, x, rigid & axial, "hold the beam horizontally and rigidly")
+    _check_one_each(rows, x, axial, "hold the beam horizontally")
     _check_one_each(rows, x, np.isinf(turn), "hold the rotation of the beam rigidly")
     kinds = {"both": rigid & bilateral & ~axial, "below": rigid & below, "above": rigid & ~below & ~bilateral}
     for side, rows_of_kind in kinds.items():
