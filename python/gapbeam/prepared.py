@@ -9,6 +9,7 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from math import isfinite
 from typing import Any
 
 import numpy as np
@@ -130,19 +131,19 @@ class Prepared:
                [10.  , 14.  ,  0.  ]])
         """
         factors = self._checked(factors)
-        many = factors.reshape(-1, factors.shape[-1])
-        closed = np.ones((len(many), max(len(self.supports), 1)), dtype=np.int32)
-        if start is not None:
-            closed[:] = np.asarray(start, dtype=bool)
+        many = factors if factors.ndim == 2 else factors[None]
+        closed = np.empty((len(many), max(len(self.supports), 1)), dtype=np.int32)
+        closed[:] = 1 if start is None else np.asarray(start, dtype=bool)
         w, left, right, _, reaction, solves, status = self._call(many, engine.RULES[self._rule], closed)
-        length, force = self._units
-        if (length, force) != (0, 0):
+        if self._units != (0, 0):
+            length, force = self._units
             w, reaction = np.ldexp(w, length), np.ldexp(reaction, force)
             left, right = np.ldexp(left, force + length), np.ldexp(right, force + length)
-        values = (status, closed, reaction, w, left, right, solves)
         if len(self.supports) == 0:
-            values = (status, closed[:, :0], reaction[:, :0], *values[3:])
-        return Cases(*(value[0] for value in values)) if factors.ndim == 1 else Cases(*values)
+            closed, reaction = closed[:, :0], reaction[:, :0]
+        if factors.ndim == 2:
+            return Cases(status, closed, reaction, w, left, right, solves)
+        return Cases(status[0], closed[0], reaction[0], w[0], left[0], right[0], solves[0])
 
     def _checked(self, factors: ArrayLike | None) -> np.ndarray:
         count = len(self.scene.loads)
@@ -151,7 +152,8 @@ class Prepared:
         factors = np.ones(count) if factors is None else np.asarray(factors, dtype=float)
         if factors.ndim not in (1, 2) or factors.shape[-1] != max(count, 1):
             raise ValueError(f"factors: expected {count} numbers a case, one for each load, got shape {factors.shape}")
-        if not np.isfinite(factors).all():
+        # Squares leave the range before the factors do, and cost less than asking each
+        if not isfinite(np.vdot(factors, factors)) and not np.isfinite(factors).all():
             at = np.argwhere(~np.isfinite(factors))[0]
             raise ValueError(f"factors: the factor of load {at[-1]} is {factors[tuple(at)]}; give a finite number")
         return factors
