@@ -58,7 +58,7 @@ module gapbeam_api
         real(wp) :: equilibrium = 0.0_wp, compatibility = 0.0_wp
         !> Largest reaction or penetration of the wrong sign, relative to the largest reaction or deflection
         real(wp) :: complementarity = 0.0_wp
-        !> Are the bounds known; not where the beam is indifferent
+        !> Have deflections a bound; not where the beam is indifferent
         logical :: known = .false.
         !> Largest error that any deflection of a node, and any reaction, can have, in units of length and force
         real(wp) :: deflection_bound = 0.0_wp, reaction_bound = 0.0_wp

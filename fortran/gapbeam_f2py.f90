@@ -150,7 +150,7 @@ subroutine gbcert(nl, ns, link, kind, compli, force, couple, snode, sside, sstif
     integer, intent(in) :: closed(ns)
     ! Relative residuals of compatibility, equilibrium, complementarity
     double precision, intent(out) :: resid(3)
-    ! Largest errors of deflections and of reactions; 1 if they are known, 0 where the position is free
+    ! Largest errors of deflections and of reactions; 1, or 0 where the position is free: deflections have none then
     double precision, intent(out) :: bound(2)
     integer, intent(out) :: known
     !f2py threadsafe
@@ -178,7 +178,6 @@ subroutine gbcert(nl, ns, link, kind, compli, force, couple, snode, sside, sstif
     if (allocated(error) .or. outcome%status /= gapbeam_solved) return
     call check_scheme(beam, work)
     resid = [work%compatibility, work%equilibrium, complementarity(beam, acting, work)]
-    if (outcome%indifferent) return
     call certify_scheme(beam, factor, work, bound(1), bound(2), found)
     known = merge(1, 0, found)
 end subroutine gbcert

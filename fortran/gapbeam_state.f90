@@ -225,7 +225,6 @@ contains
             if (allocated(error) .or. outcome%status /= gapbeam_solved) return
             call check_scheme(beam, work)
             residual(:) = [work%compatibility, work%equilibrium, complementarity(beam, acting, work)]
-            if (outcome%indifferent) return
             call certify_scheme(beam, state%factor, work, deflection_bound, reaction_bound, known)
         end associate
     end subroutine certify_state

@@ -141,7 +141,7 @@ contains
         type(workspace_type), intent(inout) :: work
         !> Largest error of any deflection of a node, and of any reaction
         real(wp), intent(out) :: deflection_bound, reaction_bound
-        !> False where the position is free
+        !> False where the position is free: deflections have no bound then, reactions do
         logical, intent(out) :: known
         integer :: state, place
 
@@ -152,12 +152,16 @@ contains
         if (.not. known) return
         call check_scheme(beam, work)
         call add_load_sizes(beam, factor, work)
+        ! Where weak springs hold the beam, what is left in them is a load that the beam does not have
+        work%eliminated%shear = abs(work%eliminated%shear) + work%ease*abs(work%reference - work%answers%deflection)
         call bound_errors(work%nodes, beam%links, work%pivots, state == band_needs_pivoting, work%eliminated, work%sizes, &
                           deflection_bound, reaction_bound)
         ! The numbers given are rounded once more, and contact levels are given to half a unit in the last place
         deflection_bound = deflection_bound + 2*epsilon(1.0_wp)*maxval(max(abs(work%answers%deflection), abs(work%rhs%deflection)))
         if (size(work%reaction) > 0) reaction_bound = reaction_bound &
             + maxval(2*epsilon(1.0_wp)*abs(work%reaction) + work%reaction_error)
+        known = .not. any(work%ease > 0.0_wp)
+        if (.not. known) deflection_bound = 0.0_wp
     end subroutine certify_scheme
 
     !> Loads that cancel in a row are as uncertain as each of them

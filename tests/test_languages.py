@@ -89,12 +89,12 @@ def assert_same_state(beam, f77, result, scene, rng):
         for k, name in enumerate(FIELDS):
             pairs = extremes.get(name, {"max": (0.0, 0.0), "min": (0.0, 0.0)})
             assert_equal(np.transpose([value[k], place[k]]), np.array([pairs["max"], pairs["min"]]), name.startswith("axial"))
-    bounds = step.bounds or (0.0, 0.0)
+    bounds = [bound or 0.0 for bound in step.bounds]
     residuals = step.residuals
     numbers = [residuals["equilibrium"], residuals["compatibility"], residuals["complementarity"], *bounds]
     certificate, undecided = beam.certificate()
     assert [getattr(certificate, name) for name, _ in certificate._fields_[1:6]] == numbers
-    assert certificate.known == (step.bounds is not None)
+    assert certificate.known == (step.bounds[0] is not None)
     assert np.flatnonzero(undecided).tolist() == list(step.undecided)
     of_f77, known, undecided_f77 = f77.certificate()
     assert [of_f77.tolist(), known, undecided_f77.tolist()] == [numbers, certificate.known, undecided.tolist()]

@@ -258,7 +258,7 @@ def prepare_cases(
 
 def certify(
     arrays: Arrays, links: np.ndarray, factor: float, closed: np.ndarray
-) -> tuple[np.ndarray, tuple[float, float] | None]:
+) -> tuple[np.ndarray, tuple[float | None, float]]:
     """Check a solved scheme, and bound its errors.
 
     Parameters
@@ -270,14 +270,12 @@ def certify(
     -------
     residuals : numpy.ndarray
         Relative residuals of compatibility, equilibrium and complementarity, in twice the working precision.
-    bounds : (float, float) or None
-        Largest error of the deflections of the nodes and of the reactions; None where the
-        beam is free to move.
+    bounds : (float or None, float)
+        Largest error of the deflections of the nodes, None where the beam is free to move, and of the reactions.
     """
     residuals, bound, known = _f77.gbcert(*_beam(arrays, links), factor, _scheme(closed))
     length, force = arrays.exponents
-    bounds = (float(np.ldexp(bound[0], length)), float(np.ldexp(bound[1], force))) if known else None
-    return residuals, bounds
+    return residuals, (float(np.ldexp(bound[0], length)) if known else None, float(np.ldexp(bound[1], force)))
 
 
 def _field_exponents(length: int, force: int) -> np.ndarray:

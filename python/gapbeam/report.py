@@ -268,11 +268,8 @@ def _doubts(say: "Writer", result: "Result") -> None:
     """How exact the last step is, and what is not decided in it."""
     step = result.steps[-1]
     bounds = [step.certificate[f"error_bound_{kind}"] for kind in ("deflection", "reaction")]
-    if None not in bounds:
-        say.line(
-            f"Error bounds at the last step, relative to the largest: deflections {bounds[0]:.1e}, "
-            f"reactions {bounds[1]:.1e}."
-        )
+    deflections = "" if bounds[0] is None else f"deflections {bounds[0]:.1e}, "
+    say.line(f"Error bounds at the last step, relative to the largest: {deflections}reactions {bounds[1]:.1e}.")
     if step.undecided:
         x = result.scene.positions(result.scene.supports)
         names = ", ".join(f"{k} (x = {x[k]:g})" for k in step.undecided[:10])

@@ -116,12 +116,12 @@ class Step:
         return tuple(result)
 
     @cached_property
-    def _certified(self) -> tuple[np.ndarray, tuple[float, float] | None]:
+    def _certified(self) -> tuple[np.ndarray, tuple[float | None, float]]:
         return engine.certify(self._arrays, self._links, self.factor, self.solution.closed)
 
     @property
-    def bounds(self) -> tuple[float, float] | None:
-        """Largest error that the deflections of the nodes, and the reactions, can have; None if not known."""
+    def bounds(self) -> tuple[float | None, float]:
+        """Largest error that the deflections of the nodes (None where the beam is free to move) and the reactions can have."""
         return self._certified[1]
 
     @property
@@ -135,11 +135,10 @@ class Step:
         """The residuals and bounds of the relative errors; computed when first asked for."""
         solution = self.solution
         largest = [np.abs(values).max(initial=0.0) for values in (solution.deflection, solution.reaction)]
-        relative: list[float | None] = [None, None]
-        if self.bounds is not None:
-            relative = [
-                float(bound / size) if size > 0.0 else 0.0 for bound, size in zip(self.bounds, largest, strict=True)
-            ]
+        relative = [
+            None if bound is None else float(bound / size) if size > 0.0 else 0.0
+            for bound, size in zip(self.bounds, largest, strict=True)
+        ]
         return {
             **self.residuals,
             "error_bound": None if None in relative else max(relative),
@@ -150,10 +149,10 @@ class Step:
     @cached_property
     def undecided(self) -> tuple[int, ...]:
         """Supports whose reaction or opening is smaller than its error can be: closed or open is not decided."""
-        if self.bounds is None:
+        w, reaction = self.bounds
+        if w is None:
             doubtful = self.solution.marginal == 1
         else:
-            w, reaction = self.bounds
             arrays = self._arrays
             way = np.abs(arrays.support_contact - self.solution.deflection[arrays.support_nodes])
             small = np.where(self.solution.closed == 1, np.abs(self.solution.reaction) <= reaction, way <= w)
