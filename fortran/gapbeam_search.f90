@@ -105,7 +105,6 @@ contains
         if (present(rounds)) search%rounds = rounds
         search%next_rounds = search%rounds/2
         search%margin = least_margin(beam)
-        call find_base(beam, search%base)
         settled = .false.
         if (rule == rule_single) call change_single(beam, closed, work, search, settled)
         if (.not. settled .and. search%state == band_ok) then
@@ -267,6 +266,7 @@ contains
             call look(beam, closed, .false., work, search, settled)
             if (settled .or. search%state /= band_ok) return
             if (search%margin > 0 .and. .not. scattered(beam, search)) then
+                if (.not. allocated(search%base%support)) call find_base(beam, search%base)
                 call find_shears(beam, [1, size(beam%links)], work)
                 call move_fronts(beam, closed, work, search%base, search%margin/2, search%wrong)
                 call settle_parts(beam, closed, work, search, changed)
@@ -370,7 +370,6 @@ contains
         real(wp) :: first_product
 
         settled = .false.
-        if (allocated(search%kept)) deallocate (search%kept)
         allocate (guess(size(closed)), last_guess(size(closed)))
         call start_interior(beam, closed, work, iterate, search%state, search%place)
         last_guess(:) = closed
