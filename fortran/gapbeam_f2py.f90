@@ -132,7 +132,7 @@ subroutine gbcert(nl, ns, link, kind, compli, force, couple, snode, sside, sstif
     use gapbeam_link, only: link_type
     use gapbeam_model, only: beam_type, new_beam
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
-    use gapbeam_system, only: check_scheme, certify_scheme
+    use gapbeam_system, only: certify_scheme
     use gapbeam_rules, only: complementarity
     use gapbeam_error, only: error_type, gapbeam_solved
     use gapbeam_scheme, only: find_scheme, outcome_type
@@ -176,9 +176,8 @@ subroutine gbcert(nl, ns, link, kind, compli, force, couple, snode, sside, sstif
     ! From the working scheme that is one solve
     call find_scheme(beam, factor, rule_block, acting, work, outcome, error)
     if (allocated(error) .or. outcome%status /= gapbeam_solved) return
-    call check_scheme(beam, work)
-    resid = [work%compatibility, work%equilibrium, complementarity(beam, acting, work)]
     call certify_scheme(beam, factor, work, bound(1), bound(2), found)
+    resid = [work%compatibility, work%equilibrium, complementarity(beam, acting, work)]
     known = merge(1, 0, found)
 end subroutine gbcert
 

@@ -5,7 +5,7 @@ module gapbeam_state
         gapbeam_indeterminate, gapbeam_not_converged
     use gapbeam_element, only: field_type
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
-    use gapbeam_system, only: check_scheme, certify_scheme
+    use gapbeam_system, only: certify_scheme
     use gapbeam_search, only: rule_block
     use gapbeam_rules, only: complementarity
     use gapbeam_scheme, only: find_scheme, outcome_type
@@ -223,9 +223,8 @@ contains
             ! From the working scheme that is one solve
             call find_scheme(beam, state%factor, rule_block, acting, work, outcome, error)
             if (allocated(error) .or. outcome%status /= gapbeam_solved) return
-            call check_scheme(beam, work)
-            residual(:) = [work%compatibility, work%equilibrium, complementarity(beam, acting, work)]
             call certify_scheme(beam, state%factor, work, deflection_bound, reaction_bound, known)
+            residual(:) = [work%compatibility, work%equilibrium, complementarity(beam, acting, work)]
         end associate
     end subroutine certify_state
 

@@ -13,7 +13,7 @@ module gapbeam_system
     use gapbeam_reactions, only: find_sizes, find_shears, find_reactions
     implicit none
     private
-    public :: solve_scheme, solve_deflections, complete_scheme, refine_scheme, check_scheme, certify_scheme
+    public :: solve_scheme, solve_deflections, complete_scheme, refine_scheme, certify_scheme
 
 contains
 
@@ -133,7 +133,7 @@ contains
                             work%compatibility, work%equilibrium)
     end subroutine check_scheme
 
-    !> Bounds for the errors of the last solve
+    !> Relative residuals of the last solve, into work%compatibility and work%equilibrium, and bounds for its errors
     subroutine certify_scheme(beam, factor, work, deflection_bound, reaction_bound, known)
         !> The beam and the factor of its live loads
         type(beam_type), intent(in) :: beam
@@ -147,10 +147,10 @@ contains
 
         deflection_bound = 0.0_wp
         reaction_bound = 0.0_wp
+        call check_scheme(beam, work)
         call factor_chain(work%nodes, beam%links, work%pivots, state, place)
         known = state /= band_mechanism
         if (.not. known) return
-        call check_scheme(beam, work)
         call add_load_sizes(beam, factor, work)
         ! Where weak springs hold the beam, what is left in them is a load that the beam does not have
         work%eliminated%shear = abs(work%eliminated%shear) + work%ease*abs(work%reference - work%answers%deflection)
