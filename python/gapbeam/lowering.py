@@ -212,6 +212,27 @@ class LoadRows:
         columns = [np.bincount(self.piece, weight * self.piece_values[:, k], pieces) for k in range(3)]
         return np.stack(columns, axis=1)
 
+    def spread(self, share: np.ndarray, is_node: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Sum the loads as the engine takes them.
+
+        Parameters
+        ----------
+        share : numpy.ndarray
+            As for `on_pieces`.
+        is_node : numpy.ndarray of bool
+            Which points are nodes.
+
+        Returns
+        -------
+        pieces : numpy.ndarray
+            Loads of every piece and at its right end, pieces by 5; what acts on a node is the node's alone.
+        nodes : numpy.ndarray
+            Force and couple of every node, nodes by 2.
+        """
+        at_points = self.on_points(share, len(is_node))
+        inside = np.where(is_node[1:, None], 0.0, at_points[1:])
+        return np.hstack((self.on_pieces(share, len(is_node) - 1), inside)), at_points[is_node]
+
     def on_points(self, share: np.ndarray, points: int) -> np.ndarray:
         """Sum the forces and couples at the points.
 
@@ -289,11 +310,6 @@ def lower_by_load(scene: Scene) -> tuple[Arrays, LoadRows]:
         some = np.flatnonzero(kinds_of_loads[point_load] == column)
         point_values[some, column] = [getattr(at_a_point[k], name) for k in some]
     rows = LoadRows(stretch_load[stretch], piece, piece_values, point_load, at_loads, point_values)
-    shares = [np.array([load.case == case for load in scene.loads], dtype=float) for case in CASES]
-    loads = np.zeros((2, len(span) - 1, 5))
-    for k, share in enumerate(shares):
-        loads[k, :, :3] = rows.on_pieces(share, len(span) - 1)
-    at_points = np.stack([rows.on_points(share, len(span)) for share in shares])
 
     axial_support = np.array([support.direction == "axial" for support in scene.supports], dtype=bool)
     normal = np.flatnonzero(~axial_support)
@@ -305,7 +321,8 @@ def lower_by_load(scene: Scene) -> tuple[Arrays, LoadRows]:
     node_points = np.flatnonzero(is_node)
     node_of_point = np.cumsum(is_node) - 1
 
-    loads[:, :, 3:] = np.where(is_node[1:, None], 0.0, at_points[:, 1:])
+    shares = [np.array([load.case == case for load in scene.loads], dtype=float) for case in CASES]
+    (dead, dead_nodes), (live, live_nodes) = (rows.spread(share, is_node) for share in shares)
     kinds = np.zeros(len(node_points), dtype=np.int32)
     kinds[node_of_point[at_hinges]] = HINGE
     columns = [scene.supports[k] for k in normal]
@@ -322,13 +339,13 @@ def lower_by_load(scene: Scene) -> tuple[Arrays, LoadRows]:
         point_x=ends[span] + offset,
         pieces=pieces,
         axial_flexibility=axial_flexibility,
-        dead=loads[0],
-        live=loads[1],
+        dead=dead,
+        live=live,
         node_points=node_points,
         kinds=kinds,
         compliance=compliance,
-        force=np.ascontiguousarray(at_points[:, node_points, 0].T),
-        couple=np.ascontiguousarray(at_points[:, node_points, 1].T),
+        force=np.stack((dead_nodes[:, 0], live_nodes[:, 0]), axis=1),
+        couple=np.stack((dead_nodes[:, 1], live_nodes[:, 1]), axis=1),
         support_count=len(scene.supports),
         supports=normal,
         support_nodes=support_nodes.astype(np.int32),

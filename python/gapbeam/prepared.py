@@ -16,11 +16,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import engine
-from .errors import SceneError
 from .lowering import Arrays, LoadRows, lower_by_load
 from .results import Result
 from .scene import Scene, read_scene
 from .states import Step, solve_step
+from .stepping import choose_rule
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,18 +61,18 @@ class Prepared:
     scene : Scene
         The scene; its loads are those that the factors belong to, whether dead or live.
     node_x : numpy.ndarray
-        Places of the nodes: beam ends, supports, hinges.
+        Places of the nodes: beam ends, supports, hinges, and on overhangs the places of loads.
     supports : numpy.ndarray of int
         Numbers in the scene of the supports across the beam, the columns of `Cases.reaction`.
     """
 
-    def __init__(self, scene: Scene, rule: str | None = None):
+    def __init__(self, scene: Scene, rule: str):
         self.scene = scene
         self._arrays, self._rows = lower_by_load(scene)
         self.node_x = self._arrays.node_x
         self.supports = self._arrays.supports
         self._links = engine.condense(self._arrays)
-        self._rule = scene.analysis.rule if rule is None else rule
+        self._rule = rule
         self._call = engine.prepare_cases(self._arrays, self._links, *self._sorted_rows(self._arrays, self._rows))
         self._units = self._arrays.exponents
 
@@ -193,14 +193,10 @@ class Prepared:
 
     def _with_loads(self, factors: np.ndarray) -> Arrays:
         """Arrays in which the loads of a case are live, and nothing is dead."""
-        arrays, rows = self._arrays, self._rows
-        at_points = rows.on_points(factors, len(arrays.point_span))
+        arrays = self._arrays
         is_node = np.zeros(len(arrays.point_span), dtype=bool)
         is_node[arrays.node_points] = True
-        live = np.zeros((len(arrays.pieces), 5))
-        live[:, :3] = rows.on_pieces(factors, len(arrays.pieces))
-        live[:, 3:] = np.where(is_node[1:, None], 0.0, at_points[1:])
-        at_nodes = at_points[arrays.node_points]
+        live, at_nodes = self._rows.spread(factors, is_node)
         nothing = np.zeros(len(at_nodes))
         axial = arrays.axial
         if axial is not None:
@@ -238,6 +234,4 @@ def prepare(source: Scene | Mapping[str, Any] | str | os.PathLike, *, rule: str 
         The scene is not valid.
     """
     scene = read_scene(source)
-    if rule is not None and rule not in engine.RULES:
-        raise SceneError("rule", f'expected one of {", ".join(engine.RULES)}, got "{rule}"')
-    return Prepared(scene, rule)
+    return Prepared(scene, choose_rule(scene, rule))

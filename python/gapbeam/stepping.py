@@ -60,9 +60,7 @@ def solve(
     array([2.2875, 7.425 , 2.2875])
     """
     scene = read_scene(source)
-    rule = scene.analysis.rule if rule is None else rule
-    if rule not in engine.RULES:
-        raise SceneError("rule", f'expected one of {", ".join(engine.RULES)}, got "{rule}"')
+    rule = choose_rule(scene, rule)
     arrays = lower(scene)
     closed = _starting_scheme(arrays, start)
     links = engine.condense(arrays)
@@ -86,6 +84,32 @@ def solve(
         closed = step.solution.closed
         result.steps.append(step)
     return result
+
+
+def choose_rule(scene: Scene, rule: str | None) -> str:
+    """Take the rule that the caller gives, or else that of the scene.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    rule : str or None
+        What the caller gives.
+
+    Returns
+    -------
+    str
+        A key of `engine.RULES`.
+
+    Raises
+    ------
+    SceneError
+        There is no such rule.
+    """
+    rule = scene.analysis.rule if rule is None else rule
+    if rule not in engine.RULES:
+        raise SceneError("rule", f'expected one of {", ".join(engine.RULES)}, got "{rule}"')
+    return rule
 
 
 def _starting_scheme(arrays: Arrays, start: Sequence[bool] | None) -> np.ndarray:
