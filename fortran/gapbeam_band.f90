@@ -82,7 +82,7 @@ module gapbeam_band
 contains
 
     !> Factor the system of a working scheme, or factor anew what changes when some of its nodes have changed
-    pure subroutine factor_chain(nodes, links, pivots, state, place, changed, last)
+    pure subroutine factor_chain(nodes, links, pivots, state, place, changed)
         !> Nodes, shape (0:n), and the links between them, shape (n)
         type(node_type), intent(in) :: nodes(0:)
         type(link_type), intent(in) :: links(:)
@@ -95,8 +95,6 @@ contains
         !> First and last node that changed; the factor is right left of them already, and right of them from where
         !> the left side passes on what it did before
         integer, intent(in), optional :: changed(2)
-        !> Last node whose pivot is new
-        integer, intent(out), optional :: last
         real(wp) :: phi, beta, delta, h, divisor
         logical :: floating
         integer :: i, n, begin, finish
@@ -109,7 +107,6 @@ contains
         floating = .true.
         begin = 0
         finish = n
-        if (present(last)) last = n
         if (present(changed)) then
             begin = changed(1)
             finish = changed(2)
@@ -121,10 +118,7 @@ contains
         do i = begin, n
             place = i
             if (i > finish) then
-                if (repeats(pivots(i), phi, beta, delta, floating)) then
-                    if (present(last)) last = i - 1
-                    return
-                end if
+                if (repeats(pivots(i), phi, beta, delta, floating)) return
             end if
             associate (node => nodes(i), p => pivots(i))
                 p%floating = floating
