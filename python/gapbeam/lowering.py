@@ -193,32 +193,13 @@ class LoadRows:
     point: np.ndarray
     point_values: np.ndarray
 
-    def on_pieces(self, share: np.ndarray, pieces: int) -> np.ndarray:
-        """Sum the loads of the pieces.
-
-        Parameters
-        ----------
-        share : numpy.ndarray
-            By how much each load of the scene counts.
-        pieces : int
-            Number of pieces.
-
-        Returns
-        -------
-        numpy.ndarray
-            Pieces by 3.
-        """
-        weight = share[self.piece_load]
-        columns = [np.bincount(self.piece, weight * self.piece_values[:, k], pieces) for k in range(3)]
-        return np.stack(columns, axis=1)
-
     def spread(self, share: np.ndarray, is_node: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Sum the loads as the engine takes them.
 
         Parameters
         ----------
         share : numpy.ndarray
-            As for `on_pieces`.
+            By how much each load of the scene counts.
         is_node : numpy.ndarray of bool
             Which points are nodes.
 
@@ -229,28 +210,16 @@ class LoadRows:
         nodes : numpy.ndarray
             Force and couple of every node, nodes by 2.
         """
-        at_points = self.on_points(share, len(is_node))
+        size = len(is_node)
+        on_pieces = _sum_columns(self.piece, share[self.piece_load], self.piece_values, size - 1)
+        at_points = _sum_columns(self.point, share[self.point_load], self.point_values, size)
         inside = np.where(is_node[1:, None], 0.0, at_points[1:])
-        return np.hstack((self.on_pieces(share, len(is_node) - 1), inside)), at_points[is_node]
+        return np.hstack((on_pieces, inside)), at_points[is_node]
 
-    def on_points(self, share: np.ndarray, points: int) -> np.ndarray:
-        """Sum the forces and couples at the points.
 
-        Parameters
-        ----------
-        share : numpy.ndarray
-            As for `on_pieces`.
-        points : int
-            Number of points.
-
-        Returns
-        -------
-        numpy.ndarray
-            Points by 2.
-        """
-        weight = share[self.point_load]
-        columns = [np.bincount(self.point, weight * self.point_values[:, k], points) for k in range(2)]
-        return np.stack(columns, axis=1)
+def _sum_columns(where: np.ndarray, weight: np.ndarray, values: np.ndarray, size: int) -> np.ndarray:
+    """Sum weighted rows by place: size by columns."""
+    return np.stack([np.bincount(where, weight * column, size) for column in values.T], axis=1)
 
 
 def lower(scene: Scene) -> Arrays:
