@@ -21,7 +21,6 @@ module gapbeam_api
     public :: prepared_type, options_type, result_type, certificate_type
     public :: prepare_model, replace_loads, count_supports, count_nodes
     public :: solve_beam, follow_load, get_supports, get_fields, get_extremes, get_motion, get_certificate
-    public :: summarise
 
     !> A prepared beam: opaque
     type :: prepared_type
@@ -463,9 +462,8 @@ contains
         if (allocated(error) .and. allocated(result%state)) deallocate (result%state)
     end subroutine make_state
 
-    !> Copy what users look at first out of the state
+    !> Copy what users look at first
     subroutine summarise(result)
-        !> With its state
         type(result_type), intent(inout) :: result
 
         associate (state => result%state)

@@ -7,7 +7,7 @@ module gapbeam_work
     use gapbeam_search, only: rule_block, rule_single
     use gapbeam_scene, only: load_type, model_type
     use gapbeam_state, only: state_type, new_state
-    use gapbeam_api, only: prepared_type, result_type, summarise
+    use gapbeam_api, only: prepared_type, result_type
     use gapbeam_tape, only: tape_type, writing, reading
     use gapbeam_pack, only: exchange_beam, exchange_state
     implicit none
@@ -137,7 +137,14 @@ contains
             call no_memory(error)
             return
         end if
-        call summarise(result)
+        associate (state => result%state)
+            result%status = state%status
+            result%factor = state%factor
+            result%solves = state%solves
+            result%method = state%method
+            result%indifferent = state%indifferent
+            result%slides = state%slides
+        end associate
     end subroutine take_result
 
     !> What GBSOLV and GBEVNT begin with: the beam, checks, and the answer to a query. The arguments stand at the places 1, 2, 3,
