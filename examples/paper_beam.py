@@ -6,6 +6,8 @@ Usage: python examples/paper_beam.py [FOLDER]     (the picture goes there; defau
 import sys
 from pathlib import Path
 
+import msgspec
+
 import gapbeam
 from gapbeam.plots import plot
 from gapbeam.report import print_report
@@ -32,6 +34,34 @@ def values(result: gapbeam.Result) -> tuple[float, float, float]:
     """Pick what the paper tabulates: |R2| and R4, and the lift-off at support 3."""
     step = result.steps[-1]
     return abs(step.reaction[1]), step.reaction[3], step.opening[2]
+
+
+def history() -> None:
+    """Print what the paper's rule does, solve by solve.
+
+    A scheme is a scene of its own here: a support that acts holds both ways, one that does not is left out.
+    """
+    scene = gapbeam.read_scene(SCENES["0.70707"])
+    clamp, *one_sided = scene.supports
+    acts = [True] * len(one_sided)
+    before = None
+    print("\nThe paper's rule, solve by solve: R upward, w downward; + acts, - is released\n")
+    while acts != before:
+        supports = [clamp, *(msgspec.structs.replace(s, side="both") for s, on in zip(one_sided, acts, strict=True) if on)]
+        result = gapbeam.solve(msgspec.structs.replace(scene, supports=supports))
+        state = iter(result.steps[-1].reaction[1:])
+        before, line, wrong = acts, "", {}
+        for k, (support, on) in enumerate(zip(one_sided, acts, strict=True)):
+            pushes = 1.0 if support.side == "below" else -1.0
+            value = next(state) if on else result.at(2.0 * (k + 1)).deflection
+            line += f"   {'+' if on else '-'} {k + 2}: {'R' if on else 'w'} = {value:8.4f}"
+            if pushes * value * (1.0 if on else -1.0) < 0.0:
+                wrong[k] = abs(value)
+        pulling = {k: value for k, value in wrong.items() if acts[k]}
+        changed = {k for k in wrong if not acts[k]} | ({max(pulling, key=pulling.get)} if pulling else set())
+        acts = [on != (k in changed) for k, on in enumerate(acts)]
+        words = [f"{'put back' if acts[k] else 'release'} {k + 2}" for k in sorted(changed)]
+        print(line + "   " + (", ".join(words) or "the scheme stays: done"))
 
 
 def compare() -> None:
@@ -66,6 +96,7 @@ def main(folder: Path) -> None:
     """Report, compare, draw."""
     result = gapbeam.solve(SCENES["0.70707"])
     print_report(result)
+    history()
     compare()
     folder.mkdir(parents=True, exist_ok=True)
     picture = folder / "paper_beam.png"

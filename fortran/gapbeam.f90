@@ -29,7 +29,7 @@ module gapbeam
         gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, &
         gapbeam_live, gapbeam_dead
     use gapbeam_state, only: event_type
-    use gapbeam_query, only: gapbeam_open, gapbeam_closed, gapbeam_bilateral
+    use gapbeam_query, only: gapbeam_open, gapbeam_closed, gapbeam_bilateral, gapbeam_turns
     use gapbeam_api, only: prepared_type, options_type, result_type, certificate_type, &
         prepare_model, replace_loads, count_supports, count_nodes, &
         solve_beam, follow_load, get_supports, get_fields, get_extremes, get_motion, get_certificate

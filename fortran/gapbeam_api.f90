@@ -14,6 +14,7 @@ module gapbeam_api
     use gapbeam_lowered, only: lowered_type, copy_model
     use gapbeam_lower, only: lower_model, lower_loads
     use gapbeam_check, only: check_loads, shown
+    use gapbeam_certificate, only: found_type => certificate_type
     use gapbeam_state, only: state_type, event_type, new_state, solve_state, certify_state, follow_events
     use gapbeam_query, only: support_values, find_undecided, fields_at_places, extremes_of_fields, motion_of_nodes, field_count
     implicit none
@@ -58,10 +59,12 @@ module gapbeam_api
         real(wp) :: equilibrium = 0.0_wp, compatibility = 0.0_wp
         !> Largest reaction or penetration of the wrong sign, relative to the largest reaction or deflection
         real(wp) :: complementarity = 0.0_wp
-        !> Have deflections a bound; not where the beam is indifferent
+        !> Have deflections and rotations a bound; not where the beam is indifferent
         logical :: known = .false.
         !> Largest error that any deflection of a node, and any reaction, can have, in units of length and force
         real(wp) :: deflection_bound = 0.0_wp, reaction_bound = 0.0_wp
+        !> Largest errors of deflection, rotation, moment and shear anywhere along the beam
+        real(wp) :: field_bound(4) = 0.0_wp
     end type certificate_type
 
 contains
@@ -349,12 +352,12 @@ contains
         type(result_type), intent(in) :: result
         !> Residuals and bounds
         type(certificate_type), intent(out) :: certificate
-        !> Supports whose reaction or opening is smaller than its error can be, shape (count_supports(beam))
+        !> Supports whose reaction or opening is zero, so that they may be closed or open, shape (count_supports(beam))
         logical, intent(out) :: undecided(:)
         !> gapbeam_not_prepared, gapbeam_no_memory, or gapbeam_bad_input for an array of another size
         type(error_type), allocatable, intent(out) :: error
         type(ieee_status_type) :: environment
-        real(wp) :: residual(3), deflection, reaction
+        type(found_type) :: found
 
         call require_result(beam, result, gapbeam_solved, error)
         if (allocated(error)) return
@@ -363,14 +366,15 @@ contains
         call ieee_get_status(environment)
         call ieee_set_halting_mode(ieee_all, .false.)
         call ieee_set_rounding_mode(ieee_nearest)
-        call certify_state(beam%lowered, result%state, residual, deflection, reaction, certificate%known, error)
+        call certify_state(beam%lowered, result%state, found, error)
         if (.not. allocated(error)) then
-            call find_undecided(beam%lowered, result%state, deflection, reaction, certificate%known, undecided)
-            certificate%compatibility = residual(1)
-            certificate%equilibrium = residual(2)
-            certificate%complementarity = residual(3)
-            certificate%deflection_bound = scale(deflection, beam%lowered%length_exponent)
-            certificate%reaction_bound = scale(reaction, beam%lowered%force_exponent)
+            call find_undecided(beam%lowered, result%state, undecided)
+            associate (length => beam%lowered%length_exponent, force => beam%lowered%force_exponent)
+                certificate = certificate_type(found%equilibrium, found%compatibility, found%complementarity, found%known, &
+                                               scale(found%of_nodes, length), scale(found%reaction, force), &
+                                               [scale(found%deflection, length), found%rotation, &
+                                                scale(found%moment, force + length), scale(found%shear, force)])
+            end associate
         end if
         call ieee_set_status(environment)
     end subroutine get_certificate

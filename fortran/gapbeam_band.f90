@@ -13,7 +13,7 @@
 !> products of nonnegative numbers: nothing cancels, there is no growth, and a pivot is zero only where
 !> the structure is a mechanism (the same idea as Grassmann, Taksar and Heyman 1985 for Markov chains). So no
 !> pivoting is needed, and a mechanism is found by exact zeros, not by large numbers. The one pivot that
-!> can vanish in a sound structure is a rigid beam (f = 0) on rigid supports; that goes to gapbeam_lapack.
+!> can vanish in a sound structure is a rigid beam (f = 0) on rigid supports; that goes to gapbeam_pivoting.
 !>
 !> The limits are exact: rigid support (w known), hinge and free end (M known), clamp (psi known). Where the
 !> moment is known and nothing carries the shear so far (an overhang, the suspended part of a Gerber beam)

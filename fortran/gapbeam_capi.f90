@@ -28,7 +28,8 @@ module gapbeam_capi
 
     type, bind(c) :: c_certificate
         integer(c_size_t) :: size
-        real(c_double) :: equilibrium, compatibility, complementarity, deflection_bound, reaction_bound
+        real(c_double) :: equilibrium, compatibility, complementarity
+        real(c_double) :: deflection_bound, reaction_bound, field_bound(4)
         integer(c_int) :: known, reserved
     end type c_certificate
 
@@ -442,7 +443,7 @@ contains
         call report(error, status)
         if (allocated(error)) return
         certificate = c_certificate(certificate%size, found%equilibrium, found%compatibility, found%complementarity, &
-                                    found%deflection_bound, found%reaction_bound, merge(1, 0, found%known), 0)
+                                    found%deflection_bound, found%reaction_bound, found%field_bound, merge(1, 0, found%known), 0)
         if (present(undecided)) undecided(1:size(doubtful)) = merge(1, 0, doubtful)
     end function c_get_certificate
 

@@ -5,7 +5,8 @@ module gapbeam_cases
     use gapbeam_link, only: link_type, load_type, piece_type, condense_loads
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, set_loads
-    use gapbeam_scheme, only: find_scheme, outcome_type
+    use gapbeam_scheme, only: outcome_type
+    use gapbeam_referee, only: decide_scheme, detail_type
     implicit none
     private
     public :: share_type, node_share_type, condense_shares, solve_case
@@ -96,6 +97,7 @@ contains
         type(workspace_type), intent(inout) :: work
         !> gapbeam_solved, gapbeam_no_equilibrium or the code of an error
         integer, intent(out) :: status
+        type(detail_type) :: links_only
         type(outcome_type) :: outcome
         type(error_type), allocatable :: error
         integer :: i, k
@@ -129,7 +131,7 @@ contains
             end associate
         end do
         call set_loads(beam, 1.0_wp, work)
-        call find_scheme(beam, 1.0_wp, rule, closed, work, outcome, error)
+        call decide_scheme(beam, links_only, 1.0_wp, rule, closed, work, outcome, error)
         status = outcome%status
         if (allocated(error)) status = error%code
     end subroutine solve_case

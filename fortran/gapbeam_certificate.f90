@@ -1,202 +1,239 @@
-!> How good a result is: a bound of its error from residuals and the condition of the factor.
+!> How good a result is: its residuals, and bounds of its errors by comparison with the solution in quadruple precision.
 !>
-!> With the residual r in twice the working precision, and coefficients and loads known to some units in the last place,
-!> the error of the solution x of K x = b is at most |K^-1| (|r| + gamma eps s), row by row, s the sum of the absolute values
-!> of the row's terms (Oettli and Prager 1964; the bound LAPACK's dgbrfs gives, but for differences that are one term). The
-!> largest entry of L |K^-1| g, for deflections and for reactions, is a norm of diag(g) K^-1 L', estimated with a few
-!> solves (Higham 1988, LAPACK's dlacn2).
+!> That solution starts from the numbers of the pieces, so what condensing, solving, and going back into the links have
+!> cost is all in the comparison. Its own error is some 1e-33 of the sizes of the terms, below all that doubles can show. What
+!> the data lost when they were rounded to doubles comes on top (gapbeam_sensitivity). Where fields are evaluated inside a
+!> piece, the rounding of their polynomials is bounded term by term (Higham 2002, 5.1).
 module gapbeam_certificate
-    use gapbeam_kinds, only: wp
-    use gapbeam_link, only: link_type
-    use gapbeam_band, only: node_type, pivot_type, rhs_type, answer_type, solve_chain, plain, restrained
-    use gapbeam_residual, only: size_type
-    use gapbeam_lapack, only: estimate_type, estimate_norm, solve_pivoting
+    use gapbeam_kinds, only: wp, qp
+    use gapbeam_error, only: error_type, gapbeam_solved
+    use gapbeam_element, only: field_type
+    use gapbeam_link, only: piece_type, load_type
+    use gapbeam_model, only: beam_type
+    use gapbeam_workspace, only: plain_workspace_type => workspace_type, new_plain_workspace => new_workspace, &
+        set_plain_loads => set_loads, apply_scheme
+    use gapbeam_sensitivity, only: sensitivity_type, prepare_sensitivity, largest_movement, of_deflections, of_rotations, &
+        of_moments, of_shears, of_reactions
+    use gapbeam_referee, only: detail_type, refine_beam, fine_piece, fine_load
+    use gapbeam_element_quad, only: fine_field_type => field_type
+    use gapbeam_model_quad, only: fine_beam_type => beam_type
+    use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type, new_workspace, set_loads
+    use gapbeam_system_quad, only: check_scheme
+    use gapbeam_rules_quad, only: complementarity
+    use gapbeam_search_quad, only: rule_block
+    use gapbeam_scheme_quad, only: find_scheme, outcome_type
+    use gapbeam_recover_quad, only: recover_beam
     implicit none
     private
-    public :: bound_errors
+    public :: certificate_type, certify
 
-    !> Units in the last place that coefficients and loads may be off: they are sums of products of the scene's numbers
-    real(wp), parameter :: gamma = 8.0_wp
-    !> The estimate of the norm is a lower bound, hardly ever more than three times too small
+    !> Movements are taken so many times: they are estimates, hardly ever more than so many times too small
     real(wp), parameter :: safety = 3.0_wp
+    !> Roundings of a term of a field's polynomial, at most
+    real(wp), parameter :: roundings = 4.0_wp
+    !> Error of the solution in quadruple precision, relative to the sizes of its terms
+    real(qp), parameter :: fine_error = 2.0_qp**20*epsilon(1.0_qp)
+
+    !> The certificate of a state
+    type :: certificate_type
+        !> Largest relative residuals, and the largest wrong-signed reaction or opening, relative to the largest of its kind
+        real(wp) :: compatibility = 0.0_wp, equilibrium = 0.0_wp, complementarity = 0.0_wp
+        !> Largest errors of the deflections of the nodes and of the reactions, and of the fields along the beam
+        real(wp) :: of_nodes = 0.0_wp, reaction = 0.0_wp
+        real(wp) :: deflection = 0.0_wp, rotation = 0.0_wp, moment = 0.0_wp, shear = 0.0_wp
+        !> Is the position known; if the beam is free to move, deflections and rotations have no bound
+        logical :: known = .false.
+    end type certificate_type
 
 contains
 
-    !> Bounds for the errors of deflections and of reactions
-    subroutine bound_errors(nodes, links, pivots, pivoting, residual, sizes, deflection_bound, reaction_bound)
-        !> System and factor of the scheme, see gapbeam_band; is there no factor, so that every solve is one with pivoting
-        type(node_type), intent(in) :: nodes(0:)
-        type(link_type), intent(in) :: links(:)
-        type(pivot_type), intent(in) :: pivots(0:)
-        logical, intent(in) :: pivoting
-        !> Residuals and sizes of the rows, see gapbeam_residual
-        type(rhs_type), intent(in) :: residual(0:)
-        type(size_type), intent(in) :: sizes(0:)
-        !> Largest error any deflection of a node, and any reaction, can have
-        real(wp), intent(out) :: deflection_bound, reaction_bound
-        real(wp), allocatable :: weight(:, :)
-        integer :: n
+    !> Check a solved state
+    subroutine certify(beam, detail, factor, closed, deflection, moment_left, moment_right, reaction, starts, certificate, &
+                       error)
+        !> The beam, and what its links are made of
+        type(beam_type), intent(in) :: beam
+        type(detail_type), intent(in) :: detail
+        !> Factor of the live loads, and the scheme
+        real(wp), intent(in) :: factor
+        logical, intent(in) :: closed(:)
+        !> The result: at the nodes, shape (0:n), of the supports, and at the left ends of the pieces
+        real(wp), intent(in) :: deflection(0:), moment_left(0:), moment_right(0:), reaction(:)
+        type(field_type), intent(in) :: starts(:)
+        !> How good it is
+        type(certificate_type), intent(out) :: certificate
+        !> As for find_scheme
+        type(error_type), allocatable, intent(out) :: error
+        type(fine_beam_type) :: fine
+        type(fine_workspace_type) :: work
+        type(outcome_type) :: outcome
+        logical, allocatable :: acting(:)
+        real(qp), allocatable :: moment_size(:)
+        real(wp) :: moves(5), inside
 
-        n = size(links)
-        allocate (weight(3, 0:n))
-        call row_weights(nodes, residual, sizes, weight)
-        deflection_bound = safety*norm(.false.)
-        ! Held nodes have no row in the system, but their loads and shears go into the reactions
-        reaction_bound = safety*norm(.true.) + gamma*epsilon(1.0_wp)*maxval(merge(sizes%shear, 0.0_wp, nodes%held))
+        allocate (acting(size(closed)))
+        acting(:) = closed
+        call refine_beam(beam, detail, fine)
+        call new_workspace(fine, work)
+        call set_loads(fine, real(factor, qp), work)
+        call find_scheme(fine, real(factor, qp), rule_block, acting, work, outcome, error)
+        if (allocated(error) .or. outcome%status /= gapbeam_solved) return
+        certificate%known = .not. outcome%indifferent
+        call find_movements(beam, factor, closed, real(work%ease, wp), deflection, moment_left, moment_right, moves, inside)
+        call compare_fields(detail, factor, fine, work, starts, certificate)
+        associate (a => work%answers)
+            moment_size = work%shear_size*maxval(fine%links%length)
+            certificate%of_nodes = difference(a%deflection, deflection, work%deflection_size) &
+                + epsilon(1.0_wp)*maxval(abs(deflection)) + moves(of_deflections)
+            if (size(reaction) > 0) certificate%reaction = difference(work%reaction, reaction, work%shear_size) &
+                + epsilon(1.0_wp)*maxval(abs(reaction)) + moves(of_reactions)
+            certificate%deflection = max(certificate%deflection + inside, certificate%of_nodes)
+            certificate%moment = max(certificate%moment, difference(a%moment_left, moment_left, moment_size), &
+                                     difference(a%moment_right, moment_right, moment_size))
+            certificate%rotation = certificate%rotation + moves(of_rotations)
+            certificate%moment = certificate%moment + moves(of_moments)
+            certificate%shear = certificate%shear + moves(of_shears) + real(fine_error*maxval(work%shear_size), wp)
+            ! Signs as they are, residuals of the numbers as they are given
+            certificate%complementarity = real(complementarity(fine, closed, work), wp)
+            a%deflection = deflection
+            a%moment_left = moment_left
+            a%moment_right = moment_right
+        end associate
+        call check_scheme(fine, work)
+        certificate%compatibility = real(work%compatibility, wp)
+        certificate%equilibrium = real(work%equilibrium, wp)
+        if (certificate%known) return
+        certificate%of_nodes = 0.0_wp
+        certificate%deflection = 0.0_wp
+        certificate%rotation = 0.0_wp
+    end subroutine certify
 
-    contains
+    !> By how much results move when the data change in their last digits
+    subroutine find_movements(beam, factor, closed, ease, deflection, moment_left, moment_right, moves, inside)
+        type(beam_type), intent(in) :: beam
+        real(wp), intent(in) :: factor
+        logical, intent(in) :: closed(:)
+        !> Weak springs of a beam that is free to move, shape (0:n)
+        real(wp), intent(in) :: ease(0:)
+        real(wp), intent(in) :: deflection(0:), moment_left(0:), moment_right(0:)
+        !> Deflections of the nodes, rotations, moments, shears, reactions; deflections between the nodes
+        real(wp), intent(out) :: moves(5), inside
+        type(plain_workspace_type) :: work
+        type(sensitivity_type) :: sensitivity
+        real(wp) :: turns, bends
+        integer :: kind, i
 
-        !> Norm of diag(weight) K^-1 L', L giving deflections or reactions
-        function norm(of_reactions) result(largest)
-            logical, intent(in) :: of_reactions
-            real(wp) :: largest
-            type(estimate_type) :: estimate
-            real(wp), allocatable :: x(:)
-            type(rhs_type), allocatable :: rhs(:)
-            type(answer_type), allocatable :: answers(:)
-
-            allocate (x(3*(n + 1)), rhs(0:n), answers(0:n))
-            x = 0.0_wp
-            largest = 0.0_wp
-            do
-                call estimate_norm(estimate, x, largest)
-                if (estimate%wanted == 0) exit
-                if (estimate%wanted == 1) then
-                    call spread_functional(nodes, links, of_reactions, x, rhs)
-                    call solve(rhs, answers)
-                    call weigh_answers(weight, answers, x)
-                else
-                    call weigh_rows(weight, x, rhs)
-                    call solve(rhs, answers)
-                    call take_functional(links, of_reactions, answers, x)
-                end if
-            end do
-        end function norm
-
-        !> K^-1 times a right-hand side
-        subroutine solve(rhs, answers)
-            type(rhs_type), intent(inout) :: rhs(0:)
-            type(answer_type), intent(inout) :: answers(0:)
-            logical :: regular
-
-            answers = answer_type()
-            if (pivoting) then
-                call solve_pivoting(nodes, links, rhs, answers, regular)
-            else
-                call solve_chain(nodes, links, pivots, rhs, answers)
-            end if
-        end subroutine solve
-
-    end subroutine bound_errors
-
-    !> Largest change of every row: residual and what its terms may be off
-    pure subroutine row_weights(nodes, residual, sizes, weight)
-        type(node_type), intent(in) :: nodes(0:)
-        type(rhs_type), intent(in) :: residual(0:)
-        type(size_type), intent(in) :: sizes(0:)
-        real(wp), intent(out) :: weight(:, 0:)
-        integer :: i, n
-
-        n = ubound(nodes, 1)
-        do i = 0, n
-            associate (r => residual(i), s => sizes(i))
-                weight(1, i) = abs(r%left) + gamma*epsilon(1.0_wp)*s%left
-                weight(2, i) = abs(r%right) + gamma*epsilon(1.0_wp)*s%right
-                weight(3, i) = abs(r%shear) + gamma*epsilon(1.0_wp)*s%shear
-                if (nodes(i)%held) weight(3, i) = 0.0_wp
+        moves(:) = 0.0_wp
+        inside = 0.0_wp
+        call new_plain_workspace(beam, work)
+        work%ease(:) = ease
+        work%reference(:) = deflection
+        call set_plain_loads(beam, factor, work)
+        call apply_scheme(beam, closed, [0, size(beam%links)], work)
+        work%answers%deflection = deflection
+        work%answers%moment_left = moment_left
+        work%answers%moment_right = moment_right
+        call prepare_sensitivity(beam, factor, work, sensitivity)
+        if (.not. sensitivity%known) return
+        do kind = 1, size(moves)
+            call largest_movement(beam, sensitivity, kind, work, moves(kind))
+        end do
+        moves(:) = safety*moves
+        ! Between the nodes: what the ends of a link do to it, and its own loads
+        turns = 0.0_wp
+        bends = 0.0_wp
+        do i = 1, size(beam%links)
+            associate (link => beam%links(i), soft => max(beam%links(i)%bending, beam%links(i)%faa + beam%links(i)%fbb), &
+                       load => epsilon(1.0_wp)*(beam%links(i)%load_sum(1) + abs(factor)*beam%links(i)%load_sum(2)), &
+                       turn => epsilon(1.0_wp)*(beam%links(i)%turn_sum(1) + abs(factor)*beam%links(i)%turn_sum(2)))
+                inside = max(inside, link%length*(soft*moves(of_moments)/4 + turn))
+                turns = max(turns, soft*moves(of_moments)/2 + turn)
+                bends = max(bends, load*link%length/2)
+                moves(of_shears) = max(moves(of_shears), load)
             end associate
         end do
-    end subroutine row_weights
+        inside = moves(of_deflections) + inside
+        moves(of_rotations) = moves(of_rotations) + turns
+        moves(of_moments) = moves(of_moments) + bends
+    end subroutine find_movements
 
-    !> L' x as a right-hand side
-    subroutine spread_functional(nodes, links, of_reactions, x, rhs)
-        type(node_type), intent(in) :: nodes(0:)
-        type(link_type), intent(in) :: links(:)
-        logical, intent(in) :: of_reactions
-        real(wp), intent(in) :: x(:)
-        type(rhs_type), intent(out) :: rhs(0:)
-        real(wp) :: shear
-        integer :: i, n
+    !> Largest difference, rounded up; or, if there is anything but zeros, the error of the solution in quadruple precision
+    pure function difference(fine, rounded, sizes) result(largest)
+        real(qp), intent(in) :: fine(:)
+        real(wp), intent(in) :: rounded(:)
+        !> Of the terms of that solution
+        real(qp), intent(in) :: sizes(:)
+        real(wp) :: largest
+        real(qp) :: apart
 
-        n = size(links)
-        if (of_reactions) then
-            ! The shear of a link pulls at the node to its right and carries the one to its left
-            do i = 1, n
-                shear = (x(3*i) - x(3*i + 3))/links(i)%length
-                call add_moment(i, .true., shear)
-                call add_moment(i - 1, .false., -shear)
-            end do
-        else
-            do i = 0, n
-                if (.not. nodes(i)%held) rhs(i)%shear = x(3*i + 3)
-            end do
-        end if
+        apart = maxval(abs(fine - rounded))
+        largest = 0.0_wp
+        if (any(abs(rounded) > 0.0_wp) .or. apart > fine_error*maxval(sizes)) &
+            largest = real(max(apart, fine_error*maxval(sizes))*(1 + 2*epsilon(1.0_wp)), wp)
+    end function difference
 
-    contains
+    !> Errors of the fields along the beam
+    subroutine compare_fields(detail, factor, fine, work, starts, certificate)
+        type(detail_type), intent(in) :: detail
+        real(wp), intent(in) :: factor
+        type(fine_beam_type), intent(in) :: fine
+        type(fine_workspace_type), intent(in) :: work
+        type(field_type), intent(in) :: starts(:)
+        type(certificate_type), intent(inout) :: certificate
+        type(fine_field_type), allocatable :: fields(:)
+        type(field_type) :: change
+        integer :: j
 
-        !> Into the row that belongs to the moment left or right of a node; nowhere if that moment is known
-        subroutine add_moment(k, left, amount)
-            integer, intent(in) :: k
-            logical, intent(in) :: left
-            real(wp), intent(in) :: amount
-
-            if (nodes(k)%kind == restrained .and. left) then
-                rhs(k)%left = rhs(k)%left + amount
-            else if (nodes(k)%kind == restrained .or. (nodes(k)%kind == plain .and. k > 0 .and. k < n)) then
-                rhs(k)%right = rhs(k)%right + amount
-            end if
-        end subroutine add_moment
-
-    end subroutine spread_functional
-
-    !> L times a solution
-    pure subroutine take_functional(links, of_reactions, answers, x)
-        type(link_type), intent(in) :: links(:)
-        logical, intent(in) :: of_reactions
-        type(answer_type), intent(in) :: answers(0:)
-        real(wp), intent(out) :: x(:)
-        real(wp) :: shear
-        integer :: i
-
-        x = 0.0_wp
-        if (of_reactions) then
-            do i = 1, size(links)
-                shear = (answers(i)%moment_left - answers(i - 1)%moment_right)/links(i)%length
-                x(3*i) = x(3*i) + shear
-                x(3*i + 3) = -shear
-            end do
-        else
-            do i = 0, size(links)
-                x(3*i + 3) = answers(i)%deflection
-            end do
-        end if
-    end subroutine take_functional
-
-    !> Rows weighted, as a right-hand side
-    pure subroutine weigh_rows(weight, x, rhs)
-        real(wp), intent(in) :: weight(:, 0:), x(:)
-        type(rhs_type), intent(out) :: rhs(0:)
-        integer :: i
-
-        do i = 0, ubound(rhs, 1)
-            rhs(i)%left = weight(1, i)*x(3*i + 1)
-            rhs(i)%right = weight(2, i)*x(3*i + 2)
-            rhs(i)%shear = weight(3, i)*x(3*i + 3)
+        allocate (fields(size(starts)))
+        associate (a => work%answers)
+            call recover_beam(fine_piece(detail%pieces), fine_load(detail%dead), fine_load(detail%live), real(factor, qp), &
+                              fine%links, detail%last, fine%kind, a%deflection, a%moment_left, a%moment_right, work%shear, &
+                              fields)
+        end associate
+        do j = 1, size(starts)
+            associate (f => fields(j), s => starts(j))
+                change = field_type(apart(f%deflection, s%deflection), apart(f%rotation, s%rotation), &
+                                    apart(f%moment, s%moment), apart(f%shear, s%shear))
+            end associate
+            call add_piece(detail%pieces(j), detail%dead(j), detail%live(j), abs(factor), starts(j), change, certificate)
         end do
-    end subroutine weigh_rows
+    end subroutine compare_fields
 
-    !> A solution weighted, unknown by unknown as the rows
-    pure subroutine weigh_answers(weight, answers, x)
-        real(wp), intent(in) :: weight(:, 0:)
-        type(answer_type), intent(in) :: answers(0:)
-        real(wp), intent(out) :: x(:)
-        integer :: i
+    !> Distance of a number from what it was rounded to
+    elemental function apart(fine, rounded) result(distance)
+        real(qp), intent(in) :: fine
+        real(wp), intent(in) :: rounded
+        real(wp) :: distance
 
-        do i = 0, ubound(answers, 1)
-            x(3*i + 1) = weight(1, i)*answers(i)%moment_left
-            x(3*i + 2) = weight(2, i)*answers(i)%moment_right
-            x(3*i + 3) = weight(3, i)*answers(i)%deflection
-        end do
-    end subroutine weigh_answers
+        distance = real(abs(fine - rounded), wp)
+    end function apart
+
+    !> Errors of the fields inside a piece: those at its left end, carried on, and the rounding of every term
+    pure subroutine add_piece(piece, dead, live, factor, start, change, certificate)
+        type(piece_type), intent(in) :: piece
+        type(load_type), intent(in) :: dead, live
+        !> Size of the factor of the live loads
+        real(wp), intent(in) :: factor
+        !> Fields at the left end, and their errors
+        type(field_type), intent(in) :: start, change
+        type(certificate_type), intent(inout) :: certificate
+        type(field_type) :: error
+        real(wp) :: q, kappa
+        real(wp), parameter :: unit = roundings*epsilon(1.0_wp)
+
+        q = max(abs(dead%qa) + factor*abs(live%qa), abs(dead%qb) + factor*abs(live%qb))
+        kappa = abs(dead%kappa) + factor*abs(live%kappa)
+        ! Each error, and what rounds: the absolute values of the fields
+        error = field_type(change%deflection + unit*abs(start%deflection), change%rotation + unit*abs(start%rotation), &
+                           change%moment + unit*abs(start%moment), change%shear + unit*abs(start%shear))
+        associate (l => piece%length, f => piece%flexibility, g => piece%shear_flexibility)
+            certificate%shear = max(certificate%shear, error%shear + unit*l*q)
+            certificate%moment = max(certificate%moment, error%moment + l*(error%shear + unit*l*q/2))
+            certificate%rotation = max(certificate%rotation, error%rotation &
+                                       + l*(unit*kappa + f*(error%moment + l*(error%shear/2 + unit*l*q/6))))
+            certificate%deflection = max(certificate%deflection, error%deflection + l*(error%rotation &
+                                         + l*(unit*kappa/2 + f*(error%moment/2 + l*(error%shear/6 + unit*l*q/24)))) &
+                                         + g*l*(error%shear + unit*l*q/2))
+        end associate
+    end subroutine add_piece
 
 end module gapbeam_certificate

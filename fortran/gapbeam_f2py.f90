@@ -41,19 +41,20 @@ subroutine gbcond(np, nl, piece, dead, live, last, link)
 end subroutine gbcond
 
 ! Find the working scheme at one load factor and solve it
-subroutine gbsolv(nl, ns, link, kind, compli, force, couple, snode, sside, sstiff, scont, factor, rule, &
-                  closed, margin, w, ml, mr, shear, react, motion, solves, method, indiff, status, message)
+subroutine gbsolv(np, nl, ns, piece, dead, live, last, link, kind, compli, force, couple, snode, sside, sstiff, scont, &
+                  factor, rule, closed, undec, w, ml, mr, shear, react, motion, solves, method, indiff, back, status, message)
     use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
     use gapbeam_error, only: error_type, gapbeam_solved
     use gapbeam_link, only: link_type
     use gapbeam_model, only: beam_type, new_beam
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
-    use gapbeam_scheme, only: find_scheme, outcome_type
-    use gapbeam_path, only: find_marginal
+    use gapbeam_scheme, only: outcome_type
+    use gapbeam_referee, only: decide_scheme, detail_type
     implicit none
-    ! NL links, NL + 1 nodes, NS supports
-    integer, intent(in) :: nl, ns
-    double precision, intent(in), target :: link(21, nl)
+    ! NP pieces, NL links, NL + 1 nodes, NS supports
+    integer, intent(in) :: np, nl, ns
+    double precision, intent(in), target :: piece(3, np), dead(5, np), live(5, np), link(21, nl)
+    integer, intent(in), target :: last(nl)
     ! Nodes: 0 plain, 1 hinge, 2 rotational restraint of compliance COMPLI (0: clamp)
     integer, intent(in) :: kind(0:nl)
     double precision, intent(in) :: compli(0:nl)
@@ -67,43 +68,50 @@ subroutine gbsolv(nl, ns, link, kind, compli, force, couple, snode, sside, sstif
     integer, intent(in) :: rule
     ! Scheme: 1 closed, 0 open; start in, working scheme out
     integer, intent(inout) :: closed(ns)
-    ! 1 where the reaction or the opening is zero as far as rounding tells
-    integer, intent(out) :: margin(ns)
+    ! 1 where the reaction or the opening is zero, so that the support may be closed or open
+    integer, intent(out) :: undec(ns)
     ! Deflections, moments left and right of the nodes, shears of the links beside those of the simple bar, reactions (up)
     double precision, intent(out) :: w(0:nl), ml(0:nl), mr(0:nl), shear(nl), react(ns)
     ! Free motion where there is no equilibrium
     double precision, intent(out) :: motion(0:nl)
     ! Linear solves; system solved last: 0 mixed, 1 three-moment, 2 with pivoting; 1 where the beam can move freely
-    ! without work of the loads (the forces are unique, the position is not)
-    integer, intent(out) :: solves, method, indiff, status
+    ! without work of the loads (the forces are unique, the position is not); 1 where the rule single came back to a scheme
+    integer, intent(out) :: solves, method, indiff, back, status
     character(len=240), intent(out) :: message
     !f2py threadsafe
+    !f2py integer, intent(hide), depend(piece) :: np = shape(piece, 1)
     !f2py integer, intent(hide), depend(link) :: nl = shape(link, 1)
     !f2py integer, intent(hide), depend(snode) :: ns = shape(snode, 0)
     type(link_type), pointer :: links(:)
+    type(detail_type) :: detail
     type(beam_type) :: beam
     type(workspace_type) :: work
     type(outcome_type) :: outcome
     type(error_type), allocatable :: error
-    logical, allocatable :: acting(:), zero(:)
+    logical, allocatable :: acting(:)
 
     call c_f_pointer(c_loc(link), links, [nl])
+    call c_f_pointer(c_loc(piece), detail%pieces, [np])
+    call c_f_pointer(c_loc(dead), detail%dead, [np])
+    call c_f_pointer(c_loc(live), detail%live, [np])
+    detail%last => last
     call new_beam(links, kind, compli, force, couple, snode, sside, sstiff, scont, beam)
     call new_workspace(beam, work)
     call set_loads(beam, factor, work)
     allocate (acting(ns))
     acting(:) = closed /= 0
-    call find_scheme(beam, factor, rule, acting, work, outcome, error)
+    call decide_scheme(beam, detail, factor, rule, acting, work, outcome, error)
     w = 0.0d0
     ml = 0.0d0
     mr = 0.0d0
     shear = 0.0d0
     react = 0.0d0
     motion = 0.0d0
-    margin = 0
+    undec = 0
     indiff = 0
     solves = work%solves
     method = work%method
+    back = merge(1, 0, work%came_back)
     message = " "
     if (allocated(error)) then
         status = error%code
@@ -115,9 +123,7 @@ subroutine gbsolv(nl, ns, link, kind, compli, force, couple, snode, sside, sstif
     if (status /= gapbeam_solved) return
     closed = merge(1, 0, acting)
     indiff = merge(1, 0, outcome%indifferent)
-    allocate (zero(ns))
-    call find_marginal(beam, acting, work, zero)
-    margin = merge(1, 0, zero)
+    undec = merge(1, 0, outcome%undecided)
     w = work%answers%deflection
     ml = work%answers%moment_left
     mr = work%answers%moment_right
@@ -125,22 +131,21 @@ subroutine gbsolv(nl, ns, link, kind, compli, force, couple, snode, sside, sstif
     react = work%reaction
 end subroutine gbsolv
 
-! Residuals, and bounds for the errors of deflections and reactions, of a working scheme that GBSOLV found
-subroutine gbcert(nl, ns, link, kind, compli, force, couple, snode, sside, sstiff, scont, factor, &
-                  closed, resid, bound, known)
+! Residuals, and bounds for the errors, of a state that GBSOLV found
+subroutine gbcert(np, nl, ns, piece, dead, live, last, link, kind, compli, force, couple, snode, sside, sstiff, scont, &
+                  factor, closed, w, ml, mr, react, start, resid, bound, known)
     use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
+    use gapbeam_element, only: field_type
     use gapbeam_link, only: link_type
     use gapbeam_model, only: beam_type, new_beam
-    use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
-    use gapbeam_system, only: certify_scheme
-    use gapbeam_rules, only: complementarity
-    use gapbeam_error, only: error_type, gapbeam_solved
-    use gapbeam_scheme, only: find_scheme, outcome_type
-    use gapbeam_search, only: rule_block
+    use gapbeam_referee, only: detail_type
+    use gapbeam_certificate, only: certify, certificate_type
+    use gapbeam_error, only: error_type
     implicit none
-    ! As for GBSOLV
-    integer, intent(in) :: nl, ns
-    double precision, intent(in), target :: link(21, nl)
+    ! As for GBSOLV, START by GBRECO
+    integer, intent(in) :: np, nl, ns
+    double precision, intent(in), target :: piece(3, np), dead(5, np), live(5, np), link(21, nl)
+    integer, intent(in), target :: last(nl)
     integer, intent(in) :: kind(0:nl)
     double precision, intent(in) :: compli(0:nl)
     double precision, intent(in) :: force(2, 0:nl), couple(2, 0:nl)
@@ -148,52 +153,57 @@ subroutine gbcert(nl, ns, link, kind, compli, force, couple, snode, sside, sstif
     double precision, intent(in) :: sstiff(ns), scont(ns)
     double precision, intent(in) :: factor
     integer, intent(in) :: closed(ns)
+    double precision, intent(in) :: w(0:nl), ml(0:nl), mr(0:nl), react(ns)
+    double precision, intent(in), target :: start(4, np)
     ! Relative residuals of compatibility, equilibrium, complementarity
     double precision, intent(out) :: resid(3)
-    ! Largest errors of deflections and of reactions; 1, or 0 where the position is free: deflections have none then
-    double precision, intent(out) :: bound(2)
+    ! Largest errors of deflections of the nodes, of reactions; of deflections, rotations, moments, shears along the beam; 1, or 0
+    ! where the position is free: deflections and rotations have none then; -1 where the state could not be checked
+    double precision, intent(out) :: bound(6)
     integer, intent(out) :: known
     !f2py threadsafe
+    !f2py integer, intent(hide), depend(piece) :: np = shape(piece, 1)
     !f2py integer, intent(hide), depend(link) :: nl = shape(link, 1)
     !f2py integer, intent(hide), depend(snode) :: ns = shape(snode, 0)
     type(link_type), pointer :: links(:)
+    type(field_type), pointer :: starts(:)
+    type(detail_type) :: detail
     type(beam_type) :: beam
-    type(workspace_type) :: work
-    logical, allocatable :: acting(:)
-    logical :: found
-    type(outcome_type) :: outcome
+    type(certificate_type) :: found
     type(error_type), allocatable :: error
+    logical, allocatable :: acting(:)
 
     call c_f_pointer(c_loc(link), links, [nl])
+    call c_f_pointer(c_loc(start), starts, [np])
+    call c_f_pointer(c_loc(piece), detail%pieces, [np])
+    call c_f_pointer(c_loc(dead), detail%dead, [np])
+    call c_f_pointer(c_loc(live), detail%live, [np])
+    detail%last => last
     call new_beam(links, kind, compli, force, couple, snode, sside, sstiff, scont, beam)
-    call new_workspace(beam, work)
-    call set_loads(beam, factor, work)
     allocate (acting(ns))
     acting(:) = closed /= 0
-    resid = 0.0d0
-    bound = 0.0d0
-    known = 0
-    ! From the working scheme that is one solve
-    call find_scheme(beam, factor, rule_block, acting, work, outcome, error)
-    if (allocated(error) .or. outcome%status /= gapbeam_solved) return
-    call certify_scheme(beam, factor, work, bound(1), bound(2), found)
-    resid = [work%compatibility, work%equilibrium, complementarity(beam, acting, work)]
-    known = merge(1, 0, found)
+    call certify(beam, detail, factor, acting, w, ml, mr, react, starts, found, error)
+    resid = [found%compatibility, found%equilibrium, found%complementarity]
+    bound = [found%of_nodes, found%reaction, found%deflection, found%rotation, found%moment, found%shear]
+    known = merge(1, 0, found%known)
+    if (allocated(error)) known = -1
 end subroutine gbcert
 
 ! Follow the load from one factor to another, from event to event
-subroutine gbpath(nl, ns, most, link, kind, compli, force, couple, snode, sside, sstiff, scont, limit, rule, &
-                  factor, closed, margin, events, at, which, motion, solves, nodes, status, message)
+subroutine gbpath(np, nl, ns, most, piece, dead, live, last, link, kind, compli, force, couple, snode, sside, sstiff, scont, &
+                  limit, factor, closed, margin, events, at, which, what, motion, solves, nodes, status, message)
     use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
     use gapbeam_error, only: error_type
     use gapbeam_link, only: link_type
     use gapbeam_model, only: beam_type, new_beam
     use gapbeam_scheme, only: outcome_type
+    use gapbeam_referee, only: detail_type
     use gapbeam_path, only: follow_load, path_type
     implicit none
-    ! As for GBSOLV; it stops after about MOST changes of the scheme, to be called again
-    integer, intent(in) :: nl, ns, most
-    double precision, intent(in), target :: link(21, nl)
+    ! As for GBSOLV; it stops after about MOST events, to be called again
+    integer, intent(in) :: np, nl, ns, most
+    double precision, intent(in), target :: piece(3, np), dead(5, np), live(5, np), link(21, nl)
+    integer, intent(in), target :: last(nl)
     integer, intent(in) :: kind(0:nl)
     double precision, intent(in) :: compli(0:nl)
     double precision, intent(in) :: force(2, 0:nl), couple(2, 0:nl)
@@ -201,24 +211,25 @@ subroutine gbpath(nl, ns, most, link, kind, compli, force, couple, snode, sside,
     double precision, intent(in) :: sstiff(ns), scont(ns)
     ! Load factor to go to
     double precision, intent(in) :: limit
-    integer, intent(in) :: rule
     ! Load factor of the state at hand in; how far it went out, or above which there is no equilibrium
     double precision, intent(inout) :: factor
     ! Scheme at FACTOR and supports at zero there
     integer, intent(inout) :: closed(ns), margin(ns)
-    ! Changes of the scheme, EVENTS of them: load factors and supports (from 1)
+    ! EVENTS events: load factors, supports (from 1), and what happens: 0 opens, 1 closes, 3 the beam turns until this one holds
     integer, intent(out) :: events
-    double precision, intent(out) :: at(most + ns)
-    integer, intent(out) :: which(most + ns)
+    double precision, intent(out) :: at(most + 6*ns + 8)
+    integer, intent(out) :: which(most + 6*ns + 8), what(most + 6*ns + 8)
     ! Motion that begins where there is no equilibrium above FACTOR
     double precision, intent(out) :: motion(0:nl)
     ! Linear solves of the whole beam; nodes at which the solution was made anew besides
     integer, intent(out) :: solves, nodes, status
     character(len=240), intent(out) :: message
     !f2py threadsafe
+    !f2py integer, intent(hide), depend(piece) :: np = shape(piece, 1)
     !f2py integer, intent(hide), depend(link) :: nl = shape(link, 1)
     !f2py integer, intent(hide), depend(snode) :: ns = shape(snode, 0)
     type(link_type), pointer :: links(:)
+    type(detail_type) :: detail
     type(beam_type) :: beam
     type(path_type) :: path
     type(outcome_type) :: outcome
@@ -226,20 +237,26 @@ subroutine gbpath(nl, ns, most, link, kind, compli, force, couple, snode, sside,
     logical, allocatable :: acting(:), zero(:)
 
     call c_f_pointer(c_loc(link), links, [nl])
+    call c_f_pointer(c_loc(piece), detail%pieces, [np])
+    call c_f_pointer(c_loc(dead), detail%dead, [np])
+    call c_f_pointer(c_loc(live), detail%live, [np])
+    detail%last => last
     call new_beam(links, kind, compli, force, couple, snode, sside, sstiff, scont, beam)
     allocate (acting(ns), zero(ns))
     acting(:) = closed /= 0
     zero(:) = margin /= 0
     at = 0.0d0
     which = 0
+    what = 0
     motion = 0.0d0
     message = " "
-    call follow_load(beam, limit, rule, most, factor, acting, zero, path, outcome, error)
+    call follow_load(beam, detail, limit, most, factor, acting, zero, path, outcome, error)
     closed = merge(1, 0, acting)
     margin = merge(1, 0, zero)
     events = path%count
     at(:events) = path%factor(:events)
     which(:events) = path%support(:events)
+    what(:events) = path%event(:events)
     solves = path%solves
     nodes = path%nodes
     status = outcome%status
@@ -357,7 +374,7 @@ subroutine gbreco(np, nl, piece, dead, live, factor, link, last, kind, w, ml, mr
     use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
     use gapbeam_element, only: field_type
     use gapbeam_link, only: link_type, piece_type, load_type
-    use gapbeam_fields, only: recover_beam
+    use gapbeam_recover, only: recover_beam
     implicit none
     integer, intent(in) :: np, nl
     double precision, intent(in), target :: piece(3, np), dead(5, np), live(5, np), link(21, nl)

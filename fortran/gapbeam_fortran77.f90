@@ -183,7 +183,8 @@ subroutine gbevnt(work, iwork, factor, rule, maxev, state, lstate, istate, lista
     integer, intent(inout) :: istate(*)
     ! Number of events, which may be more than MAXEV
     integer, intent(inout) :: nev
-    ! The first MAXEV of them: load factor; support, and what it is from there on, 0 open or 1 closed
+    ! The first MAXEV of them: load factor; support, and what it is from there on, 0 open or 1 closed; 3: the
+    ! beam has lost its hold and turns at constant load until this support holds it
     double precision, intent(inout) :: evfact(*)
     integer, intent(inout) :: ievent(2, *)
     ! -1: no beam in WORK; -3, -4, -5; -7, -9: too short; 1, 12 to 15
@@ -363,11 +364,12 @@ subroutine gbcert(work, iwork, state, istate, cert, known, iundec, info)
     ! Beam and state
     double precision, intent(in) :: work(*), state(*)
     integer, intent(in) :: iwork(*), istate(*)
-    ! Relative residuals of equilibrium, compatibility, complementarity; largest error of any deflection of a node, any reaction
-    double precision, intent(inout) :: cert(5)
-    ! 1 where the last two are known
+    ! Relative residuals of equilibrium, compatibility, complementarity; largest error of any deflection of a node, any reaction;
+    ! of deflections, rotations, moments and shears along the beam
+    double precision, intent(inout) :: cert(9)
+    ! 1 where deflections and rotations have a bound
     integer, intent(inout) :: known
-    ! 1 for every support whose reaction or opening is smaller than its error can be
+    ! 1 for every support whose reaction or opening is zero, so that it may be closed or open
     integer, intent(inout) :: iundec(*)
     ! -1: no beam; -3: nothing solved, or not of this beam; 15
     integer, intent(out) :: info
@@ -391,7 +393,7 @@ subroutine gbcert(work, iwork, state, istate, cert, known, iundec, info)
         return
     end if
     cert = [certificate%equilibrium, certificate%compatibility, certificate%complementarity, &
-            certificate%deflection_bound, certificate%reaction_bound]
+            certificate%deflection_bound, certificate%reaction_bound, certificate%field_bound]
     known = merge(1, 0, certificate%known)
     iundec(1:size(undecided)) = merge(1, 0, undecided)
 end subroutine gbcert

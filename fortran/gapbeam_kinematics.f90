@@ -12,14 +12,11 @@ module gapbeam_kinematics
     private
     public :: free_motions, motion_type, work_of_loads
 
-    !> More motions than this are not listed
-    integer, parameter :: most_motions = 32
-
-    !> An independent free motion: displacements at the nodes, zero outside its range of nodes
+    !> An independent free motion
     type :: motion_type
-        !> First and last node that can move
+        !> First and last node that move
         integer :: first, last
-        !> Downward displacement of nodes 0..n, largest 1
+        !> Downward displacement of these nodes and of those between them, largest 1, shape (first:last)
         real(wp), allocatable :: displacement(:)
     end type motion_type
 
@@ -35,12 +32,14 @@ contains
         type(motion_type), allocatable, intent(out) :: motions(:)
         logical, allocatable :: fixed(:)
         real(wp), allocatable :: x(:), y(:)
-        integer :: n, i, start, conditions, origin
+        type(motion_type), allocatable :: longer(:)
+        integer :: n, i, start, conditions, origin, number
         logical :: moving, clamp
         real(wp) :: pivot
 
         n = size(beam%links)
-        allocate (x(0:n), y(0:n), fixed(0:n), motions(0))
+        allocate (x(0:n), y(0:n), fixed(0:n), motions(8))
+        number = 0
         x(0) = 0.0_wp
         do i = 1, n
             x(i) = x(i - 1) + beam%links(i)%length
@@ -84,7 +83,9 @@ contains
             end if
             start = i
         end do
-        if (moving) call record()
+        if (moving) call record(n)
+        longer = motions(1:number)
+        call move_alloc(longer, motions)
 
     contains
 
@@ -104,7 +105,7 @@ contains
 
             y(to) = at_end
             call fill(from, to)
-            call record()
+            call record(to)
         end subroutine close_motion
 
         !> The left end cannot move after all
@@ -137,27 +138,35 @@ contains
             end do
         end subroutine fill
 
-        subroutine record()
-            type(motion_type) :: motion
+        !> The motion at hand ends at a node at the latest
+        subroutine record(to)
+            integer, intent(in) :: to
 
             moving = .false.
-            if (size(motions) == most_motions) return
-            allocate (motion%displacement(0:n))
-            motion%displacement = y/maxval(abs(y))
-            motion%first = findloc(abs(y) > 0.0_wp, .true., 1) - 1
-            motion%last = findloc(abs(y) > 0.0_wp, .true., 1, back=.true.) - 1
-            motions = [motions, motion]
+            if (number == size(motions)) then
+                allocate (longer(2*number))
+                longer(1:number) = motions
+                call move_alloc(longer, motions)
+            end if
+            number = number + 1
+            associate (motion => motions(number))
+                motion%first = origin - 1 + findloc(abs(y(origin:to)) > 0.0_wp, .true., 1)
+                motion%last = origin - 1 + findloc(abs(y(origin:to)) > 0.0_wp, .true., 1, back=.true.)
+                allocate (motion%displacement(motion%first:motion%last))
+                motion%displacement(:) = y(motion%first:motion%last)/maxval(abs(y(origin:to)))
+            end associate
         end subroutine record
 
     end subroutine free_motions
 
     !> Work of the loads along a motion, and the sum of the absolute values of its parts
-    pure subroutine work_of_loads(beam, factor, displacement, work, size_of_parts)
+    pure subroutine work_of_loads(beam, factor, displacement, range, work, size_of_parts)
         !> The beam and the factor of its live loads
         type(beam_type), intent(in) :: beam
         real(wp), intent(in) :: factor
-        !> Displacements of the nodes, straight between them, shape (0:n)
+        !> Displacements of the nodes, straight between them, shape (0:n), and the first and last node that move
         real(wp), intent(in) :: displacement(0:)
+        integer, intent(in) :: range(2)
         !> Work, and how large its parts are
         real(wp), intent(out) :: work, size_of_parts
         real(wp) :: part, share(2)
@@ -167,7 +176,7 @@ contains
         share = [1.0_wp, factor]
         work = 0.0_wp
         size_of_parts = 0.0_wp
-        do i = 0, n
+        do i = max(0, range(1) - 1), min(n, range(2) + 1)
             part = displacement(i)*dot_product(share, beam%force(:, i))
             work = work + part
             size_of_parts = size_of_parts + abs(part)

@@ -5,13 +5,14 @@ module gapbeam_memory
     use gapbeam_lowered, only: lowered_type
     implicit none
     private
-    public :: reserve_memory, for_solving, for_following, for_fields
+    public :: reserve_memory, for_solving, for_following, for_fields, for_certifying
 
     !> What the memory is for
-    integer, parameter :: for_solving = 1, for_following = 2, for_fields = 3
+    integer, parameter :: for_solving = 1, for_following = 2, for_fields = 3, for_certifying = 4
     !> Bytes it takes for every link and every support: one and a half times the most that was measured (1050 and 100, 2300 and
     !> 250; tests/test_memory.c shows that it is enough); for every piece and axial bar; for small arrays and the allocator itself
-    integer(int64), parameter :: per_link(3) = [1600, 3600, 32], per_support(3) = [200, 600, 0], per_piece = 160, besides = 65536
+    integer(int64), parameter :: per_link(4) = [1600, 3600, 32, 6000], &
+        per_support(4) = [200, 600, 0, 1000], per_piece = 160, besides = 65536
 
 contains
 
@@ -20,7 +21,7 @@ contains
     subroutine reserve_memory(lowered, purpose, error)
         !> The beam that is to be solved
         type(lowered_type), intent(in) :: lowered
-        !> for_solving, for_following or for_fields
+        !> for_solving, for_following, for_fields or for_certifying
         integer, intent(in) :: purpose
         !> Set where the system refuses
         type(error_type), allocatable, intent(out) :: error

@@ -70,7 +70,7 @@ contains
         call exchange(tape, state%indifferent)
         call exchange(tape, state%slides)
         call exchange(tape, state%closed, 1)
-        call exchange(tape, state%marginal, 1)
+        call exchange(tape, state%undecided, 1)
         call exchange(tape, state%deflection, 0)
         call exchange(tape, state%moment_left, 0)
         call exchange(tape, state%moment_right, 0)

@@ -1,6 +1,6 @@
 !> A stretch of the beam as a beam of its own
 module gapbeam_part
-    use gapbeam_kinds, only: wp
+    use gapbeam_kinds, only: wp, dp
     use gapbeam_band, only: plain
     use gapbeam_model, only: beam_type, support_type, place_supports, both, is_rigid
     use gapbeam_workspace, only: workspace_type, new_workspace
@@ -22,6 +22,8 @@ contains
         integer :: margin
         real(wp) :: felt, bending
         integer :: k, count
+        ! Roots are taken in double precision, which needs no library for quadruple
+        real(wp), parameter :: largest = 1e300_wp
 
         felt = 0.0_wp
         count = 0
@@ -33,11 +35,12 @@ contains
                     bending = link%bending*link%length**2
                     ! (4 EI/k)**(1/4), k = stiffness/length, in lengths of the link (Hetenyi 1946)
                     if (.not. bending > 0.0_wp .or. is_rigid(s)) cycle
-                    felt = felt + min(real(size(beam%links), wp), sqrt(sqrt(4/(bending*s%stiffness))))
+                    felt = felt + min(real(size(beam%links), dp), &
+                                      sqrt(sqrt(real(min(4/(bending*s%stiffness), largest), dp))))
                 end associate
             end associate
         end do
-        margin = max(few, int(sqrt(real(size(beam%links), wp))))
+        margin = max(few, int(sqrt(real(size(beam%links), dp))))
         if (lengths*felt > margin*count) margin = 0
     end function least_margin
 
@@ -98,6 +101,8 @@ contains
         call place_supports(supports, part)
         call new_workspace(part, part_work)
         part_work%loads(:) = work%loads(from:to)
+        part_work%load_size(:) = work%load_size(from:to)
+        part_work%turn_size(:) = work%turn_size(from + 1:to)
         part_work%ease(:) = work%ease(from:to)
         part_work%reference(:) = work%reference(from:to)
         if (from > 0) then

@@ -1,38 +1,61 @@
 !> The path of the solution over the load factor, from one change of the working scheme to the next.
 !>
-!> While a scheme acts, all values are linear in the load factor: v = v0 + factor v1, with v0 from the dead loads and
-!> the contact levels, v1 from the live loads alone. The next event is the smallest factor ahead at which the
-!> reaction of a closed support or the opening of an open one becomes zero; it follows from v0 and v1 directly,
-!> so nothing accumulates along the path. What happens there is decided by the rate problem: supports at zero are
-!> one-sided without gap, other closed ones hold, other open ones are absent, and the live loads act alone. Mostly what
-!> moves through zero simply changes; if the rates then have the right signs, that is the solution of the rate
-!> problem. If not, it is a contact problem of its own, so any number of simultaneous changes is settled at once (parametric
-!> linear complementarity, Cottle 1972). Every scheme is right on one interval of factors only, so there are
-!> finitely many events.
+!> While a scheme acts, all values are linear in the load factor (gapbeam_line). The next event is the smallest factor
+!> ahead at which the reaction of a closed support or the opening of an open one becomes zero; it follows from v0 and v1
+!> directly, so nothing accumulates along the path. v0 and v1 are kept up to date around the supports that change
+!> (gapbeam_update), and a queue holds the factors at which the supports reach zero, so an event costs what it changes, not
+!> the whole beam. There are three ways on from an event, each taken where the one before does not do:
 !>
-!> v0 and v1 are kept up to date around the supports that change (gapbeam_update), and a queue holds the factors at which
-!> the supports reach zero, so an event costs what it changes, not the whole beam.
+!> 1. What moves through zero changes, and then moves the right way. Mostly this is all there is to it.
+!> 2. The scheme at a factor a little further up, found by the search, if every value of it is right from the event to there.
+!>    So coincident events, and beams that turn until something holds them, are settled at once.
+!> 3. The same in quadruple precision with proof (gapbeam_cell).
+!>
+!> A support that changes again at the factor at which it has just changed goes to 2 and 3, so at one factor the first
+!> way is taken once for every support at most; 2 and 3 end beyond the factor. A scheme acts on one interval of factors
+!> only, so there are finitely many events, and the path ends.
 module gapbeam_path
-    use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, fatal_error, gapbeam_not_converged, gapbeam_solved
+    use gapbeam_kinds, only: wp, qp
+    use gapbeam_error, only: error_type, gapbeam_solved
     use gapbeam_band, only: band_ok
     use gapbeam_model, only: beam_type, both
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
+    use gapbeam_rules, only: find_doubtful
     use gapbeam_update, only: start_updates, update_scheme, find_groups
-    use gapbeam_queue, only: queue_type, new_queue, set_key, first_key, all_up_to
+    use gapbeam_search, only: rule_block
     use gapbeam_scheme, only: find_scheme, outcome_type
-    use gapbeam_search, only: first_width
+    use gapbeam_line, only: line_type, line_of, without_dead_loads, value_at, width_at, zero_of, falls, stays_at_zero
+    use gapbeam_queue, only: queue_type, new_queue, set_key, first_key, all_up_to
+    use gapbeam_referee, only: detail_type, refine_beam
+    use gapbeam_model_quad, only: fine_beam_type => beam_type
+    use gapbeam_scheme_quad, only: fine_outcome_type => outcome_type
+    use gapbeam_line_quad, only: fine_value_at => value_at, fine_width_at => width_at
+    use gapbeam_cell, only: cell_type, find_cell
     implicit none
     private
-    public :: follow_load, find_marginal, path_type
+    public :: follow_load, path_type, event_opens, event_closes, event_turns
 
-    !> Changes of the scheme along the path, in the order in which they happen
+    !> What happens to a support
+    integer, parameter :: event_opens = 0, event_closes = 1
+    !> The beam loses its hold and turns, at constant load, until this support holds it
+    integer, parameter :: event_turns = 3
+
+    !> How much further up the scheme is looked for
+    real(wp), parameter :: look_ahead = 2.0_wp**(-20)
+    !> A support that changes so near to its last change, relative to the factor, has changed at the same factor
+    real(wp), parameter :: same_factor = 1e-12_wp
+    !> Factors in double and quadruple precision that differ by less, relative to the way, are the same
+    real(wp), parameter :: agreement = 1e-9_wp
+    !> Rounding errors beyond which a value is not near zero
+    real(wp), parameter :: far = 2.0_wp**16
+
+    !> Events along the path, in the order in which they happen
     type :: path_type
         !> How many there are in the arrays
         integer :: count = 0
-        !> Load factor, and support that opens or closes
+        !> Load factor, support, and what happens to it
         real(wp), allocatable :: factor(:)
-        integer, allocatable :: support(:)
+        integer, allocatable :: support(:), event(:)
         !> Linear solves of the whole beam; nodes at which the solution was made anew besides
         integer :: solves = 0, nodes = 0
     end type path_type
@@ -47,48 +70,24 @@ module gapbeam_path
         logical :: current = .false.
         !> Factors at which supports come near zero
         type(queue_type) :: queue
+        !> At which factor a support has changed last
+        real(wp), allocatable :: last_change(:)
+        !> The beam in quadruple precision, and the stretch as found so, if it was
+        type(fine_beam_type) :: fine
+        logical :: has_fine = .false., by_cell = .false.
+        type(cell_type) :: cell
     end type stretch_type
-
-    !> Reaction or opening of a support as a line over the load factor, counted positive, and the errors of its coefficients
-    type :: line_type
-        real(wp) :: v0 = 0.0_wp, v1 = 0.0_wp, error_of_v0 = 0.0_wp, error_of_v1 = 0.0_wp
-    end type line_type
 
 contains
 
-    !> Supports whose reaction or opening is zero in a solved state: they may change without notice
-    pure subroutine find_marginal(beam, closed, work, marginal)
-        !> The beam, the scheme, and the workspace with its solution
-        type(beam_type), intent(in) :: beam
-        logical, intent(in) :: closed(:)
-        type(workspace_type), intent(in) :: work
-        !> The supports at zero
-        logical, intent(out) :: marginal(:)
-        integer :: k
-
-        do k = 1, size(closed)
-            associate (s => beam%supports(k))
-                if (s%side == both .or. .not. s%stiffness > 0.0_wp) then
-                    marginal(k) = .false.
-                else if (closed(k)) then
-                    marginal(k) = abs(work%reaction(k)) <= first_width*work%reaction_error(k)
-                else
-                    marginal(k) = abs(s%contact - work%answers(s%node)%deflection) &
-                        <= first_width*epsilon(1.0_wp)*max(work%deflection_size(s%node), abs(s%contact))
-                end if
-            end associate
-        end do
-    end subroutine find_marginal
-
     !> Follow the load from one factor to another
-    subroutine follow_load(beam, limit, rule, most, factor, closed, marginal, path, outcome, error)
-        !> The beam
+    subroutine follow_load(beam, detail, limit, most, factor, closed, marginal, path, outcome, error)
+        !> The beam, and what its links are made of
         type(beam_type), intent(in) :: beam
+        type(detail_type), intent(in) :: detail
         !> Load factor to go to
         real(wp), intent(in) :: limit
-        !> How rate problems are solved
-        integer, intent(in) :: rule
-        !> Changes after which it stops to be called again; a few more may be made
+        !> Events after which it stops to be called again; up to 5 a support, and one, more may be made
         integer, intent(in) :: most
         !> Load factor of the state at hand in; how far it went out, or above which there is no equilibrium
         real(wp), intent(inout) :: factor
@@ -96,26 +95,37 @@ contains
         logical, intent(inout) :: closed(:)
         !> Supports at zero at that factor
         logical, intent(inout) :: marginal(:)
-        !> The changes, those at the first factor included
+        !> The events, those at the first factor included
         type(path_type), intent(out) :: path
         !> No equilibrium above the factor reached: the beam begins to move
         type(outcome_type), intent(out) :: outcome
         type(error_type), allocatable, intent(out) :: error
         type(stretch_type) :: stretch
         integer, allocatable :: at_zero(:)
-        real(wp) :: next
+        real(qp) :: exactly
+        real(wp) :: begin
+        logical :: done
         integer :: k
 
-        allocate (path%factor(max(most, 1)), path%support(max(most, 1)))
+        allocate (path%factor(max(most, 1)), path%support(max(most, 1)), path%event(max(most, 1)))
         call new_stretch(beam, stretch)
         at_zero = pack([(k, k=1, size(closed))], marginal)
+        begin = factor
+        exactly = factor
+        call start_stretch(beam, closed, factor, stretch, path)
+        if (stretch%current) call add_those_at_zero(beam, closed, factor, stretch, at_zero)
         do
-            call change_at(beam, rule, factor, closed, at_zero, stretch, path, outcome, error)
-            if (allocated(error) .or. outcome%status /= gapbeam_solved) exit
-            call find_next(beam, closed, factor, stretch, at_zero, next)
-            if (next >= limit) at_zero = [integer ::]
-            factor = min(next, limit)
-            if (next >= limit .or. path%count >= most) exit
+            call change_in_place(beam, factor, closed, at_zero, stretch, path, done)
+            if (.not. done) call look_further(beam, factor, limit, at_zero, closed, stretch, path, done)
+            if (.not. done) then
+                call look_closely(beam, detail, exactly, limit, at_zero, closed, stretch, path, outcome, error)
+                if (allocated(error) .or. outcome%status /= gapbeam_solved) exit
+            end if
+            call find_next(beam, closed, factor, limit, stretch, at_zero, exactly)
+            if (exactly >= limit) at_zero = [integer ::]
+            factor = max(factor, real(min(exactly, real(limit, qp)), wp))
+            if (exactly >= limit) exit
+            if (path%count >= most .and. (factor > begin .or. path%count >= most + 3*size(closed))) exit
         end do
         marginal = .false.
         marginal(at_zero) = .true.
@@ -125,67 +135,103 @@ contains
     subroutine new_stretch(beam, stretch)
         type(beam_type), intent(in) :: beam
         type(stretch_type), intent(out) :: stretch
-        integer :: i
 
-        stretch%incremental = beam
-        stretch%incremental%supports%contact = 0.0_wp
-        stretch%incremental%force(1, :) = 0.0_wp
-        stretch%incremental%couple(1, :) = 0.0_wp
-        do i = 1, size(beam%links)
-            associate (link => stretch%incremental%links(i))
-                link%turn_a(1) = 0.0_wp
-                link%turn_b(1) = 0.0_wp
-                link%shear_a(1) = 0.0_wp
-                link%shear_b(1) = 0.0_wp
-            end associate
-        end do
+        call without_dead_loads(beam, stretch%incremental)
         call new_workspace(beam, stretch%dead)
         call set_loads(beam, 0.0_wp, stretch%dead)
         call new_workspace(beam, stretch%live)
         call set_loads(stretch%incremental, 1.0_wp, stretch%live)
         call new_queue(size(beam%supports), stretch%queue)
+        allocate (stretch%last_change(size(beam%supports)))
+        stretch%last_change(:) = -huge(1.0_wp)
     end subroutine new_stretch
 
-    !> From the scheme at a factor to the one just above it
-    subroutine change_at(beam, rule, factor, closed, at_zero, stretch, path, outcome, error)
+    !> Solve v0 and v1 of a scheme; the stretch is not current if that takes more than a plain solve
+    subroutine start_stretch(beam, closed, factor, stretch, path)
         type(beam_type), intent(in) :: beam
-        integer, intent(in) :: rule
+        logical, intent(in) :: closed(:)
+        real(wp), intent(in) :: factor
+        type(stretch_type), intent(inout) :: stretch
+        type(path_type), intent(inout) :: path
+        logical :: solved, follows, live_follows
+        integer :: k
+
+        stretch%by_cell = .false.
+        call start_updates(beam, closed, stretch%dead, solved, follows)
+        if (solved) call start_updates(stretch%incremental, closed, stretch%live, solved, live_follows)
+        path%solves = path%solves + 2
+        stretch%current = solved
+        if (solved) stretch%current = follows .and. live_follows
+        if (.not. stretch%current) return
+        do k = 1, size(closed)
+            call queue_support(beam, closed, k, factor, stretch)
+        end do
+    end subroutine start_stretch
+
+    !> Supports that are at zero at a factor
+    subroutine add_those_at_zero(beam, closed, factor, stretch, at_zero)
+        type(beam_type), intent(in) :: beam
+        logical, intent(in) :: closed(:)
+        real(wp), intent(in) :: factor
+        type(stretch_type), intent(in) :: stretch
+        !> Some of them in, all out
+        integer, allocatable, intent(inout) :: at_zero(:)
+        logical, allocatable :: there(:)
+        type(line_type) :: line
+        integer :: k
+
+        allocate (there(size(closed)))
+        there(:) = .false.
+        there(at_zero) = .true.
+        do k = 1, size(closed)
+            if (beam%supports(k)%side == both .or. .not. beam%supports(k)%stiffness > 0.0_wp) cycle
+            line = line_of(beam, stretch%incremental, closed(k), k, stretch%dead, stretch%live)
+            there(k) = there(k) .or. abs(value_at(line, factor)) <= width_at(line, factor)
+        end do
+        at_zero = pack([(k, k=1, size(closed))], there)
+    end subroutine add_those_at_zero
+
+    !> Change what moves through zero, if that is all there is to do
+    subroutine change_in_place(beam, factor, closed, at_zero, stretch, path, done)
+        type(beam_type), intent(in) :: beam
         real(wp), intent(in) :: factor
         logical, intent(inout) :: closed(:)
         !> Supports at zero, those that stay there out
         integer, allocatable, intent(inout) :: at_zero(:)
         type(stretch_type), intent(inout) :: stretch
         type(path_type), intent(inout) :: path
-        type(outcome_type), intent(out) :: outcome
-        type(error_type), allocatable, intent(out) :: error
-        logical, allocatable :: before(:)
+        logical, intent(out) :: done
         integer, allocatable :: moving(:)
-        integer :: k, j
+        integer :: j
 
-        if (stretch%current) then
-            moving = pack(at_zero, [(moves(line_of(beam, closed(at_zero(j)), at_zero(j), stretch)), j=1, size(at_zero))])
-            call change_supports(beam, moving, factor, closed, stretch, path)
-            if (stretch%current) stretch%current = .not. any([(moves(line_of(beam, closed(at_zero(j)), at_zero(j), stretch)), &
-                                                               j=1, size(at_zero))])
-            if (.not. stretch%current) closed(moving) = .not. closed(moving)
+        done = .false.
+        if (.not. stretch%current) return
+        moving = pack(at_zero, [(falls(line(at_zero(j))), j=1, size(at_zero))])
+        if (any(factor - stretch%last_change(moving) <= same_factor*abs(factor))) return
+        call change_supports(beam, moving, factor, closed, stretch, path)
+        if (stretch%current) done = .not. any([(falls(line(at_zero(j))), j=1, size(at_zero))])
+        if (.not. done) then
+            ! The lines are those of the scheme tried
+            stretch%current = .false.
+            closed(moving) = .not. closed(moving)
+            return
         end if
-        if (stretch%current) then
-            do j = 1, size(moving)
-                call add_change(path, factor, moving(j))
-            end do
-        else
-            allocate (before(size(closed)))
-            before(:) = closed
-            call solve_rates(rule, at_zero, closed, stretch, path, outcome, error)
-            if (allocated(error) .or. outcome%status /= gapbeam_solved) return
-            do k = 1, size(closed)
-                if (closed(k) .neqv. before(k)) call add_change(path, factor, k)
-            end do
-            call start_stretch(beam, factor, closed, stretch, path, error)
-            if (allocated(error)) return
-        end if
-        at_zero = pack(at_zero, [(stays(line_of(beam, closed(at_zero(j)), at_zero(j), stretch), factor), j=1, size(at_zero))])
-    end subroutine change_at
+        stretch%last_change(moving) = factor
+        do j = 1, size(moving)
+            call add_event(path, factor, moving(j), merge(event_closes, event_opens, closed(moving(j))))
+        end do
+        at_zero = pack(at_zero, [(stays_at_zero(line(at_zero(j)), factor), j=1, size(at_zero))])
+
+    contains
+
+        pure function line(k)
+            integer, intent(in) :: k
+            type(line_type) :: line
+
+            line = line_of(beam, stretch%incremental, closed(k), k, stretch%dead, stretch%live)
+        end function line
+
+    end subroutine change_in_place
 
     !> Change supports in v0 and v1, and in the queue; afterwards the stretch is not current if that is not possible
     subroutine change_supports(beam, changed, factor, closed, stretch, path)
@@ -213,92 +259,123 @@ contains
         end do
     end subroutine change_supports
 
-    !> Solve v0 and v1 of a scheme anew
-    subroutine start_stretch(beam, factor, closed, stretch, path, error)
+    !> Find the scheme a little further up, and whether it acts all the way from the event
+    subroutine look_further(beam, factor, limit, at_zero, closed, stretch, path, done)
         type(beam_type), intent(in) :: beam
-        real(wp), intent(in) :: factor
-        logical, intent(in) :: closed(:)
+        real(wp), intent(in) :: factor, limit
+        !> Supports at zero, those that stay there out
+        integer, allocatable, intent(inout) :: at_zero(:)
+        logical, intent(inout) :: closed(:)
         type(stretch_type), intent(inout) :: stretch
         type(path_type), intent(inout) :: path
-        type(error_type), allocatable, intent(out) :: error
-        logical :: solved, follows, live_follows
+        logical, intent(out) :: done
+        type(workspace_type) :: work
+        type(outcome_type) :: outcome
+        type(error_type), allocatable :: error
+        logical, allocatable :: after(:), doubtful(:), was_far(:), is_far(:)
+        type(line_type) :: line
+        real(wp) :: trial
         integer :: k
 
-        call start_updates(beam, closed, stretch%dead, solved, follows)
-        if (solved) call start_updates(stretch%incremental, closed, stretch%live, solved, live_follows)
-        if (.not. solved) then
-            call fatal_error(error, gapbeam_not_converged, "above this load factor the beam can move freely without work of "// &
-                             "the loads, so there is no single path of its supports: follow the load by steps")
+        done = .false.
+        allocate (after(size(closed)), doubtful(size(closed)), was_far(size(closed)), is_far(size(closed)))
+        after(:) = closed
+        trial = factor + look_ahead*max(abs(factor), limit - factor)
+        call new_workspace(beam, work)
+        call set_loads(beam, trial, work)
+        call find_scheme(beam, trial, rule_block, after, work, outcome, error)
+        path%solves = path%solves + work%solves
+        if (allocated(error) .or. outcome%status /= gapbeam_solved .or. outcome%indifferent) return
+        call find_doubtful(beam, after, work, doubtful)
+        call start_stretch(beam, after, factor, stretch, path)
+        if (.not. stretch%current) return
+        was_far(:) = .true.
+        was_far(at_zero) = .false.
+        do k = 1, size(closed)
+            line = line_of(beam, stretch%incremental, after(k), k, stretch%dead, stretch%live)
+            if (value_at(line, factor) < -width_at(line, factor) .or. &
+                (doubtful(k) .and. .not. stays_at_zero(line, trial))) then
+                stretch%current = .false.
+                return
+            end if
+            is_far(k) = value_at(line, factor) > far*width_at(line, factor)
+        end do
+        done = .true.
+        call note_changes(factor, closed, after, was_far, is_far, stretch, path)
+        closed(:) = after
+        at_zero = pack(at_zero, [(stays_at_zero(line_of(beam, stretch%incremental, closed(at_zero(k)), at_zero(k), &
+                                                        stretch%dead, stretch%live), factor), k=1, size(at_zero))])
+    end subroutine look_further
+
+    !> Find the next stretch in quadruple precision
+    subroutine look_closely(beam, detail, factor, limit, at_zero, closed, stretch, path, outcome, error)
+        type(beam_type), intent(in) :: beam
+        type(detail_type), intent(in) :: detail
+        real(qp), intent(in) :: factor
+        real(wp), intent(in) :: limit
+        !> Supports at zero, none out
+        integer, allocatable, intent(inout) :: at_zero(:)
+        logical, intent(inout) :: closed(:)
+        type(stretch_type), intent(inout) :: stretch
+        type(path_type), intent(inout) :: path
+        type(outcome_type), intent(out) :: outcome
+        type(error_type), allocatable, intent(out) :: error
+        type(fine_outcome_type) :: found
+        logical, allocatable :: was_far(:), is_far(:)
+
+        if (.not. stretch%has_fine) then
+            call refine_beam(beam, detail, stretch%fine)
+            stretch%has_fine = .true.
+        end if
+        stretch%current = .false.
+        allocate (was_far(size(closed)), is_far(size(closed)))
+        was_far(:) = .true.
+        was_far(at_zero) = .false.
+        call find_cell(stretch%fine, factor, real(limit, qp), closed, stretch%cell, found, error)
+        path%solves = path%solves + stretch%cell%solves
+        if (allocated(error)) return
+        if (found%status /= gapbeam_solved) then
+            outcome = outcome_type(status=found%status)
+            outcome%motion = real(found%motion, wp)
             return
         end if
-        path%solves = path%solves + 2
-        stretch%current = follows .and. live_follows
-        do k = 1, size(closed)
-            call queue_support(beam, closed, k, factor, stretch)
-        end do
-    end subroutine start_stretch
-
-    !> Reaction or opening of a support over the load factor
-    pure function line_of(beam, closed, k, stretch) result(line)
-        type(beam_type), intent(in) :: beam
-        !> Does the support act
-        logical, intent(in) :: closed
-        integer, intent(in) :: k
-        type(stretch_type), intent(in) :: stretch
-        type(line_type) :: line
-
-        associate (s => beam%supports(k), dead => stretch%dead, live => stretch%live)
-            if (s%side == both .or. .not. s%stiffness > 0.0_wp) return
-            if (closed) then
-                line%v0 = s%side*dead%reaction(k)
-                line%v1 = s%side*live%reaction(k)
-                line%error_of_v0 = first_width*dead%reaction_error(k)
-                line%error_of_v1 = first_width*live%reaction_error(k)
-            else
-                line%v0 = s%side*(s%contact - dead%answers(s%node)%deflection)
-                line%v1 = -s%side*live%answers(s%node)%deflection
-                line%error_of_v0 = first_width*epsilon(1.0_wp)*max(dead%deflection_size(s%node), abs(s%contact))
-                line%error_of_v1 = first_width*epsilon(1.0_wp)*live%deflection_size(s%node)
-            end if
+        stretch%by_cell = .true.
+        associate (line => stretch%cell%lines)
+            is_far(:) = fine_value_at(line, factor) > far*fine_width_at(line, factor)
         end associate
-    end function line_of
+        call note_changes(real(factor, wp), closed, stretch%cell%closed, was_far, is_far, stretch, path)
+        closed(:) = stretch%cell%closed
+        at_zero = [integer ::]
+    end subroutine look_closely
 
-    !> Does a line fall as the factor grows
-    elemental function moves(line)
-        type(line_type), intent(in) :: line
-        logical :: moves
-
-        moves = line%v1 < -line%error_of_v1
-    end function moves
-
-    !> How near to zero counts as zero at a factor
-    elemental function width_of(line, factor) result(width)
-        type(line_type), intent(in) :: line
+    !> Note what changes between two schemes at a factor. If something that changes was not at zero before, or is not after,
+    !> the beam has moved a finite way at constant load: it has turned
+    subroutine note_changes(factor, before, after, was_far, is_far, stretch, path)
         real(wp), intent(in) :: factor
-        real(wp) :: width
+        logical, intent(in) :: before(:), after(:)
+        !> Is a support far from zero before and after the change
+        logical, intent(in) :: was_far(:), is_far(:)
+        type(stretch_type), intent(inout) :: stretch
+        type(path_type), intent(inout) :: path
+        logical :: closes
+        integer :: k, pass, holds
 
-        width = max(line%error_of_v0 + factor*line%error_of_v1, &
-                    4*epsilon(1.0_wp)*max(abs(line%v0), factor*abs(line%v1)))
-    end function width_of
-
-    !> Is a line at zero, and does it stay there
-    elemental function stays(line, factor)
-        type(line_type), intent(in) :: line
-        real(wp), intent(in) :: factor
-        logical :: stays
-
-        stays = abs(line%v1) <= line%error_of_v1 .and. abs(line%v0 + factor*line%v1) <= width_of(line, factor)
-    end function stays
-
-    !> The factor at which a falling line is zero
-    elemental function zero_of(line, factor) result(zero)
-        type(line_type), intent(in) :: line
-        !> Where it is at hand
-        real(wp), intent(in) :: factor
-        real(wp) :: zero
-
-        zero = max(factor, -line%v0/line%v1)
-    end function zero_of
+        holds = 0
+        if (any((before .neqv. after) .and. merge(was_far, is_far, after))) then
+            holds = findloc(after .and. .not. before, .true., 1)
+            if (holds == 0) holds = findloc(before .neqv. after, .true., 1)
+        end if
+        do pass = 1, 2
+            closes = pass == 2
+            if (closes .and. holds > 0) call add_event(path, factor, holds, event_turns)
+            do k = 1, size(before)
+                if (before(k) .eqv. after(k)) cycle
+                if (after(k) .neqv. closes) cycle
+                stretch%last_change(k) = factor
+                call add_event(path, factor, k, merge(event_closes, event_opens, closes))
+            end do
+        end do
+    end subroutine note_changes
 
     !> Put a support into the queue with the first factor at which it counts as zero
     pure subroutine queue_support(beam, closed, k, factor, stretch)
@@ -310,95 +387,100 @@ contains
         type(line_type) :: line
         real(wp) :: zero
 
-        line = line_of(beam, closed(k), k, stretch)
-        if (moves(line)) then
-            zero = zero_of(line, factor)
-            call set_key(stretch%queue, k, zero - width_of(line, zero)/abs(line%v1))
+        line = line_of(beam, stretch%incremental, closed(k), k, stretch%dead, stretch%live)
+        if (falls(line)) then
+            zero = max(factor, zero_of(line))
+            call set_key(stretch%queue, k, zero - width_at(line, zero)/abs(line%v1))
         else
             call set_key(stretch%queue, k, huge(zero))
         end if
     end subroutine queue_support
 
     !> The next event, and the supports at zero there
-    subroutine find_next(beam, closed, factor, stretch, at_zero, next)
+    subroutine find_next(beam, closed, factor, limit, stretch, at_zero, next)
         type(beam_type), intent(in) :: beam
         logical, intent(in) :: closed(:)
-        real(wp), intent(in) :: factor
-        type(stretch_type), intent(in) :: stretch
+        real(wp), intent(in) :: factor, limit
+        type(stretch_type), intent(inout) :: stretch
         !> Supports that stay at zero in, all that are there at the next event out
         integer, allocatable, intent(inout) :: at_zero(:)
         !> Its load factor; huge if there is none
-        real(wp), intent(out) :: next
-        integer, allocatable :: near(:)
-        logical, allocatable :: there(:)
-        integer :: j, round
+        real(qp), intent(out) :: next
+        type(path_type) :: beside
+        real(qp) :: to
+        integer :: k
 
-        next = huge(next)
-        if (.not. first_key(stretch%queue) < huge(next)) return
-        ! The first to come near zero need not be the first that is there
-        near = all_up_to(stretch%queue, first_key(stretch%queue))
-        do round = 1, 2
-            do j = 1, size(near)
-                next = min(next, zero_of(line_of(beam, closed(near(j)), near(j), stretch), factor))
+        if (.not. stretch%by_cell) then
+            call next_in_queue()
+            return
+        end if
+        ! Lines in double precision will do again if they lead to the same event
+        to = stretch%cell%to
+        call start_stretch(beam, closed, factor, stretch, beside)
+        if (stretch%current) then
+            call next_in_queue()
+            stretch%current = abs(min(next, real(limit, qp)) - min(to, real(limit, qp))) <= agreement*(limit - factor) &
+                .and. min(next, real(limit, qp)) > factor
+        end if
+        next = to
+        if (stretch%current) return
+        stretch%by_cell = .true.
+        associate (line => stretch%cell%lines)
+            at_zero = pack([(k, k=1, size(closed))], abs(fine_value_at(line, to)) <= fine_width_at(line, to))
+        end associate
+
+    contains
+
+        subroutine next_in_queue()
+            integer, allocatable :: near(:)
+            logical, allocatable :: there(:)
+            real(wp) :: at
+            integer :: j, round
+
+            next = huge(next)
+            if (.not. first_key(stretch%queue) < huge(at)) return
+            ! The first to come near zero need not be the first that is there
+            at = huge(at)
+            near = all_up_to(stretch%queue, first_key(stretch%queue))
+            do round = 1, 2
+                do j = 1, size(near)
+                    at = min(at, max(factor, zero_of(line(near(j)))))
+                end do
+                near = all_up_to(stretch%queue, at)
             end do
-            near = all_up_to(stretch%queue, next)
-        end do
-        allocate (there(size(near)))
-        do j = 1, size(near)
-            associate (line => line_of(beam, closed(near(j)), near(j), stretch))
-                there(j) = abs(line%v0 + next*line%v1) <= width_of(line, next)
-            end associate
-        end do
-        at_zero = [at_zero, pack(near, there)]
+            allocate (there(size(near)))
+            do j = 1, size(near)
+                there(j) = abs(value_at(line(near(j)), at)) <= width_at(line(near(j)), at)
+            end do
+            at_zero = [at_zero, pack(near, there)]
+            next = at
+        end subroutine next_in_queue
+
+        pure function line(k)
+            integer, intent(in) :: k
+            type(line_type) :: line
+
+            line = line_of(beam, stretch%incremental, closed(k), k, stretch%dead, stretch%live)
+        end function line
+
     end subroutine find_next
 
-    !> Note a change
-    pure subroutine add_change(path, factor, k)
+    !> Note an event
+    pure subroutine add_event(path, factor, k, event)
         type(path_type), intent(inout) :: path
         real(wp), intent(in) :: factor
-        integer, intent(in) :: k
+        !> Support, and what happens to it
+        integer, intent(in) :: k, event
 
         if (path%count == size(path%factor)) then
             path%factor = [path%factor, path%factor]
             path%support = [path%support, path%support]
+            path%event = [path%event, path%event]
         end if
         path%count = path%count + 1
         path%factor(path%count) = factor
         path%support(path%count) = k
-    end subroutine add_change
-
-    !> The rate problem as a contact problem: what the live loads alone do from here
-    subroutine solve_rates(rule, at_zero, closed, stretch, path, outcome, error)
-        integer, intent(in) :: rule
-        integer, intent(in) :: at_zero(:)
-        logical, intent(inout) :: closed(:)
-        type(stretch_type), intent(in) :: stretch
-        type(path_type), intent(inout) :: path
-        type(outcome_type), intent(out) :: outcome
-        type(error_type), allocatable, intent(out) :: error
-        type(beam_type) :: rates
-        type(workspace_type) :: work
-        logical, allocatable :: free(:)
-        integer :: k
-
-        rates = stretch%incremental
-        allocate (free(size(closed)))
-        free(:) = .false.
-        free(at_zero) = .true.
-        do k = 1, size(closed)
-            associate (s => rates%supports(k))
-                if (free(k) .or. s%side == both) cycle
-                if (closed(k)) then
-                    s%side = both
-                else
-                    s%stiffness = 0.0_wp
-                end if
-            end associate
-        end do
-        call new_workspace(rates, work)
-        call set_loads(rates, 1.0_wp, work)
-        call find_scheme(rates, 1.0_wp, rule, closed, work, outcome, error)
-        path%solves = path%solves + work%solves
-    end subroutine solve_rates
+        path%event(path%count) = event
+    end subroutine add_event
 
 end module gapbeam_path

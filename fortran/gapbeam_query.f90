@@ -3,21 +3,24 @@ module gapbeam_query
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, fatal_error, gapbeam_bad_input
     use gapbeam_element, only: field_type
-    use gapbeam_fields, only: recover_beam, values_at, find_extremes
+    use gapbeam_fields, only: values_at, find_extremes
     use gapbeam_model, only: both
     use gapbeam_scene, only: gapbeam_axial
     use gapbeam_lowered, only: lowered_type, position_tolerance
     use gapbeam_places, only: locate
     use gapbeam_check, only: shown
+    use gapbeam_path, only: event_opens, event_closes, event_turns
     use gapbeam_memory, only: reserve_memory, for_fields
-    use gapbeam_state, only: state_type
+    use gapbeam_state, only: state_type, recover_state
     implicit none
     private
     public :: support_values, find_undecided, fields_at_places, extremes_of_fields, motion_of_nodes, node_places
-    public :: gapbeam_open, gapbeam_closed, gapbeam_bilateral, field_count
+    public :: gapbeam_open, gapbeam_closed, gapbeam_bilateral, gapbeam_turns, field_count
 
     !> States of a support
-    integer, parameter :: gapbeam_open = 0, gapbeam_closed = 1, gapbeam_bilateral = 2
+    integer, parameter :: gapbeam_open = event_opens, gapbeam_closed = event_closes, gapbeam_bilateral = 2
+    !> An event: the beam has lost its hold and turns, at constant load, until the support holds it
+    integer, parameter :: gapbeam_turns = event_turns
     !> Fields: deflection, rotation, moment, shear, axial force, axial displacement
     integer, parameter :: field_count = 6
 
@@ -69,31 +72,15 @@ contains
         end associate
     end subroutine support_values
 
-    !> Supports whose reaction or opening is smaller than its error can be: open or closed is not decided
-    pure subroutine find_undecided(lowered, state, deflection_bound, reaction_bound, known, undecided)
+    !> Supports whose reaction or opening is zero: open or closed is not decided
+    pure subroutine find_undecided(lowered, state, undecided)
         type(lowered_type), intent(in) :: lowered
         type(state_type), intent(in) :: state
-        !> From certify_state
-        real(wp), intent(in) :: deflection_bound, reaction_bound
-        logical, intent(in) :: known
         !> In the order of the model, shape (nsupport)
         logical, intent(out) :: undecided(:)
-        integer :: j
 
-        undecided = .false.
-        do j = 1, size(lowered%normal)
-            associate (s => lowered%beam%supports(j), here => undecided(lowered%normal(j)))
-                if (.not. known) then
-                    here = state%marginal(j)
-                else if (s%side == both .or. .not. s%stiffness > 0.0_wp) then
-                    here = .false.
-                else if (state%closed(j)) then
-                    here = abs(state%reaction(j)) <= reaction_bound
-                else
-                    here = abs(s%contact - state%deflection(s%node)) <= deflection_bound
-                end if
-            end associate
-        end do
+        undecided(:) = .false.
+        undecided(lowered%normal) = state%undecided
     end subroutine find_undecided
 
     !> Fields at the left ends of all pieces, if they are not there yet
@@ -105,11 +92,7 @@ contains
         if (state%has_starts) return
         call reserve_memory(lowered, for_fields, error)
         if (allocated(error)) return
-        associate (n => size(lowered%beam%links))
-            call recover_beam(lowered%pieces, lowered%dead, lowered%live, state%factor, lowered%beam%links, &
-                              lowered%node_point(1:n), lowered%beam%kind, state%deflection, state%moment_left, &
-                              state%moment_right, state%shear, state%starts)
-        end associate
+        call recover_state(lowered, state, state%starts)
         state%has_starts = .true.
     end subroutine make_starts
 

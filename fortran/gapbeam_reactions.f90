@@ -100,15 +100,14 @@ contains
         integer :: i
 
         do i = range(1), range(2)
-            work%reach_own(i) = reach_type(abs(work%loads(i)%shear), abs(work%answers(i)%deflection))
+            work%reach_own(i) = reach_type(work%load_size(i), abs(work%answers(i)%deflection))
         end do
         do i = max(range(1), 1), min(range(2) + 1, size(beam%links))
             associate (link => beam%links(i), a => work%answers(i - 1), b => work%answers(i))
                 ! Also the moments that imposed rotations and contact levels would make if they were held fast
-                turn = abs(work%loads(i - 1)%right) + abs(work%loads(i)%left) &
-                    + (work%level(i) + work%level(i - 1))*link%inverse
+                turn = work%turn_size(i) + (work%level(i) + work%level(i - 1))*link%inverse
                 moment = max(abs(a%moment_right), abs(b%moment_left), turn*work%fixity(i))
-                beside = reach_type(2*moment*link%inverse, link%bending*link%length*moment)
+                beside = reach_type(2*moment*link%inverse, max(link%bending, link%faa + link%fbb)*link%length*moment)
                 if (i > range(1)) work%reach_own(i - 1) = passed_on(beside, work%reach_own(i - 1), .false.)
                 if (i <= range(2)) work%reach_own(i) = passed_on(beside, work%reach_own(i), .false.)
             end associate
@@ -141,12 +140,15 @@ contains
         !> First and last node
         integer, intent(in) :: range(2)
         type(workspace_type), intent(inout) :: work
-        real(wp) :: by_spring, by_node, spring_error, node_error, elastic
-        integer :: i, j, k, company
+        real(wp) :: by_spring, by_node, spring_error, node_error, elastic, elastic_error, worst_error
+        integer :: i, j, k, company, worst
 
         do i = range(1), range(2)
             company = 0
             elastic = 0.0_wp
+            elastic_error = 0.0_wp
+            worst_error = 0.0_wp
+            worst = 0
             do j = beam%first(i), beam%first(i + 1) - 1
                 k = beam%order(j)
                 work%reaction(k) = 0.0_wp
@@ -154,7 +156,12 @@ contains
                 if (.not. acting(k)) cycle
                 company = company + 1
                 associate (s => beam%supports(k))
-                    if (.not. is_rigid(s)) elastic = elastic + s%stiffness*(work%answers(i)%deflection - s%contact)
+                    if (is_rigid(s)) cycle
+                    elastic = elastic + s%stiffness*(work%answers(i)%deflection - s%contact)
+                    spring_error = epsilon(1.0_wp)*s%stiffness*max(work%deflection_size(i), abs(s%contact))
+                    elastic_error = elastic_error + spring_error
+                    if (spring_error > worst_error) worst = k
+                    worst_error = max(worst_error, spring_error)
                 end associate
             end do
             if (company == 0) cycle
@@ -172,9 +179,11 @@ contains
                     end if
                     by_spring = s%stiffness*(work%answers(i)%deflection - s%contact)
                     spring_error = epsilon(1.0_wp)*s%stiffness*max(work%deflection_size(i), abs(s%contact))
-                    if (company == 1 .and. node_error < spring_error) then
-                        work%reaction(k) = by_node
-                        work%reaction_error(k) = node_error
+                    if (k == worst .and. node_error + (elastic_error - spring_error) < spring_error &
+                        .and. .not. work%nodes(i)%held) then
+                        ! What the others leave of the force at the node
+                        work%reaction(k) = by_node - (elastic - by_spring)
+                        work%reaction_error(k) = node_error + (elastic_error - spring_error)
                     else
                         work%reaction(k) = by_spring
                         work%reaction_error(k) = spring_error
@@ -194,7 +203,7 @@ contains
 
         left = 0.0_wp
         right = 0.0_wp
-        error = epsilon(1.0_wp)*abs(work%loads(i)%shear)
+        error = epsilon(1.0_wp)*work%load_size(i)
         if (i > 0) then
             left = work%shear(i)
             error = error + work%shear_error(i)

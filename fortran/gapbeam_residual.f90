@@ -17,8 +17,8 @@ module gapbeam_residual
         real(wp) :: low = 0.0_wp
     end type double_double
 
-    !> Splits a double into two halves of 26 bits
-    real(wp), parameter :: splitter = 134217729.0_wp
+    !> Splits a number into two halves of its bits
+    real(wp), parameter :: splitter = 2.0_wp**((digits(1.0_wp) + 1)/2) + 1
 
     !> Sums of the absolute values of the terms of a node's rows. A difference of deflections or moments is one term: only
     !> the length that divides it can be off

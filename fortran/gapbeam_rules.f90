@@ -6,10 +6,13 @@ module gapbeam_rules
     use gapbeam_reactions, only: find_own_sizes
     implicit none
     private
-    public :: find_wrong, find_clearly_wrong, complementarity, keep_worst, keep_least_index, separate_rigid_pairs
+    public :: find_wrong, find_clearly_wrong, find_doubtful, margin_of, complementarity
+    public :: keep_worst_pull, keep_local_worst, keep_least_index, separate_rigid_pairs, first_width
 
+    !> Rounding errors beyond which a sign counts
+    real(wp), parameter :: first_width = 32.0_wp
     !> Far above all rounding errors
-    real(wp), parameter :: near_zero = 1e-10_wp
+    real(wp), parameter :: near_zero = 2.0_wp**19*epsilon(1.0_wp)
 
 contains
 
@@ -21,22 +24,64 @@ contains
         real(wp), intent(in) :: width
         type(workspace_type), intent(in) :: work
         logical, intent(out) :: wrong(:)
+        real(wp) :: margin, rounding
         integer :: k
 
         do k = 1, size(closed)
-            associate (s => beam%supports(k), w => work%answers(beam%supports(k)%node)%deflection, &
-                       size_of_w => work%deflection_size(beam%supports(k)%node))
-                if (s%side == both) then
-                    wrong(k) = .false.
-                else if (closed(k)) then
-                    wrong(k) = s%side*work%reaction(k) < -width*work%reaction_error(k)
-                else
-                    wrong(k) = s%side*(w - s%contact) > width*epsilon(w)*max(size_of_w, abs(s%contact)) &
-                        .and. s%stiffness > 0.0_wp
-                end if
-            end associate
+            call margin_of(beam, closed(k), k, work, margin, rounding)
+            wrong(k) = margin < -width*rounding
         end do
     end subroutine find_wrong
+
+    !> Of which supports the sign cannot be told from zero, so that their state may be either
+    pure subroutine find_doubtful(beam, closed, work, doubtful, in_doubt)
+        !> The beam, its scheme, and the workspace with its solution
+        type(beam_type), intent(in) :: beam
+        logical, intent(in) :: closed(:)
+        type(workspace_type), intent(in) :: work
+        !> Shape (size(closed))
+        logical, intent(out) :: doubtful(:)
+        !> Is any of them not exactly zero
+        logical, intent(out), optional :: in_doubt
+        real(wp) :: margin, rounding
+        integer :: k
+
+        if (present(in_doubt)) in_doubt = .false.
+        do k = 1, size(closed)
+            associate (s => beam%supports(k))
+                doubtful(k) = .false.
+                if (s%side == both .or. .not. s%stiffness > 0.0_wp) cycle
+                call margin_of(beam, closed(k), k, work, margin, rounding)
+                doubtful(k) = abs(margin) <= first_width*rounding
+                if (present(in_doubt)) in_doubt = in_doubt .or. (doubtful(k) .and. rounding > 0.0_wp)
+            end associate
+        end do
+    end subroutine find_doubtful
+
+    !> By how much the state of a support is right, and the rounding error of that: the one measure of all signs
+    pure subroutine margin_of(beam, closed, k, work, margin, rounding)
+        type(beam_type), intent(in) :: beam
+        !> Does the support act, and its number
+        logical, intent(in) :: closed
+        integer, intent(in) :: k
+        type(workspace_type), intent(in) :: work
+        !> Force with which it pushes, or distance to contact; 0 for supports whose state does not change
+        real(wp), intent(out) :: margin
+        real(wp), intent(out) :: rounding
+
+        margin = 0.0_wp
+        rounding = 0.0_wp
+        associate (s => beam%supports(k), w => work%answers(beam%supports(k)%node)%deflection)
+            if (s%side == both .or. .not. s%stiffness > 0.0_wp) return
+            if (closed) then
+                margin = s%side*work%reaction(k)
+                rounding = work%reaction_error(k)
+            else
+                margin = s%side*(s%contact - w)
+                rounding = epsilon(w)*max(work%deflection_size(s%node), abs(s%contact))
+            end if
+        end associate
+    end subroutine margin_of
 
     !> The same from deflections and moments alone, as long as nothing is near zero
     pure subroutine find_clearly_wrong(beam, closed, work, wrong, doubtful)
@@ -103,19 +148,33 @@ contains
         end do
     end function complementarity
 
-    !> The paper's rule. Put back first: of neighbouring open supports the most penetrated one. Release only where
-    !> no open stretch beside waits for a support to be put back: of neighbouring closed supports the one that
-    !> pulls most. With local this is done in all neighbourhoods at once, otherwise one release in the whole beam.
-    pure subroutine keep_worst(beam, closed, work, local, wrong)
+    !> The paper's rule (section 3): of the closed supports that pull release the one that pulls most, and put back every
+    !> open one that is penetrated
+    pure subroutine keep_worst_pull(closed, work, wrong)
+        logical, intent(in) :: closed(:)
+        type(workspace_type), intent(in) :: work
+        !> All wrong supports in, those to be changed out
+        logical, intent(inout) :: wrong(:)
+        integer :: worst
+
+        if (.not. any(wrong .and. closed)) return
+        worst = maxloc(abs(work%reaction), 1, wrong .and. closed)
+        wrong = wrong .and. .not. closed
+        wrong(worst) = .true.
+    end subroutine keep_worst_pull
+
+    !> One change in every neighbourhood. Put back first: of neighbouring open supports the most penetrated one. Release only
+    !> where no open stretch beside waits for a support to be put back: of neighbouring closed supports the one that pulls
+    !> most
+    pure subroutine keep_local_worst(beam, closed, work, wrong)
         type(beam_type), intent(in) :: beam
         logical, intent(in) :: closed(:)
         type(workspace_type), intent(in) :: work
-        logical, intent(in) :: local
         !> All wrong supports in, those to be changed out
         logical, intent(inout) :: wrong(:)
         logical, allocatable :: waits(:)
         real(wp), allocatable :: badness(:)
-        integer :: n, first, last, k, worst
+        integer :: n, first, last, k
 
         n = size(closed)
         allocate (waits(0:n + 1), badness(size(closed)))
@@ -138,17 +197,13 @@ contains
             first = last + 1
             last = end_of_run(closed, beam%order, first)
             if (.not. closed(beam%order(first))) cycle
-            if (waits(first - 1) .or. waits(last + 1) .or. (any(waits) .and. .not. local)) then
+            if (waits(first - 1) .or. waits(last + 1)) then
                 wrong(beam%order(first:last)) = .false.
-            else if (local) then
+            else
                 call keep_one_of_each(beam%order(first:last), badness, wrong)
             end if
         end do
-        if (local .or. any(waits)) return
-        worst = maxloc(badness, 1, wrong)
-        wrong = .false.
-        wrong(worst) = .true.
-    end subroutine keep_worst
+    end subroutine keep_local_worst
 
     !> End of the run of supports with the same state
     pure function end_of_run(state, order, first) result(last)

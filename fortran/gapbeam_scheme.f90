@@ -6,7 +6,7 @@
 !> gone from the final answer. If the reference runs away along a free motion that no support can stop and along
 !> which the loads do work, there is no equilibrium: that motion is the proof (Farkas' lemma).
 module gapbeam_scheme
-    use gapbeam_kinds, only: wp
+    use gapbeam_kinds, only: wp, dp
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_no_equilibrium, &
         gapbeam_indeterminate, gapbeam_not_converged, gapbeam_not_finite
     use gapbeam_band, only: band_ok, band_needs_pivoting, hinge, restrained
@@ -14,16 +14,27 @@ module gapbeam_scheme
     use gapbeam_kinematics, only: free_motions, motion_type, work_of_loads
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_system, only: solve_scheme, refine_scheme
-    use gapbeam_rules, only: find_wrong, separate_rigid_pairs
-    use gapbeam_search, only: settle, refuse, first_width
+    use gapbeam_rules, only: find_wrong, separate_rigid_pairs, first_width
+    use gapbeam_search, only: settle, refuse
     implicit none
     private
     public :: find_scheme, outcome_type
 
     !> Weak springs relative to the softest stiffness present
-    real(wp), parameter :: ease_ratio = 1e-5_wp
+    real(wp), parameter :: ease_ratio = 10.0_wp**(-precision(1.0_wp)/3)
+    !> Work and speed, relative to the sum of their parts and to the largest, that count as none
+    !> (places and loads are rounded to doubles, whatever the precision here)
+    real(wp), parameter :: no_work = max(4096*epsilon(1.0_wp), 8*real(epsilon(1.0_dp), wp)), &
+        no_speed = max(512*epsilon(1.0_wp), 4*real(epsilon(1.0_dp), wp))
+    !> So many times that much is clearly more
+    real(wp), parameter :: clearly_more = 1024.0_wp
     !> Moves of the reference position before giving up
     integer, parameter :: most_moves = 200
+
+    !> A part of the beam that the loads move while a scheme acts: first and last node that move
+    type :: runaway_type
+        integer :: first, last
+    end type runaway_type
 
     !> How the search ended, apart from errors
     type :: outcome_type
@@ -33,6 +44,11 @@ module gapbeam_scheme
         real(wp), allocatable :: motion(:)
         !> Can the beam move freely without work of the loads (forces are unique, the position is not)
         logical :: indifferent = .false.
+        !> Does it depend on work or speed that is hardly more than its rounding error
+        logical :: in_doubt = .false.
+        !> Supports whose reaction or opening is zero as far as any precision here tells: their state may be either
+        !> (gapbeam_referee), shape (size(closed))
+        logical, allocatable :: undecided(:)
     end type outcome_type
 
 contains
@@ -60,6 +76,7 @@ contains
         closed = closed .or. beam%supports%side == both
         call separate_rigid_pairs(beam, closed)
         work%solves = 0
+        work%came_back = .false.
         work%ease = 0.0_wp
         call free_motions(beam, beam%supports%side == both, motions)
         allocate (start(size(closed)))
@@ -118,10 +135,11 @@ contains
         type(outcome_type), intent(inout) :: outcome
         type(error_type), allocatable, intent(out) :: error
         logical, allocatable :: wrong(:)
+        type(runaway_type), allocatable :: runaways(:)
         real(wp), allocatable :: eased(:), direction(:)
         real(wp) :: ease, way
-        logical :: settled, stable
-        integer :: move, state, place
+        logical :: settled, stable, in_doubt
+        integer :: move, state, place, r
 
         allocate (wrong(size(closed)), eased(0:size(beam%links)), direction(0:size(beam%links)))
         ease = ease_ratio*softest(beam)
@@ -132,7 +150,7 @@ contains
             if (allocated(error)) return
             eased = work%answers%deflection
             ! Does the scheme hold without the springs?
-            call runaway(beam, factor, closed, direction, stable)
+            call find_runaways(beam, factor, closed, direction, runaways, stable, in_doubt)
             if (stable) then
                 work%ease = 0.0_wp
                 call solve_scheme(beam, closed, work, state, place)
@@ -143,23 +161,32 @@ contains
                     call find_wrong(beam, closed, first_width, work, wrong)
                     if (.not. any(wrong)) return
                 end if
-            else if (.not. any(abs(direction) > 0.0_wp)) then
+            else if (size(runaways) == 0) then
                 ! Free to move, but no load does work: the springs carry nothing once the reference has come to rest
-                if (maxval(abs(eased - work%reference)) <= max(1e-12_wp*maxval(abs(eased)), &
+                if (maxval(abs(eased - work%reference)) <= max(4096*epsilon(1.0_wp)*maxval(abs(eased)), &
                                                                epsilon(1.0_wp)*maxval(work%shear_size)/ease)) then
                     outcome%indifferent = .true.
+                    outcome%in_doubt = in_doubt
                     return
                 end if
             else
-                way = distance_to_contact(beam, closed, direction, eased)
-                if (.not. way < huge(way)) then
-                    outcome%status = gapbeam_no_equilibrium
-                    call prefer_tipping(beam, factor, direction)
-                    allocate (outcome%motion(0:size(beam%links)))
-                    outcome%motion(:) = direction
-                    return
-                end if
-                eased = eased + way*direction
+                do r = 1, size(runaways)
+                    associate (from => runaways(r)%first, to => runaways(r)%last)
+                        way = distance_to_contact(beam, closed, from, to, direction, eased)
+                        if (.not. way < huge(way)) then
+                            outcome%status = gapbeam_no_equilibrium
+                            direction(:from - 1) = 0.0_wp
+                            direction(to + 1:) = 0.0_wp
+                            outcome%in_doubt = in_doubt .or. any(beam%supports%side*direction(beam%supports%node) > 0.0_wp &
+                                                                 .and. beam%supports%stiffness > 0.0_wp)
+                            call prefer_tipping(beam, factor, direction)
+                            allocate (outcome%motion(0:size(beam%links)))
+                            outcome%motion(:) = direction
+                            return
+                        end if
+                        eased(from:to) = eased(from:to) + way*direction(from:to)
+                    end associate
+                end do
             end if
             work%reference = eased
         end do
@@ -167,49 +194,124 @@ contains
                          "could not be settled: give it a support that holds both ways, or check the loads")
     end subroutine iterate_floating
 
-    !> The free motion into which the loads push the beam while a scheme acts: the combination of the independent
-    !> motions whose work is greatest for its size, the direction in which the weak springs give way
-    subroutine runaway(beam, factor, closed, direction, stable)
+    !> The free motions into which the loads push the beam while a scheme acts: of each part that moves by itself the
+    !> combination of its independent motions whose work is greatest for its size, the direction in which the weak springs give
+    !> way
+    subroutine find_runaways(beam, factor, closed, direction, runaways, stable, in_doubt)
         type(beam_type), intent(in) :: beam
         real(wp), intent(in) :: factor
         logical, intent(in) :: closed(:)
-        !> Displacements of the nodes, largest 1; zero if no load does work
+        !> Displacements of the nodes, largest 1 in every part; zero if no load does work
         real(wp), intent(out) :: direction(0:)
-        !> Is there no free motion at all
-        logical, intent(out) :: stable
+        !> The parts that the loads move
+        type(runaway_type), allocatable, intent(out) :: runaways(:)
+        !> Is there no free motion at all; is work of the loads near its rounding error
+        logical, intent(out) :: stable, in_doubt
         type(motion_type), allocatable :: motions(:)
-        real(wp), allocatable :: gram(:, :), share(:)
+        real(wp), allocatable :: y(:), gram(:, :), share(:)
         real(wp) :: parts, largest
-        integer :: k, j, m
+        integer :: k, begin, finish, last, number
 
         call free_motions(beam, closed, motions)
-        m = size(motions)
-        stable = m == 0
+        stable = size(motions) == 0
+        in_doubt = .false.
         direction = 0.0_wp
+        allocate (runaways(0))
         if (stable) return
-        allocate (gram(m, m), share(m))
-        do k = 1, m
-            call work_of_loads(beam, factor, motions(k)%displacement, share(k), parts)
-            if (abs(share(k)) <= 1e-12_wp*parts) share(k) = 0.0_wp
-            do j = 1, k
-                gram(k, j) = dot_product(motions(k)%displacement, motions(j)%displacement)
-                gram(j, k) = gram(k, j)
+        allocate (share(size(motions)), y(0:size(beam%links)))
+        y(:) = 0.0_wp
+        do k = 1, size(motions)
+            associate (motion => motions(k))
+                y(motion%first:motion%last) = motion%displacement
+                call work_of_loads(beam, factor, y, [motion%first, motion%last], share(k), parts)
+                y(motion%first:motion%last) = 0.0_wp
+            end associate
+            in_doubt = in_doubt .or. (abs(share(k)) > 0.0_wp .and. abs(share(k)) <= clearly_more*no_work*parts)
+            if (abs(share(k)) <= no_work*parts) share(k) = 0.0_wp
+        end do
+        deallocate (runaways)
+        allocate (runaways(size(motions)))
+        number = 0
+        begin = 1
+        do while (begin <= size(motions))
+            finish = begin
+            last = motions(begin)%last
+            do while (finish < size(motions))
+                if (motions(finish + 1)%first > last) exit
+                finish = finish + 1
+                last = max(last, motions(finish)%last)
+            end do
+            call overlaps(motions(begin:finish), gram)
+            call solve_gram(gram, share(begin:finish))
+            do k = begin, finish
+                associate (d => direction(motions(k)%first:motions(k)%last))
+                    d = d + share(k)*motions(k)%displacement
+                end associate
+            end do
+            associate (first => motions(begin)%first)
+                largest = maxval(abs(direction(first:last)))
+                if (largest > 0.0_wp) then
+                    direction(first:last) = direction(first:last)/largest
+                    number = number + 1
+                    runaways(number) = runaway_type(first, last)
+                end if
+            end associate
+            begin = finish + 1
+        end do
+        runaways = runaways(1:number)
+    end subroutine find_runaways
+
+    !> Scalar products of motions and those before them that they overlap with: gram(j, k) of motions k and k - j
+    pure subroutine overlaps(motions, gram)
+        type(motion_type), intent(in) :: motions(:)
+        real(wp), allocatable, intent(out) :: gram(:, :)
+        integer :: j, k, width, from, to
+
+        width = 0
+        do k = 1, size(motions)
+            do j = 1, k - 1
+                if (motions(j)%last < motions(k)%first) cycle
+                width = max(width, k - j)
+                exit
             end do
         end do
-        ! Cholesky elimination; the motions are independent, so the matrix is positive definite
-        do k = 1, m
-            do j = k + 1, m
-                share(j) = share(j) - gram(j, k)/gram(k, k)*share(k)
-                gram(j, k + 1:) = gram(j, k + 1:) - gram(j, k)/gram(k, k)*gram(k, k + 1:)
+        allocate (gram(0:width, size(motions)))
+        gram(:, :) = 0.0_wp
+        do k = 1, size(motions)
+            do j = 0, min(width, k - 1)
+                from = max(motions(k)%first, motions(k - j)%first)
+                to = min(motions(k)%last, motions(k - j)%last)
+                if (from <= to) gram(j, k) = dot_product(motions(k)%displacement(from:to), motions(k - j)%displacement(from:to))
             end do
         end do
-        do k = m, 1, -1
-            share(k) = (share(k) - dot_product(gram(k, k + 1:), share(k + 1:)))/gram(k, k)
-            direction = direction + share(k)*motions(k)%displacement
+    end subroutine overlaps
+
+    !> Solve with a band of scalar products (Cholesky, without roots); the motions are independent, so it is positive definite
+    pure subroutine solve_gram(gram, share)
+        !> Overwritten
+        real(wp), intent(inout) :: gram(0:, :)
+        !> Right-hand side in, solution out
+        real(wp), intent(inout) :: share(:)
+        real(wp) :: multiplier
+        integer :: i, j, k, width
+
+        width = ubound(gram, 1)
+        do k = 1, size(share)
+            do i = k + 1, min(k + width, size(share))
+                multiplier = gram(i - k, i)/gram(0, k)
+                share(i) = share(i) - multiplier*share(k)
+                do j = i, min(k + width, size(share))
+                    gram(j - i, j) = gram(j - i, j) - multiplier*gram(j - k, j)
+                end do
+            end do
         end do
-        largest = maxval(abs(direction))
-        if (largest > 0.0_wp) direction = direction/largest
-    end subroutine runaway
+        do k = size(share), 1, -1
+            do i = k + 1, min(k + width, size(share))
+                share(k) = share(k) - gram(i - k, i)*share(i)
+            end do
+            share(k) = share(k)/gram(0, k)
+        end do
+    end subroutine solve_gram
 
     !> Of the ways in which a beam without hinges can go, the plainest: tipping about one of its supports, or moving as a
     !> whole; the one along which the loads do most work. The motion found is kept if none of these is free. Only the
@@ -259,8 +361,8 @@ contains
                     if (any(s%stiffness > 0.0_wp .and. (s%side*y(s%node) > 0.0_wp &
                                                         .or. (s%side == both .and. abs(y(s%node)) > 0.0_wp)))) cycle
                 end associate
-                call work_of_loads(beam, factor, y, done, parts)
-                if (done <= max(most, 1e-12_wp*parts)) cycle
+                call work_of_loads(beam, factor, y, [0, n], done, parts)
+                if (done <= max(most, no_work*parts)) cycle
                 most = done
                 best(:) = y
             end do
@@ -268,19 +370,22 @@ contains
 
     end subroutine prefer_tipping
 
-    !> How far the beam can go along a motion until an open support is met
-    pure function distance_to_contact(beam, closed, direction, deflection) result(way)
+    !> How far a part of the beam can go along a motion until an open support is met
+    pure function distance_to_contact(beam, closed, from, to, direction, deflection) result(way)
         type(beam_type), intent(in) :: beam
         logical, intent(in) :: closed(:)
+        !> First and last node of the part
+        integer, intent(in) :: from, to
         real(wp), intent(in) :: direction(0:), deflection(0:)
         real(wp) :: way, speed
-        integer :: k
+        integer :: j, k
 
         way = huge(way)
-        do k = 1, size(closed)
+        do j = beam%first(from), beam%first(to + 1) - 1
+            k = beam%order(j)
             associate (s => beam%supports(k))
                 speed = s%side*direction(s%node)
-                if (closed(k) .or. .not. speed > 1e-13_wp .or. .not. s%stiffness > 0.0_wp) cycle
+                if (closed(k) .or. .not. speed > no_speed .or. .not. s%stiffness > 0.0_wp) cycle
                 way = min(way, max(0.0_wp, s%side*(s%contact - deflection(s%node))/speed))
             end associate
         end do

@@ -2,8 +2,8 @@
 !>
 !> A scheme is right when no closed support pulls and no open one is penetrated. Two rules find it.
 !>
-!> single   the paper's: put back the open supports that are penetrated, else release the closed one that pulls
-!>          most, until nothing changes. Not proved finite; if a scheme comes back, block goes on.
+!> single   the paper's: release the closed support that pulls most and put back every open one that is penetrated, until
+!>          nothing changes. Not proved finite; if a scheme comes back, block goes on.
 !> block    where the wrong supports lie in a part of a long beam, find the scheme of that part by itself, with what the
 !>          rest does to it as loads, and solve the whole again (domain decomposition after Schwarz); fronts
 !>          are moved by statics first. Otherwise change every wrong support at once while their number keeps
@@ -22,14 +22,15 @@ module gapbeam_search
     use gapbeam_workspace, only: workspace_type
     use gapbeam_system, only: solve_deflections, complete_scheme, refine_scheme
     use gapbeam_update, only: keep_factor, update_scheme, find_groups
-    use gapbeam_rules, only: find_wrong, find_clearly_wrong, keep_worst, keep_least_index, separate_rigid_pairs
+    use gapbeam_rules, only: find_wrong, find_clearly_wrong, keep_worst_pull, keep_local_worst, keep_least_index, &
+        separate_rigid_pairs, first_width
     use gapbeam_reactions, only: find_shears
     use gapbeam_fronts, only: base_type, find_base, move_fronts
     use gapbeam_part, only: next_stretch, cut_out, least_margin
     use gapbeam_interior_point, only: interior_type, start_interior, step_interior, product_of
     implicit none
     private
-    public :: settle, refuse, first_width, rule_block, rule_single
+    public :: settle, refuse, rule_block, rule_single
 
     !> The two rules
     integer, parameter :: rule_block = 0, rule_single = 1
@@ -43,7 +44,7 @@ module gapbeam_search
     !> Such solves after the last guess. When reactions times openings have fallen by this much, so many changes of a
     !> guess in a step show that rounding has taken over
     integer, parameter :: final_patience = 16, rounding_changes = 40
-    real(wp), parameter :: rounding_product = 1e-8_wp
+    real(wp), parameter :: rounding_product = sqrt(epsilon(1.0_wp))
     !> Steps of the interior-point method at most; changes of its guess in a step at which the guess is tried; steps
     !> between two trials
     integer, parameter :: most_steps = 60, few_changes = 4, steps_between = 4
@@ -51,8 +52,8 @@ module gapbeam_search
     integer, parameter :: part_rounds = 8
     !> Largest share of the beam that the parts of a round may have
     real(wp), parameter :: largest_share = 0.7_wp
-    !> Signs are decided beyond this many rounding errors; widened where they still flicker, up to a limit
-    real(wp), parameter :: first_width = 32.0_wp, last_width = 1e7_wp
+    !> Signs are decided beyond first_width rounding errors; widened where they still flicker, up to a limit
+    real(wp), parameter :: last_width = 1e7_wp
 
     !> A search on its way
     type :: search_type
@@ -219,9 +220,10 @@ contains
         do
             call look(beam, closed, .true., work, search, settled)
             if (settled .or. search%state /= band_ok) return
-            call keep_worst(beam, closed, work, .false., search%wrong)
+            call keep_worst_pull(closed, work, search%wrong)
             closed = closed .neqv. search%wrong
-            if (came_back(mark, closed)) return
+            work%came_back = came_back(mark, closed)
+            if (work%came_back) return
         end do
     end subroutine change_single
 
@@ -279,7 +281,7 @@ contains
                 idle = idle + 1
                 if (idle > idle_solves) return
                 if (search%wrong_now <= few) then
-                    call keep_worst(beam, closed, work, .true., search%wrong)
+                    call keep_local_worst(beam, closed, work, search%wrong)
                 end if
             end if
             closed = closed .neqv. search%wrong

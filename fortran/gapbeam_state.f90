@@ -5,21 +5,19 @@ module gapbeam_state
         gapbeam_indeterminate, gapbeam_not_converged
     use gapbeam_element, only: field_type
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
-    use gapbeam_system, only: certify_scheme
-    use gapbeam_search, only: rule_block
-    use gapbeam_rules, only: complementarity
-    use gapbeam_scheme, only: find_scheme, outcome_type
-    use gapbeam_path, only: find_marginal, follow_load, path_type
+    use gapbeam_recover, only: recover_beam
+    use gapbeam_scheme, only: outcome_type
+    use gapbeam_referee, only: decide_scheme, detail_type
+    use gapbeam_certificate, only: certificate_type, certify
+    use gapbeam_path, only: follow_load, path_type, event_turns
     use gapbeam_axial, only: solve_axial, axial_slides, axial_indeterminate
     use gapbeam_check, only: shown
     use gapbeam_lowered, only: lowered_type
-    use gapbeam_memory, only: reserve_memory, for_solving, for_following
+    use gapbeam_memory, only: reserve_memory, for_solving, for_following, for_certifying
     implicit none
     private
-    public :: state_type, event_type, new_state, solve_state, certify_state, follow_events
+    public :: state_type, event_type, new_state, solve_state, recover_state, certify_state, follow_events
 
-    !> A path has finitely many events; more than this many per support say that rounding decides them
-    integer, parameter :: most_events_per_support = 50
     !> Changes of the scheme followed at a time
     integer, parameter :: changes_at_a_time = 1000
 
@@ -34,8 +32,8 @@ module gapbeam_state
         integer :: solves = 0, method = 0
         !> Can the beam move freely without work of the loads; does it slide along its axis
         logical :: indifferent = .false., slides = .false.
-        !> The scheme: which supports act, and whose reaction or opening is zero as far as rounding tells
-        logical, allocatable :: closed(:), marginal(:)
+        !> The scheme: which supports act, and whose reaction or opening is zero, so that they may be closed or open
+        logical, allocatable :: closed(:), undecided(:)
         !> Deflections and moments left and right of the nodes; the free motion where there is no equilibrium
         real(wp), allocatable :: deflection(:), moment_left(:), moment_right(:), motion(:)
         !> Shear of every link beside that of the simple bar
@@ -54,7 +52,8 @@ module gapbeam_state
         real(wp) :: factor
         !> Number of the support in the model, from 1
         integer :: support
-        !> gapbeam_closed or gapbeam_open: what the support is from here on
+        !> gapbeam_closed or gapbeam_open: what the support is from here on; gapbeam_turns: the beam has lost its hold and turns
+        !> at constant load until this support holds it
         integer :: state
     end type event_type
 
@@ -74,7 +73,7 @@ contains
         m = size(lowered%beam%supports)
         bars = 0
         if (allocated(lowered%axial%point)) bars = ubound(lowered%axial%point, 1)
-        allocate (state%closed(m), state%marginal(m), state%reaction(m), state%deflection(0:n), state%moment_left(0:n), &
+        allocate (state%closed(m), state%undecided(m), state%reaction(m), state%deflection(0:n), state%moment_left(0:n), &
                   state%moment_right(0:n), state%motion(0:n), state%shear(n), state%displacement(0:bars), &
                   state%axial_reaction(0:bars), state%tension(bars), state%starts(size(lowered%pieces)), stat=stat)
         if (stat /= 0) then
@@ -99,7 +98,7 @@ contains
         state%indifferent = .false.
         state%slides = .false.
         state%has_starts = .false.
-        state%marginal(:) = .false.
+        state%undecided(:) = .false.
         state%reaction(:) = 0.0_wp
         state%deflection(:) = 0.0_wp
         state%moment_left(:) = 0.0_wp
@@ -111,7 +110,7 @@ contains
     !> Solve at one load factor; the search starts from the scheme the state holds
     subroutine solve_state(lowered, factor, rule, state, error)
         !> The beam
-        type(lowered_type), intent(in) :: lowered
+        type(lowered_type), intent(in), target :: lowered
         !> Factor of the live loads
         real(wp), intent(in) :: factor
         !> rule_block or rule_single
@@ -140,7 +139,7 @@ contains
         associate (beam => lowered%beam)
             call new_workspace(beam, work)
             call set_loads(beam, factor, work)
-            call find_scheme(beam, factor, rule, acting, work, outcome, error)
+            call decide_scheme(beam, detail_of(lowered), factor, rule, acting, work, outcome, error)
             if (allocated(error)) return
             state%solves = work%solves
             state%method = work%method
@@ -155,7 +154,7 @@ contains
             end if
             state%indifferent = outcome%indifferent
             state%closed(:) = acting
-            call find_marginal(beam, acting, work, state%marginal)
+            state%undecided(:) = outcome%undecided
             state%deflection(:) = work%answers%deflection
             state%moment_left(:) = work%answers%moment_left
             state%moment_right(:) = work%answers%moment_right
@@ -186,53 +185,57 @@ contains
         end associate
     end subroutine solve_along_axis
 
-    !> Residuals of a solved state, and bounds for its errors in the engine's units
-    subroutine certify_state(lowered, state, residual, deflection_bound, reaction_bound, known, error)
-        !> The beam
+    !> What the links of a beam are made of
+    function detail_of(lowered) result(detail)
+        type(lowered_type), intent(in), target :: lowered
+        type(detail_type) :: detail
+
+        detail%pieces => lowered%pieces
+        detail%dead => lowered%dead
+        detail%live => lowered%live
+        detail%last => lowered%node_point(1:)
+    end function detail_of
+
+    !> Fields of a solved state at the left ends of all pieces
+    pure subroutine recover_state(lowered, state, starts)
+        !> The beam and the state
         type(lowered_type), intent(in) :: lowered
+        type(state_type), intent(in) :: state
+        !> The fields, shape (npiece)
+        type(field_type), intent(out) :: starts(:)
+
+        associate (n => size(lowered%beam%links))
+            call recover_beam(lowered%pieces, lowered%dead, lowered%live, state%factor, lowered%beam%links, &
+                              lowered%node_point(1:n), lowered%beam%kind, state%deflection, state%moment_left, &
+                              state%moment_right, state%shear, starts)
+        end associate
+    end subroutine recover_state
+
+    !> Residuals of a solved state, and bounds for its errors in the engine's units
+    subroutine certify_state(lowered, state, certificate, error)
+        !> The beam
+        type(lowered_type), intent(in), target :: lowered
         !> Solved
         type(state_type), intent(in) :: state
-        !> Relative residuals of compatibility and equilibrium, and the largest violation of a sign
-        real(wp), intent(out) :: residual(3)
-        !> Largest error of any deflection of a node, and of any reaction
-        real(wp), intent(out) :: deflection_bound, reaction_bound
-        !> False where the beam is free to move
-        logical, intent(out) :: known
+        !> How good it is
+        type(certificate_type), intent(out) :: certificate
         !> No memory
         type(error_type), allocatable, intent(out) :: error
-        type(workspace_type) :: work
-        type(outcome_type) :: outcome
-        logical, allocatable :: acting(:)
-        integer :: stat
+        type(field_type), allocatable :: starts(:)
 
-        residual(:) = 0.0_wp
-        deflection_bound = 0.0_wp
-        reaction_bound = 0.0_wp
-        known = .false.
-        call reserve_memory(lowered, for_solving, error)
+        call reserve_memory(lowered, for_certifying, error)
         if (allocated(error)) return
-        allocate (acting(size(state%closed)), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
-        acting(:) = state%closed
-        associate (beam => lowered%beam)
-            call new_workspace(beam, work)
-            call set_loads(beam, state%factor, work)
-            ! From the working scheme that is one solve
-            call find_scheme(beam, state%factor, rule_block, acting, work, outcome, error)
-            if (allocated(error) .or. outcome%status /= gapbeam_solved) return
-            call certify_scheme(beam, state%factor, work, deflection_bound, reaction_bound, known)
-            residual(:) = [work%compatibility, work%equilibrium, complementarity(beam, acting, work)]
-        end associate
+        allocate (starts(size(lowered%pieces)))
+        call recover_state(lowered, state, starts)
+        call certify(lowered%beam, detail_of(lowered), state%factor, state%closed, state%deflection, state%moment_left, &
+                     state%moment_right, state%reaction, starts, certificate, error)
     end subroutine certify_state
 
     !> Follow the load from factor 0 to `factor`: every change of the working scheme at its load factor. The state is that at
     !> the end, or at the factor above which there is no equilibrium, with the motion that begins there
     subroutine follow_events(lowered, factor, rule, state, events, number, error)
         !> The beam
-        type(lowered_type), intent(in) :: lowered
+        type(lowered_type), intent(in), target :: lowered
         !> End of the path, above 0
         real(wp), intent(in) :: factor
         !> rule_block or rule_single
@@ -246,12 +249,11 @@ contains
         type(error_type), allocatable, intent(out) :: error
         type(outcome_type) :: outcome
         type(path_type) :: path
-        logical, allocatable :: now(:)
         real(wp) :: at
-        integer :: solves, changes, k, stat
+        integer :: solves, k, stat
 
         number = 0
-        allocate (events(2*size(state%closed) + 8), now(size(state%closed)), stat=stat)
+        allocate (events(2*size(state%closed) + 8), stat=stat)
         if (stat /= 0) then
             call no_memory(error)
             return
@@ -259,22 +261,20 @@ contains
         state%closed(:) = .true.
         call solve_state(lowered, 0.0_wp, rule, state, error)
         if (allocated(error) .or. state%status /= gapbeam_solved) return
-        now(:) = state%closed
         at = 0.0_wp
         solves = state%solves
-        changes = 0
         do while (at < factor)
             call reserve_memory(lowered, for_following, error)
             if (allocated(error)) return
-            call follow_load(lowered%beam, factor, rule, changes_at_a_time, at, state%closed, state%marginal, path, outcome, error)
+            call follow_load(lowered%beam, detail_of(lowered), factor, changes_at_a_time, at, state%closed, state%undecided, &
+                             path, outcome, error)
             if (allocated(error)) then
                 error%message = "at load factor "//trim(shown(at))//": "//error%message
                 return
             end if
             solves = solves + path%solves
-            changes = changes + path%count
             do k = 1, path%count
-                call note(path%factor(k), path%support(k))
+                call note(path%factor(k), path%support(k), path%event(k))
                 if (allocated(error)) return
             end do
             if (outcome%status == gapbeam_no_equilibrium) then
@@ -285,25 +285,19 @@ contains
                 if (allocated(outcome%motion)) state%motion(:) = outcome%motion
                 return
             end if
-            if (changes > 10 + most_events_per_support*size(now)) then
-                call fatal_error(error, gapbeam_not_converged, "more changes than supports can have: rounding decides them; "// &
-                                 "follow the load by steps")
-                return
-            end if
         end do
         call solve_state(lowered, factor, rule, state, error)
         if (.not. allocated(error)) state%solves = state%solves + solves
 
     contains
 
-        !> A support changes; above factor 0 that is an event
-        subroutine note(when, which)
+        !> Note what happens to a support. What changes at factor 0 is no event, unless the beam turns there
+        subroutine note(when, which, what)
             real(wp), intent(in) :: when
-            integer, intent(in) :: which
+            integer, intent(in) :: which, what
             type(event_type), allocatable :: longer(:)
 
-            now(which) = .not. now(which)
-            if (.not. when > 0.0_wp) return
+            if (.not. when > 0.0_wp .and. what /= event_turns) return
             if (number == size(events)) then
                 allocate (longer(2*number), stat=stat)
                 if (stat /= 0) then
@@ -314,7 +308,7 @@ contains
                 call move_alloc(longer, events)
             end if
             number = number + 1
-            events(number) = event_type(when, lowered%normal(which), merge(1, 0, now(which)))
+            events(number) = event_type(when, lowered%normal(which), what)
         end subroutine note
 
     end subroutine follow_events

@@ -3,9 +3,8 @@ module gapbeam_system
     use gapbeam_kinds, only: wp
     use gapbeam_band, only: factor_chain, solve_chain, band_ok, band_mechanism, band_needs_pivoting
     use gapbeam_residual, only: residual_chain
-    use gapbeam_certificate, only: bound_errors
     use gapbeam_three_moment, only: fits_three_moment, solve_three_moment
-    use gapbeam_lapack, only: solve_pivoting
+    use gapbeam_pivoting, only: solve_pivoting
     use gapbeam_plain, only: ends_hold, solve_plain
     use gapbeam_model, only: beam_type
     use gapbeam_kinematics, only: free_motions, motion_type
@@ -13,7 +12,7 @@ module gapbeam_system
     use gapbeam_reactions, only: find_sizes, find_shears, find_reactions
     implicit none
     private
-    public :: solve_scheme, solve_deflections, complete_scheme, refine_scheme, certify_scheme
+    public :: solve_scheme, solve_deflections, complete_scheme, refine_scheme, check_scheme
 
 contains
 
@@ -132,64 +131,5 @@ contains
         call residual_chain(work%nodes, beam%links, work%rhs, work%answers, work%eliminated, work%sizes, &
                             work%compatibility, work%equilibrium)
     end subroutine check_scheme
-
-    !> Relative residuals of the last solve, into work%compatibility and work%equilibrium, and bounds for its errors
-    subroutine certify_scheme(beam, factor, work, deflection_bound, reaction_bound, known)
-        !> The beam and the factor of its live loads
-        type(beam_type), intent(in) :: beam
-        real(wp), intent(in) :: factor
-        type(workspace_type), intent(inout) :: work
-        !> Largest error of any deflection of a node, and of any reaction
-        real(wp), intent(out) :: deflection_bound, reaction_bound
-        !> False where the position is free: deflections have no bound then, reactions do
-        logical, intent(out) :: known
-        integer :: state, place
-
-        deflection_bound = 0.0_wp
-        reaction_bound = 0.0_wp
-        call check_scheme(beam, work)
-        call factor_chain(work%nodes, beam%links, work%pivots, state, place)
-        known = state /= band_mechanism
-        if (.not. known) return
-        call add_load_sizes(beam, factor, work)
-        ! Where weak springs hold the beam, what is left in them is a load that the beam does not have
-        work%eliminated%shear = abs(work%eliminated%shear) + work%ease*abs(work%reference - work%answers%deflection)
-        call bound_errors(work%nodes, beam%links, work%pivots, state == band_needs_pivoting, work%eliminated, work%sizes, &
-                          deflection_bound, reaction_bound)
-        ! The numbers given are rounded once more, and contact levels are given to half a unit in the last place
-        deflection_bound = deflection_bound + 2*epsilon(1.0_wp)*maxval(max(abs(work%answers%deflection), abs(work%rhs%deflection)))
-        if (size(work%reaction) > 0) reaction_bound = reaction_bound &
-            + maxval(2*epsilon(1.0_wp)*abs(work%reaction) + work%reaction_error)
-        known = .not. any(work%ease > 0.0_wp)
-        if (.not. known) deflection_bound = 0.0_wp
-    end subroutine certify_scheme
-
-    !> Loads that cancel in a row are as uncertain as each of them
-    pure subroutine add_load_sizes(beam, factor, work)
-        type(beam_type), intent(in) :: beam
-        real(wp), intent(in) :: factor
-        type(workspace_type), intent(inout) :: work
-        real(wp) :: share(2), turn
-        integer :: i
-
-        share = [1.0_wp, abs(factor)]
-        do i = 0, size(beam%links)
-            work%sizes(i)%shear = work%sizes(i)%shear + dot_product(share, abs(beam%force(:, i)))
-        end do
-        do i = 1, size(beam%links)
-            associate (a => work%sizes(i - 1), b => work%sizes(i), link => beam%links(i))
-                a%shear = a%shear + dot_product(share, link%load_sum)
-                b%shear = b%shear + dot_product(share, link%load_sum)
-                turn = dot_product(share, link%turn_sum)
-                ! Rows without compatibility have no term of it
-                if (a%right > 0.0_wp) a%right = a%right + turn
-                if (b%left > 0.0_wp) then
-                    b%left = b%left + turn
-                else if (b%right > 0.0_wp) then
-                    b%right = b%right + turn
-                end if
-            end associate
-        end do
-    end subroutine add_load_sizes
 
 end module gapbeam_system

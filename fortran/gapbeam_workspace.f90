@@ -21,6 +21,9 @@ module gapbeam_workspace
     !> Everything a solve needs beside the beam; reused from solve to solve
     type :: workspace_type
         type(node_type), allocatable :: nodes(:)
+        !> Sums of the absolute values of the loads that meet at a node, and of the rotations that the loads of a link could make:
+        !> what rounding is relative to where they cancel
+        real(wp), allocatable :: load_size(:), turn_size(:)
         !> Loads of the current factor; with the supports of the scheme; and what elimination makes of it
         type(rhs_type), allocatable :: loads(:), rhs(:), eliminated(:)
         type(pivot_type), allocatable :: pivots(:)
@@ -51,6 +54,8 @@ module gapbeam_workspace
         real(wp), allocatable :: spring(:), spring_contact(:)
         !> Linear solves so far, those of parts of the beam by their share of it, and the system solved last
         integer :: solves = 0
+        !> Did the paper's rule come back to a scheme that it had seen
+        logical :: came_back = .false.
         integer :: method = method_mixed
         !> Relative residuals of the last solve
         real(wp) :: compatibility = 0.0_wp, equilibrium = 0.0_wp
@@ -70,6 +75,7 @@ contains
         m = size(beam%supports)
         allocate (work%nodes(0:n), work%loads(0:n), work%rhs(0:n), work%eliminated(0:n), work%pivots(0:n))
         allocate (work%answers(0:n), work%correction(0:n), work%moment_work(2, 0:n), work%sizes(0:n))
+        allocate (work%load_size(0:n), work%turn_size(n))
         allocate (work%shear(n), work%shear_error(n))
         allocate (work%level(0:n))
         allocate (work%reach_own(0:n), work%reach_left(0:n), work%reach_right(0:n))
@@ -101,6 +107,7 @@ contains
                 r%couple = dot_product(share, beam%couple(:, i))
                 r%shear = dot_product(share, beam%force(:, i))
             end associate
+            work%load_size(i) = dot_product(abs(share), abs(beam%force(:, i)))
         end do
         do i = 1, n
             associate (link => beam%links(i), a => work%loads(i - 1), b => work%loads(i))
@@ -108,6 +115,8 @@ contains
                 a%shear = a%shear + dot_product(share, link%shear_a)
                 b%left = dot_product(share, link%turn_b)
                 b%shear = b%shear - dot_product(share, link%shear_b)
+                work%turn_size(i) = dot_product(abs(share), link%turn_sum)
+                work%load_size(i - 1:i) = work%load_size(i - 1:i) + dot_product(abs(share), link%load_sum)
             end associate
         end do
         work%without_couples = .not. any(abs(work%loads%couple) > 0.0_wp)

@@ -58,6 +58,7 @@ class Certificate(c.Structure):
     _fields_ = (
         ("size", c.c_size_t),
         *((n, c.c_double) for n in ("equilibrium", "compatibility", "complementarity", "deflection_bound", "reaction_bound")),
+        ("field_bound", c.c_double * 4),
         ("known", c.c_int),
         ("reserved", c.c_int),
     )
@@ -287,6 +288,6 @@ class F77Beam:
 
     def certificate(self):
         """Numbers of the certificate, and which supports are undecided."""
-        numbers, known, undecided = np.empty(5), np.zeros(1, np.int32), np.empty(self.supports, np.int32)
+        numbers, known, undecided = np.empty(9), np.zeros(1, np.int32), np.empty(self.supports, np.int32)
         assert self.call("gbcert", *self.both, numbers, known, undecided) == 0
         return numbers, known[0], undecided

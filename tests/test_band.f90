@@ -7,7 +7,7 @@ program test_band
         band_ok, band_mechanism, band_needs_pivoting, plain, hinge, restrained
     use gapbeam_residual, only: residual_chain, size_type
     use gapbeam_three_moment, only: fits_three_moment, solve_three_moment
-    use gapbeam_lapack, only: solve_pivoting
+    use gapbeam_pivoting, only: solve_pivoting
     implicit none
     integer :: status
 

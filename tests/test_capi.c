@@ -326,7 +326,7 @@ static void names_and_sizes(void)
     _Static_assert(sizeof(gapbeam_model) == 200 || sizeof(void *) != 8, "gapbeam_model is part of the ABI");
     _Static_assert(sizeof(gapbeam_options) == 16 || sizeof(void *) != 8, "gapbeam_options is part of the ABI");
     _Static_assert(sizeof(gapbeam_info) == 40 || sizeof(void *) != 8, "gapbeam_info is part of the ABI");
-    _Static_assert(sizeof(gapbeam_certificate) == 56 || sizeof(void *) != 8, "gapbeam_certificate is part of the ABI");
+    _Static_assert(sizeof(gapbeam_certificate) == 88 || sizeof(void *) != 8, "gapbeam_certificate is part of the ABI");
 }
 
 int main(void)

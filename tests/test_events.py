@@ -114,7 +114,10 @@ def test_random_paths(block):
         followed += 1
         scale = max(np.abs(direct.steps[-1].reaction).max(initial=0.0), 1e-6)
         assert path.steps[-1].reaction == pytest.approx(direct.steps[-1].reaction, abs=1e-11 * scale), seed
+        turns = {event.factor for event in path.events if event.event == "turns"}
         for event in path.events:
+            if event.factor in turns:
+                continue  # the beam moves a finite way there: openings jump
             before = [segment for segment in path.segments if segment.stop == event.factor]
             normal = path.arrays.supports.tolist().index(event.support)
             if not before or normal != event.support:

@@ -49,7 +49,8 @@ def test_paper_example(F2, printed, rule, start):
     step = last(paper(F2), rule=rule, start=start)
     R2, R4, w3 = F2 + 23 / 22 * F3, F4 + 4 / 11 * F3, 13 / 132 * F3 * 2.0**3 / PAPER_EI
     assert step.state == ("bilateral", "closed", "open", "closed")
-    assert step.solves <= 3
+    if rule == "block" or start in (None, (True, True, True)):  # the paper's rule begins with all supports closed
+        assert step.solves <= 3
     near(step.reaction, [9 / 22 * -F3, R2, 0.0, R4])
     near(step.deflection, [0.0, 0.0, w3, 0.0])
     near(step.opening, [0.0, 0.0, -w3, 0.0])

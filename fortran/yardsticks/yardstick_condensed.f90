@@ -9,7 +9,7 @@ module yardstick_condensed
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_scheme, only: find_scheme, outcome_type
     use gapbeam_search, only: rule_block
-    use gapbeam_fields, only: recover_beam
+    use gapbeam_recover, only: recover_beam
     use yardstick_beam, only: beam_type, answer_type, solved, singular
     implicit none
     private

@@ -14,6 +14,8 @@ from .lowering import Arrays
 SOLVED, NO_EQUILIBRIUM = Status.SOLVED, Status.NO_EQUILIBRIUM
 """Outcomes, as in gapbeam_error; codes above 10 are errors."""
 RULES = {"block": 0, "single": 1}
+OPENS, CLOSES, TURNS = 0, 1, 3
+"""Events, as in gapbeam_path."""
 METHODS = ("block tridiagonal mixed", "three-moment", "mixed with pivoting")
 """What was solved, as in gapbeam_system."""
 
@@ -28,8 +30,8 @@ class Solution:
         SOLVED or NO_EQUILIBRIUM; in the second case only `motion` has a meaning.
     closed : numpy.ndarray of int
         1 where a support acts, 0 where it is open.
-    marginal : numpy.ndarray of int
-        1 where its reaction or opening is zero as far as rounding tells.
+    undecided : numpy.ndarray of int
+        1 where its reaction or opening is zero, so that it may be closed or open.
     deflection, moment_left, moment_right : numpy.ndarray
         At the nodes.
     shear : numpy.ndarray
@@ -44,11 +46,13 @@ class Solution:
         Index into METHODS.
     indifferent : bool
         Whether the beam can move freely without work of the loads: forces are unique, the position is not.
+    came_back : bool
+        Whether the rule ``single`` came back to a scheme, so that ``block`` went on.
     """
 
     status: int
     closed: np.ndarray
-    marginal: np.ndarray
+    undecided: np.ndarray
     deflection: np.ndarray
     moment_left: np.ndarray
     moment_right: np.ndarray
@@ -58,6 +62,7 @@ class Solution:
     solves: int
     method: int
     indifferent: bool
+    came_back: bool
 
 
 def condense(arrays: Arrays) -> np.ndarray:
@@ -104,12 +109,14 @@ def solve(arrays: Arrays, links: np.ndarray, factor: float, rule: str, closed: n
         Where no unique solution exists for another reason, with the engine's message.
     """
     scheme = _scheme(closed)
-    *values, indifferent, status, message = _f77.gbsolv(*_beam(arrays, links), factor, RULES[rule], scheme)
+    *values, indifferent, came_back, status, message = _f77.gbsolv(
+        *_detail(arrays), *_beam(arrays, links), factor, RULES[rule], scheme
+    )
     if status not in (SOLVED, NO_EQUILIBRIUM):
         raise EngineError(message.decode().strip(), status)
-    solution = Solution(status, scheme, *values, bool(indifferent))
+    solution = Solution(status, scheme, *values, bool(indifferent), bool(came_back))
     if len(closed) == 0:
-        solution = replace(solution, closed=scheme[:0], marginal=scheme[:0], reaction=solution.reaction[:0])
+        solution = replace(solution, closed=scheme[:0], undecided=scheme[:0], reaction=solution.reaction[:0])
     return _outer(solution, *arrays.exponents)
 
 
@@ -128,9 +135,11 @@ class Path:
     marginal : numpy.ndarray of int
         1 for the supports at zero there.
     factors : numpy.ndarray
-        Load factors of the changes of the scheme, those at its beginning included.
+        Load factors of the events, those at its beginning included.
     supports : numpy.ndarray of int
-        The supports that change, from 0.
+        Their supports, from 0.
+    events : numpy.ndarray of int
+        What happens to them: OPENS, CLOSES or TURNS.
     motion : numpy.ndarray
         As in `Solution`.
     solves : int
@@ -145,39 +154,40 @@ class Path:
     marginal: np.ndarray
     factors: np.ndarray
     supports: np.ndarray
+    events: np.ndarray
     motion: np.ndarray
     solves: int
     nodes: int
 
 
 def follow(
-    arrays: Arrays, links: np.ndarray, factor: float, rule: str, closed: np.ndarray, marginal: np.ndarray, most: int
+    arrays: Arrays, links: np.ndarray, factor: float, closed: np.ndarray, marginal: np.ndarray, most: int
 ) -> Path:
     """Follow the load from a factor to 1, from event to event.
 
     Parameters
     ----------
-    arrays, links, factor, rule, closed
+    arrays, links, factor, closed
         As for `solve`; `closed` is the scheme at the factor.
     marginal : numpy.ndarray of int
         1 for the supports at zero there.
     most : int
-        Number of changes after which it stops short of 1.
+        Number of events after which it stops short of 1.
 
     Returns
     -------
     Path
-        The changes on the way.
+        The events on the way.
 
     Raises
     ------
     EngineError
-        Where no single path exists, with the engine's message.
+        Where no unique solution exists on the way, with the engine's message.
     """
     supports = len(closed)
     closed, marginal, at = _scheme(closed), _scheme(marginal), np.array(factor)
-    count, factors, which, motion, solves, nodes, status, message = _f77.gbpath(
-        most, *_beam(arrays, links), 1.0, RULES[rule], at, closed, marginal
+    count, factors, which, what, motion, solves, nodes, status, message = _f77.gbpath(
+        most, *_detail(arrays), *_beam(arrays, links), 1.0, at, closed, marginal
     )
     factor = float(at)
     if status not in (SOLVED, NO_EQUILIBRIUM):
@@ -189,6 +199,7 @@ def follow(
         marginal[:supports],
         factors[:count],
         which[:count] - 1,
+        what[:count],
         motion,
         solves,
         nodes,
@@ -257,25 +268,43 @@ def prepare_cases(
 
 
 def certify(
-    arrays: Arrays, links: np.ndarray, factor: float, closed: np.ndarray
-) -> tuple[np.ndarray, tuple[float | None, float]]:
-    """Check a solved scheme, and bound its errors.
+    arrays: Arrays, links: np.ndarray, factor: float, solution: Solution, starts: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, bool]:
+    """Check a solved state, and bound its errors by comparison with a solution in quadruple precision.
 
     Parameters
     ----------
-    arrays, links, factor, closed
-        As for `solve`; `closed` is the working scheme.
+    arrays, links, factor
+        As for `solve`.
+    solution : Solution
+        Solved at that factor.
+    starts : numpy.ndarray
+        Its fields, from `recover`.
 
     Returns
     -------
     residuals : numpy.ndarray
-        Relative residuals of compatibility, equilibrium and complementarity, in twice the working precision.
-    bounds : (float or None, float)
-        Largest error of the deflections of the nodes, None where the beam is free to move, and of the reactions.
+        Relative residuals of compatibility, equilibrium and complementarity.
+    bounds : numpy.ndarray
+        Largest errors of deflections of the nodes and of reactions; of deflections, rotations, moments, shears along the beam.
+    known : bool
+        False where the beam is free to move: deflections and rotations have no bound then.
+
+    Raises
+    ------
+    EngineError
+        The state cannot be checked.
     """
-    residuals, bound, known = _f77.gbcert(*_beam(arrays, links), factor, _scheme(closed))
     length, force = arrays.exponents
-    return residuals, (float(np.ldexp(bound[0], length)) if known else None, float(np.ldexp(bound[1], force)))
+    inner = _outer(solution, -length, -force)
+    reaction = inner.reaction if len(inner.reaction) else np.zeros(1)
+    residuals, bounds, known = _f77.gbcert(
+        *_detail(arrays), *_beam(arrays, links), factor, _scheme(inner.closed),
+        inner.deflection, inner.moment_left, inner.moment_right, reaction, starts,
+    )  # fmt: skip
+    if known < 0:
+        raise EngineError("the state could not be checked in quadruple precision", Status.NOT_CONVERGED)
+    return residuals, np.ldexp(bounds, [length, force, *_field_exponents(length, force)]), bool(known)
 
 
 def _field_exponents(length: int, force: int) -> np.ndarray:
@@ -300,6 +329,12 @@ def _outer(solution: Solution, length: int, force: int) -> Solution:
 def _scheme(closed: np.ndarray) -> np.ndarray:
     """Copy a scheme, with an open support where there is none: f2py takes no arrays of size 0."""
     return np.array(closed if len(closed) else [0], dtype=np.int32)
+
+
+def _detail(arrays: Arrays) -> tuple[np.ndarray, ...]:
+    """Collect what the links are made of."""
+    inner = arrays.scaled
+    return inner.pieces.T, inner.dead.T, inner.live.T, _last(arrays)
 
 
 def _beam(arrays: Arrays, links: np.ndarray) -> tuple[np.ndarray, ...]:

@@ -9,19 +9,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from . import engine
-from .errors import EngineError
 
 if TYPE_CHECKING:
     from .results import Result
 
-MOST_CHANGES_PER_SUPPORT = 50
-"""A path has finitely many events; more than this many say that rounding decides them."""
-CHANGES_AT_A_TIME = 1000
+EVENTS_AT_A_TIME = 1000
+NAMES = {engine.OPENS: "opens", engine.CLOSES: "closes", engine.TURNS: "turns"}
 
 
 @dataclass(frozen=True, slots=True)
 class Event:
-    """A change of the working scheme.
+    """A change of the working scheme, or a turn of the beam.
 
     Attributes
     ----------
@@ -32,7 +30,8 @@ class Event:
     x : float
         Its place.
     event : str
-        ``opens`` or ``closes``.
+        ``opens``, ``closes``, or ``turns``: the beam has lost its hold and turns, at constant load, until this support
+        holds it. What opens and closes with that is listed beside it, at the same factor.
     """
 
     factor: float
@@ -50,7 +49,7 @@ class Segment:
     start, stop : float
         Load factors.
     changes : int
-        Changes of the scheme before it.
+        Events before it.
     """
 
     start: float
@@ -64,7 +63,7 @@ class Path:
     Attributes
     ----------
     events : list of Event
-        Every change above load factor 0.
+        Every change above load factor 0, and every turn of the beam.
     segments : list of Segment
         From 0 to 1, or to the factor above which there is no equilibrium; between events.
     solves : int
@@ -77,8 +76,9 @@ class Path:
 
     def __init__(self, closed: np.ndarray, pieces: list[engine.Path], solves: int, seconds: float):
         self._closed = closed
-        self._changes = np.concatenate([piece.supports for piece in pieces])
         self._factors = np.concatenate([piece.factors for piece in pieces])
+        self._supports = np.concatenate([piece.supports for piece in pieces])
+        self._events = np.concatenate([piece.events for piece in pieces])
         self.solves = solves + sum(piece.solves for piece in pieces)
         self.nodes = sum(piece.nodes for piece in pieces)
         self.seconds = seconds
@@ -108,7 +108,9 @@ class Path:
         numpy.ndarray of int
             1 where a support acts.
         """
-        times = np.bincount(self._changes[: segment.changes], minlength=len(self._closed))
+        before = slice(segment.changes)
+        changed = self._supports[before][self._events[before] != engine.TURNS]
+        times = np.bincount(changed, minlength=len(self._closed))
         return self._closed ^ (times & 1).astype(np.int32)
 
     def at(self, factor: float) -> np.ndarray:
@@ -136,11 +138,11 @@ class Path:
         """
         arrays = result.arrays
         places, numbers = arrays.node_x[arrays.support_nodes].tolist(), arrays.supports.tolist()
-        closed = self._closed.tolist()
-        for factor, k in zip(self._factors.tolist(), self._changes.tolist(), strict=True):
-            closed[k] = 1 - closed[k]
-            if factor > 0.0:
-                self.events.append(Event(factor, numbers[k], places[k], "closes" if closed[k] else "opens"))
+        columns = (self._factors.tolist(), self._supports.tolist(), self._events.tolist())
+        for factor, k, event in zip(*columns, strict=True):
+            # What changes at factor 0 is no event, unless the beam turns there
+            if factor > 0.0 or event == engine.TURNS:
+                self.events.append(Event(factor, numbers[k], places[k], NAMES[event]))
 
 
 def follow(result: Result, rule: str, closed: np.ndarray) -> Path | None:
@@ -166,17 +168,14 @@ def follow(result: Result, rule: str, closed: np.ndarray) -> Path | None:
     if solution.status == engine.NO_EQUILIBRIUM:
         result.refuse("at load factor 0", solution.motion)
         return None
-    limit = 10 + MOST_CHANGES_PER_SUPPORT * len(closed)
-    factor, scheme, marginal, pieces, changes = 0.0, solution.closed, solution.marginal, [], 0
+    factor, scheme, marginal, pieces = 0.0, solution.closed, solution.undecided, []
     while factor < 1.0:
-        piece = engine.follow(arrays, links, factor, rule, scheme, marginal, CHANGES_AT_A_TIME)
+        piece = engine.follow(arrays, links, factor, scheme, marginal, EVENTS_AT_A_TIME)
         pieces.append(piece)
-        factor, scheme, marginal, changes = piece.factor, piece.closed, piece.marginal, changes + len(piece.supports)
+        factor, scheme, marginal = piece.factor, piece.closed, piece.marginal
         if piece.status == engine.NO_EQUILIBRIUM:
             result.refuse(f"above load factor {factor:.16g}", piece.motion)
             break
-        if changes > limit:
-            raise EngineError(f"more than {limit} changes: rounding decides them; follow the load by steps")
     path = Path(solution.closed, pieces, solution.solves, perf_counter() - begin)
     path.name_events(result)
     return path

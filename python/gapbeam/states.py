@@ -15,6 +15,9 @@ from . import engine
 from .engine import Solution
 from .lowering import Arrays
 
+BOUNDED = ("deflection", "rotation", "moment", "shear", "reaction")
+"""What has error bounds."""
+
 
 class Step:
     """The state at one load factor; arrays have one entry per support, in the order of the scene.
@@ -62,6 +65,11 @@ class Step:
     def solves(self) -> int:
         """Linear solves it took to find the working scheme."""
         return self.solution.solves
+
+    @property
+    def came_back(self) -> bool:
+        """Whether the paper's rule (``single``) came back to a scheme that it had seen, so that ``block`` went on."""
+        return self.solution.came_back
 
     @property
     def indifferent(self) -> bool:
@@ -116,13 +124,24 @@ class Step:
         return tuple(result)
 
     @cached_property
-    def _certified(self) -> tuple[np.ndarray, tuple[float | None, float]]:
-        return engine.certify(self._arrays, self._links, self.factor, self.solution.closed)
+    def _certified(self) -> tuple[np.ndarray, np.ndarray, bool]:
+        return engine.certify(self._arrays, self._links, self.factor, self.solution, self.starts)
+
+    @property
+    def error_bounds(self) -> dict[str, float | None]:
+        """Largest errors of deflections, rotations, moments and shears anywhere along the beam, and of the reactions.
+
+        Deflections and rotations have none (None) where the beam is free to move.
+        """
+        _, (_, reaction, *fields), known = self._certified
+        named = dict(zip(BOUNDED, map(float, (*fields, reaction)), strict=True))
+        return named if known else {**named, "deflection": None, "rotation": None}
 
     @property
     def bounds(self) -> tuple[float | None, float]:
-        """Largest error that the deflections of the nodes (None where the beam is free to move) and the reactions can have."""
-        return self._certified[1]
+        """Largest errors of the deflections of the nodes (None where the beam is free to move) and of the reactions."""
+        _, (deflection, reaction, *_), known = self._certified
+        return float(deflection) if known else None, float(reaction)
 
     @property
     def residuals(self) -> dict[str, float]:
@@ -132,32 +151,23 @@ class Step:
 
     @cached_property
     def certificate(self) -> dict[str, float | None]:
-        """The residuals and bounds of the relative errors; computed when first asked for."""
-        solution = self.solution
-        largest = [np.abs(values).max(initial=0.0) for values in (solution.deflection, solution.reaction)]
-        relative = [
-            None if bound is None else float(bound / size) if size > 0.0 else 0.0
-            for bound, size in zip(self.bounds, largest, strict=True)
-        ]
+        """The residuals, and bounds of the errors relative to the largest value of each kind; computed when first asked for."""
+        fields = np.abs(engine.extremes(self._arrays, self.factor, self.starts)[0]).max(axis=0)
+        largest = dict(zip(BOUNDED, [*fields.tolist(), np.abs(self.solution.reaction).max(initial=0.0)], strict=True))
+        relative = {
+            kind: None if bound is None else float(bound / largest[kind]) if largest[kind] > 0.0 else 0.0
+            for kind, bound in self.error_bounds.items()
+        }
         return {
             **self.residuals,
-            "error_bound": None if None in relative else max(relative),
-            "error_bound_deflection": relative[0],
-            "error_bound_reaction": relative[1],
+            "error_bound": None if None in relative.values() else max(relative.values()),
+            **{f"error_bound_{kind}": bound for kind, bound in relative.items()},
         }
 
     @cached_property
     def undecided(self) -> tuple[int, ...]:
-        """Supports whose reaction or opening is smaller than its error can be: closed or open is not decided."""
-        w, reaction = self.bounds
-        if w is None:
-            doubtful = self.solution.marginal == 1
-        else:
-            arrays = self._arrays
-            way = np.abs(arrays.support_contact - self.solution.deflection[arrays.support_nodes])
-            small = np.where(self.solution.closed == 1, np.abs(self.solution.reaction) <= reaction, way <= w)
-            doubtful = small & (arrays.support_sides != 0) & (arrays.support_stiffness > 0.0)
-        return tuple(self._arrays.supports[doubtful].tolist())
+        """Supports whose reaction or opening is zero, even in quadruple precision: they may be closed or open."""
+        return tuple(self._arrays.supports[self.solution.undecided == 1].tolist())
 
     @cached_property
     def starts(self) -> np.ndarray:

@@ -1,67 +1,21 @@
-!> The pivoting route: the same mixed system through LAPACK's expert band solver dgbsvx.
+!> The pivoting route: the same mixed system through a band solver with pivoting.
 !>
 !> gapbeam_band needs no pivoting but for one case, a rigid beam over rigid supports, where a flexibility used
 !> as pivot is exactly zero. Rows, unknowns and signs are those of gapbeam_band; a node with a rotational
 !> restraint has a third unknown, its second moment. Half bandwidth 3.
-module gapbeam_lapack
+module gapbeam_pivoting
     use gapbeam_kinds, only: wp
     use gapbeam_link, only: link_type
     use gapbeam_band, only: node_type, rhs_type, answer_type, hinge, restrained
+    use gapbeam_band_solver, only: solve_band
     implicit none
     private
-    public :: solve_pivoting, estimate_type, estimate_norm
+    public :: solve_pivoting
 
     !> Half bandwidth of the mixed system
     integer, parameter :: half_bandwidth = 3
 
-! PyPI's scipy-openblas32 prefixes its symbols
-#ifdef SCIPY_OPENBLAS
-#define dgbsvx scipy_dgbsvx
-#define dlacn2 scipy_dlacn2
-#endif
-
-    interface
-        subroutine dgbsvx(fact, trans, n, kl, ku, nrhs, ab, ldab, afb, ldafb, ipiv, equed, r, c, b, ldb, &
-                          x, ldx, rcond, ferr, berr, work, iwork, info)
-            import :: wp
-            character(len=1), intent(in) :: fact, trans
-            character(len=1), intent(inout) :: equed
-            integer, intent(in) :: n, kl, ku, nrhs, ldab, ldafb, ldb, ldx
-            real(wp), intent(inout) :: ab(ldab, *), afb(ldafb, *), r(*), c(*), b(ldb, *)
-            real(wp), intent(inout) :: x(ldx, *), rcond, ferr(*), berr(*), work(*)
-            integer, intent(inout) :: ipiv(*), iwork(*), info
-        end subroutine dgbsvx
-        subroutine dlacn2(n, v, x, isgn, est, kase, isave)
-            import :: wp
-            integer, intent(in) :: n
-            real(wp), intent(inout) :: v(*), x(*), est
-            integer, intent(inout) :: isgn(*), kase, isave(3)
-        end subroutine dlacn2
-    end interface
-
-    !> The estimate of a matrix's 1-norm on its way
-    type :: estimate_type
-        !> 0 at the start and when done; 1: the caller replaces x by the matrix times x; 2: by its transpose times x
-        integer :: wanted = 0
-        integer :: memory(3) = 0
-        real(wp), allocatable :: vector(:)
-        integer, allocatable :: signs(:)
-    end type estimate_type
-
 contains
-
-    !> One turn of the estimate of the 1-norm of a matrix that is known by its products only
-    subroutine estimate_norm(estimate, x, norm)
-        !> Its state
-        type(estimate_type), intent(inout) :: estimate
-        !> Vector to be multiplied
-        real(wp), intent(inout) :: x(:)
-        !> The estimate when estimate%wanted is 0 again
-        real(wp), intent(inout) :: norm
-
-        if (.not. allocated(estimate%vector)) allocate (estimate%vector(size(x)), estimate%signs(size(x)))
-        call dlacn2(size(x), estimate%vector, x, estimate%signs, norm, estimate%wanted, estimate%memory)
-    end subroutine estimate_norm
 
     !> Assemble, factor with pivoting, solve and refine
     subroutine solve_pivoting(nodes, links, rhs, answers, regular)
@@ -74,11 +28,9 @@ contains
         type(answer_type), intent(inout) :: answers(0:)
         !> False where the matrix is singular to working precision
         logical, intent(out) :: regular
-        real(wp), allocatable :: matrix(:, :), factor(:, :), b(:), x(:), r(:), c(:), work(:)
-        integer, allocatable :: pivot(:), iwork(:), left(:), deflection(:), right(:)
-        real(wp) :: rcond, ferr(1), berr(1)
-        character(len=1) :: equed
-        integer :: n, unknowns, info, i
+        real(wp), allocatable :: matrix(:, :), b(:), x(:)
+        integer, allocatable :: left(:), deflection(:), right(:)
+        integer :: n, unknowns, i
 
         n = size(links)
         allocate (left(0:n), deflection(0:n), right(0:n))
@@ -94,15 +46,9 @@ contains
                 right(i) = unknowns
             end if
         end do
-        allocate (matrix(2*half_bandwidth + 1, unknowns), factor(3*half_bandwidth + 1, unknowns))
-        allocate (b(unknowns), x(unknowns), r(unknowns), c(unknowns), work(3*unknowns))
-        allocate (pivot(unknowns), iwork(unknowns))
+        allocate (matrix(2*half_bandwidth + 1, unknowns), b(unknowns), x(unknowns))
         call assemble(nodes, links, rhs, left, deflection, right, matrix, b)
-        equed = "N"
-        call dgbsvx("E", "N", unknowns, half_bandwidth, half_bandwidth, 1, matrix, 2*half_bandwidth + 1, &
-                    factor, 3*half_bandwidth + 1, pivot, equed, r, c, b, unknowns, x, unknowns, &
-                    rcond, ferr, berr, work, iwork, info)
-        regular = info == 0
+        call solve_band(half_bandwidth, matrix, b, x, regular)
         if (.not. regular) return
         do i = 0, n
             answers(i)%deflection = merge(rhs(i)%deflection, x(deflection(i)), nodes(i)%held)
@@ -234,4 +180,4 @@ contains
 
     end subroutine assemble
 
-end module gapbeam_lapack
+end module gapbeam_pivoting

@@ -1,0 +1,145 @@
+!> The stretch of the load path that begins at a factor, on which one scheme acts: found in quadruple precision.
+!>
+!> Its scheme is that of a factor just above. It acts on an interval of factors, between the zeros of its reactions and
+!> openings; if that begins further up, other schemes come first, and a nearer factor is tried. Every scheme has but
+!> one interval and there are finitely many schemes, so this ends, and a path made of such stretches never comes back to
+!> one (Katzenelson 1965; Chien and Kuh 1977; the path of a parametric linear complementarity problem, Cottle 1972).
+!> Coincident events and ties need nothing of their own. Where contact is lost and the beam is free to
+!> turn, the scheme just above is that with which it comes to rest: the limit from the right.
+module gapbeam_cell
+    use gapbeam_kinds, only: wp => qp
+    use gapbeam_error, only: error_type, gapbeam_solved, fatal_error, gapbeam_not_converged
+    use gapbeam_band_quad, only: band_ok
+    use gapbeam_model_quad, only: beam_type
+    use gapbeam_kinematics_quad, only: work_of_loads
+    use gapbeam_workspace_quad, only: workspace_type, new_workspace, set_loads
+    use gapbeam_system_quad, only: solve_scheme, refine_scheme
+    use gapbeam_search_quad, only: rule_block
+    use gapbeam_scheme_quad, only: find_scheme, outcome_type
+    use gapbeam_line_quad, only: line_type, line_of, without_dead_loads, zero_of, falls, rises
+    implicit none
+    private
+    public :: cell_type, find_cell
+
+    !> The first factor tried is above the given one by this share of the way; none nearer than this is
+    real(wp), parameter :: first_share = 2.0_wp**(-40), last_share = 2.0_wp**(-46)
+
+    !> A stretch of the path
+    type :: cell_type
+        !> The scheme, shape (size(supports))
+        logical, allocatable :: closed(:)
+        !> Where it ends; huge if never
+        real(wp) :: to = huge(1.0_wp)
+        !> Reactions and openings over the factor
+        type(line_type), allocatable :: lines(:)
+        !> Linear solves
+        integer :: solves = 0
+    end type cell_type
+
+contains
+
+    !> Find the stretch that begins at a factor
+    subroutine find_cell(beam, factor, limit, start, cell, outcome, error)
+        !> The beam
+        type(beam_type), intent(in) :: beam
+        !> The factor, and the end of the path
+        real(wp), intent(in) :: factor, limit
+        !> Where the search for the scheme starts
+        logical, intent(in) :: start(:)
+        !> The stretch
+        type(cell_type), intent(out) :: cell
+        !> No equilibrium above the factor, with the motion
+        type(outcome_type), intent(out) :: outcome
+        !> As for find_scheme; or the beam stays free to move, so that no path is the only one
+        type(error_type), allocatable, intent(out) :: error
+        type(workspace_type) :: work
+        real(wp) :: scale_of_factor, trial, from
+
+        scale_of_factor = max(abs(factor), limit - factor)
+        trial = factor + first_share*scale_of_factor
+        call new_workspace(beam, work)
+        allocate (cell%closed(size(start)), cell%lines(size(start)))
+        do
+            cell%closed(:) = start
+            call set_loads(beam, trial, work)
+            call find_scheme(beam, trial, rule_block, cell%closed, work, outcome, error)
+            cell%solves = cell%solves + work%solves
+            if (allocated(error)) return
+            if (outcome%indifferent) then
+                call fatal_error(error, gapbeam_not_converged, "above this load factor the beam can move freely without work "// &
+                                 "of the loads, so there is no single path of its supports: follow the load by steps")
+                return
+            end if
+            if (outcome%status == gapbeam_solved) then
+                call find_lines(beam, cell, error)
+                if (allocated(error)) return
+                call find_interval(cell, trial, from)
+            else
+                from = start_of_motion(beam, outcome%motion)
+            end if
+            if (.not. from > factor + last_share*scale_of_factor) return
+            ! Nearer, before what happens there
+            trial = factor + (min(from, trial) - factor)/2
+        end do
+    end subroutine find_cell
+
+    !> The factor above which the loads do work along a motion
+    function start_of_motion(beam, motion) result(factor)
+        type(beam_type), intent(in) :: beam
+        real(wp), intent(in) :: motion(0:)
+        real(wp) :: factor, at_zero, at_one, parts
+
+        call work_of_loads(beam, 0.0_wp, motion, [0, ubound(motion, 1)], at_zero, parts)
+        call work_of_loads(beam, 1.0_wp, motion, [0, ubound(motion, 1)], at_one, parts)
+        factor = -huge(factor)
+        if (at_one > at_zero) factor = -at_zero/(at_one - at_zero)
+    end function start_of_motion
+
+    !> Solve the scheme for dead and for live loads
+    subroutine find_lines(beam, cell, error)
+        type(beam_type), intent(in) :: beam
+        type(cell_type), intent(inout) :: cell
+        type(error_type), allocatable, intent(out) :: error
+        type(beam_type) :: incremental
+        type(workspace_type) :: dead, live
+        integer :: state, place, k
+
+        call without_dead_loads(beam, incremental)
+        call new_workspace(beam, dead)
+        call new_workspace(incremental, live)
+        call set_loads(beam, 0.0_wp, dead)
+        call set_loads(incremental, 1.0_wp, live)
+        call solve_scheme(beam, cell%closed, dead, state, place)
+        if (state == band_ok) call solve_scheme(incremental, cell%closed, live, state, place)
+        if (state /= band_ok) then
+            call fatal_error(error, gapbeam_not_converged, "the beam is held by so little that the path of its supports "// &
+                             "could not be followed: follow the load by steps")
+            return
+        end if
+        call refine_scheme(beam, cell%closed, dead)
+        call refine_scheme(incremental, cell%closed, live)
+        cell%solves = cell%solves + 2
+        do k = 1, size(cell%closed)
+            cell%lines(k) = line_of(beam, incremental, cell%closed(k), k, dead, live)
+        end do
+    end subroutine find_lines
+
+    !> The interval of factors on which no sign is wrong, around the factor tried
+    pure subroutine find_interval(cell, trial, from)
+        type(cell_type), intent(inout) :: cell
+        real(wp), intent(in) :: trial
+        !> Where it begins
+        real(wp), intent(out) :: from
+        integer :: k
+
+        from = -huge(from)
+        cell%to = huge(from)
+        do k = 1, size(cell%lines)
+            associate (line => cell%lines(k))
+                if (falls(line)) cell%to = min(cell%to, max(trial, zero_of(line)))
+                if (rises(line)) from = max(from, min(trial, zero_of(line)))
+            end associate
+        end do
+    end subroutine find_interval
+
+end module gapbeam_cell

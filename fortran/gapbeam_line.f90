@@ -1,0 +1,112 @@
+!> Reactions and openings as lines over the load factor while one scheme acts: v = v0 + factor v1, v0 from the dead loads and
+!> the contact levels, v1 from the live loads alone
+module gapbeam_line
+    use gapbeam_kinds, only: wp
+    use gapbeam_model, only: beam_type
+    use gapbeam_workspace, only: workspace_type
+    use gapbeam_rules, only: margin_of, first_width
+    implicit none
+    private
+    public :: line_type, line_of, without_dead_loads, value_at, width_at, zero_of, falls, rises, stays_at_zero
+
+    !> Force with which a support pushes, or its distance to contact, and the errors of the coefficients
+    type :: line_type
+        real(wp) :: v0 = 0.0_wp, v1 = 0.0_wp, error_of_v0 = 0.0_wp, error_of_v1 = 0.0_wp
+    end type line_type
+
+contains
+
+    !> The beam of v1: dead loads and contact levels are left out
+    subroutine without_dead_loads(beam, incremental)
+        !> The beam
+        type(beam_type), intent(in) :: beam
+        !> The same without them
+        type(beam_type), intent(out) :: incremental
+        integer :: i
+
+        incremental = beam
+        incremental%supports%contact = 0.0_wp
+        incremental%force(1, :) = 0.0_wp
+        incremental%couple(1, :) = 0.0_wp
+        do i = 1, size(beam%links)
+            associate (link => incremental%links(i))
+                link%turn_a(1) = 0.0_wp
+                link%turn_b(1) = 0.0_wp
+                link%shear_a(1) = 0.0_wp
+                link%shear_b(1) = 0.0_wp
+                link%load_sum(1) = 0.0_wp
+                link%turn_sum(1) = 0.0_wp
+            end associate
+        end do
+    end subroutine without_dead_loads
+
+    !> The line of a support
+    pure function line_of(beam, incremental, closed, k, dead, live) result(line)
+        !> The beam, and what without_dead_loads makes of it
+        type(beam_type), intent(in) :: beam, incremental
+        !> Does the support act, and its number
+        logical, intent(in) :: closed
+        integer, intent(in) :: k
+        !> v0 and v1, solved with the scheme at hand
+        type(workspace_type), intent(in) :: dead, live
+        type(line_type) :: line
+
+        call margin_of(beam, closed, k, dead, line%v0, line%error_of_v0)
+        call margin_of(incremental, closed, k, live, line%v1, line%error_of_v1)
+        line%error_of_v0 = first_width*line%error_of_v0
+        line%error_of_v1 = first_width*line%error_of_v1
+    end function line_of
+
+    !> Value at a factor
+    elemental function value_at(line, factor) result(value)
+        type(line_type), intent(in) :: line
+        real(wp), intent(in) :: factor
+        real(wp) :: value
+
+        value = line%v0 + factor*line%v1
+    end function value_at
+
+    !> How near to zero counts as zero at a factor
+    elemental function width_at(line, factor) result(width)
+        type(line_type), intent(in) :: line
+        real(wp), intent(in) :: factor
+        real(wp) :: width
+
+        width = max(line%error_of_v0 + abs(factor)*line%error_of_v1, &
+                    4*epsilon(1.0_wp)*max(abs(line%v0), abs(factor*line%v1)))
+    end function width_at
+
+    !> The factor at which a line that is not level is zero
+    elemental function zero_of(line) result(zero)
+        type(line_type), intent(in) :: line
+        real(wp) :: zero
+
+        zero = -line%v0/line%v1
+    end function zero_of
+
+    !> Does a line fall as the factor grows
+    elemental function falls(line)
+        type(line_type), intent(in) :: line
+        logical :: falls
+
+        falls = line%v1 < -line%error_of_v1
+    end function falls
+
+    !> Does a line rise as the factor grows
+    elemental function rises(line)
+        type(line_type), intent(in) :: line
+        logical :: rises
+
+        rises = line%v1 > line%error_of_v1
+    end function rises
+
+    !> Is a line zero, and does it stay so
+    elemental function stays_at_zero(line, factor) result(stays)
+        type(line_type), intent(in) :: line
+        real(wp), intent(in) :: factor
+        logical :: stays
+
+        stays = .not. (falls(line) .or. rises(line)) .and. abs(value_at(line, factor)) <= width_at(line, factor)
+    end function stays_at_zero
+
+end module gapbeam_line

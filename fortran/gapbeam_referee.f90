@@ -1,0 +1,257 @@
+!> What doubles cannot decide is decided in quadruple precision.
+!>
+!> The search in double precision tells signs from rounding by the sizes of the terms behind them. Where a sign is within
+!> its rounding error, where the search does not end, or where a motion is free by a hair only, the same engine,
+!> compiled in quadruple precision, searches again, from the numbers of the pieces rather than from links rounded to
+!> doubles, and its solution, rounded once, is the result. What is zero even there, but for what the last digits of the
+!> data move (gapbeam_sensitivity), is a tie: then either state is right, and the support is named (undecided).
+module gapbeam_referee
+    use gapbeam_kinds, only: wp, qp
+    use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_memory
+    use gapbeam_link, only: piece_type, load_type
+    use gapbeam_model, only: beam_type, both
+    use gapbeam_workspace, only: workspace_type, set_loads
+    use gapbeam_rules, only: find_doubtful
+    use gapbeam_scheme, only: find_scheme, outcome_type
+    use gapbeam_link_quad, only: fine_piece_type => piece_type, fine_load_type => load_type, fine_link_type => link_type, &
+        condense_link
+    use gapbeam_model_quad, only: fine_beam_type => beam_type, new_beam
+    use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type, new_fine_workspace => new_workspace, &
+        set_fine_loads => set_loads
+    use gapbeam_rules_quad, only: margin_of, first_width
+    use gapbeam_sensitivity_quad, only: sensitivity_type, prepare_sensitivity, movement_of_support
+    use gapbeam_search_quad, only: rule_block
+    use gapbeam_scheme_quad, only: find_fine_scheme => find_scheme, fine_outcome_type => outcome_type
+    implicit none
+    private
+    public :: decide_scheme, detail_type, refine_beam, fine_piece, fine_load
+
+    !> Of more supports near zero than these all are named
+    integer, parameter :: most_examined = 64
+    !> Rounding error of a reaction, relative to the largest, from which on quadruple precision is worth its time
+    real(wp), parameter :: worst_digits = 1e-8_wp
+
+    !> What links are made of: the scene's own numbers
+    type :: detail_type
+        !> Pieces, and their dead and live loads, shape (npiece); not associated where there are the links only
+        type(piece_type), pointer :: pieces(:) => null()
+        type(load_type), pointer :: dead(:) => null(), live(:) => null()
+        !> Last piece of every link, shape (n)
+        integer, pointer :: last(:) => null()
+    end type detail_type
+
+contains
+
+    !> Find the working scheme and its solution, whatever precision it takes
+    subroutine decide_scheme(beam, detail, factor, rule, closed, work, outcome, error)
+        !> The beam, and what its links are made of
+        type(beam_type), intent(in) :: beam
+        type(detail_type), intent(in) :: detail
+        !> As for find_scheme
+        real(wp), intent(in) :: factor
+        integer, intent(in) :: rule
+        logical, intent(inout) :: closed(:)
+        type(workspace_type), intent(inout) :: work
+        type(outcome_type), intent(out) :: outcome
+        type(error_type), allocatable, intent(out) :: error
+        logical, allocatable :: undecided(:)
+        logical :: in_doubt
+
+        allocate (undecided(size(closed)))
+        undecided(:) = .false.
+        call find_scheme(beam, factor, rule, closed, work, outcome, error)
+        if (allocated(error)) then
+            if (error%code == gapbeam_no_memory) return
+            in_doubt = .true.
+        else if (outcome%status == gapbeam_solved) then
+            call find_doubtful(beam, closed, work, undecided, in_doubt)
+            in_doubt = in_doubt .or. outcome%in_doubt .or. digits_lost(work)
+        else
+            in_doubt = outcome%in_doubt
+        end if
+        if (in_doubt) call refer(beam, detail, factor, closed, undecided, work, outcome, error)
+        if (allocated(error) .or. outcome%status /= gapbeam_solved) return
+        call move_alloc(undecided, outcome%undecided)
+    end subroutine decide_scheme
+
+    !> Are reactions known to few digits, as those of springs far stiffer than the beam beside each other
+    pure function digits_lost(work) result(lost)
+        type(workspace_type), intent(in) :: work
+        logical :: lost
+
+        lost = .false.
+        if (size(work%reaction) > 0) lost = maxval(work%reaction_error) > worst_digits*maxval(abs(work%reaction))
+    end function digits_lost
+
+    !> The same in quadruple precision
+    subroutine refer(beam, detail, factor, closed, undecided, work, outcome, error)
+        type(beam_type), intent(in) :: beam
+        type(detail_type), intent(in) :: detail
+        real(wp), intent(in) :: factor
+        !> Start in, working scheme out
+        logical, intent(inout) :: closed(:)
+        !> Supports that are at zero even so
+        logical, intent(out) :: undecided(:)
+        type(workspace_type), intent(inout) :: work
+        type(outcome_type), intent(inout) :: outcome
+        type(error_type), allocatable, intent(inout) :: error
+        type(fine_beam_type) :: fine
+        type(fine_workspace_type) :: fine_work
+        type(fine_outcome_type) :: found
+
+        undecided(:) = .false.
+        call refine_beam(beam, detail, fine)
+        call new_fine_workspace(fine, fine_work)
+        call set_fine_loads(fine, real(factor, qp), fine_work)
+        if (allocated(error)) deallocate (error)
+        call find_fine_scheme(fine, real(factor, qp), rule_block, closed, fine_work, found, error)
+        work%solves = work%solves + fine_work%solves
+        work%method = fine_work%method
+        if (allocated(error)) return
+        outcome = outcome_type(status=found%status, indifferent=found%indifferent)
+        if (found%status /= gapbeam_solved) then
+            outcome%motion = real(found%motion, wp)
+            return
+        end if
+        call find_undecided(fine, real(factor, qp), closed, fine_work, undecided)
+        associate (a => fine_work%answers)
+            work%answers%deflection = real(a%deflection, wp)
+            work%answers%moment_left = real(a%moment_left, wp)
+            work%answers%moment_right = real(a%moment_right, wp)
+        end associate
+        work%shear = real(fine_work%shear, wp)
+        work%reaction = real(fine_work%reaction, wp)
+    end subroutine refer
+
+    !> Supports whose reaction or opening is smaller than what it moves when the data change in their last digits
+    subroutine find_undecided(fine, factor, closed, work, undecided)
+        type(fine_beam_type), intent(in) :: fine
+        real(qp), intent(in) :: factor
+        logical, intent(in) :: closed(:)
+        type(fine_workspace_type), intent(inout) :: work
+        logical, intent(out) :: undecided(:)
+        type(sensitivity_type) :: sensitivity
+        real(qp) :: margin(size(closed)), rounding, movement
+        integer :: k
+
+        do k = 1, size(closed)
+            undecided(k) = .false.
+            associate (s => fine%supports(k))
+                if (s%side == both .or. .not. s%stiffness > 0.0_qp) cycle
+            end associate
+            call margin_of(fine, closed(k), k, work, margin(k), rounding)
+            undecided(k) = abs(margin(k)) <= first_width*rounding*(epsilon(1.0_wp)/epsilon(rounding))
+        end do
+        if (.not. any(undecided) .or. count(undecided) > most_examined) return
+        call prepare_sensitivity(fine, factor, work, sensitivity)
+        if (.not. sensitivity%known) return
+        do k = 1, size(closed)
+            if (.not. undecided(k)) cycle
+            call movement_of_support(fine, sensitivity, closed(k), k, work, movement)
+            undecided(k) = abs(margin(k)) <= movement
+        end do
+    end subroutine find_undecided
+
+    !> The beam in quadruple precision
+    subroutine refine_beam(beam, detail, fine)
+        !> The beam, and what its links are made of
+        type(beam_type), intent(in) :: beam
+        type(detail_type), intent(in) :: detail
+        !> The same, its links condensed anew where their pieces are known
+        type(fine_beam_type), intent(out) :: fine
+        type(fine_link_type), allocatable :: links(:)
+
+        allocate (links(size(beam%links)))
+        if (associated(detail%pieces)) then
+            call condense_again(detail, links)
+        else
+            associate (l => beam%links)
+                links%length = l%length
+                links%inverse = 1/links%length
+                links%bending = l%bending
+                links%sum_a = l%sum_a
+                links%sum_b = l%sum_b
+                links%faa = l%faa
+                links%fab = l%fab
+                links%fbb = l%fbb
+                links%determinant = l%determinant
+            end associate
+            call copy_load_terms(beam, links)
+        end if
+        associate (s => beam%supports)
+            call new_beam(links, beam%kind, fine_reciprocal(beam%compliance), real(beam%force, qp), real(beam%couple, qp), &
+                          s%node, s%side, real(s%stiffness, qp), real(s%contact, qp), fine)
+        end associate
+    end subroutine refine_beam
+
+    !> What the loads do to the links, as it is in double precision
+    pure subroutine copy_load_terms(beam, links)
+        type(beam_type), intent(in) :: beam
+        type(fine_link_type), intent(inout) :: links(:)
+        integer :: i
+
+        do i = 1, size(links)
+            associate (from => beam%links(i), to => links(i))
+                to%turn_a = from%turn_a
+                to%turn_b = from%turn_b
+                to%shear_a = from%shear_a
+                to%shear_b = from%shear_b
+                to%load_sum = from%load_sum
+                to%turn_sum = from%turn_sum
+            end associate
+        end do
+    end subroutine copy_load_terms
+
+    !> Condense the pieces between nodes
+    subroutine condense_again(detail, links)
+        type(detail_type), intent(in) :: detail
+        type(fine_link_type), intent(out) :: links(:)
+        type(fine_piece_type), allocatable :: pieces(:)
+        type(fine_load_type), allocatable :: dead(:), live(:)
+        real(qp), allocatable :: work(:)
+        integer :: i, first, longest
+
+        longest = detail%last(1)
+        do i = 2, size(links)
+            longest = max(longest, detail%last(i) - detail%last(i - 1))
+        end do
+        allocate (pieces(longest), dead(longest), live(longest), work(longest))
+        first = 1
+        do i = 1, size(links)
+            associate (n => detail%last(i) - first + 1, last => detail%last(i))
+                pieces(1:n) = fine_piece(detail%pieces(first:last))
+                dead(1:n) = fine_load(detail%dead(first:last))
+                live(1:n) = fine_load(detail%live(first:last))
+                call condense_link(pieces(1:n), dead(1:n), live(1:n), work, links(i))
+            end associate
+            first = detail%last(i) + 1
+        end do
+    end subroutine condense_again
+
+    !> A piece in quadruple precision
+    elemental function fine_piece(piece) result(fine)
+        type(piece_type), intent(in) :: piece
+        type(fine_piece_type) :: fine
+
+        fine = fine_piece_type(real(piece%length, qp), fine_reciprocal(piece%flexibility), fine_reciprocal(piece%shear_flexibility))
+    end function fine_piece
+
+    !> A reciprocal in quadruple precision: of the stiffness that the user gave, which two roundings give back, mostly exactly
+    elemental function fine_reciprocal(flexibility) result(fine)
+        real(wp), intent(in) :: flexibility
+        real(qp) :: fine
+
+        fine = 0.0_qp
+        if (flexibility > 0.0_wp) fine = 1/real(1/flexibility, qp)
+    end function fine_reciprocal
+
+    !> A load in quadruple precision
+    elemental function fine_load(load) result(fine)
+        type(load_type), intent(in) :: load
+        type(fine_load_type) :: fine
+
+        fine = fine_load_type(real(load%qa, qp), real(load%qb, qp), real(load%kappa, qp), real(load%force, qp), &
+                              real(load%couple, qp))
+    end function fine_load
+
+end module gapbeam_referee
