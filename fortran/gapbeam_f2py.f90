@@ -302,6 +302,7 @@ subroutine gbcase(nl, ns, nd, nsh, nno, nc, link, kind, compli, snode, sside, ss
                   sload, slink, share, pload, pnode, pshare, factor, rule, closed, &
                   w, ml, mr, shear, react, solves, status)
     use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
+    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
     use gapbeam_link, only: link_type
     use gapbeam_model, only: beam_type, new_beam
     use gapbeam_workspace, only: workspace_type, new_workspace
@@ -323,7 +324,7 @@ subroutine gbcase(nl, ns, nd, nsh, nno, nc, link, kind, compli, snode, sside, ss
     ! Factor of every load in every case
     double precision, intent(in) :: factor(nd, nc)
     integer, intent(in) :: rule
-    ! Schemes: start in, working scheme out; zeros in the results of a case that is not solved
+    ! Schemes: start in, working scheme out; of a case that is not solved all open, and its results are not numbers
     integer, intent(inout) :: closed(ns, nc)
     double precision, intent(out) :: w(0:nl, nc), ml(0:nl, nc), mr(0:nl, nc), shear(nl, nc), react(ns, nc)
     integer, intent(out) :: solves(nc), status(nc)
@@ -341,6 +342,7 @@ subroutine gbcase(nl, ns, nd, nsh, nno, nc, link, kind, compli, snode, sside, ss
     type(workspace_type) :: work
     logical, allocatable :: acting(:)
     double precision, allocatable :: none(:, :)
+    double precision :: nan
     integer :: i
 
     call c_f_pointer(c_loc(link), links, [nl])
@@ -350,15 +352,17 @@ subroutine gbcase(nl, ns, nd, nsh, nno, nc, link, kind, compli, snode, sside, ss
     none(:, :) = 0.0d0
     call new_beam(links, kind, compli, none, none, snode, sside, sstiff, scont, beam)
     call new_workspace(beam, work)
-    w = 0.0d0
-    ml = 0.0d0
-    mr = 0.0d0
-    shear = 0.0d0
-    react = 0.0d0
+    nan = ieee_value(nan, ieee_quiet_nan)
+    w = nan
+    ml = nan
+    mr = nan
+    shear = nan
+    react = nan
     do i = 1, nc
         acting(:) = closed(:, i) /= 0
         call solve_case(factor(:, i), sload, slink, shares, pload, pnode, node_shares, rule, beam, acting, work, status(i))
         solves(i) = work%solves
+        closed(:, i) = 0
         if (status(i) /= gapbeam_solved) cycle
         closed(:, i) = merge(1, 0, acting)
         w(:, i) = work%answers%deflection

@@ -77,9 +77,21 @@ def test_a_case_without_equilibrium_is_recorded():
     beam = gapbeam.prepare(made)
     cases = beam.solve([[1.0, 0.1], [1.0, 10.0], [2.0, 0.0]])
     assert cases.status.tolist() == [0, 1, 0]
-    assert np.array_equal(cases.reaction[1], [0.0, 0.0])
+    for name in ("reaction", "deflection", "moment_left", "moment_right"):
+        assert np.isfinite(getattr(cases, name)).tolist() == [[k != 1] * getattr(cases, name).shape[1] for k in range(3)]
+    assert cases.closed.tolist() == [[1, 1], [0, 0], [1, 1]]
     assert cases.reaction[2] == pytest.approx([1.0, 1.0])
     assert "tips about the support at x = 1" in beam.result([1.0, 10.0]).reason
+
+
+def test_a_case_without_a_unique_answer_is_recorded():
+    """A rigid beam on three rigid supports: its reactions are not unique where all of them act."""
+    supports = [at(0, side="below"), at(1, side="below"), at(2, side="below")]
+    beam = gapbeam.prepare(scene([1.0, 1.0], supports, [force(0.5, 1.0), force(1.0, 1.0)], EI=np.inf))
+    cases = beam.solve([[0.0, 1.0], [1.0, 1.0]])
+    assert cases.status[0] == gapbeam.Status.INDETERMINATE
+    assert np.isnan(cases.reaction[0]).all()
+    assert not cases.closed[0].any()
 
 
 def test_far_units():

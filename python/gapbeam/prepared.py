@@ -31,9 +31,9 @@ class Cases:
     ----------
     status : numpy.ndarray of int
         0 solved, 1 no equilibrium, above 10 another reason why there is no unique answer; `Prepared.result` of that case
-        says it in words. Values of a case that is not solved are 0.
+        says it in words. Values of a case that is not solved are not-a-number.
     closed : numpy.ndarray of int
-        1 where a support across the beam acts, 0 where it is open; in the order of the scene.
+        1 where a support across the beam acts, 0 where it is open or the case is not solved; in the order of the scene.
     reaction : numpy.ndarray
         Reaction of every support across the beam, positive upward.
     deflection : numpy.ndarray
