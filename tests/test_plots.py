@@ -44,6 +44,44 @@ def everything():
     )  # fmt: skip
 
 
+def changing():
+    """A linear load that changes its sign, beside one that does not; a couple under a force."""
+    loads = [scenes.linear(-10.0, 10.0, to=6.0), scenes.linear(-5.0, -15.0, **{"from": 6.0}), scenes.moment(3.0, -50.0)]
+    return scenes.scene([6.0, 6.0], [scenes.at(i) for i in range(3)], [*loads, scenes.force(3.0, 50.0)], EI=1e4)
+
+
+def crowded():
+    """Opposite forces and a couple at one place, three supports close together."""
+    supports = [
+        scenes.at(0), scenes.at(1, side="below"), scenes.at(2, settlement=0.02),
+        scenes.at(x=6.2, side="above", gap=0.003), scenes.at(x=6.4, side="below", gap=0.004),
+    ]  # fmt: skip
+    loads = [
+        scenes.force(3.0, 100.0, case="dead"), scenes.force(3.0, -60.0), scenes.moment(3.0, -50.0),
+        scenes.uniform(-5.0, **{"from": 6.0}), scenes.linear(-10.0, 10.0, to=6.0), scenes.curvature(1e-3),
+        scenes.curvature(-2e-3, to=3.0), scenes.uniform(3.0, case="dead"),
+    ]  # fmt: skip
+    return scenes.scene([6.0, 6.0], supports, loads, EI=1e4) | {"units": {"force": "kN", "length": "m"}}
+
+
+def clearances(spans=(100.0, 150.0, 30.0, 200.0, 120.0)):
+    """Clearance of another size on both sides of every bearing, two of them close together."""
+    supports = []
+    for i in range(len(spans)):
+        supports += [scenes.at(i, side="below", gap=0.02 * (i + 1)), scenes.at(i, side="above", gap=0.05 * (i + 1))]
+    return scenes.scene(list(spans), supports, [scenes.uniform(0.1)], EI=1e9)
+
+
+def texts(axes):
+    return [text.get_text() for text in axes.texts if text.get_text()]
+
+
+def corners(picture, label):
+    """The polygons of the distributed loads in one direction: places and heights of their corners."""
+    found = [c for c in picture.axes[0].collections if c.get_label() == f"distributed {label}"]
+    return [path.vertices for collection in found for path in collection.get_paths()]
+
+
 def symbols(picture):
     """Number and face colour of the support symbols in the first panel, by label."""
     return {
@@ -109,7 +147,7 @@ def test_extremes_are_annotated():
 
 
 def test_labels_of_loads_and_extremes_do_not_overlap():
-    for scene in (paper(), everything()):
+    for scene in (paper(), everything(), changing(), crowded(), clearances(), clearances([5.0] * 8)):
         picture = figure(gapbeam.solve(scene))
         picture.draw_without_rendering()
         for axes in picture.axes:
@@ -117,6 +155,73 @@ def test_labels_of_loads_and_extremes_do_not_overlap():
             pairs = [(a, b) for i, a in enumerate(boxes) for b in boxes[:i]]
             # Bounding boxes hold some empty space above and below the letters.
             assert not any(a.shrunk(1, 0.7).overlaps(b.shrunk(1, 0.7)) for a, b in pairs)
+
+
+def test_a_load_that_changes_its_sign_is_drawn_in_both_directions():
+    picture = figure(gapbeam.solve(changing()))
+    up, down = corners(picture, "up"), corners(picture, "down")
+    assert [(part[:, 0].min(), part[:, 0].max()) for part in up] == [(0.0, 3.0), (6.0, 12.0)]
+    assert [(part[:, 0].min(), part[:, 0].max()) for part in down] == [(3.0, 6.0)]
+    base = down[0][:, 1].min()
+    falling, rising = up[0], down[0]
+    assert np.ptp(falling[falling[:, 0] == 3.0][:, 1]) == 0.0
+    assert np.ptp(rising[rising[:, 0] == 3.0][:, 1]) == 0.0
+    assert falling[:, 1].max() == rising[:, 1].max() > base
+    assert "\N{MINUS SIGN}10 to 10" in texts(picture.axes[0])
+
+
+def test_no_load_is_no_block():
+    picture = figure(gapbeam.solve(scenes.scene([2.0], [scenes.at(0), scenes.at(1)], [scenes.uniform(0.0)])))
+    assert np.ptp(corners(picture, "down")[0][:, 1]) == 0.0
+
+
+def test_opposite_forces_at_one_place_are_two_arrows_with_signs():
+    picture = figure(gapbeam.solve(crowded()))
+    picture.draw_without_rendering()
+    axes = picture.axes[0]
+    lines = next(c for c in axes.collections if c.get_label() == "forces").get_segments()
+    points = axes.transData.transform([line[0] for line in lines])[:, 0] * 72 / picture.dpi
+    assert abs(points[0] - points[1]) > 6.0
+    assert sum(points) / 2 == pytest.approx(axes.transData.transform((3.0, 0.0))[0] * 72 / picture.dpi)
+    labels = {text.get_text(): text.get_window_extent() for text in axes.texts}
+    assert {"100 kN dead", "\N{MINUS SIGN}60 kN live", "\N{MINUS SIGN}50 kN m live"} <= set(labels)
+    middle = axes.transData.transform((3.0, 0.0))[0]
+    assert labels["100 kN dead"].x0 < middle < labels["\N{MINUS SIGN}60 kN live"].x1
+    assert labels["\N{MINUS SIGN}50 kN m live"].y0 < labels["\N{MINUS SIGN}60 kN live"].y0
+
+
+@pytest.mark.parametrize("count", [2, 12, 24])
+def test_every_load_has_its_label(count):
+    loads = [kind(3.0, value) for kind in (scenes.force, scenes.moment) for value in (7.0, -3.0)]
+    made = scenes.scene([6.0], [scenes.at(0), scenes.at(1)], (loads * 6)[:count])
+    axes = figure(gapbeam.solve(made)).axes[0]
+    assert sum(text in ("7", "\N{MINUS SIGN}3") for text in texts(axes)) == count
+
+
+def test_gaps_are_named_by_their_support():
+    shown = texts(figure(gapbeam.solve(clearances())).axes[0])
+    for k in range(5):
+        names = f"{2 * k} below: gap {0.02 * (k + 1):.4g}\n{2 * k + 1} above: gap {0.05 * (k + 1):.4g}"
+        assert shown.count(names) == 1
+    shown = texts(figure(gapbeam.solve(crowded())).axes[0])
+    assert {"0", "1, 3, 4", "2", "3: gap 0.003", "4: gap 0.004"} <= set(shown)
+
+
+def test_a_gap_that_all_supports_of_a_place_have_needs_no_number():
+    supports = [scenes.at(0), scenes.at(1, side="below", gap=0.01), scenes.at(1, side="above", gap=0.01), scenes.at(2)]
+    shown = texts(figure(gapbeam.solve(scenes.scene([6.0, 6.0], supports, [scenes.uniform(1.0)]))).axes[0])
+    assert shown.count("1, 2") == shown.count("gap 0.01") == 1
+
+
+@pytest.mark.parametrize("places", [5, 20, 32, 33, 60, 61, 300])
+def test_numbers_of_supports_keep_clear_of_one_another(places):
+    supports = [scenes.at(i // 2, side=("below", "above")[i % 2], gap=1e-3 * (i % 7)) for i in range(2 * places)]
+    picture = figure(gapbeam.solve(scenes.scene([5.0] * (places - 1), supports, [scenes.uniform(5.0)])))
+    picture.draw_without_rendering()
+    below = [text.get_window_extent() for text in picture.axes[0].texts if text.get_position()[1] < -5.0]
+    assert len(below) > 3
+    assert not any(a.shrunk(1, 0.7).overlaps(b.shrunk(1, 0.7)) for i, a in enumerate(below) for b in below[:i])
+    assert all(box.x0 >= 0.0 and box.x1 <= picture.bbox.x1 for box in below)
 
 
 def test_everything_is_drawn():

@@ -100,7 +100,7 @@ def figure(result: "Result", step: int = -1) -> Figure:
     axes.set_axis_off()
     axes.set_ylim(supports.bottom, loads.top)  # one unit is one point
     draw_beam(axes, scene, states, supports)
-    draw_loads(axes, scene, loads)
+    draw_loads(axes, loads)
     _headings(picture, result, step, states, len(supports.rows))
     bottom = top - beam - SPACE
     for quantity, words, downward in panels:
@@ -138,7 +138,7 @@ def _headings(picture: Figure, result: "Result", step: int, states: tuple[str, .
     title = result.scene.title or "Beam"
     picture.text(left, 1 - 0.22 / height, _cut(title, 95), fontsize=10, fontweight="bold", va="center")
     if result.status == "no-equilibrium":
-        text = "\n".join(textwrap.wrap(f"No equilibrium. {fmt.sentence(result.reason)}", 85, max_lines=2))
+        text = outcome(result)
     else:
         counts = Counter(states)
         text = f"load factor {fmt.number(result.steps[step].factor)}"
@@ -149,6 +149,21 @@ def _headings(picture: Figure, result: "Result", step: int, states: tuple[str, .
             handles=legend_handles(states), loc="center right", bbox_to_anchor=(1 - RIGHT / WIDTH, 1 - 0.42 / height),
             ncols=4, frameon=False, fontsize=7.5, handletextpad=0.1, columnspacing=1.0, borderpad=0,
         )  # fmt: skip
+
+
+def outcome(result: "Result") -> str:
+    """Say on two lines at most why there is no equilibrium.
+
+    Parameters
+    ----------
+    result : Result
+        Without equilibrium.
+
+    Returns
+    -------
+    str
+    """
+    return "\n".join(textwrap.wrap(f"No equilibrium. {fmt.sentence(result.reason)}", 85, max_lines=2))
 
 
 def _cut(text: str, most: int) -> str:

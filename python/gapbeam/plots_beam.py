@@ -16,7 +16,8 @@ from matplotlib.lines import Line2D
 from matplotlib.path import Path
 from matplotlib.transforms import ScaledTranslation, Transform
 
-from .formatting import number, stretch
+from .formatting import number, ranges, stretch
+from .plots_labels import LINE, Labels, text_width
 
 if TYPE_CHECKING:
     from .scene import Scene, Support
@@ -30,6 +31,8 @@ HALF = 2.5
 OFF = 4.0
 #: With more places than this, rows of ticks replace the symbols
 MOST_SYMBOLS = 60
+#: Lines that the gaps may take under the numbers of the supports
+MOST_LINES = 6
 
 #: Symbols with their tip in the origin, below the beam; the largest coordinate is 1, one height
 _TRIANGLE = Path([(0, 0), (-0.6, -1), (0.6, -1), (0, 0)], [1, 2, 2, 79])
@@ -63,8 +66,8 @@ class SupportLanes:
         Height of a triangle.
     rows : list of str
         Rows of ticks by state and side, where there are too many supports for symbols; else empty.
-    labels : float
-        Height of the numbers of the supports.
+    labels : list of (float, float, str)
+        Numbers of the supports, and gaps where there is room: place, height of the upper edge, text.
     bottom, top : float
         What the supports take up below and above the axis of the beam.
     """
@@ -89,9 +92,8 @@ class SupportLanes:
             above += depth if any(support.side != "below" and support.rotation != "fixed" for support in supports) else 0
             if any(support.rotation != "free" for support in supports):
                 below, above = max(below, 13.0), max(above, 12.0)
-        self.labels = -below - 2.0
-        self.gaps = self.spacing > 42 and any(support.gap for support in scene.supports)
-        self.bottom = self.labels - (18.0 if self.gaps else 10.0)
+        self.labels = _labels(scene, self.x, width, -below - 2.0)
+        self.bottom = min((y - LINE * (1 + text.count("\n")) for _, y, text in self.labels), default=-below - 2.0) - 1.0
         self.top = above + 2.0
 
 
@@ -117,7 +119,8 @@ def draw_beam(axes: Axes, scene: "Scene", states: tuple[str, ...], lanes: Suppor
         _ticks(axes, scene, states, lanes)
     else:
         _symbols(axes, scene, states, lanes)
-    _numbers(axes, scene, lanes)
+    for x, y, text in lanes.labels:
+        axes.text(x, y, text, fontsize=6.5, ha="center", va="top", color="0.25", linespacing=1.15)
 
 
 def draw_contacts(axes: Axes, scene: "Scene", states: tuple[str, ...], largest: float) -> list[tuple[float, float]]:
@@ -279,17 +282,64 @@ def _ticks(axes: Axes, scene: "Scene", states: tuple[str, ...], lanes: SupportLa
                       ha="right", va="center", annotation_clip=False)  # fmt: skip
 
 
-def _numbers(axes: Axes, scene: "Scene", lanes: SupportLanes) -> None:
-    """Write the numbers of the supports below them, as many as fit, and the gaps where there is room."""
+def _labels(scene: "Scene", x: np.ndarray, width: float, top: float) -> list[tuple[float, float, str]]:
+    """Lay out the numbers of the supports, as many as fit, and their gaps under them, from a height downward."""
+    scale = (width - 60.0) / float(scene.span_ends()[-1])  # points per length
     at = defaultdict(list)
-    for index, x in enumerate(lanes.x):
-        at[x].append(index)
+    for index, place in enumerate(x.tolist()):
+        at[place].append(index)
     every = next(step for step in (1, 2, 5, 10, 20, 50, 10 ** max(2, len(str(len(at))) - 1)) if len(at) / step <= 32)
-    for position, (x, indices) in enumerate(sorted(at.items())):
-        if position % every:
+    groups: list[list[float]] = []
+    for place in sorted(at)[::every]:
+        if not groups or (place - _middle(groups[-1])) * scale > (_width(at, groups[-1]) + _width(at, [place])) / 2:
+            groups.append([place])
+        elif every == 1:
+            groups[-1].append(place)  # too near for a label of its own
+    numbers = [(_middle(group), top, _numbers(at, group)) for group in groups]
+    if every > 1:
+        return numbers
+    alone = {group[0] for group in groups if len(group) == 1}
+    page = (width - 22.0) / scale
+    return numbers + _gap_labels(scene, at, alone, scale, page, top - LINE)
+
+
+def _middle(places: list[float]) -> float:
+    return (places[0] + places[-1]) / 2
+
+
+def _width(at: dict[float, list[int]], places: list[float]) -> float:
+    return text_width(_numbers(at, places))
+
+
+def _numbers(at: dict[float, list[int]], places: list[float]) -> str:
+    """Write the numbers of the supports at some places."""
+    indices = [index for place in places for index in at[place]]
+    return ", ".join(map(str, indices)) if len(indices) <= 3 else ranges(sorted(indices))
+
+
+def _gap_labels(
+    scene: "Scene", at: dict[float, list[int]], alone: set[float], scale: float, page: float, top: float
+) -> list[tuple[float, float, str]]:
+    """Write the gaps under the numbers, further down where they would cover one another; none where that goes too far.
+
+    Places of which the number stands `alone` need not repeat it. What is written ends before the edge of the `page`.
+    """
+    labels, result = Labels(), []
+    for place, indices in sorted(at.items()):
+        gaps = {index: number(scene.supports[index].gap, 4) for index in indices if scene.supports[index].gap}
+        if not gaps:
             continue
-        text = ", ".join(map(str, indices))
-        gaps = {number(scene.supports[index].gap, 4) for index in indices if scene.supports[index].gap}
-        if lanes.gaps and gaps:
-            text += "\ngap " + " / ".join(sorted(gaps))
-        axes.text(x, lanes.labels, text, fontsize=6.5, ha="center", va="top", color="0.25", linespacing=1.15)
+        sides = {scene.supports[index].side for index in indices}
+        each = [f"{index}{f' {scene.supports[index].side}' if len(sides) > 1 else ''}: gap {gap}" for index, gap in gaps.items()]
+        texts = ["\n".join(each)] * MOST_LINES
+        if place in alone and len(gaps) == len(indices) and len(set(gaps.values())) == 1:
+            texts[0] = f"gap {gaps[indices[0]]}"  # right under the numbers, and the same for all of them
+        for line, text in enumerate(texts):
+            middle = min(place, page - text_width(text) / 2 / scale)
+            lines = line + 1 + text.count("\n")
+            if lines <= MOST_LINES and labels.take(middle * scale, top - LINE * lines, text):
+                result.append((middle, top - LINE * line, text))
+                break
+        else:
+            return []
+    return result

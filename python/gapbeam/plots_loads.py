@@ -1,6 +1,9 @@
 """Loads in the panel of the beam: blocks on the beam, arrows through them, arcs for couples."""
 
+import math
+from collections import defaultdict
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -10,21 +13,20 @@ from matplotlib.path import Path
 from matplotlib.transforms import Affine2D, ScaledTranslation, Transform
 
 from .formatting import number, stretch, unit
+from .plots_labels import LINE, Labels, text_width
 from .scene import AxialLoad, CurvatureLoad, ForceLoad, LinearLoad, MomentLoad, UniformLoad
 
 if TYPE_CHECKING:
     from .scene import Scene
 
-#: Points: height of the highest block, of a lane of blocks with its label, of the longest arrow, of a line of text
-BLOCK, LANE, ARROW, TEXT = 12.0, 23.0, 22.0, 9.0
-#: Points: radius of the arc of a couple
-ARC = 11.0
+#: Points: height of the highest block, of a lane of blocks with its label, of the longest arrow
+BLOCK, LANE, ARROW = 12.0, 23.0, 22.0
+#: Points: radius of the arc of a couple; how far apart opposite forces at one place are drawn
+ARC, APART = 11.0, 8.0
 #: With more loads of a kind than this, they get no label
 MOST_LABELS = 24
 
 _HEAD = Path([(0, 0), (-0.45, 1), (0.45, 1), (0, 0)], [1, 2, 2, 79])
-
-
 
 
 @dataclass
@@ -43,13 +45,17 @@ class Block:
 
 @dataclass
 class Arrow:
-    """A point load: place, value, what it is ("force", "moment", "axial"), the height of its label (0: none)."""
+    """A point load: place, value, what it is ("force", "moment", "axial"), how far aside it is drawn.
+
+    Its label has its middle so far from the place and its foot so high; all in points.
+    """
 
     x: float
     value: float
     text: str
     kind: str
-    label: float = 0.0
+    aside: float = 0.0
+    label: tuple[float, float] | None = None
 
 
 class LoadLanes:
@@ -75,11 +81,13 @@ class LoadLanes:
     def __init__(self, scene: "Scene", base: float, width: float) -> None:
         above = [support for support in scene.supports if support.side != "below" and support.direction == "normal"]
         self.above = scene.positions(above)
-        self.scale = (width - 60) / float(scene.span_ends()[-1])  # points per length
+        self.end = float(scene.span_ends()[-1])
+        self.scale = (width - 60) / self.end  # points per length
         self.blocks = _blocks(scene)
         self.arrows = _arrows(scene)
+        _set_apart(self.arrows, self.scale)
         couples = any(arrow.kind == "moment" for arrow in self.arrows)
-        self.base = max(base, ARC + 2.0 + TEXT * (len(self.arrows) <= MOST_LABELS)) if couples else base
+        self.base = max(base, ARC + 2.0 + LINE * (len(self.arrows) <= MOST_LABELS)) if couples else base
         self.labelled = len(self.blocks) <= MOST_LABELS
         lanes = _pack(self.blocks)
         self.lane = LANE if self.labelled else BLOCK + 3.0
@@ -88,60 +96,78 @@ class LoadLanes:
         self.lengths = [0.35 * ARROW + 0.65 * ARROW * abs(arrow.value) / largest for arrow in self.arrows]
         ends = [self.tip(arrow, length) for arrow, length in zip(self.arrows, self.lengths, strict=True)]
         if len(self.arrows) <= MOST_LABELS:
-            self._place_labels(ends)
-        self.top = max([self.arrows_from, *ends, *(arrow.label + TEXT for arrow in self.arrows)]) + 2.0
+            self._place_labels(ends, page=width - 22.0)
+        self.top = max([self.arrows_from, *ends, *(arrow.label[1] + LINE for arrow in self.arrows if arrow.label)]) + 2.0
 
     def tip(self, arrow: Arrow, length: float) -> float:
         """Give the upper end of the symbol of a point load."""
-        return self.arrows_from + length if arrow.kind == "force" else ARC if arrow.kind == "moment" else 4.0
+        if arrow.kind == "force":
+            return self.arrows_from + length
+        return ARC if arrow.kind == "moment" else self.axial(arrow)[2] + 1.0
 
     def foot(self, arrow: Arrow) -> float:
         """Give the lower end of the arrow of a force: the beam, or above the symbol of a support there."""
         return self.base if np.any(np.abs(self.above - arrow.x) * self.scale < 9.0) else 3.5
 
-    def _place_labels(self, ends: list[float]) -> None:
-        """Write every label above its arrow, higher where there is one already, not at all where it is full."""
-        taken: list[tuple[float, float, float]] = []
+    def axial(self, arrow: Arrow) -> tuple[float, float, float]:
+        """Give start and tip of a horizontal arrow, from its place on, and its height: outside an end, above the axis elsewhere."""
+        direction = 1.0 if arrow.value > 0 else -1.0
+        outside = -1.0 if arrow.x <= 1e-9 * self.end else 1.0 if arrow.x >= self.end * (1.0 - 1e-9) else 0.0
+        start, stop = (0.0, 22.0 * direction) if outside in (0.0, direction) else (22.0 * outside, 2.0 * outside)
+        beside = 8.0 * (outside or direction) if self.foot(arrow) > 3.5 else 0.0  # of the symbol of a support
+        return start + beside, stop + beside, 0.0 if outside else 7.0
+
+    def _place_labels(self, ends: list[float], page: float) -> None:
+        """Write every label above its arrow, or to the side where it stands there; higher where something is there already.
+
+        `ends` are the upper ends of the arrows; what is put to the side ends before the edge of the page, points.
+        """
+        labels = Labels()
+        lines = [
+            (arrow.x * self.scale + arrow.aside, top)
+            for arrow, top in zip(self.arrows, ends, strict=True) if arrow.kind == "force"
+        ]  # fmt: skip
         for arrow, end in sorted(zip(self.arrows, ends, strict=True), key=lambda pair: (pair[1], pair[0].x)):
             half, x = text_width(arrow.text) / 2, arrow.x * self.scale
-            longer = [(other.x * self.scale, top) for other, top in zip(self.arrows, ends, strict=True) if top > end]
-            for level in range(8):
-                y = end + 1.0 + level * TEXT
-                crossed = any(abs(x - at) < half and y < top for at, top in longer)
-                clear = all(abs(x - at) > half + width or abs(y - height) >= TEXT for at, width, height in taken)
-                if clear and not crossed:
-                    arrow.label = y
-                    taken.append((x, half, y))
+            above, asides = arrow.aside, [arrow.aside]
+            if arrow.kind == "moment":
+                asides += [half + ARC / 2, -half - ARC / 2]
+            elif arrow.kind == "axial":
+                start, stop, _ = self.axial(arrow)
+                above = (start + stop) / 2
+                asides = [above, math.copysign(half + 2.0, stop - start)]
+            elif arrow.aside:
+                asides.insert(0, math.copysign(half, arrow.aside))
+            places = [(aside, end + 1.0) for aside in asides if x + aside + half < page]
+            # One of so many is free: a label or an arrow is in the way of less than two of them
+            places += [(above, end + 1.0 + level * LINE) for level in range(4 * MOST_LABELS)]
+            for aside, y in places:
+                crossed = any(abs(x + aside - at) < half and end < top and y < top for at, top in lines)
+                if not crossed and labels.take(x + aside, y, arrow.text):
+                    arrow.label = aside, y
                     break
 
 
-def text_width(text: str) -> float:
-    """Estimate the width of a label, points."""
-    return 4.0 * len(text) + 3.0
-
-
-def draw_loads(axes: Axes, scene: "Scene", lanes: LoadLanes) -> None:
+def draw_loads(axes: Axes, lanes: LoadLanes) -> None:
     """Draw all loads at their full size.
 
     Parameters
     ----------
     axes : matplotlib.axes.Axes
         The panel; its vertical unit is one point.
-    scene : Scene
-        The scene.
     lanes : LoadLanes
-        Where to draw.
+        The loads, and where to draw them.
     """
     if lanes.blocks:
         _draw_blocks(axes, lanes)
     _draw_forces(axes, lanes)
     _draw_couples(axes, lanes)
-    end = float(scene.span_ends()[-1])
     for arrow in lanes.arrows:
         if arrow.kind == "axial":
-            _draw_axial(axes, arrow, end, beside=lanes.foot(arrow) > 3.5)
-        elif arrow.label:
-            axes.text(arrow.x, arrow.label, arrow.text, fontsize=6.8, ha="center", va="bottom", zorder=7)
+            _draw_axial(axes, arrow, lanes)
+        if arrow.label:
+            axes.annotate(arrow.text, (arrow.x, arrow.label[1]), (arrow.label[0], 0.0), textcoords="offset points",
+                          fontsize=6.8, ha="center", va="bottom", zorder=7)  # fmt: skip
 
 
 def _blocks(scene: "Scene") -> list[Block]:
@@ -149,16 +175,30 @@ def _blocks(scene: "Scene") -> list[Block]:
     cases = len({load.case for load in scene.loads})
     for load in scene.loads:
         if isinstance(load, UniformLoad):
-            ends, text, quantity = (load.q, load.q), number(load.q, 4), "uniform"
+            ends, text, quantity = (load.q, load.q), _signed(load.q, 4), "uniform"
         elif isinstance(load, LinearLoad):
-            ends, text, quantity = load.q, f"{number(load.q[0], 4)} to {number(load.q[1], 4)}", "uniform"
+            ends, text, quantity = load.q, f"{_signed(load.q[0], 4)} to {_signed(load.q[1], 4)}", "uniform"
         elif isinstance(load, CurvatureLoad):
-            ends, text, quantity = (load.kappa, load.kappa), f"curvature {number(load.kappa, 4)}", "curvature"
+            ends, text, quantity = (load.kappa, load.kappa), f"curvature {_signed(load.kappa, 4)}", "curvature"
         else:
             continue
         words = _unit_and_case(scene, load, quantity, cases)
         blocks.append(Block(*stretch(scene, load), *ends, text, words, quantity == "curvature"))
     return blocks
+
+
+def _set_apart(arrows: list[Arrow], scale: float) -> None:
+    """Draw opposite forces side by side where one would cover the other; `scale` is in points per length."""
+    columns = defaultdict(list)
+    for arrow in arrows:
+        if arrow.kind == "force" and arrow.value:
+            columns[arrow.x, arrow.value < 0.0].append(arrow)
+    for left, right in pairwise(sorted(columns)):
+        overlap = APART - (right[0] - left[0]) * scale
+        if overlap > 0.0 and left[1] != right[1]:
+            for column, way in ((left, -0.5), (right, 0.5)):
+                for arrow in columns[column]:
+                    arrow.aside += way * overlap
 
 
 def _arrows(scene: "Scene") -> list[Arrow]:
@@ -169,9 +209,13 @@ def _arrows(scene: "Scene") -> list[Arrow]:
     for load, x in zip(loads, scene.positions(loads), strict=True):
         kind, quantity = kinds[type(load)]
         value = load.M if kind == "moment" else load.F
-        text = f"{number(abs(value), 5)} {_unit_and_case(scene, load, quantity, cases)}".rstrip()
+        text = f"{_signed(value, 5)} {_unit_and_case(scene, load, quantity, cases)}".rstrip()
         arrows.append(Arrow(float(x), value, text, kind))
     return arrows
+
+
+def _signed(value: float, digits: int) -> str:
+    return number(value, digits).replace("-", "\N{MINUS SIGN}")
 
 
 def _unit_and_case(scene: "Scene", load: object, quantity: str, cases: int) -> str:
@@ -206,11 +250,11 @@ def _draw_blocks(axes: Axes, lanes: LoadLanes) -> None:
         else:
             first, last = (BLOCK * abs(value) / (largest or 1.0) for value in (block.first, block.last))
             if block.first == block.last:
-                first = last = max(first, 4.5)  # however small, it is to be seen
-            sign = 1.0 if block.first + block.last >= 0 else -1.0
-            corners = [(block.start, y), (block.start, y + first), (block.stop, y + last), (block.stop, y)]
-            groups["down" if sign > 0 else "up"].append(corners)
-            _block_arrows(block, y, (first, last), lanes.scale, sign, ticks, heads)
+                first = last = max(first, 4.5) if first else 0.0  # however small, it is to be seen
+            for start, stop, left, right, sign in _one_signed(block, first, last):
+                corners = [(start, y), (start, y + left), (stop, y + right), (stop, y)]
+                groups["down" if sign > 0 else "up"].append(corners)
+                _block_arrows(start, stop, (left, right), y, lanes.scale, sign, ticks, heads)
         tops.append(y + max(first, last))
     if lanes.labelled:
         _label_blocks(axes, lanes, tops)
@@ -228,24 +272,33 @@ def _draw_blocks(axes: Axes, lanes: LoadLanes) -> None:
             _heads(axes, points, sign, 3.2, "0.35")
 
 
+def _one_signed(block: Block, first: float, last: float) -> list[tuple[float, float, float, float, float]]:
+    """Cut a block where its load changes sign: both ends of every part, its heights there, and its sign."""
+    if not min(block.first, block.last) < 0.0 < max(block.first, block.last):
+        return [(block.start, block.stop, first, last, 1.0 if block.first + block.last >= 0.0 else -1.0)]
+    zero = block.start + (block.stop - block.start) * first / (first + last)
+    sign = 1.0 if block.first > 0.0 else -1.0
+    return [(block.start, zero, first, 0.0, sign), (zero, block.stop, 0.0, last, -sign)]
+
+
 def _block_arrows(
-    block: Block, y: float, heights: tuple[float, float], scale: float, sign: float, ticks: list, heads: dict
+    start: float, stop: float, heights: tuple[float, float], y: float, scale: float, sign: float, ticks: list, heads: dict
 ) -> None:
     """Fill a block with small arrows where it is wide and high enough for them."""
-    pieces = int((block.stop - block.start) * scale / 16.0)
+    pieces = int((stop - start) * scale / 16.0)
     if not 1 <= pieces <= 200:
         return
     for share in np.linspace(0.0, 1.0, pieces + 1):
         height = heights[0] + (heights[1] - heights[0]) * share
         if height > 4.0:
-            x = block.start + (block.stop - block.start) * share
+            x = start + (stop - start) * share
             ticks.append([(x, y), (x, y + height)])
             heads[sign].append((x, y if sign > 0 else y + height))
 
 
 def _label_blocks(axes: Axes, lanes: LoadLanes, tops: list[float]) -> None:
     """Label every block in its widest stretch without an arrow; where it is narrow, the unit once for all."""
-    forces = sorted(arrow.x for arrow in lanes.arrows if arrow.kind == "force")
+    forces = sorted(arrow.x + arrow.aside / lanes.scale for arrow in lanes.arrows if arrow.kind == "force")
     short = any(
         text_width(f"{block.text} {block.unit}") > (block.stop - block.start) * lanes.scale for block in lanes.blocks
     ) and len(lanes.blocks) > 6
@@ -254,7 +307,7 @@ def _label_blocks(axes: Axes, lanes: LoadLanes, tops: list[float]) -> None:
         widest = int(np.argmax(np.diff(cuts)))
         text = f"{block.text} {block.unit}".rstrip()
         if short:
-            text = number(block.first, 3) if block.first == block.last else block.text
+            text = _signed(block.first, 3) if block.first == block.last else block.text
         axes.text((cuts[widest] + cuts[widest + 1]) / 2, top + 0.5, text, fontsize=6.8 - 0.8 * short, ha="center",
                   va="bottom", zorder=7)  # fmt: skip
     for lane in {block.lane for block in lanes.blocks} if short else ():
@@ -273,12 +326,15 @@ def _heads(axes: Axes, points: list, sign: float, size: float, colour: str) -> N
 def _draw_forces(axes: Axes, lanes: LoadLanes) -> None:
     forces = [(arrow, length) for arrow, length in zip(lanes.arrows, lanes.lengths, strict=True) if arrow.kind == "force"]
     width = 1.1 if len(forces) <= 60 else 0.6
-    lines = [[(arrow.x, lanes.foot(arrow)), (arrow.x, lanes.tip(arrow, length))] for arrow, length in forces]
+    places = [arrow.x + arrow.aside / lanes.scale for arrow, _ in forces]
+    lines = [
+        [(x, lanes.foot(arrow)), (x, lanes.tip(arrow, length))] for x, (arrow, length) in zip(places, forces, strict=True)
+    ]
     axes.add_collection(LineCollection(lines, colors="black", linewidths=width, zorder=6, label="forces"))
     for sign in (1.0, -1.0):
         points = [
-            (arrow.x, lanes.foot(arrow) if sign > 0 else lanes.tip(arrow, length))
-            for arrow, length in forces if sign * arrow.value > 0
+            (x, lanes.foot(arrow) if sign > 0 else lanes.tip(arrow, length))
+            for x, (arrow, length) in zip(places, forces, strict=True) if sign * arrow.value > 0
         ]  # fmt: skip
         if points:
             _heads(axes, points, sign, 6.0 if len(forces) <= 60 else 3.0, "black")
@@ -293,16 +349,9 @@ def _draw_couples(axes: Axes, lanes: LoadLanes) -> None:
                          linewidths=1.1, zorder=6, label="couples")  # fmt: skip
 
 
-def _draw_axial(axes: Axes, arrow: Arrow, end: float, beside: bool) -> None:
-    """Draw a horizontal arrow: outside an end of the beam, above the axis elsewhere; beside a symbol there."""
-    direction = 1.0 if arrow.value > 0 else -1.0
-    outside = -1.0 if arrow.x <= 1e-9 * end else 1.0 if arrow.x >= end * (1.0 - 1e-9) else 0.0
-    start, stop = (0.0, 22.0 * direction) if outside in (0.0, direction) else (22.0 * outside, 2.0 * outside)
-    start, stop = (x + beside * 8.0 * (outside or direction) for x in (start, stop))
-    y = 0.0 if outside else 7.0
-    if arrow.label:
-        axes.text((start + stop) / 2, y + 2.0, arrow.text, transform=_points_from(axes, arrow.x), fontsize=6.8,
-                  ha="center", va="bottom", zorder=7)  # fmt: skip
+def _draw_axial(axes: Axes, arrow: Arrow, lanes: LoadLanes) -> None:
+    """Draw a horizontal arrow."""
+    start, stop, y = lanes.axial(arrow)
     axes.annotate("", xy=(stop, y), xytext=(start, y), xycoords=_points_from(axes, arrow.x),
                   textcoords=_points_from(axes, arrow.x), annotation_clip=False, zorder=6,
                   arrowprops={"arrowstyle": "-|>", "color": "black", "linewidth": 1.1, "shrinkA": 0, "shrinkB": 0})  # fmt: skip
