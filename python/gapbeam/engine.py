@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from . import _f77
 from .errors import EngineError, Status
 from .lowering import Arrays
+from .records import Pickled, Record, read_only
 
 SOLVED, NO_EQUILIBRIUM = Status.SOLVED, Status.NO_EQUILIBRIUM
 """Outcomes, as in gapbeam_error; codes above 10 are errors."""
@@ -20,8 +20,8 @@ METHODS = ("block tridiagonal mixed", "three-moment", "mixed with pivoting")
 """What was solved, as in gapbeam_system."""
 
 
-@dataclass(frozen=True, slots=True)
-class Solution:
+@dataclass(frozen=True, slots=True, eq=False)
+class Solution(Record):
     """What the engine found at one load factor.
 
     Attributes
@@ -41,7 +41,7 @@ class Solution:
     motion : numpy.ndarray
         Displacements of the nodes in the free motion, positive downward, largest 1.
     solves : int
-        Linear solves.
+        Linear solves; they do not count when solutions are compared.
     method : int
         Index into METHODS.
     indifferent : bool
@@ -59,7 +59,7 @@ class Solution:
     shear: np.ndarray
     reaction: np.ndarray
     motion: np.ndarray
-    solves: int
+    solves: int = field(compare=False)
     method: int
     indifferent: bool
     came_back: bool
@@ -79,7 +79,7 @@ def condense(arrays: Arrays) -> np.ndarray:
         The links, for the other calls only.
     """
     inner = arrays.scaled
-    return _f77.gbcond(inner.pieces.T, inner.dead.T, inner.live.T, _last(arrays))
+    return read_only(_f77.gbcond(inner.pieces.T, inner.dead.T, inner.live.T, _last(arrays)))
 
 
 def solve(arrays: Arrays, links: np.ndarray, factor: float, rule: str, closed: np.ndarray) -> Solution:
@@ -206,6 +206,40 @@ def follow(
     )
 
 
+class CaseSolver(Pickled):
+    """Solves load cases of one beam, in the engine's units.
+
+    Parameters
+    ----------
+    fixed : tuple of numpy.ndarray
+        What all cases have in common, as GBCASE takes it.
+    """
+
+    def __init__(self, fixed: tuple[np.ndarray, ...]):
+        self._fixed = read_only(fixed)
+
+    def __call__(self, factors: np.ndarray, rule: int, closed: np.ndarray) -> tuple[np.ndarray, ...]:
+        """Solve cases.
+
+        Parameters
+        ----------
+        factors : numpy.ndarray
+            Factor of every load, cases by loads.
+        rule : int
+            From RULES.
+        closed : numpy.ndarray of int
+            Starting schemes, cases by supports; they become the working schemes, all open where there is none.
+
+        Returns
+        -------
+        tuple of numpy.ndarray
+            Deflection, moments left and right, shear, reaction (not-a-number where a case is not solved), solves and
+            status, one row a case.
+        """
+        *values, solves, status = _f77.gbcase(*self._fixed, factors.T, rule, closed.T)
+        return (*(value.T for value in values), solves, status)
+
+
 def prepare_cases(
     arrays: Arrays,
     links: np.ndarray,
@@ -215,7 +249,7 @@ def prepare_cases(
     node_load: np.ndarray,
     node: np.ndarray,
     node_values: np.ndarray,
-) -> Callable[[np.ndarray, int, np.ndarray], tuple[np.ndarray, ...]]:
+) -> CaseSolver:
     """Condense the loads of a scene one by one.
 
     Parameters
@@ -233,10 +267,8 @@ def prepare_cases(
 
     Returns
     -------
-    callable
-        Called with factors (cases by loads), rule, and starting schemes (cases by supports), which become the working
-        schemes; returns deflection, moments left and right, shear, reaction, solves and status, one row a case, in the
-        engine's units.
+    CaseSolver
+        To be called with factors.
     """
     length, force = arrays.exponents
     exponents = np.array([length - force, length - force, length, -force, -force - length])
@@ -254,17 +286,11 @@ def prepare_cases(
         arrays.scaled.pieces.T, links, _last(arrays), integers(row_load, 1), integers(row_piece, 1), row_values.T
     )
     links, kinds, compliance, _, _, *supports = _beam(arrays, links)
-    fixed = (
+    return CaseSolver((
         *(links, kinds, compliance, *supports),
         *(load[:count], link[:count], np.asfortranarray(share[:, :count])),
         *(integers(node_load, 1), integers(node, 0), np.asfortranarray(node_values.T)),
-    )
-
-    def call(factors: np.ndarray, rule: int, closed: np.ndarray) -> tuple[np.ndarray, ...]:
-        *values, solves, status = _f77.gbcase(*fixed, factors.T, rule, closed.T)
-        return (*(value.T for value in values), solves, status)
-
-    return call
+    ))
 
 
 def certify(
@@ -364,7 +390,7 @@ def recover(arrays: Arrays, links: np.ndarray, factor: float, solution: Solution
     inner = arrays.scaled
     length, force = arrays.exponents
     solution = _outer(solution, -length, -force)
-    return _f77.gbreco(
+    starts = _f77.gbreco(
         inner.pieces.T,
         inner.dead.T,
         inner.live.T,
@@ -377,6 +403,7 @@ def recover(arrays: Arrays, links: np.ndarray, factor: float, solution: Solution
         solution.moment_right,
         solution.shear,
     )
+    return read_only(starts)
 
 
 def values(arrays: Arrays, factor: float, starts: np.ndarray, piece: np.ndarray, distance: np.ndarray) -> np.ndarray:
@@ -459,7 +486,7 @@ def solve_axial(arrays: Arrays, factor: float) -> tuple[np.ndarray, np.ndarray, 
             "forces cannot be told apart: give the beam a finite EA",
             Status.INDETERMINATE,
         )
-    return None if state == 1 else (u, tension, reaction)
+    return None if state == 1 else read_only((u, tension, reaction))
 
 
 def _last(arrays: Arrays) -> np.ndarray:

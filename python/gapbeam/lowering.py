@@ -14,6 +14,7 @@ from operator import attrgetter
 
 import numpy as np
 
+from .records import Record, read_only
 from .scene import (
     POSITION_TOLERANCE,
     AxialLoad,
@@ -36,8 +37,8 @@ ORDINARY_EXPONENT = 64
 """Scenes whose lengths or forces are beyond two to this power are solved in other units."""
 
 
-@dataclass(frozen=True, slots=True)
-class Axial:
+@dataclass(frozen=True, slots=True, eq=False)
+class Axial(Record):
     """The axial system: bars between points with an axial load or support.
 
     Attributes
@@ -72,8 +73,8 @@ class Axial:
     load_force: np.ndarray
 
 
-@dataclass(frozen=True)
-class Arrays:
+@dataclass(frozen=True, eq=False)
+class Arrays(Record):
     """A scene as the engine takes it; see fortran/gapbeam_f2py.f90 for the columns.
 
     Attributes
@@ -167,11 +168,11 @@ class Arrays:
     @property
     def node_x(self) -> np.ndarray:
         """X of every node."""
-        return self.point_x[self.node_points]
+        return read_only(self.point_x[self.node_points])
 
 
-@dataclass(frozen=True, slots=True)
-class LoadRows:
+@dataclass(frozen=True, slots=True, eq=False)
+class LoadRows(Record):
     """What each load of a scene does across the beam, a row for every piece or point that it acts on.
 
     Attributes

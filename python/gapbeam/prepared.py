@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from math import isfinite
 from typing import Any
 
@@ -17,15 +17,18 @@ from numpy.typing import ArrayLike
 
 from . import engine
 from .lowering import Arrays, LoadRows, lower_by_load
+from .records import Pickled, Record
 from .results import Result
 from .scene import Scene, read_scene
-from .states import Step, solve_step
 from .stepping import choose_rule
+from .steps import LoadSteps
 
 
-@dataclass(frozen=True, slots=True)
-class Cases:
+@dataclass(frozen=True, slots=True, eq=False)
+class Cases(Record):
     """Solutions of load cases; arrays have one row a case, or no such axis after `Prepared.solve` with one case.
+
+    The arrays are read-only. Two are equal if all their arrays are, but for `solves`.
 
     Attributes
     ----------
@@ -50,11 +53,11 @@ class Cases:
     deflection: np.ndarray
     moment_left: np.ndarray
     moment_right: np.ndarray
-    solves: np.ndarray
+    solves: np.ndarray = field(compare=False)
 
 
-class Prepared:
-    """A scene ready to be solved for other loads.
+class Prepared(Pickled):
+    """A scene ready to be solved for other loads; it can be pickled, for other processes.
 
     Attributes
     ----------
@@ -184,11 +187,10 @@ class Prepared:
         arrays = self._with_loads(factors)
         links = engine.condense(arrays)
         result = Result(self.scene, arrays, links, self._rule)
-        step = solve_step(arrays, links, 1.0, self._rule, np.ones(len(self.supports), dtype=np.int32))
-        if isinstance(step, Step):
-            result.steps.append(step)
-        else:
-            result.refuse("in this load case", None if step is None else step.motion)
+        result.steps = LoadSteps(arrays, links, self._rule, np.ones(len(self.supports), dtype=np.int32), 1)
+        fallen = result.steps.solve_all()
+        if fallen is not None:
+            result.refuse("in this load case", fallen[1])
         return result
 
     def _with_loads(self, factors: np.ndarray) -> Arrays:

@@ -7,9 +7,13 @@ import csv
 import io
 import json
 from collections import Counter
+from collections.abc import Iterator
+from types import GeneratorType
 from typing import TYPE_CHECKING, Any
 
 from . import formatting as fmt
+from .memory import refuse_beyond
+from .report_data import result_data, step_data
 from .report_scheme import legend, merged, scheme_table, symbol
 
 if TYPE_CHECKING:
@@ -102,20 +106,48 @@ def to_json(result: "Result", points: int = 20) -> str:
     -------
     str
         One line for each support, certificate and column of numbers: it can be read and compared by eye.
+
+    Raises
+    ------
+    SceneError
+        There is not the memory for the text of so many steps.
     """
-    return _layout(result.to_dict(points=points), "") + "\n"
+    if result.steps:
+        text = "".join(_layout(next(step_data(result)), "  "))
+        count = len(result.steps)
+        refuse_beyond("analysis.steps", f"{count:,} steps as JSON", 2.0 * count * len(text), "take fewer")
+    return "".join(json_parts(result, points))
 
 
-def _layout(value: Any, indent: str) -> str:
-    """Write JSON with every list of numbers, and every object without lists in it, on one line."""
+def json_parts(result: "Result", points: int = 20) -> Iterator[str]:
+    """Write what `to_json` writes, part by part, each step when its turn comes.
+
+    Parameters
+    ----------
+    result, points
+        As for `to_json`.
+
+    Yields
+    ------
+    str
+    """
+    yield from _layout(result_data(result, points, steps=iter), "")
+    yield "\n"
+
+
+def _layout(value: Any, indent: str) -> Iterator[str]:
+    """Write JSON with every list of numbers, and every object without lists in it, on one line; generators as lists."""
     inner = value.values() if isinstance(value, dict) else value if isinstance(value, list | tuple) else ()
-    if not any(isinstance(item, dict | list | tuple) for item in inner):
-        return json.dumps(value, allow_nan=False)
-    deeper = indent + " "
-    if isinstance(value, dict):
-        items = [f"{json.dumps(key)}: {_layout(item, deeper)}" for key, item in value.items()]
-        return "{\n" + ",\n".join(deeper + item for item in items) + f"\n{indent}}}"
-    return "[\n" + ",\n".join(deeper + _layout(item, deeper) for item in value) + f"\n{indent}]"
+    if type(value) is not GeneratorType and not any(isinstance(item, (dict, list, tuple, GeneratorType)) for item in inner):
+        yield json.dumps(value, allow_nan=False)
+        return
+    named = isinstance(value, dict)
+    begin, end = "{}" if named else "[]"
+    for key, item in value.items() if named else enumerate(value):
+        yield f"{begin}\n{indent} " + (f"{json.dumps(key)}: " if named else "")
+        yield from _layout(item, indent + " ")
+        begin = ","
+    yield f"\n{indent}{end}" if begin == "," else begin + end
 
 
 def to_csv(result: "Result", points: int = 20) -> str:
@@ -187,11 +219,13 @@ def _history(say: "Writer", result: "Result") -> None:
     supports = result.scene.supports
     if all(state == "bilateral" for state in result.steps[-1].state):
         return
-    history = result.history()
+    # Of steps with the same scheme the first and the last do
+    runs = merged(result.steps.history())
+    history = [(factor, states) for first, last, states in runs for factor in (first, last)]
     say.heading("Working scheme over the load")
     headings, rows = scheme_table(history, say.width, say.plain)
     say.table(headings, rows, left=(0, len(headings) - 1) if len(headings) < len(supports) + 1 else (0,))
-    states = {state for _, _, states in merged(history) for state in states}
+    states = {state for _, states in history for state in states}
     numbering = "Supports are numbered from 0 as in the scene."
     say.line(f"{legend(list(states), say.plain)}    {numbering}", "dim")
 
@@ -247,18 +281,21 @@ def _extremes(say: "Writer", result: "Result", at: str) -> None:
 
 
 def _steps(say: "Writer", result: "Result") -> None:
+    from .report_writer import LONGEST
+
     # Following events, the states between are solved only if asked for
     steps = result.steps if result.path is None else result.steps[-1:]
-    kinds = list(steps[0].residuals)
+    kinds = list(steps[-1].residuals)
     say.heading("Residuals against run time")
-    rows = [
-        [fmt.number(step.factor, 4), str(step.solves), fmt.duration(step.seconds)]
-        + [f"{step.residuals[kind]:.1e}" for kind in kinds]
-        for step in steps
-    ]
+    rows, worst = [], 0.0
+    not_shown = range(LONGEST // 2, len(steps) - LONGEST // 2)
+    for k, step in enumerate(steps):
+        residuals = [step.residuals[kind] for kind in kinds]
+        worst = max(worst, *residuals)
+        texts = [fmt.number(step.factor, 4), str(step.solves), fmt.duration(step.seconds)]
+        rows.append(() if k in not_shown else [*texts, *(f"{residual:.1e}" for residual in residuals)])
     say.table(["load factor", "solves", "time", *kinds], rows)
     if len(steps) > 1:
-        worst = max(max(step.residuals.values()) for step in steps)
         solves, seconds = fmt.count(result.solves, "solve"), fmt.duration(result.seconds)
         say.line(f"Together {solves}, {seconds}; largest residual {worst:.1e}.", "dim")
     _doubts(say, result)

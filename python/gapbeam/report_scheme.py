@@ -1,6 +1,6 @@
 """The history of the working scheme (which supports act) over the load, as rows of text."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from .formatting import number, ranges
 
@@ -13,7 +13,7 @@ MOST_SYMBOLS = 200
 #: Supports on one line, in groups of ten
 LINE = 50
 
-History = Sequence[tuple[float, Sequence[str]]]
+History = Iterable[tuple[float, Sequence[str]]]
 
 
 def symbol(state: str, plain: bool = False) -> str:
@@ -62,7 +62,7 @@ def scheme_table(history: History, width: int, plain: bool = False) -> tuple[lis
 
     Parameters
     ----------
-    history : sequence of (factor, states)
+    history : iterable of (factor, states)
         As from `Result.history`.
     width : int
         Characters a line.

@@ -16,8 +16,10 @@ from . import engine
 from .engine import METHODS, Solution
 from .lowering import Arrays, locate
 from .motion import describe_motion
+from .records import Pickled, Record
 from .scene import POSITION_TOLERANCE, Scene
 from .states import Step, solve_step
+from .steps import LoadSteps, Steps
 
 if TYPE_CHECKING:
     from .path import Event, Path, Segment
@@ -63,9 +65,9 @@ class System:
         return asdict(self) | {"left_out": list(self.left_out)}
 
 
-@dataclass(frozen=True)
-class Fields:
-    """Fields along the beam, arrays of equal length.
+@dataclass(frozen=True, eq=False)
+class Fields(Record):
+    """Fields along the beam, read-only arrays of equal length.
 
     Attributes
     ----------
@@ -94,8 +96,11 @@ class Fields:
         return {f.name: getattr(self, f.name).tolist() for f in fields(self) if getattr(self, f.name) is not None}
 
 
-class Result:
+class Result(Pickled):
     """All load steps of a scene.
+
+    It can be pickled, for other processes, and goes on from there with the same digits; all its arrays are read-only. Two
+    results are equal if scene, outcome and events are, and all steps to the last digit; how long it took does not count.
 
     Attributes
     ----------
@@ -107,22 +112,38 @@ class Result:
         Why there is no equilibrium.
     motion : list of (float, float) or None
         The free motion then: x and displacement (positive downward, largest 1), straight lines between.
-    steps : list of Step
-        The load steps up to there; following events, the states at every event and at the end.
+    steps : sequence of Step
+        The load steps up to there; following events, the states at every event and at the end. What is kept of a step is
+        its scheme; its values are solved for when it is looked at.
     path : Path or None
         Following events, the schemes along the load.
     """
+
+    __hash__ = None
 
     def __init__(self, scene: Scene, arrays: Arrays, links: np.ndarray, rule: str):
         self.scene = scene
         self.status = "solved"
         self.reason: str | None = None
         self.motion: list[tuple[float, float]] | None = None
-        self.steps: list[Step] = []
+        self.steps: Steps = LoadSteps(arrays, links, rule, np.ones(len(arrays.supports), dtype=np.int32), 0)
         self.arrays = arrays
         self.links = links
         self.rule = rule
         self.path: Path | None = None
+
+    def __eq__(self, other: object) -> bool:
+        """Whether scene, outcome, events and all steps are equal."""
+        if not isinstance(other, Result):
+            return NotImplemented
+        return self is other or (
+            self.scene == other.scene
+            and self.arrays == other.arrays
+            and (self.status, self.reason, self.motion) == (other.status, other.reason, other.motion)
+            and self.events == other.events
+            and len(self.steps) == len(other.steps)
+            and all(a == b for a, b in zip(self.steps, other.steps, strict=True))
+        )
 
     @property
     def events(self) -> list[Event]:
@@ -137,12 +158,12 @@ class Result:
     @property
     def solves(self) -> int:
         """Linear solves of the whole beam until all schemes were found."""
-        return sum(step.solves for step in self.steps) if self.path is None else self.path.solves
+        return self.steps.solves if self.path is None else self.path.solves
 
     @property
     def seconds(self) -> float:
         """Time of these."""
-        return sum(step.seconds for step in self.steps) if self.path is None else self.path.seconds
+        return self.steps.seconds if self.path is None else self.path.seconds
 
     def refuse(self, where: str, motion: np.ndarray | None) -> None:
         """Note that there is no equilibrium.
@@ -179,13 +200,8 @@ class Result:
         ValueError
             Where there is no equilibrium at that factor.
         """
-        arrays = self.arrays
-        closed = np.ones(len(arrays.supports), dtype=np.int32)
-        if self.segments:
-            closed = self.path.at(factor)
-        elif self.steps:
-            closed = min(self.steps, key=lambda step: abs(step.factor - factor)).solution.closed
-        step = solve_step(arrays, self.links, factor, self.rule, closed)
+        closed = self.path.at(factor) if self.segments else self.steps.nearest(factor)
+        step = solve_step(self.arrays, self.links, factor, self.rule, closed)
         if isinstance(step, Solution) or step is None:
             raise ValueError(f"factor: there is no equilibrium at load factor {factor:g}")
         return step
@@ -242,7 +258,7 @@ class Result:
         if side not in ("right", "left"):
             raise ValueError(f'side: expected "right" or "left", got "{side}"')
         arrays = self.arrays
-        x = np.asarray(x, dtype=float)
+        x = np.array(x, dtype=float)
         end = arrays.ends[-1]
         slack = POSITION_TOLERANCE * end
         if not np.all((x >= -slack) & (x <= end + slack)):
@@ -343,7 +359,7 @@ class Result:
         list of (float, tuple of str)
             Load factor and the state of every support, one row a load step.
         """
-        return [(step.factor, step.state) for step in self.steps]
+        return list(self.steps.history())
 
     def to_dict(self, points: int = 20) -> dict[str, Any]:
         """Everything as plain data, in the form of the JSON output.
@@ -358,52 +374,6 @@ class Result:
         dict
             Only numbers, strings, lists and dicts.
         """
-        scene = self.scene
-        data: dict[str, Any] = {
-            "title": scene.title,
-            "units": {"force": scene.units.force, "length": scene.units.length},
-            "status": self.status,
-            "system": self.system.asdict(),
-            "steps": [self._step_dict(step) for step in self.steps],
-        }
-        if self.status != "solved":
-            data["reason"] = self.reason
-            data["motion"] = None if self.motion is None else [list(pair) for pair in self.motion]
-        if self.scene.analysis.follow == "events":
-            data["events"] = [
-                {"factor": e.factor, "support": e.support, "x": e.x, "event": e.event} for e in self.events
-            ]
-        if self.steps:
-            data["fields"] = self.fields(points=points).to_dict()
-            data["extremes"] = {
-                name: {which: list(pair) for which, pair in row.items()} for name, row in self.extremes().items()
-            }
-        return data
+        from .report_data import result_data
 
-    def _step_dict(self, step: Step) -> dict[str, Any]:
-        x = self.scene.positions(self.scene.supports).tolist()
-        columns = (step.deflection, step.reaction, step.opening, step.couple)
-        rows = [
-            {
-                "x": x[k],
-                "side": support.side,
-                "direction": support.direction,
-                "deflection": w,
-                "reaction": reaction,
-                "couple": couple,
-                "state": step.state[k],
-                "opening": opening,
-            }
-            for k, (support, w, reaction, opening, couple) in enumerate(
-                zip(self.scene.supports, *(column.tolist() for column in columns), strict=True)
-            )
-        ]
-        return {
-            "factor": step.factor,
-            "solves": step.solves,
-            "seconds": step.seconds,
-            "supports": rows,
-            "undecided": list(step.undecided),
-            "indifferent": step.indifferent,
-            "certificate": dict(step.certificate),
-        }
+        return result_data(self, points)

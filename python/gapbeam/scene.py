@@ -36,7 +36,7 @@ import numpy as np
 from msgspec import Meta, Struct, field
 
 from .errors import SceneError, shown
-from .scene_checks import POSITION_TOLERANCE, check, read_file, same_place, typed
+from .scene_checks import POSITION_TOLERANCE, check, plain, read_file, same_place, typed
 
 __all__ = [
     "POSITION_TOLERANCE", "Analysis", "AxialLoad", "Beam", "CurvatureLoad", "ForceLoad", "Foundation",
@@ -55,7 +55,20 @@ Spans = Annotated[list[Positive], Meta(extra_json_schema={"minItems": 1})]
 Side = Literal["both", "below", "above"]
 
 
-class Units(Struct, forbid_unknown_fields=True):
+class _Table(Struct):
+    """A table of a scene."""
+
+    def __eq__(self, other: object) -> bool:
+        """Whether all keys have equal values, with numpy numbers and arrays for numbers and lists."""
+        if type(other) is not type(self):
+            return NotImplemented
+        try:
+            return bool(super().__eq__(other))
+        except ValueError:  # numpy compares arrays element by element
+            return plain(self) == plain(other)
+
+
+class Units(_Table, forbid_unknown_fields=True):
     """Labels of the units; they go into the report and change no number.
 
     Parameters
@@ -70,7 +83,7 @@ class Units(Struct, forbid_unknown_fields=True):
     length: str = ""
 
 
-class Beam(Struct, forbid_unknown_fields=True):
+class Beam(_Table, forbid_unknown_fields=True):
     """The beam: its spans and stiffnesses.
 
     Parameters
@@ -94,7 +107,7 @@ class Beam(Struct, forbid_unknown_fields=True):
     hinges: list[float] = []
 
 
-class _Stretch(Struct, forbid_unknown_fields=True, kw_only=True, gc=False):
+class _Stretch(_Table, forbid_unknown_fields=True, kw_only=True, gc=False):
     """What acts from one place to another.
 
     Parameters
@@ -110,7 +123,7 @@ class _Stretch(Struct, forbid_unknown_fields=True, kw_only=True, gc=False):
     to: float | None = None
 
 
-class _Point(Struct, forbid_unknown_fields=True, kw_only=True, gc=False):
+class _Point(_Table, forbid_unknown_fields=True, kw_only=True, gc=False):
     """What acts at one place.
 
     Parameters
@@ -286,7 +299,7 @@ class CurvatureLoad(_StretchLoad, kw_only=True, gc=False, tag="curvature"):
 Load = ForceLoad | MomentLoad | UniformLoad | LinearLoad | CurvatureLoad | AxialLoad
 
 
-class Analysis(Struct, forbid_unknown_fields=True, kw_only=True):
+class Analysis(_Table, forbid_unknown_fields=True, kw_only=True):
     """How the load is followed.
 
     Parameters
@@ -305,7 +318,7 @@ class Analysis(Struct, forbid_unknown_fields=True, kw_only=True):
     rule: Literal["block", "single"] = "block"
 
 
-class Scene(Struct, forbid_unknown_fields=True, kw_only=True):
+class Scene(_Table, forbid_unknown_fields=True, kw_only=True):
     """A beam with its supports and loads.
 
     Parameters

@@ -136,6 +136,22 @@ def typed(source: S | Mapping[str, Any], struct: type[S]) -> S:
         raise explain(error, plain, struct) from None
 
 
+def plain(struct: msgspec.Struct) -> dict[str, Any]:
+    """Give a struct, whatever it holds, as dicts, lists and numbers.
+
+    Parameters
+    ----------
+    struct : Struct
+        As built in Python.
+
+    Returns
+    -------
+    dict
+        By its keys.
+    """
+    return msgspec.msgpack.decode(msgspec.msgpack.encode(struct, enc_hook=_simple), strict=False)
+
+
 def _simple(value: Any) -> Any:
     """Numbers and lists for what stands for them; anything else as its text, to be refused as such."""
     if hasattr(value, "tolist"):

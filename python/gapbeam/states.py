@@ -5,24 +5,33 @@ Signs: deflections positive downward, reactions upward, couples clockwise; at ax
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from functools import cached_property
 from time import perf_counter
+from typing import NamedTuple
 
 import numpy as np
 
 from . import engine
 from .engine import Solution
 from .lowering import Arrays
+from .records import Pickled, read_only
 
 BOUNDED = ("deflection", "rotation", "moment", "shear", "reaction")
 """What has error bounds."""
 
 
-class Step:
-    """The state at one load factor; arrays have one entry per support, in the order of the scene.
+class Known(NamedTuple):
+    """What is kept of a state that was solved: its scheme, and what it took to find it."""
 
-    It is solved when something is first asked for.
+    closed: np.ndarray
+    solves: int
+    seconds: float
+
+
+class Step(Pickled):
+    """The state at one load factor; arrays have one entry per support, in the order of the scene, and are read-only.
+
+    It is solved when something is first asked for. Two steps are equal if the beam, the load factor and all values are.
 
     Attributes
     ----------
@@ -30,26 +39,48 @@ class Step:
         Load factor of the live loads.
     """
 
+    __hash__ = None
+
     def __init__(
-        self, arrays: Arrays, links: np.ndarray, factor: float, rule: str, closed: Callable[[], np.ndarray]
+        self,
+        arrays: Arrays,
+        links: np.ndarray,
+        factor: float,
+        rule: str,
+        start: np.ndarray,
+        known: Known | None = None,
     ):
         self.factor = factor
         self._arrays = arrays
         self._links = links
         self._rule = rule
-        self._closed = closed
+        self._start = start
+        self._known = known
+
+    def __eq__(self, other: object) -> bool:
+        """Whether beam, load factor and all values are equal."""
+        if not isinstance(other, Step):
+            return NotImplemented
+        return self is other or (
+            self.factor == other.factor and self._arrays == other._arrays and self.solution == other.solution
+        )
 
     @cached_property
     def _solved(self) -> tuple[Solution, tuple[np.ndarray, ...] | None, float]:
         begin = perf_counter()
         axial = engine.solve_axial(self._arrays, self.factor) if self._arrays.axial is not None else None
-        solution = engine.solve(self._arrays, self._links, self.factor, self._rule, self._closed())
+        solution = engine.solve(self._arrays, self._links, self.factor, self._rule, self._start)
         return solution, axial, perf_counter() - begin
 
     @property
     def solution(self) -> Solution:
         """What the engine found."""
         return self._solved[0]
+
+    @property
+    def closed(self) -> np.ndarray:
+        """The working scheme: 1 where a support across the beam acts, 0 where it is open."""
+        return self.solution.closed if self._known is None else self._known.closed
 
     @property
     def axial(self) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
@@ -59,12 +90,12 @@ class Step:
     @property
     def seconds(self) -> float:
         """Time it took to find the working scheme."""
-        return self._solved[2]
+        return self._solved[2] if self._known is None else self._known.seconds
 
     @property
     def solves(self) -> int:
         """Linear solves it took to find the working scheme."""
-        return self.solution.solves
+        return self.solution.solves if self._known is None else self._known.solves
 
     @property
     def came_back(self) -> bool:
@@ -83,7 +114,7 @@ class Step:
         result[arrays.supports] = normal
         if axial is not None and arrays.axial is not None:
             result[arrays.axial.supports] = axial[arrays.axial.support_points]
-        return result
+        return read_only(result)
 
     @cached_property
     def reaction(self) -> np.ndarray:
@@ -116,12 +147,7 @@ class Step:
     @cached_property
     def state(self) -> tuple[str, ...]:
         """``closed``, ``open`` or ``bilateral``."""
-        names = np.where(self.solution.closed == 1, "closed", "open")
-        names = np.where(self._arrays.support_sides == 0, "bilateral", names)
-        result = ["bilateral"] * self._arrays.support_count
-        for k, name in zip(self._arrays.supports.tolist(), names.tolist(), strict=True):
-            result[k] = name
-        return tuple(result)
+        return name_states(self._arrays, self.closed)
 
     @cached_property
     def _certified(self) -> tuple[np.ndarray, np.ndarray, bool]:
@@ -149,7 +175,7 @@ class Step:
         compatibility, equilibrium, complementarity = self._certified[0].tolist()
         return {"equilibrium": equilibrium, "compatibility": compatibility, "complementarity": complementarity + 0.0}
 
-    @cached_property
+    @property
     def certificate(self) -> dict[str, float | None]:
         """The residuals, and bounds of the errors relative to the largest value of each kind; computed when first asked for."""
         fields = np.abs(engine.extremes(self._arrays, self.factor, self.starts)[0]).max(axis=0)
@@ -175,6 +201,28 @@ class Step:
         return engine.recover(self._arrays, self._links, self.factor, self.solution)
 
 
+def name_states(arrays: Arrays, closed: np.ndarray) -> tuple[str, ...]:
+    """Name the state of every support of the scene in a working scheme.
+
+    Parameters
+    ----------
+    arrays : Arrays
+        The lowered scene.
+    closed : numpy.ndarray of int
+        1 where a support across the beam acts.
+
+    Returns
+    -------
+    tuple of str
+        ``closed``, ``open`` or ``bilateral``.
+    """
+    names = np.where(arrays.support_sides == 0, "bilateral", np.where(closed == 1, "closed", "open"))
+    result = ["bilateral"] * arrays.support_count
+    for k, name in zip(arrays.supports.tolist(), names.tolist(), strict=True):
+        result[k] = name
+    return tuple(result)
+
+
 def solve_step(
     arrays: Arrays, links: np.ndarray, factor: float, rule: str, closed: np.ndarray
 ) -> Step | Solution | None:
@@ -190,7 +238,7 @@ def solve_step(
     Step, Solution or None
         The step; the solution with its motion where there is no equilibrium; None where the beam slides.
     """
-    step = Step(arrays, links, factor, rule, lambda: closed)
+    step = Step(arrays, links, factor, rule, closed)
     if arrays.axial is not None and step.axial is None:
         return None
     return step if step.solution.status == engine.SOLVED else step.solution

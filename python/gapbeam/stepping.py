@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from functools import partial
 from typing import Any
 
 import numpy as np
@@ -15,7 +14,7 @@ from .lowering import Arrays, lower
 from .path import follow
 from .results import Result
 from .scene import Scene, read_scene
-from .states import Step, solve_step
+from .steps import LoadSteps, PathSteps
 
 
 def solve(
@@ -44,7 +43,7 @@ def solve(
     Raises
     ------
     SceneError
-        The scene is not valid.
+        The scene is not valid, or there is not the memory for so many steps.
     EngineError
         No unique answer exists, for example where a rigid beam rests on three rigid supports.
 
@@ -70,19 +69,14 @@ def solve(
             result.refuse("above load factor 0", None)
             return result
         result.path = follow(result, rule, closed)
-        result.steps = [
-            Step(arrays, links, segment.stop, rule, partial(result.path.closed, segment))
-            for segment in result.segments
-        ]
+        if result.segments:
+            result.steps = PathSteps(arrays, links, rule, result.path)
         return result
-    for k in range(1, scene.analysis.steps + 1):
-        factor = k / scene.analysis.steps
-        step = solve_step(arrays, links, factor, rule, closed)
-        if not isinstance(step, Step):
-            result.refuse(f"at load factor {factor:g}", None if step is None else step.motion)
-            break
-        closed = step.solution.closed
-        result.steps.append(step)
+    result.steps = LoadSteps(arrays, links, rule, closed, scene.analysis.steps)
+    fallen = result.steps.solve_all()
+    if fallen is not None:
+        factor, motion = fallen
+        result.refuse(f"at load factor {factor:g}", motion)
     return result
 
 
