@@ -236,8 +236,12 @@ class CaseSolver(Pickled):
             Deflection, moments left and right, shear, reaction (not-a-number where a case is not solved), solves and
             status, one row a case.
         """
+        cases, loads = factors.shape
+        if factors.size == 0:  # f2py takes no arrays of size 0: a case of nothing, a load of nothing
+            factors = np.zeros((max(cases, 1), max(loads, 1)))
+            closed = closed if cases else np.ones((1, closed.shape[1]), dtype=np.int32)
         *values, solves, status = _f77.gbcase(*self._fixed, factors.T, rule, closed.T)
-        return (*(value.T for value in values), solves, status)
+        return (*(value.T[:cases] for value in values), solves[:cases], status[:cases])
 
 
 def prepare_cases(

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import engine
+from .arguments import numbers, scheme
 from .lowering import Arrays, LoadRows, lower_by_load
 from .records import Pickled, Record
 from .results import Result
@@ -108,8 +109,8 @@ class Prepared(Pickled):
         factors : array_like, optional
             Factor of every load of the scene, in its order: one case; or a row for each case. Default: all 1.
         start : sequence of bool, optional
-            Where the search for the working scheme starts, one entry for every support across the beam; default all
-            closed. Every case starts from it, so its result does not depend on the other cases.
+            Where the search for the working scheme starts: True (closed) or False for every support across the beam;
+            default all closed. Every case starts from it, so its result does not depend on the other cases.
 
         Returns
         -------
@@ -119,7 +120,7 @@ class Prepared(Pickled):
         Raises
         ------
         ValueError
-            Factors of another number than the loads, or that are not finite.
+            Factors of another number than the loads, or that are no finite numbers; or another `start`.
 
         Examples
         --------
@@ -135,8 +136,9 @@ class Prepared(Pickled):
         """
         factors = self._checked(factors)
         many = factors if factors.ndim == 2 else factors[None]
-        closed = np.empty((len(many), max(len(self.supports), 1)), dtype=np.int32)
-        closed[:] = 1 if start is None else np.asarray(start, dtype=bool)
+        closed = np.ones((len(many), max(len(self.supports), 1)), dtype=np.int32)
+        if start is not None:
+            closed[:, : len(self.supports)] = scheme(start, len(self.supports), "support across the beam")
         w, left, right, _, reaction, solves, status = self._call(many, engine.RULES[self._rule], closed)
         if self._units != (0, 0):
             length, force = self._units
@@ -150,10 +152,8 @@ class Prepared(Pickled):
 
     def _checked(self, factors: ArrayLike | None) -> np.ndarray:
         count = len(self.scene.loads)
-        if count == 0:
-            factors = np.zeros(1) if factors is None or np.ndim(factors) < 2 else np.zeros((len(factors), 1))
-        factors = np.ones(count) if factors is None else np.asarray(factors, dtype=float)
-        if factors.ndim not in (1, 2) or factors.shape[-1] != max(count, 1):
+        factors = np.ones(count) if factors is None else numbers("factors", factors)
+        if factors.ndim not in (1, 2) or factors.shape[-1] != count:
             raise ValueError(f"factors: expected {count} numbers a case, one for each load, got shape {factors.shape}")
         # Squares leave the range before the factors do, and cost less than asking each
         if not isfinite(np.vdot(factors, factors)) and not np.isfinite(factors).all():

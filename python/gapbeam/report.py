@@ -109,6 +109,8 @@ def to_json(result: "Result", points: int = 20) -> str:
 
     Raises
     ------
+    ValueError
+        `points` is no whole number, or too large.
     SceneError
         There is not the memory for the text of so many steps.
     """

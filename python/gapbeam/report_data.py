@@ -25,6 +25,11 @@ def result_data(result: Result, points: int = 20, steps: Callable[[Iterator], An
     -------
     dict
         Only numbers, strings, lists and dicts.
+
+    Raises
+    ------
+    ValueError
+        `points` is no whole number, or too large.
     """
     scene = result.scene
     fields = result.fields(points=points).to_dict() if result.steps else {}

@@ -13,8 +13,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import engine
+from .arguments import finite, numbers, whole
 from .engine import METHODS, Solution
+from .errors import shown
 from .lowering import Arrays, locate
+from .memory import refuse_beyond
 from .motion import describe_motion
 from .records import Pickled, Record
 from .scene import POSITION_TOLERANCE, Scene
@@ -25,6 +28,8 @@ if TYPE_CHECKING:
     from .path import Event, Path, Segment
 
 BENDING = ("deflection", "rotation", "moment", "shear")
+BYTES_PER_PLACE = 120
+"""Memory that a row of a table of fields takes while it is made."""
 
 
 @dataclass(frozen=True)
@@ -198,8 +203,9 @@ class Result(Pickled):
         Raises
         ------
         ValueError
-            Where there is no equilibrium at that factor.
+            Where there is no equilibrium at that factor, or it is no finite number.
         """
+        factor = finite("factor", factor)
         closed = self.path.at(factor) if self.segments else self.steps.nearest(factor)
         step = solve_step(self.arrays, self.links, factor, self.rule, closed)
         if isinstance(step, Solution) or step is None:
@@ -231,14 +237,28 @@ class Result(Pickled):
             left_out=tuple(name for name, used in needed.items() if not used),
         )
 
-    def at(self, x: Any, step: int = -1, side: str = "right", factor: float | None = None) -> Fields:
+    def _chosen(self, step: int | None, factor: float | None = None) -> Step:
+        """Give a step by its number, or the state at a load factor, whichever the caller asks for."""
+        if factor is not None:
+            if step is not None:
+                raise ValueError(f"step: give a load step or a load factor, not both (got {shown(step)} and {shown(factor)})")
+            return self.state(factor)
+        number = -1 if step is None else whole("step", step)
+        count = len(self.steps)
+        if count == 0:
+            raise IndexError(f"step: no load step stands; {self.reason}")
+        if not -count <= number < count:
+            raise IndexError(f"step: expected a number from 0 to {count - 1}, or from -{count} to -1, got {shown(number)}")
+        return self.steps[number]
+
+    def at(self, x: Any, step: int | None = None, side: str = "right", factor: float | None = None) -> Fields:
         """Exact values anywhere along the beam.
 
         Parameters
         ----------
         x : float or array_like
             Places along the beam.
-        step : int
+        step : int, optional
             Number of the load step; default the last.
         side : {"right", "left"}
             Which value is taken where a field jumps.
@@ -253,19 +273,22 @@ class Result(Pickled):
         Raises
         ------
         ValueError
-            A place outside the beam, or another side.
+            A place outside the beam, or something else than numbers; another side; both a step and a factor, or one that
+            is no number; no equilibrium at that factor.
+        IndexError
+            There is no such step.
         """
-        if side not in ("right", "left"):
-            raise ValueError(f'side: expected "right" or "left", got "{side}"')
+        if not isinstance(side, str) or side not in ("right", "left"):
+            raise ValueError(f'side: expected "right" or "left", got {shown(side)}')
         arrays = self.arrays
-        x = np.array(x, dtype=float)
+        x = np.array(numbers("x", x))
         end = arrays.ends[-1]
         slack = POSITION_TOLERANCE * end
         if not np.all((x >= -slack) & (x <= end + slack)):
             raise ValueError(f"x: the beam goes from 0 to {end:g}, got {x[~((x >= 0) & (x <= end))].flat[0]:g}")
         span, offset = locate(x.ravel(), arrays.ends)
         piece, distance = self._piece(span, offset, side == "left")
-        state = self.steps[step] if factor is None else self.state(factor)
+        state = self._chosen(step, factor)
         return self._fields(x.ravel(), piece, distance, state, x.shape)
 
     def _piece(self, span: np.ndarray, offset: np.ndarray, left: bool) -> tuple[np.ndarray, np.ndarray]:
@@ -299,12 +322,12 @@ class Result(Pickled):
             columns["axial_displacement"] = (u[bar] + tension[bar] * way).reshape(shape)
         return Fields(x.reshape(shape), **columns)
 
-    def fields(self, step: int = -1, points: int = 20) -> Fields:
+    def fields(self, step: int | None = None, points: int = 20) -> Fields:
         """Tabulate all fields, for drawing.
 
         Parameters
         ----------
-        step : int
+        step : int, optional
             Number of the load step; default the last.
         points : int
             Equal divisions of every span, beside all places where something changes.
@@ -313,8 +336,19 @@ class Result(Pickled):
         -------
         Fields
             With every place between two pieces twice: the values left of it, then those right of it.
+
+        Raises
+        ------
+        ValueError
+            `step` or `points` is no whole number, or `points` is less than 1 or more than memory holds.
+        IndexError
+            There is no such step.
         """
         arrays = self.arrays
+        state = self._chosen(step)
+        points = whole("points", points, least=1)
+        rows = float(min(points, 2**62)) * len(self.scene.beam.spans)
+        refuse_beyond("points", f"fields at {shown(points)} points a span", rows * BYTES_PER_PLACE, "give fewer")
         size = len(arrays.pieces)
         spans = np.diff(arrays.ends)[arrays.point_span[:-1]]
         parts = np.maximum(np.ceil(points * arrays.pieces[:, 0] / spans).astype(int), 1)
@@ -322,22 +356,29 @@ class Result(Pickled):
         place = np.arange(len(piece)) - np.repeat(np.cumsum(parts + 1) - (parts + 1), parts + 1)
         distance = arrays.pieces[piece, 0] * (place / parts[piece])
         x = np.where(place == parts[piece], arrays.point_x[piece + 1], arrays.point_x[piece] + distance)
-        return self._fields(x, piece, distance, self.steps[step], x.shape)
+        return self._fields(x, piece, distance, state, x.shape)
 
-    def extremes(self, step: int = -1) -> dict[str, dict[str, tuple[float, float]]]:
+    def extremes(self, step: int | None = None) -> dict[str, dict[str, tuple[float, float]]]:
         """Exact largest and smallest values of every field with their places.
 
         Parameters
         ----------
-        step : int
+        step : int, optional
             Number of the load step; default the last.
 
         Returns
         -------
         dict
             ``{"moment": {"max": (value, x), "min": (value, x)}, ...}``.
+
+        Raises
+        ------
+        ValueError
+            `step` is no whole number.
+        IndexError
+            There is no such step.
         """
-        state = self.steps[step]
+        state = self._chosen(step)
         values, x = engine.extremes(self.arrays, state.factor, state.starts)
         result = {
             name: {"max": (float(values[0, k]), float(x[0, k])), "min": (float(values[1, k]), float(x[1, k]))}
@@ -373,6 +414,11 @@ class Result(Pickled):
         -------
         dict
             Only numbers, strings, lists and dicts.
+
+        Raises
+        ------
+        ValueError
+            As in `fields`.
         """
         from .report_data import result_data
 

@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 
 from . import engine
-from .errors import SceneError
+from .arguments import scheme
+from .errors import SceneError, shown
 from .lowering import Arrays, lower
 from .path import follow
 from .results import Result
@@ -43,7 +44,7 @@ def solve(
     Raises
     ------
     SceneError
-        The scene is not valid, or there is not the memory for so many steps.
+        The scene, `rule` or `start` is not valid; or there is not the memory for so many steps.
     EngineError
         No unique answer exists, for example where a rigid beam rests on three rigid supports.
 
@@ -101,17 +102,14 @@ def choose_rule(scene: Scene, rule: str | None) -> str:
         There is no such rule.
     """
     rule = scene.analysis.rule if rule is None else rule
-    if rule not in engine.RULES:
-        raise SceneError("rule", f'expected one of {", ".join(engine.RULES)}, got "{rule}"')
+    if not isinstance(rule, str) or rule not in engine.RULES:
+        raise SceneError("rule", f"expected one of {', '.join(engine.RULES)}, got {shown(rule)}")
     return rule
 
 
 def _starting_scheme(arrays: Arrays, start: Sequence[bool] | None) -> np.ndarray:
     closed = np.ones(len(arrays.supports), dtype=np.int32)
-    if start is None:
-        return closed
-    one_sided = np.flatnonzero(arrays.support_sides)
-    if len(start) != len(one_sided):
-        raise SceneError("start", f"expected {len(one_sided)} entries, one per one-sided support, got {len(start)}")
-    closed[one_sided] = np.asarray(start, dtype=bool)
+    if start is not None:
+        one_sided = np.flatnonzero(arrays.support_sides)
+        closed[one_sided] = scheme(start, len(one_sided), "one-sided support")
     return closed
