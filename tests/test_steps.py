@@ -94,7 +94,7 @@ def test_the_last_step_is_not_solved_again(monkeypatch):
     assert result.steps[-1].reaction.shape == (4,)
     assert len(result.history()) == 8
     assert [step.solves for step in result.steps]
-    assert [step.residuals for step in result.steps]  # of a known scheme
+    assert result.steps[-1].residuals
 
 
 def kept(made):
