@@ -14,7 +14,7 @@ module gapbeam_certificate
         set_plain_loads => set_loads, apply_scheme
     use gapbeam_sensitivity, only: sensitivity_type, prepare_sensitivity, largest_movement, of_deflections, of_rotations, &
         of_moments, of_shears, of_reactions
-    use gapbeam_referee, only: detail_type, refine_beam, fine_piece, fine_load
+    use gapbeam_referee, only: detail_type, refine_beam, find_undecided, held_by_ties, fine_piece, fine_load
     use gapbeam_element_quad, only: fine_field_type => field_type
     use gapbeam_model_quad, only: fine_beam_type => beam_type
     use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type, new_workspace, set_loads
@@ -66,7 +66,7 @@ contains
         type(fine_beam_type) :: fine
         type(fine_workspace_type) :: work
         type(outcome_type) :: outcome
-        logical, allocatable :: acting(:)
+        logical, allocatable :: acting(:), undecided(:)
         real(qp), allocatable :: moment_size(:)
         real(wp) :: moves(5), inside
 
@@ -77,7 +77,9 @@ contains
         call set_loads(fine, real(factor, qp), work)
         call find_scheme(fine, real(factor, qp), rule_block, acting, work, outcome, error)
         if (allocated(error) .or. outcome%status /= gapbeam_solved) return
-        certificate%known = .not. outcome%indifferent
+        allocate (undecided(size(closed)))
+        call find_undecided(fine, real(factor, qp), acting, work, undecided)
+        certificate%known = .not. (outcome%indifferent .or. held_by_ties(fine, acting, undecided))
         call find_movements(beam, factor, closed, real(work%ease, wp), deflection, moment_left, moment_right, moves, inside)
         call compare_fields(detail, factor, fine, work, starts, certificate)
         associate (a => work%answers)
@@ -168,7 +170,7 @@ contains
         apart = maxval(abs(fine - rounded))
         largest = 0.0_wp
         if (any(abs(rounded) > 0.0_wp) .or. apart > fine_error*maxval(sizes)) &
-            largest = real(max(apart, fine_error*maxval(sizes))*(1 + 2*epsilon(1.0_wp)), wp)
+            largest = real(max(apart, fine_error*maxval(sizes))*(1 + 64*epsilon(1.0_wp)), wp)
     end function difference
 
     !> Errors of the fields along the beam
@@ -204,7 +206,7 @@ contains
         real(wp), intent(in) :: rounded
         real(wp) :: distance
 
-        distance = real(abs(fine - rounded), wp)
+        distance = real(abs(fine - rounded)*(1 + 64*epsilon(1.0_wp)), wp)
     end function apart
 
     !> Errors of the fields inside a piece: those at its left end, carried on, and the rounding of every term

@@ -15,6 +15,7 @@ module gapbeam_referee
     use gapbeam_scheme, only: find_scheme, outcome_type
     use gapbeam_link_quad, only: fine_piece_type => piece_type, fine_load_type => load_type, fine_link_type => link_type, &
         condense_link
+    use gapbeam_kinematics_quad, only: free_motions, motion_type
     use gapbeam_model_quad, only: fine_beam_type => beam_type, new_beam
     use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type, new_fine_workspace => new_workspace, &
         set_fine_loads => set_loads
@@ -24,7 +25,7 @@ module gapbeam_referee
     use gapbeam_scheme_quad, only: find_fine_scheme => find_scheme, fine_outcome_type => outcome_type
     implicit none
     private
-    public :: decide_scheme, detail_type, refine_beam, fine_piece, fine_load
+    public :: decide_scheme, find_undecided, held_by_ties, detail_type, refine_beam, fine_piece, fine_load
 
     !> Of more supports near zero than these all are named
     integer, parameter :: most_examined = 64
@@ -114,6 +115,7 @@ contains
             return
         end if
         call find_undecided(fine, real(factor, qp), closed, fine_work, undecided)
+        outcome%indifferent = outcome%indifferent .or. held_by_ties(fine, closed, undecided)
         associate (a => fine_work%answers)
             work%answers%deflection = real(a%deflection, wp)
             work%answers%moment_left = real(a%moment_left, wp)
@@ -123,7 +125,8 @@ contains
         work%reaction = real(fine_work%reaction, wp)
     end subroutine refer
 
-    !> Supports whose reaction or opening is smaller than what it moves when the data change in their last digits
+    !> Supports whose reaction or opening is smaller than what it moves when the data change in their last digits. A reaction that
+    !> is nothing but rounding is none
     subroutine find_undecided(fine, factor, closed, work, undecided)
         type(fine_beam_type), intent(in) :: fine
         real(qp), intent(in) :: factor
@@ -131,7 +134,7 @@ contains
         type(fine_workspace_type), intent(inout) :: work
         logical, intent(out) :: undecided(:)
         type(sensitivity_type) :: sensitivity
-        real(qp) :: margin(size(closed)), rounding, movement
+        real(qp) :: margin(size(closed)), rounding(size(closed)), movement
         integer :: k
 
         do k = 1, size(closed)
@@ -139,8 +142,9 @@ contains
             associate (s => fine%supports(k))
                 if (s%side == both .or. .not. s%stiffness > 0.0_qp) cycle
             end associate
-            call margin_of(fine, closed(k), k, work, margin(k), rounding)
-            undecided(k) = abs(margin(k)) <= first_width*rounding*(epsilon(1.0_wp)/epsilon(rounding))
+            call margin_of(fine, closed(k), k, work, margin(k), rounding(k))
+            undecided(k) = abs(margin(k)) <= first_width*rounding(k)*(epsilon(1.0_wp)/epsilon(1.0_qp))
+            if (closed(k) .and. abs(margin(k)) <= first_width*rounding(k)) work%reaction(k) = 0.0_qp
         end do
         if (.not. any(undecided) .or. count(undecided) > most_examined) return
         call prepare_sensitivity(fine, factor, work, sensitivity)
@@ -148,9 +152,49 @@ contains
         do k = 1, size(closed)
             if (.not. undecided(k)) cycle
             call movement_of_support(fine, sensitivity, closed(k), k, work, movement)
-            undecided(k) = abs(margin(k)) <= movement
+            undecided(k) = abs(margin(k)) <= max(movement, first_width*rounding(k))
         end do
     end subroutine find_undecided
+
+    !> Is the beam free to move but for supports that carry nothing: then its position is not unique
+    function held_by_ties(fine, closed, undecided) result(free)
+        !> The beam and its scheme
+        type(fine_beam_type), intent(in) :: fine
+        logical, intent(in) :: closed(:)
+        !> From find_undecided
+        logical, intent(in) :: undecided(:)
+        logical :: free
+        type(motion_type), allocatable :: motions(:)
+        integer :: m, way
+
+        free = .false.
+        if (.not. any(closed .and. undecided)) return
+        call free_motions(fine, closed .and. .not. undecided, motions)
+        do m = 1, size(motions)
+            do way = -1, 1, 2
+                free = free .or. leaves_ties(motions(m), way)
+            end do
+        end do
+
+    contains
+
+        !> Does a motion go away from every support at zero that it moves
+        function leaves_ties(motion, way) result(leaves)
+            type(motion_type), intent(in) :: motion
+            integer, intent(in) :: way
+            logical :: leaves
+            integer :: k
+
+            leaves = .true.
+            do k = 1, size(undecided)
+                associate (s => fine%supports(k))
+                    if (.not. undecided(k) .or. s%node < motion%first .or. s%node > motion%last) cycle
+                    leaves = leaves .and. way*s%side*motion%displacement(s%node) <= 0.0_qp
+                end associate
+            end do
+        end function leaves_ties
+
+    end function held_by_ties
 
     !> The beam in quadruple precision
     subroutine refine_beam(beam, detail, fine)

@@ -26,8 +26,8 @@ module gapbeam_scheme
     !> (places and loads are rounded to doubles, whatever the precision here)
     real(wp), parameter :: no_work = max(4096*epsilon(1.0_wp), 8*real(epsilon(1.0_dp), wp)), &
         no_speed = max(512*epsilon(1.0_wp), 4*real(epsilon(1.0_dp), wp))
-    !> Forces of the weak springs, relative to those in the beam, that come from rounding of the loads alone
-    real(wp), parameter :: least_force = max(epsilon(1.0_wp), 8*real(epsilon(1.0_dp), wp))
+    !> Forces of the weak springs, relative to the loads, that come from rounding of the loads alone
+    real(wp), parameter :: least_force = 8*real(epsilon(1.0_dp), wp)
     !> So many times that much is clearly more
     real(wp), parameter :: clearly_more = 1024.0_wp
     !> Moves of the reference position before giving up
@@ -166,7 +166,8 @@ contains
             else if (size(runaways) == 0) then
                 ! Free to move, but no load does work: the springs carry nothing once the reference has come to rest
                 if (maxval(abs(eased - work%reference)) <= max(4096*epsilon(1.0_wp)*maxval(abs(eased)), &
-                                                               least_force*maxval(work%shear_size)/ease)) then
+                                                               (epsilon(1.0_wp)*maxval(work%shear_size) &
+                                                                + least_force*maxval(work%load_size))/ease)) then
                     outcome%indifferent = .true.
                     outcome%in_doubt = in_doubt
                     return

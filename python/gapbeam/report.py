@@ -15,6 +15,7 @@ from . import formatting as fmt
 from .memory import refuse_beyond
 from .report_data import result_data, step_data
 from .report_scheme import legend, merged, scheme_table, symbol
+from .states import BOUNDED
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -289,31 +290,38 @@ def _steps(say: "Writer", result: "Result") -> None:
     steps = result.steps if result.path is None else result.steps[-1:]
     kinds = list(steps[-1].residuals)
     say.heading("Residuals against run time")
-    rows, worst = [], 0.0
+    rows, worst, came_back = [], 0.0, False
     not_shown = range(LONGEST // 2, len(steps) - LONGEST // 2)
     for k, step in enumerate(steps):
+        if k in not_shown:
+            rows.append(())
+            continue
         residuals = [step.residuals[kind] for kind in kinds]
         worst = max(worst, *residuals)
+        came_back = came_back or step.came_back
         texts = [fmt.number(step.factor, 4), str(step.solves), fmt.duration(step.seconds)]
-        rows.append(() if k in not_shown else [*texts, *(f"{residual:.1e}" for residual in residuals)])
+        rows.append([*texts, *(f"{residual:.1e}" for residual in residuals)])
     say.table(["load factor", "solves", "time", *kinds], rows)
     if len(steps) > 1:
         solves, seconds = fmt.count(result.solves, "solve"), fmt.duration(result.seconds)
-        say.line(f"Together {solves}, {seconds}; largest residual {worst:.1e}.", "dim")
+        of_shown = " of these" if len(not_shown) else ""
+        say.line(f"Together {solves}, {seconds}; largest residual{of_shown} {worst:.1e}.", "dim")
+    if came_back:
+        say.line("The rule single came back to a scheme that it had seen; from there the rule block went on.")
     _doubts(say, result)
 
 
 def _doubts(say: "Writer", result: "Result") -> None:
     """How exact the last step is, and what is not decided in it."""
     step = result.steps[-1]
-    bounds = [step.certificate[f"error_bound_{kind}"] for kind in ("deflection", "reaction")]
-    deflections = "" if bounds[0] is None else f"deflections {bounds[0]:.1e}, "
-    say.line(f"Error bounds at the last step, relative to the largest: {deflections}reactions {bounds[1]:.1e}.")
+    bounds = ((kind, step.certificate[f"error_bound_{kind}"]) for kind in BOUNDED)
+    listed = ", ".join(f"{kind} {bound:.1e}" for kind, bound in bounds if bound is not None)
+    say.line(f"Error bounds at the last step, relative to the largest of each kind: {listed}.")
     if step.undecided:
         x = result.scene.positions(result.scene.supports)
         names = ", ".join(f"{k} (x = {x[k]:g})" for k in step.undecided[:10])
         more = f" and {len(step.undecided) - 10} more" if len(step.undecided) > 10 else ""
-        say.line(f"Neither closed nor open within these bounds: support {names}{more}.")
+        say.line(f"Reaction or opening zero, so neither closed nor open: support {names}{more}.")
     if step.indifferent:
         say.line("The beam can move freely without work of the loads: forces are unique, its position is not.")
 
