@@ -1,6 +1,7 @@
 """Settings of hypothesis (the same examples in every run; HYPOTHESIS_PROFILE=explore draws many new ones), and fixtures."""
 
 import os
+import subprocess
 import sys
 
 import pytest
@@ -8,7 +9,7 @@ from hypothesis import HealthCheck, settings
 
 sys.path.insert(0, os.path.dirname(__file__))  # the helper modules beside the tests
 
-from installation import install
+from installation import LANGUAGES, install
 
 CALM = [HealthCheck.too_slow, HealthCheck.data_too_large, HealthCheck.filter_too_much]
 settings.register_profile(
@@ -22,3 +23,11 @@ settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "fixed"))
 def installed(tmp_path_factory):
     """The library as `meson install` puts it in place."""
     return install(tmp_path_factory.mktemp("installed"))
+
+
+@pytest.fixture(scope="session")
+def python_digits():
+    """What the paper's beam in Python prints; the other languages print the same."""
+    return subprocess.run(
+        [sys.executable, LANGUAGES / "paper_beam.py"], capture_output=True, text=True, check=True
+    ).stdout

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 TOP = Path(__file__).resolve().parent.parent
+LANGUAGES = TOP / "examples" / "languages"
 NEEDED = ("meson", "ninja", "gfortran", "cc", "pkg-config")
 
 

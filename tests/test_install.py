@@ -10,22 +10,14 @@ import sys
 import gapbeam
 import pytest
 from clibrary import Library
-from installation import TOP
+from installation import LANGUAGES, TOP
 
-LANGUAGES = TOP / "examples" / "languages"
 PROGRAMS = ("paper_beam.c", "paper_beam.f90", "paper_beam.f")
 
 
 @pytest.fixture(scope="session")
 def header(installed):
     return (installed.prefix / "include" / "gapbeam.h").read_text()
-
-
-@pytest.fixture(scope="session")
-def python_digits():
-    return subprocess.run(
-        [sys.executable, LANGUAGES / "paper_beam.py"], capture_output=True, text=True, check=True
-    ).stdout
 
 
 def constants(header):
