@@ -63,13 +63,13 @@ class Installation:
         return program
 
 
-def install(folder: Path) -> Installation:
-    """Build and install the library under a folder; skip the test where a tool for that is missing."""
+def install(folder: Path, *options: str) -> Installation:
+    """Build and install the library under a folder, with options of meson; skip the test where a tool for that is missing."""
     missing = [name for name in NEEDED if shutil.which(name) is None]
     if missing:
         pytest.skip(f"not on this machine: {', '.join(missing)}")
     prefix, build = folder / "prefix", folder / "build"
-    setup = ["meson", "setup", build, TOP, f"--prefix={prefix}", "-Dlibdir=lib", "-Dtests=disabled"]
+    setup = ["meson", "setup", build, TOP, f"--prefix={prefix}", "-Dlibdir=lib", "-Dtests=disabled", *options]
     for command in (setup, ["meson", "install", "-C", build]):
         done = subprocess.run(list(map(str, command)), capture_output=True, text=True)
         assert done.returncode == 0, f"{done.stdout}\n{done.stderr}"

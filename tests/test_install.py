@@ -100,20 +100,6 @@ def test_headers_are_cpp_and_c99(installed, tmp_path):
         installed.run(tmp_path / "empty")
 
 
-def test_static_library(installed, tmp_path, python_digits):
-    """The shared library hidden, pkg-config --static says all that is needed."""
-    lib = tmp_path / "lib"
-    shutil.copytree(installed.prefix / "lib", lib, symlinks=True)
-    for shared in lib.glob("libgapbeam.so*"):
-        shared.unlink()
-    flags = [
-        flag.replace(str(installed.prefix / "lib"), str(lib))
-        for flag in installed.pkg_config("--static", "--cflags", "--libs")
-    ]
-    installed.run("cc", LANGUAGES / "paper_beam.c", "-o", tmp_path / "program", *flags)
-    assert installed.run(tmp_path / "program").stdout == python_digits
-
-
 def test_found_by_meson(installed, tmp_path, python_digits):
     (tmp_path / "meson.build").write_text(
         "project('user', 'c', 'fortran')\n"

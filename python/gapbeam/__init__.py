@@ -13,14 +13,6 @@ Units: any consistent set. Signs: x to the right; deflections and loads positive
 sagging, rotations and couples clockwise.
 """
 
-try:
-    from . import _f77
-except ImportError:
-    # Built against PyPI's OpenBLAS, which the extension finds only once it is loaded; system builds do without.
-    import scipy_openblas32 as _openblas  # noqa: F401
-
-    from . import _f77  # noqa: F401
-
 from importlib.metadata import version as _version
 
 from .errors import EngineError, GapbeamError, SceneError, Status
