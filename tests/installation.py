@@ -21,9 +21,12 @@ class Installation:
     ----------
     prefix : Path
         Where it is.
+    build : Path
+        The folder it was built in.
     """
 
     prefix: Path
+    build: Path
 
     @property
     def library(self) -> Path:
@@ -73,4 +76,4 @@ def install(folder: Path, *options: str) -> Installation:
     for command in (setup, ["meson", "install", "-C", build]):
         done = subprocess.run(list(map(str, command)), capture_output=True, text=True)
         assert done.returncode == 0, f"{done.stdout}\n{done.stderr}"
-    return Installation(prefix)
+    return Installation(prefix, build)

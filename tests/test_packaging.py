@@ -1,4 +1,4 @@
-"""What packagers meet: the static library, LAPACK from PyPI, the wheel."""
+"""What packagers meet: the static library, LAPACK from PyPI, versions that CMake asks for, uninstalling, the wheel."""
 
 import os
 import re
@@ -8,6 +8,7 @@ import sys
 import zipfile
 from importlib.util import find_spec
 
+import gapbeam
 import pytest
 from installation import LANGUAGES, TOP, install
 
@@ -83,3 +84,40 @@ def test_wheel_brings_openblas_along(installed_openblas, tmp_path, python_digits
         env=os.environ | {"PYTHONPATH": str(unpacked)}, capture_output=True, text=True, check=True,
     )  # fmt: skip
     assert done.stdout == python_digits
+
+
+@pytest.mark.skipif(shutil.which("cmake") is None, reason="no CMake on this machine")
+def test_versions_that_cmake_asks_for(installed, tmp_path):
+    major, minor, patch = gapbeam.__version__.split(".")
+    before, this, after, later = (f"{major}.{int(minor) + step}" for step in (-1, 0, 1, 2))
+    answers = {
+        this: 1,
+        gapbeam.__version__: 1,
+        before: 0,
+        after: 0,
+        f"{this}.{int(patch) + 1}": 0,
+        f"{this}...{later}": 1,
+        f"{before}...{gapbeam.__version__}": 1,
+        f"{before}...<{gapbeam.__version__}": 0,
+        f"{before}...<{after}": 1,
+        f"{before}...{before}.9": 0,
+        f"{after}...{later}": 0,
+    }
+    lines = ["cmake_minimum_required(VERSION 3.19)", "project(user LANGUAGES NONE)"]
+    for version in answers:
+        lines += ["unset(gapbeam_DIR CACHE)", f"find_package(gapbeam {version} QUIET)"]
+        lines += [f'message("{version}=${{gapbeam_FOUND}}")']
+    (tmp_path / "CMakeLists.txt").write_text("\n".join(lines))
+    done = installed.run("cmake", "-S", tmp_path, "-B", tmp_path / "build")
+    found = dict(re.findall(r"^(\S+)=(\d)$", done.stderr, re.MULTILINE))
+    assert found == {version: str(answer) for version, answer in answers.items()}
+
+
+def test_uninstall_leaves_nothing(installed, tmp_path):
+    """After another install, to a root of its own."""
+    installed.run("meson", "install", "-C", installed.build, "--no-rebuild", f"--destdir={tmp_path}")
+    there = tmp_path / installed.prefix.relative_to("/")
+    assert list(there.rglob("gapbeam.mod"))
+    installed.run("ninja", "-C", installed.build, "uninstall")
+    assert not [file for file in tmp_path.rglob("*") if not file.is_dir()]
+    assert (installed.prefix / "include" / "gapbeam.h").exists()
