@@ -74,14 +74,19 @@ make_environment() {
     location >.venv/gapbeam
 }
 
-install_package() {
-    # The build tools stay in .venv, so that a later build goes on where the last one stopped.
+# Options go to pip.
+install_build_tools() {
     python -c 'import tomllib
 print(*tomllib.load(open("pyproject.toml", "rb"))["build-system"]["requires"], sep="\n")' >.venv/build-tools
-    pip install -q -r .venv/build-tools
+    pip install -q "$@" -r .venv/build-tools
     python -c 'import mesonpy
 print(*mesonpy.get_requires_for_build_wheel(), sep="\n")' >.venv/build-tools
-    pip install -q -r .venv/build-tools
+    pip install -q "$@" -r .venv/build-tools
+}
+
+install_package() {
+    # The build tools stay in .venv, so that a later build goes on where the last one stopped.
+    install_build_tools
     pip install -q --no-build-isolation --config-settings=build-dir=.venv/build/package ".${1:+[$1]}"
 }
 
