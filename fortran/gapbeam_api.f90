@@ -94,7 +94,8 @@ contains
         call ieee_set_status(environment)
     end subroutine prepare_model
 
-    !> Take other loads instead of those of the model; quick where only values differ and no place does
+    !> Take other loads instead of those of the model; quick where only values differ and no place does. The number of nodes
+    !> changes with the places of loads on overhangs, that of supports never does; a result of other loads is refused
     subroutine replace_loads(beam, loads, error)
         !> Prepared; left as it is if an error is found
         type(prepared_type), intent(inout) :: beam
@@ -160,7 +161,8 @@ contains
         if (allocated(beam%lowered)) number = size(beam%lowered%model%supports)
     end function count_supports
 
-    !> Number of nodes of the system: beam ends, hinges, supports across the beam, on overhangs the places of loads
+    !> Number of nodes of the system: beam ends, hinges, supports across the beam, on overhangs the places of loads; ask again
+    !> after replace_loads
     pure function count_nodes(beam) result(number)
         type(prepared_type), intent(in) :: beam
         !> 0 if it is not prepared
@@ -402,7 +404,7 @@ contains
             call fatal_error(error, gapbeam_not_prepared, "nothing is solved: call solve_beam first")
         else if (result%status /= status) then
             call fatal_error(error, gapbeam_not_prepared, "there is no motion: the beam was not found without equilibrium")
-        else if (.not. fits(beam, result%state)) then
+        else if (.not. fits(beam, result%state) .or. result%state%fingerprint /= beam%lowered%fingerprint) then
             call fatal_error(error, gapbeam_not_prepared, "the result belongs to another beam, or to other loads")
         end if
     end subroutine require_result

@@ -79,8 +79,9 @@ subroutine gbprep(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, alo
     if (.not. fits) info = -12
 end subroutine gbprep
 
-! Take other loads for a prepared beam; states solved before belong to the old ones. The work arrays must have room for
-! the largest NLOAD to come: ask GBPREP for their lengths with that
+! Take other loads for a prepared beam. The work arrays must have room for the largest NLOAD to come: ask GBPREP for their
+! lengths with that. States solved before belong to the old loads, and are not taken until solved anew. Where places of loads
+! change, so may the lengths of states (ask GBSOLV again) and the number of nodes in GBMOTN
 subroutine gbload(nload, iload, aload, work, lwork, iwork, liwork, info)
     use gapbeam_error, only: error_type, gapbeam_no_memory, gapbeam_bad_input
     use gapbeam_scene, only: load_type

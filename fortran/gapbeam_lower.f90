@@ -10,7 +10,7 @@ module gapbeam_lower
     use gapbeam_link, only: condense_link, piece_load_type => load_type
     use gapbeam_scene, only: load_type, gapbeam_by_x, gapbeam_axial, gapbeam_force, gapbeam_couple, gapbeam_distributed, &
         gapbeam_curvature, gapbeam_axial_force, gapbeam_dead
-    use gapbeam_lowered, only: lowered_type
+    use gapbeam_lowered, only: lowered_type, fingerprint
     use gapbeam_places, only: place_span_ends, locate, merge_places
     use gapbeam_check, only: check_spans, check_rest, check_loads, refuse, of_hinges, of_loads
     use gapbeam_lower_supports, only: lower_supports
@@ -240,6 +240,7 @@ contains
             call no_memory(error)
             return
         end if
+        lowered%fingerprint = fingerprint(lowered%model)
         call clear(lowered%dead)
         call clear(lowered%live)
         associate (beam => lowered%beam, axial => lowered%axial)

@@ -1,12 +1,13 @@
 !> A model made ready: the engine's arrays, and what leads from them back to the user's places and supports
 module gapbeam_lowered
+    use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp
     use gapbeam_link, only: piece_type, piece_load_type => load_type
     use gapbeam_model, only: beam_type
     use gapbeam_scene, only: model_type
     implicit none
     private
-    public :: lowered_type, axial_type, copy_model, position_tolerance
+    public :: lowered_type, axial_type, copy_model, fingerprint, position_tolerance
 
     !> Positions whose difference is at most this share of the larger one are the same place
     real(wp), parameter :: position_tolerance = 64*epsilon(1.0_wp)
@@ -27,8 +28,9 @@ module gapbeam_lowered
 
     !> A model made ready
     type :: lowered_type
-        !> What the user gave
+        !> What the user gave, and its fingerprint
         type(model_type) :: model
+        integer :: fingerprint = 0
         !> The engine's units of length and force, as powers of two; 0 but for models far from 1
         integer :: length_exponent = 0, force_exponent = 0
         !> x of the span ends, shape (0:nspan), and the point at each of them
@@ -84,5 +86,48 @@ contains
         if (supports > 0) copy%supports(:) = source%supports
         if (loads > 0) copy%loads(:) = source%loads
     end subroutine copy_model
+
+    !> A number that another model, or one with other loads, hardly ever has: results are known by it
+    pure function fingerprint(model) result(number)
+        !> With all its arrays allocated
+        type(model_type), intent(in) :: model
+        integer :: number
+        integer :: i
+
+        number = 0
+        do i = 1, size(model%spans)
+            associate (s => model%spans(i))
+                call mix(number, [s%length, s%EI, s%GA, s%EA])
+            end associate
+        end do
+        call mix(number, model%hinges)
+        do i = 1, size(model%supports)
+            associate (s => model%supports(i))
+                call mix(number, [s%x, s%stiffness, s%gap, s%settlement, s%rotation, real([s%node, s%side, s%direction], wp)])
+            end associate
+        end do
+        do i = 1, size(model%loads)
+            associate (load => model%loads(i))
+                call mix(number, [load%x, load%to, load%value, load%value_to, real([load%kind, load%case, load%node], wp)])
+            end associate
+        end do
+    end function fingerprint
+
+    !> Mix the bits of numbers into a fingerprint: a polynomial in them, modulo the prime 2**31 - 1
+    pure subroutine mix(number, values)
+        integer, intent(inout) :: number
+        real(wp), intent(in) :: values(:)
+        integer(int64), parameter :: prime = 2147483647_int64, base = 48271_int64
+        integer(int64) :: bits, rest
+        integer :: i
+
+        rest = number
+        do i = 1, size(values)
+            bits = transfer(values(i), bits)
+            rest = modulo(rest*base + ibits(bits, 0, 32), prime)
+            rest = modulo(rest*base + ibits(bits, 32, 32), prime)
+        end do
+        number = int(rest)
+    end subroutine mix
 
 end module gapbeam_lowered

@@ -21,6 +21,7 @@ contains
         type(lowered_type), intent(inout) :: lowered
 
         call exchange_model(tape, lowered%model)
+        call exchange(tape, lowered%fingerprint)
         call exchange(tape, lowered%length_exponent)
         call exchange(tape, lowered%force_exponent)
         call exchange(tape, lowered%ends, 0)
@@ -65,6 +66,7 @@ contains
 
         call exchange(tape, state%status)
         call exchange(tape, state%factor)
+        call exchange(tape, state%fingerprint)
         call exchange(tape, state%solves)
         call exchange(tape, state%method)
         call exchange(tape, state%indifferent)

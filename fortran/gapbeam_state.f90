@@ -28,6 +28,8 @@ module gapbeam_state
         integer :: status = -1
         !> Load factor of the live loads
         real(wp) :: factor = 0.0_wp
+        !> Fingerprint of the model with the loads that were solved
+        integer :: fingerprint = 0
         !> Linear solves it took, and the system solved last (gapbeam_system)
         integer :: solves = 0, method = 0
         !> Can the beam move freely without work of the loads; does it slide along its axis
@@ -126,6 +128,7 @@ contains
 
         call forget(state)
         state%factor = factor
+        state%fingerprint = lowered%fingerprint
         call reserve_memory(lowered, for_solving, error)
         if (allocated(error)) return
         allocate (acting(size(state%closed)), stat=stat)

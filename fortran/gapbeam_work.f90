@@ -31,7 +31,7 @@ contains
         points = 1_int64 + spans + hinges + supports + 2_int64*loads
         nodes = min(points, 2_int64 + hinges + supports + 2_int64*loads)
         reals = 5_int64*spans + hinges + 7_int64*supports + 4_int64*loads + 24*points + 26*nodes + 16
-        integers = header + 2_int64*spans + 11_int64*supports + 5_int64*loads + 4*points + 3*nodes + 52
+        integers = header + 2_int64*spans + 11_int64*supports + 5_int64*loads + 4*points + 3*nodes + 53
     end subroutine sizes_of_beam
 
     !> Lengths that a state of a beam takes

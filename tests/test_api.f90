@@ -157,6 +157,14 @@ contains
         call prepare_model(model, other, error)
         call get_fields(other, result, [1.0_wp], fields, error)
         call check(error%code == gapbeam_not_prepared .and. index(error%message, "another beam") > 0, "result of another beam")
+        call two_spans(model)
+        call prepare_model(model, other, error)
+        call get_fields(other, result, [1.0_wp], fields, error)
+        call check(.not. allocated(error), "the same beam, prepared twice")
+        model%supports(2)%gap = 2*model%supports(2)%gap
+        call prepare_model(model, other, error)
+        call get_fields(other, result, [1.0_wp], fields, error)
+        call check(error%code == gapbeam_not_prepared, "result of a beam of the same sizes")
         call check(gapbeam_status_message(gapbeam_solved) == "solved", "a status in words")
     end subroutine refused_calls
 

@@ -174,6 +174,7 @@ static void closed_form(void)
     model.load_value = six;
     model.load_value_to = zero;
     check(gapbeam_replace_loads(beam, &model, NULL, 0) == GAPBEAM_SOLVED, "other values");
+    check(gapbeam_get_supports(beam, state, reaction, NULL, NULL, NULL, NULL) == GAPBEAM_NOT_PREPARED, "a state of the old ones");
     check(gapbeam_solve(beam, 1.0, NULL, state, NULL, 0) == GAPBEAM_SOLVED, "solved again");
     gapbeam_get_supports(beam, state, reaction, NULL, NULL, NULL, NULL);
     check_close(reaction[1], middle, "a triangle of twice the height does the same in the middle");
@@ -197,6 +198,26 @@ static void closed_form(void)
     gapbeam_get_supports(beam, state, again, NULL, NULL, NULL, NULL);
     check(!memcmp(again, reaction, sizeof again), "to the last digit");
     gapbeam_free_state(state);
+    gapbeam_free_beam(beam);
+}
+
+/* Beyond the last support the places of loads are nodes, so other loads may make more or fewer of them */
+static void counts_after_other_loads(void)
+{
+    const int force[] = {GAPBEAM_FORCE};
+    const double places[] = {3.0, 4.0, 1.0};
+    const int nodes[] = {4, 3, 3};
+    gapbeam_model model = two_spans();
+    gapbeam_beam *beam = NULL;
+
+    model.supports = 2;
+    check(prepare(&model, &beam) == GAPBEAM_SOLVED && gapbeam_count_nodes(beam) == 3, "ends and supports");
+    model.load_kind = force;
+    for (int k = 0; k < 3; k++) {
+        model.load_x = &places[k];
+        check(gapbeam_replace_loads(beam, &model, NULL, 0) == GAPBEAM_SOLVED, "a force elsewhere");
+        check(gapbeam_count_nodes(beam) == nodes[k] && gapbeam_count_supports(beam) == 2, "its node, the same supports");
+    }
     gapbeam_free_beam(beam);
 }
 
@@ -333,6 +354,7 @@ int main(void)
 {
     refused_arguments();
     closed_form();
+    counts_after_other_loads();
     no_equilibrium();
     all_loads();
     environment();

@@ -234,6 +234,10 @@ C     The gap closes at 5 q L**4/384 EI = 0.001
       CALL GBINFO(STATE, ISTATE, E(2), NI, INFO)
       CALL CLOSE(E(2), 1.0D0, 'state at the end')
       CALL CHECK(NI(1) .EQ. 0 .AND. NI(2) .GT. 0, 'its numbers')
+      ALOAD(3,1) = 4.0D0
+      CALL GBLOAD(1, ILOAD, ALOAD, WORK, 500, IWORK, 300, INFO)
+      CALL GBSUPP(WORK, IWORK, STATE, ISTATE, V, K, INFO)
+      CALL EXPECT(INFO, -3, 'state of the old loads')
       ILOAD(1,1) = 1
       ALOAD(1,1) = 1.0D0
       ALOAD(3,1) = 25.0D0
