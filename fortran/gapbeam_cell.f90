@@ -24,6 +24,11 @@ module gapbeam_cell
     !> The first factor tried is above the given one by this share of the way; none nearer than this is
     real(wp), parameter :: first_share = 2.0_wp**(-40), last_share = 2.0_wp**(-46)
 
+    !> A beam that is free to move is followed over stretches that are longer than this share of the way
+    real(wp), parameter :: indifferent_share = 2.0_wp**(-12)
+    !> Weak springs that hold it there, relative to those of the search
+    real(wp), parameter :: weaker = 2.0_wp**(-24)
+
     !> A stretch of the path
     type :: cell_type
         !> The scheme, shape (size(supports))
@@ -65,22 +70,22 @@ contains
             call find_scheme(beam, trial, rule_block, cell%closed, work, outcome, error)
             cell%solves = cell%solves + work%solves
             if (allocated(error)) return
-            if (outcome%indifferent) then
-                call fatal_error(error, gapbeam_not_converged, "above this load factor the beam can move freely without work "// &
-                                 "of the loads, so there is no single path of its supports: follow the load by steps")
-                return
-            end if
             if (outcome%status == gapbeam_solved) then
-                call find_lines(beam, cell, error)
+                call find_lines(beam, work, cell, error)
                 if (allocated(error)) return
                 call find_interval(cell, trial, from)
             else
                 from = start_of_motion(beam, outcome%motion)
             end if
-            if (.not. from > factor + last_share*scale_of_factor) return
+            if (.not. from > factor + last_share*scale_of_factor) exit
             ! Nearer, before what happens there
             trial = factor + (min(from, trial) - factor)/2
         end do
+        ! Where the position is not unique, supports may be touched here or there, without end
+        if (outcome%indifferent .and. cell%to < min(limit, factor + indifferent_share*scale_of_factor)) then
+            call fatal_error(error, gapbeam_not_converged, "above this load factor the beam can move freely without work "// &
+                             "of the loads, so there is no single path of its supports: follow the load by steps")
+        end if
     end subroutine find_cell
 
     !> The factor above which the loads do work along a motion
@@ -96,8 +101,10 @@ contains
     end function start_of_motion
 
     !> Solve the scheme for dead and for live loads
-    subroutine find_lines(beam, cell, error)
+    subroutine find_lines(beam, work, cell, error)
         type(beam_type), intent(in) :: beam
+        !> The solution at the factor tried
+        type(workspace_type), intent(in) :: work
         type(cell_type), intent(inout) :: cell
         type(error_type), allocatable, intent(out) :: error
         type(beam_type) :: incremental
@@ -107,6 +114,10 @@ contains
         call without_dead_loads(beam, incremental)
         call new_workspace(beam, dead)
         call new_workspace(incremental, live)
+        ! A beam that stays free to move stays where it is
+        dead%ease = weaker*work%ease
+        live%ease = dead%ease
+        dead%reference = work%answers%deflection
         call set_loads(beam, 0.0_wp, dead)
         call set_loads(incremental, 1.0_wp, live)
         call solve_scheme(beam, cell%closed, dead, state, place)

@@ -66,6 +66,7 @@ contains
         type(fine_beam_type) :: fine
         type(fine_workspace_type) :: work
         type(outcome_type) :: outcome
+        real(wp) :: springs
         logical, allocatable :: acting(:), undecided(:)
         real(qp), allocatable :: moment_size(:)
         real(wp) :: moves(5), inside
@@ -93,7 +94,11 @@ contains
                                      difference(a%moment_right, moment_right, moment_size))
             certificate%rotation = certificate%rotation + moves(of_rotations)
             certificate%moment = certificate%moment + moves(of_moments)
-            certificate%shear = certificate%shear + moves(of_shears) + real(fine_error*maxval(work%shear_size), wp)
+            ! Weak springs of a beam that is free to move are a load that it does not have
+            springs = real(sum(work%ease*abs(work%reference - a%deflection)), wp)
+            certificate%reaction = certificate%reaction + springs
+            certificate%moment = certificate%moment + springs*real(sum(fine%links%length), wp)
+            certificate%shear = certificate%shear + springs + moves(of_shears) + real(fine_error*maxval(work%shear_size), wp)
             ! Signs as they are, residuals of the numbers as they are given
             certificate%complementarity = real(complementarity(fine, closed, work), wp)
             a%deflection = deflection

@@ -26,7 +26,7 @@ module gapbeam_path
     use gapbeam_scheme, only: find_scheme, outcome_type
     use gapbeam_line, only: line_type, line_of, without_dead_loads, value_at, width_at, zero_of, falls, stays_at_zero
     use gapbeam_queue, only: queue_type, new_queue, set_key, first_key, all_up_to
-    use gapbeam_referee, only: detail_type, refine_beam
+    use gapbeam_referee, only: detail_type, refine_beam, decide_scheme
     use gapbeam_model_quad, only: fine_beam_type => beam_type
     use gapbeam_scheme_quad, only: fine_outcome_type => outcome_type
     use gapbeam_line_quad, only: fine_value_at => value_at, fine_width_at => width_at
@@ -42,10 +42,12 @@ module gapbeam_path
 
     !> How much further up the scheme is looked for
     real(wp), parameter :: look_ahead = 2.0_wp**(-20)
-    !> A support that changes so near to its last change, relative to the factor, has changed at the same factor
+    !> What happens so near to each other, relative to the factor or the way, happens at the same factor
     real(wp), parameter :: same_factor = 1e-12_wp
     !> Factors in double and quadruple precision that differ by less, relative to the way, are the same
     real(wp), parameter :: agreement = 1e-9_wp
+    !> Links up to which doubt is a reason for quadruple precision; in longer beams only if the end of the path is wrong
+    integer, parameter :: short_beam = 200
     !> Rounding errors beyond which a value is not near zero
     real(wp), parameter :: far = 2.0_wp**16
 
@@ -76,6 +78,9 @@ module gapbeam_path
         type(fine_beam_type) :: fine
         logical :: has_fine = .false., by_cell = .false.
         type(cell_type) :: cell
+        !> Was there a support of which doubles cannot tell whether it moves away from zero; are all stretches found in quadruple
+        !> precision because of that
+        logical :: in_doubt = .false., closely = .false.
     end type stretch_type
 
 contains
@@ -101,27 +106,93 @@ contains
         type(outcome_type), intent(out) :: outcome
         type(error_type), allocatable, intent(out) :: error
         type(stretch_type) :: stretch
+        logical, allocatable :: closed_before(:), marginal_before(:)
+        real(wp) :: begin
+
+        allocate (path%factor(max(most, 1)), path%support(max(most, 1)), path%event(max(most, 1)))
+        allocate (closed_before(size(closed)), marginal_before(size(closed)))
+        closed_before(:) = closed
+        marginal_before(:) = marginal
+        begin = factor
+        call new_stretch(beam, stretch)
+        call follow(beam, detail, limit, most, factor, closed, marginal, stretch, path, outcome, error)
+        if (allocated(error) .or. outcome%status /= gapbeam_solved .or. .not. stretch%in_doubt .or. stretch%closely) return
+        if (right_at(beam, detail, factor, closed)) return
+        ! What double precision could not see mattered
+        closed(:) = closed_before
+        marginal(:) = marginal_before
+        factor = begin
+        path%count = 0
+        stretch%closely = .true.
+        call follow(beam, detail, limit, most, factor, closed, marginal, stretch, path, outcome, error)
+    end subroutine follow_load
+
+    !> Is the scheme at the end of the path that of the state there
+    function right_at(beam, detail, factor, closed) result(right)
+        type(beam_type), intent(in) :: beam
+        type(detail_type), intent(in) :: detail
+        real(wp), intent(in) :: factor
+        logical, intent(in) :: closed(:)
+        logical :: right
+        type(workspace_type) :: work
+        type(outcome_type) :: outcome
+        type(error_type), allocatable :: error
+        logical, allocatable :: acting(:)
+
+        allocate (acting(size(closed)))
+        acting(:) = closed
+        call new_workspace(beam, work)
+        call set_loads(beam, factor, work)
+        call decide_scheme(beam, detail, factor, rule_block, acting, work, outcome, error)
+        right = .not. allocated(error) .and. outcome%status == gapbeam_solved
+        if (right) right = all((acting .eqv. closed) .or. outcome%undecided)
+    end function right_at
+
+    !> The same, in one precision after the other
+    subroutine follow(beam, detail, limit, most, factor, closed, marginal, stretch, path, outcome, error)
+        !> As for follow_load
+        type(beam_type), intent(in) :: beam
+        type(detail_type), intent(in) :: detail
+        real(wp), intent(in) :: limit
+        integer, intent(in) :: most
+        real(wp), intent(inout) :: factor
+        logical, intent(inout) :: closed(:), marginal(:)
+        type(stretch_type), intent(inout) :: stretch
+        type(path_type), intent(inout) :: path
+        type(outcome_type), intent(out) :: outcome
+        type(error_type), allocatable, intent(out) :: error
         integer, allocatable :: at_zero(:)
-        real(qp) :: exactly
+        real(qp) :: exactly, here
         real(wp) :: begin
         logical :: done
         integer :: k
 
-        allocate (path%factor(max(most, 1)), path%support(max(most, 1)), path%event(max(most, 1)))
-        call new_stretch(beam, stretch)
         at_zero = pack([(k, k=1, size(closed))], marginal)
         begin = factor
         exactly = factor
-        call start_stretch(beam, closed, factor, stretch, path)
-        if (stretch%current) call add_those_at_zero(beam, closed, factor, stretch, at_zero)
+        if (.not. stretch%closely) call start_stretch(beam, closed, factor, stretch, path)
+        if (stretch%current) call add_those_at_zero(beam, closed, factor, limit, stretch, at_zero)
+        stretch%closely = stretch%closely .or. (stretch%in_doubt .and. size(beam%links) <= short_beam)
         do
-            call change_in_place(beam, factor, closed, at_zero, stretch, path, done)
-            if (.not. done) call look_further(beam, factor, limit, at_zero, closed, stretch, path, done)
+            done = .false.
+            if (.not. stretch%closely) then
+                call change_in_place(beam, factor, closed, at_zero, stretch, path, done)
+                if (.not. done) call look_further(beam, factor, limit, at_zero, closed, stretch, path, done)
+                stretch%closely = stretch%in_doubt .and. size(beam%links) <= short_beam
+                done = done .and. .not. stretch%closely
+            end if
             if (.not. done) then
                 call look_closely(beam, detail, exactly, limit, at_zero, closed, stretch, path, outcome, error)
                 if (allocated(error) .or. outcome%status /= gapbeam_solved) exit
             end if
+            here = exactly
             call find_next(beam, closed, factor, limit, stretch, at_zero, exactly)
+            if (stretch%in_doubt .and. size(beam%links) <= short_beam .and. .not. stretch%closely) then
+                stretch%closely = .true.
+                call look_closely(beam, detail, here, limit, at_zero, closed, stretch, path, outcome, error)
+                if (allocated(error) .or. outcome%status /= gapbeam_solved) exit
+                call find_next(beam, closed, factor, limit, stretch, at_zero, exactly)
+            end if
             if (exactly >= limit) at_zero = [integer ::]
             factor = max(factor, real(min(exactly, real(limit, qp)), wp))
             if (exactly >= limit) exit
@@ -129,7 +200,7 @@ contains
         end do
         marginal = .false.
         marginal(at_zero) = .true.
-    end subroutine follow_load
+    end subroutine follow
 
     !> Room for what is known on a stretch of the path
     subroutine new_stretch(beam, stretch)
@@ -169,11 +240,11 @@ contains
     end subroutine start_stretch
 
     !> Supports that are at zero at a factor
-    subroutine add_those_at_zero(beam, closed, factor, stretch, at_zero)
+    subroutine add_those_at_zero(beam, closed, factor, limit, stretch, at_zero)
         type(beam_type), intent(in) :: beam
         logical, intent(in) :: closed(:)
-        real(wp), intent(in) :: factor
-        type(stretch_type), intent(in) :: stretch
+        real(wp), intent(in) :: factor, limit
+        type(stretch_type), intent(inout) :: stretch
         !> Some of them in, all out
         integer, allocatable, intent(inout) :: at_zero(:)
         logical, allocatable :: there(:)
@@ -186,10 +257,22 @@ contains
         do k = 1, size(closed)
             if (beam%supports(k)%side == both .or. .not. beam%supports(k)%stiffness > 0.0_wp) cycle
             line = line_of(beam, stretch%incremental, closed(k), k, stretch%dead, stretch%live)
-            there(k) = there(k) .or. abs(value_at(line, factor)) <= width_at(line, factor)
+            if (abs(value_at(line, factor)) > width_at(line, factor)) cycle
+            there(k) = .true.
+            stretch%in_doubt = stretch%in_doubt .or. apart(line, factor, limit)
         end do
         at_zero = pack([(k, k=1, size(closed))], there)
     end subroutine add_those_at_zero
+
+    !> Is a falling line that counts as zero at a factor zero at another one, so that it may be another event
+    pure function apart(line, factor, limit)
+        type(line_type), intent(in) :: line
+        real(wp), intent(in) :: factor, limit
+        logical :: apart
+
+        apart = falls(line)
+        if (apart) apart = abs(zero_of(line) - factor) > same_factor*max(abs(factor), limit - factor)
+    end function apart
 
     !> Change what moves through zero, if that is all there is to do
     subroutine change_in_place(beam, factor, closed, at_zero, stretch, path, done)
@@ -393,6 +476,7 @@ contains
             call set_key(stretch%queue, k, zero - width_at(line, zero)/abs(line%v1))
         else
             call set_key(stretch%queue, k, huge(zero))
+            if (stays_at_zero(line, factor) .and. max(abs(line%v0), abs(line%v1)) > 0.0_wp) stretch%in_doubt = .true.
         end if
     end subroutine queue_support
 
@@ -416,7 +500,7 @@ contains
         end if
         ! Lines in double precision will do again if they lead to the same event
         to = stretch%cell%to
-        call start_stretch(beam, closed, factor, stretch, beside)
+        if (.not. stretch%closely) call start_stretch(beam, closed, factor, stretch, beside)
         if (stretch%current) then
             call next_in_queue()
             stretch%current = abs(min(next, real(limit, qp)) - min(to, real(limit, qp))) <= agreement*(limit - factor) &
@@ -451,6 +535,7 @@ contains
             allocate (there(size(near)))
             do j = 1, size(near)
                 there(j) = abs(value_at(line(near(j)), at)) <= width_at(line(near(j)), at)
+                if (there(j)) stretch%in_doubt = stretch%in_doubt .or. apart(line(near(j)), at, limit)
             end do
             at_zero = [at_zero, pack(near, there)]
             next = at
