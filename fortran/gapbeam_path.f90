@@ -17,20 +17,18 @@
 module gapbeam_path
     use gapbeam_kinds, only: wp, qp
     use gapbeam_error, only: error_type, gapbeam_solved
-    use gapbeam_band, only: band_ok
-    use gapbeam_model, only: beam_type, both
+    use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_rules, only: find_doubtful
-    use gapbeam_update, only: start_updates, update_scheme, find_groups
     use gapbeam_search, only: rule_block
     use gapbeam_scheme, only: find_scheme, outcome_type
-    use gapbeam_line, only: line_type, line_of, without_dead_loads, value_at, width_at, zero_of, falls, stays_at_zero
-    use gapbeam_queue, only: queue_type, new_queue, set_key, first_key, all_up_to
+    use gapbeam_line, only: line_type, value_at, width_at, falls, stays_at_zero
     use gapbeam_referee, only: detail_type, refine_beam, decide_scheme
-    use gapbeam_model_quad, only: fine_beam_type => beam_type
     use gapbeam_scheme_quad, only: fine_outcome_type => outcome_type
     use gapbeam_line_quad, only: fine_value_at => value_at, fine_width_at => width_at
-    use gapbeam_cell, only: cell_type, find_cell
+    use gapbeam_cell, only: find_cell
+    use gapbeam_stretch, only: stretch_type, new_stretch, start_stretch, change_supports, add_those_at_zero, next_in_queue, &
+        line_in, same_factor
     implicit none
     private
     public :: follow_load, path_type, event_opens, event_closes, event_turns
@@ -42,8 +40,6 @@ module gapbeam_path
 
     !> How much further up the scheme is looked for
     real(wp), parameter :: look_ahead = 2.0_wp**(-20)
-    !> What happens so near to each other, relative to the factor or the way, happens at the same factor
-    real(wp), parameter :: same_factor = 1e-12_wp
     !> Factors in double and quadruple precision that differ by less, relative to the way, are the same
     real(wp), parameter :: agreement = 1e-9_wp
     !> Links up to which doubt is a reason for quadruple precision; in longer beams only if the end of the path is wrong
@@ -61,27 +57,6 @@ module gapbeam_path
         !> Linear solves of the whole beam; nodes at which the solution was made anew besides
         integer :: solves = 0, nodes = 0
     end type path_type
-
-    !> What is known on a stretch of the path
-    type :: stretch_type
-        !> The beam without its dead loads and gaps
-        type(beam_type) :: incremental
-        !> v0 and v1
-        type(workspace_type) :: dead, live
-        !> Is their solution that of the scheme at hand
-        logical :: current = .false.
-        !> Factors at which supports come near zero
-        type(queue_type) :: queue
-        !> At which factor a support has changed last
-        real(wp), allocatable :: last_change(:)
-        !> The beam in quadruple precision, and the stretch as found so, if it was
-        type(fine_beam_type) :: fine
-        logical :: has_fine = .false., by_cell = .false.
-        type(cell_type) :: cell
-        !> Was there a support of which doubles cannot tell whether it moves away from zero; are all stretches found in quadruple
-        !> precision because of that
-        logical :: in_doubt = .false., closely = .false.
-    end type stretch_type
 
 contains
 
@@ -116,6 +91,8 @@ contains
         begin = factor
         call new_stretch(beam, stretch)
         call follow(beam, detail, limit, most, factor, closed, marginal, stretch, path, outcome, error)
+        path%solves = stretch%solves
+        path%nodes = stretch%nodes
         if (allocated(error) .or. outcome%status /= gapbeam_solved .or. .not. stretch%in_doubt .or. stretch%closely) return
         if (right_at(beam, detail, factor, closed)) return
         ! What double precision could not see mattered
@@ -125,6 +102,7 @@ contains
         path%count = 0
         stretch%closely = .true.
         call follow(beam, detail, limit, most, factor, closed, marginal, stretch, path, outcome, error)
+        path%solves = stretch%solves
     end subroutine follow_load
 
     !> Is the scheme at the end of the path that of the state there
@@ -170,7 +148,7 @@ contains
         at_zero = pack([(k, k=1, size(closed))], marginal)
         begin = factor
         exactly = factor
-        if (.not. stretch%closely) call start_stretch(beam, closed, factor, stretch, path)
+        if (.not. stretch%closely) call start_stretch(beam, closed, factor, stretch)
         if (stretch%current) call add_those_at_zero(beam, closed, factor, limit, stretch, at_zero)
         stretch%closely = stretch%closely .or. (stretch%in_doubt .and. size(beam%links) <= short_beam)
         do
@@ -202,78 +180,6 @@ contains
         marginal(at_zero) = .true.
     end subroutine follow
 
-    !> Room for what is known on a stretch of the path
-    subroutine new_stretch(beam, stretch)
-        type(beam_type), intent(in) :: beam
-        type(stretch_type), intent(out) :: stretch
-
-        call without_dead_loads(beam, stretch%incremental)
-        call new_workspace(beam, stretch%dead)
-        call set_loads(beam, 0.0_wp, stretch%dead)
-        call new_workspace(beam, stretch%live)
-        call set_loads(stretch%incremental, 1.0_wp, stretch%live)
-        call new_queue(size(beam%supports), stretch%queue)
-        allocate (stretch%last_change(size(beam%supports)))
-        stretch%last_change(:) = -huge(1.0_wp)
-    end subroutine new_stretch
-
-    !> Solve v0 and v1 of a scheme; the stretch is not current if that takes more than a plain solve
-    subroutine start_stretch(beam, closed, factor, stretch, path)
-        type(beam_type), intent(in) :: beam
-        logical, intent(in) :: closed(:)
-        real(wp), intent(in) :: factor
-        type(stretch_type), intent(inout) :: stretch
-        type(path_type), intent(inout) :: path
-        logical :: solved, follows, live_follows
-        integer :: k
-
-        stretch%by_cell = .false.
-        call start_updates(beam, closed, stretch%dead, solved, follows)
-        if (solved) call start_updates(stretch%incremental, closed, stretch%live, solved, live_follows)
-        path%solves = path%solves + 2
-        stretch%current = solved
-        if (solved) stretch%current = follows .and. live_follows
-        if (.not. stretch%current) return
-        do k = 1, size(closed)
-            call queue_support(beam, closed, k, factor, stretch)
-        end do
-    end subroutine start_stretch
-
-    !> Supports that are at zero at a factor
-    subroutine add_those_at_zero(beam, closed, factor, limit, stretch, at_zero)
-        type(beam_type), intent(in) :: beam
-        logical, intent(in) :: closed(:)
-        real(wp), intent(in) :: factor, limit
-        type(stretch_type), intent(inout) :: stretch
-        !> Some of them in, all out
-        integer, allocatable, intent(inout) :: at_zero(:)
-        logical, allocatable :: there(:)
-        type(line_type) :: line
-        integer :: k
-
-        allocate (there(size(closed)))
-        there(:) = .false.
-        there(at_zero) = .true.
-        do k = 1, size(closed)
-            if (beam%supports(k)%side == both .or. .not. beam%supports(k)%stiffness > 0.0_wp) cycle
-            line = line_of(beam, stretch%incremental, closed(k), k, stretch%dead, stretch%live)
-            if (abs(value_at(line, factor)) > width_at(line, factor)) cycle
-            there(k) = .true.
-            stretch%in_doubt = stretch%in_doubt .or. apart(line, factor, limit)
-        end do
-        at_zero = pack([(k, k=1, size(closed))], there)
-    end subroutine add_those_at_zero
-
-    !> Is a falling line that counts as zero at a factor zero at another one, so that it may be another event
-    pure function apart(line, factor, limit)
-        type(line_type), intent(in) :: line
-        real(wp), intent(in) :: factor, limit
-        logical :: apart
-
-        apart = falls(line)
-        if (apart) apart = abs(zero_of(line) - factor) > same_factor*max(abs(factor), limit - factor)
-    end function apart
-
     !> Change what moves through zero, if that is all there is to do
     subroutine change_in_place(beam, factor, closed, at_zero, stretch, path, done)
         type(beam_type), intent(in) :: beam
@@ -289,10 +195,10 @@ contains
 
         done = .false.
         if (.not. stretch%current) return
-        moving = pack(at_zero, [(falls(line(at_zero(j))), j=1, size(at_zero))])
+        moving = pack(at_zero, [(falls(line_in(beam, closed, at_zero(j), stretch)), j=1, size(at_zero))])
         if (any(factor - stretch%last_change(moving) <= same_factor*abs(factor))) return
-        call change_supports(beam, moving, factor, closed, stretch, path)
-        if (stretch%current) done = .not. any([(falls(line(at_zero(j))), j=1, size(at_zero))])
+        call change_supports(beam, moving, factor, closed, stretch)
+        if (stretch%current) done = .not. any([(falls(line_in(beam, closed, at_zero(j), stretch)), j=1, size(at_zero))])
         if (.not. done) then
             ! The lines are those of the scheme tried
             stretch%current = .false.
@@ -303,44 +209,9 @@ contains
         do j = 1, size(moving)
             call add_event(path, factor, moving(j), merge(event_closes, event_opens, closed(moving(j))))
         end do
-        at_zero = pack(at_zero, [(stays_at_zero(line(at_zero(j)), factor), j=1, size(at_zero))])
-
-    contains
-
-        pure function line(k)
-            integer, intent(in) :: k
-            type(line_type) :: line
-
-            line = line_of(beam, stretch%incremental, closed(k), k, stretch%dead, stretch%live)
-        end function line
+        at_zero = pack(at_zero, [(stays_at_zero(line_in(beam, closed, at_zero(j), stretch), factor), j=1, size(at_zero))])
 
     end subroutine change_in_place
-
-    !> Change supports in v0 and v1, and in the queue; afterwards the stretch is not current if that is not possible
-    subroutine change_supports(beam, changed, factor, closed, stretch, path)
-        type(beam_type), intent(in) :: beam
-        integer, intent(in) :: changed(:)
-        real(wp), intent(in) :: factor
-        logical, intent(inout) :: closed(:)
-        type(stretch_type), intent(inout) :: stretch
-        type(path_type), intent(inout) :: path
-        integer :: groups(2, size(changed)), count, window(2), window_of_live(2), state, i, j
-
-        closed(changed) = .not. closed(changed)
-        call find_groups(beam, changed, groups, count)
-        do j = 1, count
-            call update_scheme(beam, closed, groups(:, j), .true., stretch%dead, window, state)
-            if (state == band_ok) call update_scheme(stretch%incremental, closed, groups(:, j), .true., stretch%live, &
-                                                     window_of_live, state)
-            stretch%current = state == band_ok
-            if (.not. stretch%current) return
-            window = [min(window(1), window_of_live(1)), max(window(2), window_of_live(2))]
-            path%nodes = path%nodes + window(2) - window(1) + 1
-            do i = beam%first(window(1)), beam%first(window(2) + 1) - 1
-                call queue_support(beam, closed, beam%order(i), factor, stretch)
-            end do
-        end do
-    end subroutine change_supports
 
     !> Find the scheme a little further up, and whether it acts all the way from the event
     subroutine look_further(beam, factor, limit, at_zero, closed, stretch, path, done)
@@ -367,15 +238,15 @@ contains
         call new_workspace(beam, work)
         call set_loads(beam, trial, work)
         call find_scheme(beam, trial, rule_block, after, work, outcome, error)
-        path%solves = path%solves + work%solves
+        stretch%solves = stretch%solves + work%solves
         if (allocated(error) .or. outcome%status /= gapbeam_solved .or. outcome%indifferent) return
         call find_doubtful(beam, after, work, doubtful)
-        call start_stretch(beam, after, factor, stretch, path)
+        call start_stretch(beam, after, factor, stretch)
         if (.not. stretch%current) return
         was_far(:) = .true.
         was_far(at_zero) = .false.
         do k = 1, size(closed)
-            line = line_of(beam, stretch%incremental, after(k), k, stretch%dead, stretch%live)
+            line = line_in(beam, after, k, stretch)
             if (value_at(line, factor) < -width_at(line, factor) .or. &
                 (doubtful(k) .and. .not. stays_at_zero(line, trial))) then
                 stretch%current = .false.
@@ -386,8 +257,7 @@ contains
         done = .true.
         call note_changes(factor, closed, after, was_far, is_far, stretch, path)
         closed(:) = after
-        at_zero = pack(at_zero, [(stays_at_zero(line_of(beam, stretch%incremental, closed(at_zero(k)), at_zero(k), &
-                                                        stretch%dead, stretch%live), factor), k=1, size(at_zero))])
+        at_zero = pack(at_zero, [(stays_at_zero(line_in(beam, closed, at_zero(k), stretch), factor), k=1, size(at_zero))])
     end subroutine look_further
 
     !> Find the next stretch in quadruple precision
@@ -415,7 +285,7 @@ contains
         was_far(:) = .true.
         was_far(at_zero) = .false.
         call find_cell(stretch%fine, factor, real(limit, qp), closed, stretch%cell, found, error)
-        path%solves = path%solves + stretch%cell%solves
+        stretch%solves = stretch%solves + stretch%cell%solves
         if (allocated(error)) return
         if (found%status /= gapbeam_solved) then
             outcome = outcome_type(status=found%status)
@@ -460,26 +330,6 @@ contains
         end do
     end subroutine note_changes
 
-    !> Put a support into the queue with the first factor at which it counts as zero
-    pure subroutine queue_support(beam, closed, k, factor, stretch)
-        type(beam_type), intent(in) :: beam
-        logical, intent(in) :: closed(:)
-        integer, intent(in) :: k
-        real(wp), intent(in) :: factor
-        type(stretch_type), intent(inout) :: stretch
-        type(line_type) :: line
-        real(wp) :: zero
-
-        line = line_of(beam, stretch%incremental, closed(k), k, stretch%dead, stretch%live)
-        if (falls(line)) then
-            zero = max(factor, zero_of(line))
-            call set_key(stretch%queue, k, zero - width_at(line, zero)/abs(line%v1))
-        else
-            call set_key(stretch%queue, k, huge(zero))
-            if (stays_at_zero(line, factor) .and. max(abs(line%v0), abs(line%v1)) > 0.0_wp) stretch%in_doubt = .true.
-        end if
-    end subroutine queue_support
-
     !> The next event, and the supports at zero there
     subroutine find_next(beam, closed, factor, limit, stretch, at_zero, next)
         type(beam_type), intent(in) :: beam
@@ -490,21 +340,22 @@ contains
         integer, allocatable, intent(inout) :: at_zero(:)
         !> Its load factor; huge if there is none
         real(qp), intent(out) :: next
-        type(path_type) :: beside
         real(qp) :: to
+        real(wp) :: in_doubles
         integer :: k
 
         if (.not. stretch%by_cell) then
-            call next_in_queue()
+            call next_in_queue(beam, closed, factor, limit, stretch, at_zero, in_doubles)
+            next = in_doubles
             return
         end if
         ! Lines in double precision will do again if they lead to the same event
         to = stretch%cell%to
-        if (.not. stretch%closely) call start_stretch(beam, closed, factor, stretch, beside)
+        if (.not. stretch%closely) call start_stretch(beam, closed, factor, stretch)
         if (stretch%current) then
-            call next_in_queue()
-            stretch%current = abs(min(next, real(limit, qp)) - min(to, real(limit, qp))) <= agreement*(limit - factor) &
-                .and. min(next, real(limit, qp)) > factor
+            call next_in_queue(beam, closed, factor, limit, stretch, at_zero, in_doubles)
+            stretch%current = abs(min(in_doubles, limit) - min(to, real(limit, qp))) <= agreement*(limit - factor) &
+                .and. min(in_doubles, limit) > factor
         end if
         next = to
         if (stretch%current) return
@@ -512,42 +363,6 @@ contains
         associate (line => stretch%cell%lines)
             at_zero = pack([(k, k=1, size(closed))], abs(fine_value_at(line, to)) <= fine_width_at(line, to))
         end associate
-
-    contains
-
-        subroutine next_in_queue()
-            integer, allocatable :: near(:)
-            logical, allocatable :: there(:)
-            real(wp) :: at
-            integer :: j, round
-
-            next = huge(next)
-            if (.not. first_key(stretch%queue) < huge(at)) return
-            ! The first to come near zero need not be the first that is there
-            at = huge(at)
-            near = all_up_to(stretch%queue, first_key(stretch%queue))
-            do round = 1, 2
-                do j = 1, size(near)
-                    at = min(at, max(factor, zero_of(line(near(j)))))
-                end do
-                near = all_up_to(stretch%queue, at)
-            end do
-            allocate (there(size(near)))
-            do j = 1, size(near)
-                there(j) = abs(value_at(line(near(j)), at)) <= width_at(line(near(j)), at)
-                if (there(j)) stretch%in_doubt = stretch%in_doubt .or. apart(line(near(j)), at, limit)
-            end do
-            at_zero = [at_zero, pack(near, there)]
-            next = at
-        end subroutine next_in_queue
-
-        pure function line(k)
-            integer, intent(in) :: k
-            type(line_type) :: line
-
-            line = line_of(beam, stretch%incremental, closed(k), k, stretch%dead, stretch%live)
-        end function line
-
     end subroutine find_next
 
     !> Note an event

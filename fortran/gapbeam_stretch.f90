@@ -1,0 +1,214 @@
+!> A stretch of the load path on which one scheme acts: the solution as lines over the load factor, kept up to date while supports
+!> change, and the queue of the factors at which they reach zero
+module gapbeam_stretch
+    use gapbeam_kinds, only: wp
+    use gapbeam_band, only: band_ok
+    use gapbeam_model, only: beam_type, both
+    use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
+    use gapbeam_update, only: start_updates, update_scheme, find_groups
+    use gapbeam_line, only: line_type, line_of, without_dead_loads, value_at, width_at, zero_of, falls, stays_at_zero
+    use gapbeam_queue, only: queue_type, new_queue, set_key, first_key, all_up_to
+    use gapbeam_model_quad, only: fine_beam_type => beam_type
+    use gapbeam_cell, only: cell_type
+    implicit none
+    private
+    public :: stretch_type, new_stretch, start_stretch, change_supports, add_those_at_zero, next_in_queue, line_in, same_factor
+
+    !> What happens so near to each other, relative to the factor or the way, happens at the same factor
+    real(wp), parameter :: same_factor = 1e-12_wp
+
+    !> What is known on a stretch of the path
+    type :: stretch_type
+        !> The beam without its dead loads and gaps
+        type(beam_type) :: incremental
+        !> v0 and v1
+        type(workspace_type) :: dead, live
+        !> Is their solution that of the scheme at hand
+        logical :: current = .false.
+        !> Factors at which supports come near zero
+        type(queue_type) :: queue
+        !> At which factor a support has changed last
+        real(wp), allocatable :: last_change(:)
+        !> The beam in quadruple precision, and the stretch as found so, if it was
+        type(fine_beam_type) :: fine
+        logical :: has_fine = .false., by_cell = .false.
+        type(cell_type) :: cell
+        !> Linear solves of the whole beam; nodes at which the solution was made anew besides
+        integer :: solves = 0, nodes = 0
+        !> Was there a support of which doubles cannot tell whether it moves away from zero; are all stretches found in quadruple
+        !> precision because of that
+        logical :: in_doubt = .false., closely = .false.
+    end type stretch_type
+
+contains
+
+    !> Room for what is known on a stretch of the path
+    subroutine new_stretch(beam, stretch)
+        !> The beam
+        type(beam_type), intent(in) :: beam
+        !> Nothing solved yet
+        type(stretch_type), intent(out) :: stretch
+
+        call without_dead_loads(beam, stretch%incremental)
+        call new_workspace(beam, stretch%dead)
+        call set_loads(beam, 0.0_wp, stretch%dead)
+        call new_workspace(beam, stretch%live)
+        call set_loads(stretch%incremental, 1.0_wp, stretch%live)
+        call new_queue(size(beam%supports), stretch%queue)
+        allocate (stretch%last_change(size(beam%supports)))
+        stretch%last_change(:) = -huge(1.0_wp)
+    end subroutine new_stretch
+
+    !> Solve v0 and v1 of a scheme; the stretch is not current if that takes more than a plain solve
+    subroutine start_stretch(beam, closed, factor, stretch)
+        !> The beam, the scheme, and the factor from which on it acts
+        type(beam_type), intent(in) :: beam
+        logical, intent(in) :: closed(:)
+        real(wp), intent(in) :: factor
+        type(stretch_type), intent(inout) :: stretch
+        logical :: solved, follows, live_follows
+        integer :: k
+
+        stretch%by_cell = .false.
+        call start_updates(beam, closed, stretch%dead, solved, follows)
+        if (solved) call start_updates(stretch%incremental, closed, stretch%live, solved, live_follows)
+        stretch%solves = stretch%solves + 2
+        stretch%current = solved
+        if (solved) stretch%current = follows .and. live_follows
+        if (.not. stretch%current) return
+        do k = 1, size(closed)
+            call queue_support(beam, closed, k, factor, stretch)
+        end do
+    end subroutine start_stretch
+
+    !> Change supports in v0 and v1, and in the queue; afterwards the stretch is not current if that is not possible
+    subroutine change_supports(beam, changed, factor, closed, stretch)
+        !> The beam, the supports that change, the factor, and the scheme
+        type(beam_type), intent(in) :: beam
+        integer, intent(in) :: changed(:)
+        real(wp), intent(in) :: factor
+        logical, intent(inout) :: closed(:)
+        type(stretch_type), intent(inout) :: stretch
+        integer :: groups(2, size(changed)), count, window(2), window_of_live(2), state, i, j
+
+        closed(changed) = .not. closed(changed)
+        call find_groups(beam, changed, groups, count)
+        do j = 1, count
+            call update_scheme(beam, closed, groups(:, j), .true., stretch%dead, window, state)
+            if (state == band_ok) call update_scheme(stretch%incremental, closed, groups(:, j), .true., stretch%live, &
+                                                     window_of_live, state)
+            stretch%current = state == band_ok
+            if (.not. stretch%current) return
+            window = [min(window(1), window_of_live(1)), max(window(2), window_of_live(2))]
+            stretch%nodes = stretch%nodes + window(2) - window(1) + 1
+            do i = beam%first(window(1)), beam%first(window(2) + 1) - 1
+                call queue_support(beam, closed, beam%order(i), factor, stretch)
+            end do
+        end do
+    end subroutine change_supports
+
+    !> Reaction or opening of a support over the load factor
+    pure function line_in(beam, closed, k, stretch) result(line)
+        !> The beam and its scheme, and the number of the support
+        type(beam_type), intent(in) :: beam
+        logical, intent(in) :: closed(:)
+        integer, intent(in) :: k
+        type(stretch_type), intent(in) :: stretch
+        type(line_type) :: line
+
+        line = line_of(beam, stretch%incremental, closed(k), k, stretch%dead, stretch%live)
+    end function line_in
+
+    !> Supports that are at zero at a factor
+    subroutine add_those_at_zero(beam, closed, factor, limit, stretch, at_zero)
+        !> The beam, its scheme, the factor, and the end of the path
+        type(beam_type), intent(in) :: beam
+        logical, intent(in) :: closed(:)
+        real(wp), intent(in) :: factor, limit
+        type(stretch_type), intent(inout) :: stretch
+        !> Some of them in, all out
+        integer, allocatable, intent(inout) :: at_zero(:)
+        logical, allocatable :: there(:)
+        type(line_type) :: line
+        integer :: k
+
+        allocate (there(size(closed)))
+        there(:) = .false.
+        there(at_zero) = .true.
+        do k = 1, size(closed)
+            if (beam%supports(k)%side == both .or. .not. beam%supports(k)%stiffness > 0.0_wp) cycle
+            line = line_in(beam, closed, k, stretch)
+            if (abs(value_at(line, factor)) > width_at(line, factor)) cycle
+            there(k) = .true.
+            stretch%in_doubt = stretch%in_doubt .or. apart(line, factor, limit)
+        end do
+        at_zero = pack([(k, k=1, size(closed))], there)
+    end subroutine add_those_at_zero
+
+    !> The next factor at which something is zero, and what is
+    subroutine next_in_queue(beam, closed, factor, limit, stretch, at_zero, next)
+        !> The beam and its scheme, current in the stretch
+        type(beam_type), intent(in) :: beam
+        logical, intent(in) :: closed(:)
+        !> Where it is at hand, and the end of the path
+        real(wp), intent(in) :: factor, limit
+        type(stretch_type), intent(inout) :: stretch
+        !> Supports that stay at zero in, all that are there then out
+        integer, allocatable, intent(inout) :: at_zero(:)
+        !> Huge if there is none
+        real(wp), intent(out) :: next
+        integer, allocatable :: near(:)
+        logical, allocatable :: there(:)
+        type(line_type) :: line
+        integer :: j, round
+
+        next = huge(next)
+        if (.not. first_key(stretch%queue) < huge(next)) return
+        ! The first to come near zero need not be the first that is there
+        near = all_up_to(stretch%queue, first_key(stretch%queue))
+        do round = 1, 2
+            do j = 1, size(near)
+                next = min(next, max(factor, zero_of(line_in(beam, closed, near(j), stretch))))
+            end do
+            near = all_up_to(stretch%queue, next)
+        end do
+        allocate (there(size(near)))
+        do j = 1, size(near)
+            line = line_in(beam, closed, near(j), stretch)
+            there(j) = abs(value_at(line, next)) <= width_at(line, next)
+            if (there(j)) stretch%in_doubt = stretch%in_doubt .or. apart(line, next, limit)
+        end do
+        at_zero = [at_zero, pack(near, there)]
+    end subroutine next_in_queue
+
+    !> Is a falling line that counts as zero at a factor zero at another one, so that it may be another event
+    pure function apart(line, factor, limit)
+        type(line_type), intent(in) :: line
+        real(wp), intent(in) :: factor, limit
+        logical :: apart
+
+        apart = falls(line)
+        if (apart) apart = abs(zero_of(line) - factor) > same_factor*max(abs(factor), limit - factor)
+    end function apart
+
+    !> Put a support into the queue with the first factor at which it counts as zero
+    pure subroutine queue_support(beam, closed, k, factor, stretch)
+        type(beam_type), intent(in) :: beam
+        logical, intent(in) :: closed(:)
+        integer, intent(in) :: k
+        real(wp), intent(in) :: factor
+        type(stretch_type), intent(inout) :: stretch
+        type(line_type) :: line
+        real(wp) :: zero
+
+        line = line_in(beam, closed, k, stretch)
+        if (falls(line)) then
+            zero = max(factor, zero_of(line))
+            call set_key(stretch%queue, k, zero - width_at(line, zero)/abs(line%v1))
+        else
+            call set_key(stretch%queue, k, huge(zero))
+            if (stays_at_zero(line, factor) .and. max(abs(line%v0), abs(line%v1)) > 0.0_wp) stretch%in_doubt = .true.
+        end if
+    end subroutine queue_support
+
+end module gapbeam_stretch
