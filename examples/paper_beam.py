@@ -6,9 +6,8 @@ Usage: python examples/paper_beam.py [FOLDER]     (the picture goes there; defau
 import sys
 from pathlib import Path
 
-import msgspec
-
 import gapbeam
+import msgspec
 from gapbeam.plots import plot
 from gapbeam.report import print_report
 

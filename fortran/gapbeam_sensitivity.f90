@@ -242,13 +242,13 @@ contains
         end if
     end subroutine solve_again
 
-    !> Add the results at a node, each times a factor, as the right-hand side whose solution they are a row of
+    !> Add the results at a node (by default rotations), each times a factor, as the right-hand side whose solution they are a row of
     subroutine add_functional(beam, nodes, kind, i, x, rhs)
         type(beam_type), intent(in) :: beam
         type(node_type), intent(in) :: nodes(0:)
         integer, intent(in) :: kind, i
-        !> Of the deflection or reaction; of the moments left and right; of shear, or of the rotations at both ends, of the link that
-        !> follows
+        !> Of the deflection or reaction; of the moments left and right; of shear, or of the rotations at both ends, of the link
+        !> that follows
         real(wp), intent(in) :: x(4)
         type(rhs_type), intent(inout) :: rhs(0:)
         integer :: n
@@ -265,7 +265,7 @@ contains
             call add_moment(i, .false., x(2))
         case (of_shears)
             if (i < n) call add_shear(i + 1, x(1))
-        case (of_rotations)
+        case default
             if (i == n) return
             associate (link => beam%links(i + 1))
                 call add_deflection(i + 1, (x(1) + x(2))*link%inverse)
@@ -330,7 +330,7 @@ contains
             x(1:2) = [answers(i)%moment_left, answers(i)%moment_right]
         case (of_shears)
             if (i < n) x(1) = shear(i + 1)
-        case (of_rotations)
+        case default
             if (i == n) return
             associate (link => beam%links(i + 1), a => answers(i), b => answers(i + 1))
                 slope = (b%deflection - a%deflection)*link%inverse
