@@ -174,8 +174,9 @@ contains
 
         apart = maxval(abs(fine - rounded))
         largest = 0.0_wp
-        if (any(abs(rounded) > 0.0_wp) .or. apart > fine_error*maxval(sizes)) &
+        if (any(abs(rounded) > 0.0_wp) .or. apart > fine_error*maxval(sizes)) then
             largest = real(max(apart, fine_error*maxval(sizes))*(1 + 64*epsilon(1.0_wp)), wp)
+        end if
     end function difference
 
     !> Errors of the fields along the beam

@@ -242,7 +242,8 @@ contains
         end if
     end subroutine solve_again
 
-    !> Add the results at a node (by default rotations), each times a factor, as the right-hand side whose solution they are a row of
+    !> Add the results at a node (by default rotations), each times a factor, as the right-hand side whose solution they are a
+    !> row of
     subroutine add_functional(beam, nodes, kind, i, x, rhs)
         type(beam_type), intent(in) :: beam
         type(node_type), intent(in) :: nodes(0:)
