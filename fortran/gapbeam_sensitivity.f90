@@ -119,7 +119,7 @@ contains
             image(:) = reshape(weighed(), [size(image)])
             if (sum(abs(image)) <= movement .and. turn > 1) exit
             movement = max(movement, sum(abs(image)))
-            image(:) = sign(1.0_wp, image)
+            image(:) = merge(1.0_wp, -1.0_wp, image >= 0.0_wp)
             call weigh(image, rhs)
             call solve(rhs)
             call take(x)
