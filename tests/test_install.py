@@ -103,7 +103,7 @@ def test_headers_are_cpp_and_c99(installed, tmp_path):
 def test_found_by_meson(installed, tmp_path, python_digits):
     (tmp_path / "meson.build").write_text(
         "project('user', 'c', 'fortran')\n"
-        "dep = dependency('gapbeam', version: '>=0.1')\n"
+        "dep = dependency('gapbeam', version: '>=0.2')\n"
         f"executable('in_c', '{LANGUAGES / 'paper_beam.c'}', dependencies: dep)\n"
         f"executable('in_fortran', '{LANGUAGES / 'paper_beam.f90'}', dependencies: dep)\n"
     )
@@ -118,7 +118,7 @@ def test_found_by_cmake(installed, tmp_path, python_digits):
     (tmp_path / "CMakeLists.txt").write_text(
         "cmake_minimum_required(VERSION 3.18)\n"
         "project(user LANGUAGES C Fortran)\n"
-        "find_package(gapbeam 0.1 REQUIRED)\n"
+        "find_package(gapbeam 0.2 REQUIRED)\n"
         f"add_executable(in_c {LANGUAGES / 'paper_beam.c'})\n"
         f"add_executable(in_fortran {LANGUAGES / 'paper_beam.f90'})\n"
         "foreach(name in_c in_fortran)\n  target_link_libraries(${name} gapbeam::gapbeam)\nendforeach()\n"
