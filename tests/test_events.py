@@ -74,6 +74,68 @@ def test_abaqus_stops():
     assert 120 < 200 * result.events[1].factor < 140
 
 
+# Beams that lose their hold at half of the load, at once, on both ends, at 0.3; the last one has nothing to turn against there.
+TURNING = {
+    "seesaw": scene(
+        [4.0, 4.0],
+        [at(1), at(0, side="below"), at(2, side="below", gap=0.1)],
+        [force(0.0, 10.0, case="dead"), force(8.0, 20.0)],
+        EI=1e4,
+    ),
+    "seesaw without weight": scene(
+        [4.0, 4.0],
+        [at(1), at(0, side="below", gap=0.01), at(2, side="below", gap=0.01)],
+        [force(8.0, 20.0)],
+        EI=1e4,
+    ),
+    "shaft": scene(
+        [400.0, 400.0],
+        [at(node, side=side, gap=0.06) for node in (0, 2) for side in ("below", "above")],
+        [uniform(0.151, case="dead"), force(400.0, -3000.0)],
+        EI=6.32e10,
+    ),
+    "overhang with an uplift bearing": scene(
+        [4.0, 2.0],
+        [at(0, side="below"), at(0, side="above", gap=0.01), at(1, side="below")],
+        [uniform(1.0, case="dead"), force(6.0, 10.0)],
+        EI=1e4,
+    ),
+    "overhang": scene(
+        [4.0, 2.0],
+        [at(0, side="below"), at(1, side="below")],
+        [uniform(1.0, case="dead"), force(6.0, 10.0)],
+        EI=1e4,
+    ),
+}
+
+
+@pytest.mark.parametrize("name", TURNING)
+def test_status_and_states_never_contradict(name):
+    """Where the path says that the beam stands it has a state, that of the load alone; where not, it has none."""
+    made = TURNING[name]
+    path = solve(made)
+    assert path.status == ("no-equilibrium" if name == "overhang" else "solved")
+    reached = path.path.segments[-1].stop if path.status == "no-equilibrium" else 1.0
+    events_at = {event.factor for event in path.events} | {reached}
+    steps = [share / 16 for share in range(1, 17)]
+    for factor in sorted({*steps, *(near for place in events_at for near in (place - 1e-6, place + 1e-6) if 0.0 < near <= 1.0)}):
+        loads = [{**load, "F": factor * load["F"]} if load.get("case") != "dead" else load for load in made["loads"]]
+        alone = gapbeam.solve({**made, "loads": loads})
+        assert alone.status == ("solved" if factor <= reached else "no-equilibrium"), factor
+        if factor > reached:
+            with pytest.raises(ValueError, match="there is no equilibrium at load factor"):
+                path.at(0.0, factor=factor)
+            continue
+        state = path.state(factor)
+        assert state.indifferent == alone.steps[-1].indifferent, factor
+        if state.indifferent:
+            continue  # where it turns it may be anywhere on its way
+        assert state.state == alone.steps[-1].state, factor
+        for x in (0.0, sum(made["beam"]["spans"])):
+            w = alone.at(x).deflection
+            assert path.at(x, factor=factor).deflection == pytest.approx(w, rel=1e-9, abs=1e-12)
+
+
 def crossing(made, segment, opens, support):
     """Exact load factor at which reaction or opening of a support is zero, from two states inside a segment."""
     exact = oracle.Oracle(made)
