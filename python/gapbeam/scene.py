@@ -309,8 +309,8 @@ class Analysis(_Table, forbid_unknown_fields=True, kw_only=True):
     follow : {"steps", "events"}
         steps (default), or events: every change of the acting supports at its exact load factor.
     rule : {"block", "single"}
-        How the acting supports are found: block (default) changes many at once and always ends, single
-        changes one at a time (the paper's rule).
+        How the acting supports are found: block (default) changes many at once and always ends, single (the
+        paper's rule) releases the one that pulls most and puts back all that are penetrated.
     """
 
     steps: Count = 1
