@@ -56,6 +56,10 @@ contains
         n = size(links)
         allocate (beam%cells(0:last_step(n)), beam%rows(0:last_step(n)), beam%eliminated(0:last_step(n)))
         allocate (beam%moment(0:n), beam%deflection(0:n))
+        ! Lane 1 may have nothing to do at step 0, and multiplies what it finds there all the same
+        beam%rows(0) = row_type([0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp])
+        beam%eliminated(0) = eliminated_type([0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp], &
+                                             [0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp])
         do s = 0, last_step(n)
             ! With an odd number of links lane 1 has nothing to do at step 0
             associate (l => links(max(s + 1 - modulo(n, 2), 1)), r => links(n - s))
