@@ -322,21 +322,6 @@ class Oracle(Forms):
                 total += area * weights[column - self.unknowns + 1]
         return total
 
-    def load_size(self):
-        """All loads together, each in full and counted positive, as a force."""
-        total = Fraction(0)
-        for load in self.loads:
-            if "x" in load:
-                total += (
-                    Fraction(abs(load["F"]))
-                    if load["type"] == "force"
-                    else abs(Fraction(load["M"])) / self.length
-                )
-            elif load["type"] != "curvature":
-                q = load["q"] if load["type"] == "linear" else [load["q"]]
-                total += max(abs(Fraction(v)) for v in q) * (load["end"] - load["start"])
-        return total
-
 
 def cone_rays(rows, size):
     """Generators of the cone {c: rows c >= 0}: both signs of its lineality space, and its extreme rays."""

@@ -71,8 +71,8 @@ def dot(a, b):
     return sum((x * y for x, y in zip(a, b, strict=True) if x and y), Fraction(0))
 
 
-class Forms:
-    """Linear forms of a scene in its unknowns, and the equations they have to satisfy.
+class Reading:
+    """Where everything of a scene is, as fractions.
 
     Parameters
     ----------
@@ -101,17 +101,45 @@ class Forms:
         self.hinges = [Fraction(x) for x in beam.get("hinges", [])]
         self.turning = [i for i, s in enumerate(self.supports) if s.get("rotation", "free") != "free"]
         self.one_sided = [i for i, s in enumerate(self.supports) if s.get("side", "both") != "both"]
-        self.force_column = 2
-        self.couple_column = 2 + len(self.supports)
-        self.kink_column = self.couple_column + len(self.turning)
-        self.unknowns = self.kink_column + len(self.hinges)
-        self.stretches = self.stiffness_stretches(beam, scene.get("sections", []))
-        self.integrate()
-        self.fixed_rows = self.state_independent_rows()
 
     def place(self, item):
         """The x of a support or load as a fraction."""
         return Fraction(item["x"] if "x" in item else self.nodes[item["node"]])
+
+    def load_size(self):
+        """All loads together, each in full and counted positive, as a force."""
+        total = Fraction(0)
+        for load in self.loads:
+            if "x" in load:
+                total += (
+                    Fraction(abs(load["F"]))
+                    if load["type"] == "force"
+                    else abs(Fraction(load["M"])) / self.length
+                )
+            elif load["type"] != "curvature":
+                q = load["q"] if load["type"] == "linear" else [load["q"]]
+                total += max(abs(Fraction(v)) for v in q) * (load["end"] - load["start"])
+        return total
+
+
+class Forms(Reading):
+    """Linear forms of a scene in its unknowns, and the equations they have to satisfy.
+
+    Parameters
+    ----------
+    scene : dict
+        As for `Reading`.
+    """
+
+    def __init__(self, scene):
+        super().__init__(scene)
+        self.force_column = 2
+        self.couple_column = 2 + len(self.supports)
+        self.kink_column = self.couple_column + len(self.turning)
+        self.unknowns = self.kink_column + len(self.hinges)
+        self.stretches = self.stiffness_stretches(scene["beam"], scene.get("sections", []))
+        self.integrate()
+        self.fixed_rows = self.state_independent_rows()
 
     def stiffness_stretches(self, beam, sections):
         """List of (from, to, 1/EI, 1/GA); later ones win."""

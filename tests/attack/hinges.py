@@ -1,0 +1,106 @@
+"""Beams with many hinges: whether they stand, against the forces that each hinge can take."""
+
+import random
+from fractions import Fraction
+from itertools import pairwise
+
+import gapbeam
+from gapbeam.errors import Status
+from oracle_forms import Reading
+
+from . import draw
+from .compare import motion_faults
+from .exact import body_work, falls_surely
+from .verdict import Verdict
+
+NAME = "hinges"
+PROMISE = (
+    "Of beams with many hinges it is said right whether they can stand; where not, the loads do work along the motion given, and no "
+    "support is in its way; where they can, the reactions have the right signs and balance the loads on every body"
+)
+
+BALANCE = Fraction(1, 10**10)  # of the forces at a hinge
+
+
+def draw_scene(seed):
+    """Kind and scene of a seed."""
+    rng = random.Random(seed)
+    return draw.until_valid(lambda: draw_any(rng))
+
+
+def draw_any(rng):
+    """Kind and scene, which may leave no room for the beam."""
+    kind = rng.choices(("few", "many", "held", "spread"), (4, 2, 3, 2))[0]
+    sizes = {"spread": draw.SPREAD}.get(kind, rng.choice((draw.ROUND, draw.ORDINARY)))
+    spans = {"few": (2, 6), "many": (10, 40)}.get(kind, (3, 12))
+    while True:
+        made = draw.draw_beam(
+            rng, sizes, spans=spans, bilateral=0.6 if kind == "held" else rng.choice((0.0, 0.2, 0.4)), most=1000,
+            pairs=0.3, hinges=rng.choice((0.3, 0.6, 0.8)), springs=rng.choice((0.0, 0.3)),
+        )  # fmt: skip
+        if made["beam"].get("hinges"):
+            break
+    made["loads"] = draw.draw_loads(rng, sizes, made, most=rng.choice((3, 10)), down=rng.random() < 0.6)
+    return kind, made
+
+
+def judge(made, seed=0):
+    """Compare status and motion, and check the equilibrium of the reactions.
+
+    Parameters
+    ----------
+    made : dict
+    seed : int
+        Of the start.
+
+    Returns
+    -------
+    Verdict
+    """
+    rng, count = random.Random(seed), len(draw.one_sided(made))
+    beam = Reading(made)
+    falls, sharp = falls_surely(beam, Fraction(1))
+    verdict = Verdict("no-equilibrium" if falls else "solved")
+    for start in (None, [rng.random() < 0.5 for _ in range(count)]):
+        where = "" if start is None else "from another start: "
+        try:
+            result = gapbeam.solve(made, start=start)
+        except gapbeam.EngineError as error:
+            if error.status != Status.INDETERMINATE:
+                verdict.wrong.append(f"{where}refused: {error}")
+            continue
+        if sharp and (result.status == "no-equilibrium") != falls:
+            verdict.wrong.append(f"{where}{result.status}, not {verdict.outcome}")
+        elif result.status == "no-equilibrium":
+            verdict.wrong += [where + fault for fault in motion_faults(beam, result.motion, Fraction(1)) if sharp]
+        else:
+            verdict.wrong += [where + fault for fault in balance_faults(beam, result.steps[-1])]
+    return verdict
+
+
+def balance_faults(beam, step):
+    """What is wrong with the reactions of a state: signs, and the balance of the bodies between hinges."""
+    faults = []
+    for i in beam.one_sided:
+        push = step.reaction[i] * (1.0 if beam.supports[i]["side"] == "below" else -1.0)
+        if not push >= 0.0 and i not in step.undecided:
+            faults.append(f"support {i} pulls by {-push:.3g}")
+    cuts = [Fraction(0), *sorted(beam.hinges), beam.length]
+    work = [[Fraction(0), Fraction(0)] for _ in cuts]  # of loads and reactions while one cut moves; sizes of the terms
+    for k, (a, b) in enumerate(pairwise(cuts)):
+        for end, amount in enumerate(body_work(beam, Fraction(step.factor), a, b)):
+            work[k + end][0] += amount
+            work[k + end][1] += abs(amount)
+        for i, support in enumerate(beam.supports):
+            x = support["x"]
+            if a < x <= b or x == a == 0:
+                share, turn = (x - a) / (b - a), Fraction(step.couple[i]) / (b - a)
+                force = Fraction(step.reaction[i])
+                for end, amount in ((0, -force * (1 - share)), (1, -force * share), (0, -turn), (1, turn)):
+                    work[k + end][0] += amount
+                    work[k + end][1] += abs(amount)
+    size = BALANCE * beam.load_size() + len(beam.supports) * Fraction(step.bounds[1])
+    for x, (total, terms) in zip(cuts, work, strict=True):
+        if abs(total) > BALANCE * terms + size:
+            faults.append(f"no balance at x = {float(x):g}: {float(total):.3g} of {float(terms):.3g}")
+    return faults

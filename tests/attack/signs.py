@@ -1,0 +1,101 @@
+"""The program's own states in rational numbers, over many decades of magnitudes."""
+
+import random
+
+import gapbeam
+from gapbeam.errors import Status
+
+from . import draw
+from .compare import compare_state, motion_faults
+from .exact import Exact, Fraction, NoSolution, Redundant, falls_surely
+from .verdict import Verdict
+
+NAME = "signs"
+PROMISE = (
+    "Every state satisfies the contact conditions in rational numbers over nine decades to either side of ordinary magnitudes, or "
+    "names the supports that do not as undecided; no bound is below the true error; status and state depend neither on the start "
+    "nor on the rule"
+)
+SIZES = {"ordinary": draw.ORDINARY, "round": draw.ROUND, "spread": draw.SPREAD, "wide": draw.WIDE, "outlier": draw.ORDINARY}
+OUTLIERS = ("EI", "GA", "stiffness", "rotation", "gap", "settlement", "F", "M", "q")
+
+
+def draw_scene(seed):
+    """Kind and scene of a seed."""
+    rng = random.Random(seed)
+    return draw.until_valid(lambda: draw_any(rng))
+
+
+def draw_any(rng):
+    """Kind and scene, which may leave no room for the beam."""
+    kind = rng.choices(list(SIZES), (3, 2, 2, 4, 3))[0]
+    sizes = SIZES[kind]
+    made = draw.draw_beam(rng, sizes, bilateral=rng.choice((0.0, 0.4, 0.4, 0.6)), hinges=rng.choice((0.0, 0.0, 0.3)))
+    made["loads"] = draw.draw_loads(rng, sizes, made)
+    if kind == "outlier":
+        items = [(item, key) for item in (made["beam"], *made["supports"], *made["loads"]) for key in OUTLIERS
+                 if isinstance(item.get(key), float) and item[key] != draw.INF]  # fmt: skip
+        for item, key in rng.sample(items, min(len(items), rng.randint(1, 2))):
+            item[key] = float(f"{item[key] * 10.0 ** rng.choice((-15, -12, -9, -6, 6, 9, 12, 15)):.3g}")
+    return kind, made
+
+
+def judge(made, seed=0):
+    """Solve a scene from several starts by both rules and compare each answer with the exact one.
+
+    Parameters
+    ----------
+    made : dict
+    seed : int
+        Of the starts.
+
+    Returns
+    -------
+    Verdict
+    """
+    rng, count = random.Random(seed), len(draw.one_sided(made))
+    beam = Exact(made)
+    falls, sharp = falls_surely(beam, Fraction(1))
+    verdict = Verdict("no-equilibrium" if falls else "solved")
+    tries = [("block", None), ("single", None)]
+    if count:
+        tries += [("block", [False] * count), (rng.choice(("block", "single")), [rng.random() < 0.5 for _ in range(count)])]
+    states = set()
+    for rule, start in tries:
+        where = f"{rule} from {'the default' if start is None else ''.join('co'[not c] for c in start)}: "
+        try:
+            result = gapbeam.solve(made, rule=rule, start=start)
+        except gapbeam.EngineError as error:
+            if error.status != Status.INDETERMINATE or not redundant(beam, count):
+                verdict.wrong.append(f"{where}refused: {error}")
+            else:
+                verdict.outcome = "forces not unique"
+            continue
+        if sharp and (result.status == "no-equilibrium") != falls:
+            verdict.wrong.append(f"{where}{result.status}, not {verdict.outcome}")
+        elif result.status == "no-equilibrium":
+            verdict.wrong += [where + fault for fault in motion_faults(beam, result.motion, Fraction(1)) if sharp]
+        else:
+            step = result.steps[-1]
+            if not compare_state(beam, step, verdict, where):
+                verdict.outcome = "forces not unique"
+            states.add(tuple("?" if i in step.undecided else name for i, name in enumerate(step.state)))
+    if len(states) > 1 and verdict.outcome == "solved" and not alike(states):
+        verdict.wrong.append(f"the state depends on start or rule: {sorted(states)}")
+    return verdict
+
+
+def alike(states):
+    """Whether states differ in undecided supports only."""
+    return all(len({name for name in column if name != "?"}) < 2 for column in zip(*states, strict=True))
+
+
+def redundant(beam, count):
+    """Whether the forces are not unique, in the scheme that is right or on the way to it."""
+    try:
+        beam.settle([True] * count, Fraction(1))
+    except Redundant:
+        return True
+    except NoSolution:
+        return False
+    return False
