@@ -9,7 +9,7 @@ import math
 from dataclasses import dataclass
 
 import gapbeam
-from scenes import at, curvature, force, linear, moment, nodes_of, one_sided, place, scene, stretch, uniform
+from scenes import curvature, force, linear, moment, nodes_of, one_sided, place, scene, stretch, uniform
 
 INF = math.inf
 
@@ -53,7 +53,7 @@ ROUND, ORDINARY, SPREAD = Sizes(round=True), Sizes(), Sizes(3.0, 4)
 WIDE = Sizes(9.0, 10)
 
 
-def draw_beam(rng, sizes, *, spans=(1, 5), bilateral=0.4, most=8, pairs=0.2, gaps=0.6, hinges=0.2, springs=0.3, rigid=0.0):
+def draw_beam(rng, sizes, *, spans=(1, 5), bilateral=0.4, most=8, pairs=0.2, gaps=0.6, hinges=0.2, springs=0.3, above=0.33):
     """A beam with supports, without loads.
 
     Parameters
@@ -66,8 +66,8 @@ def draw_beam(rng, sizes, *, spans=(1, 5), bilateral=0.4, most=8, pairs=0.2, gap
         Share of the supports that hold both ways, or are a clearance.
     most : int
         Most one-sided supports.
-    gaps, hinges, springs, rigid : float
-        How often a support has a gap, a span a hinge, a support is elastic, a span rigid.
+    gaps, hinges, springs, above : float
+        How often a support has a gap, a span a hinge, a support is elastic, a one-sided support acts from above.
 
     Returns
     -------
@@ -77,7 +77,7 @@ def draw_beam(rng, sizes, *, spans=(1, 5), bilateral=0.4, most=8, pairs=0.2, gap
     EI = sizes.number(rng, 1e4)
     made = scene([sizes.length(rng) for _ in range(count)], [], EI=EI)
     if rng.random() < 0.3 and count > 1:
-        made["beam"]["EI"] = [INF if rng.random() < rigid else sizes.number(rng, 1e4) for _ in range(count)]
+        made["beam"]["EI"] = [sizes.number(rng, 1e4) for _ in range(count)]
     if rng.random() < 0.25:
         made["beam"]["GA"] = [INF if rng.random() < 0.4 else sizes.number(rng, 1e4) for _ in range(count)]
     nodes = nodes_of(made)
@@ -85,7 +85,7 @@ def draw_beam(rng, sizes, *, spans=(1, 5), bilateral=0.4, most=8, pairs=0.2, gap
     while not made["supports"]:
         for k in range(count + 1):
             for where in _places(rng, made, nodes, k):
-                room -= _add_support(rng, sizes, made, where, room, bilateral, pairs, gaps, springs)
+                room -= _add_support(rng, sizes, made, where, room, bilateral, pairs, gaps, springs, above)
     if hinges:
         _add_hinges(rng, made, nodes, hinges)
     if rng.random() < 0.3:
@@ -112,7 +112,7 @@ def _places(rng, made, nodes, k):
     return places
 
 
-def _add_support(rng, sizes, made, where, room, bilateral, pairs, gaps, springs):
+def _add_support(rng, sizes, made, where, room, bilateral, pairs, gaps, springs, above):
     """Add one support, or two that make a clearance; how many are one-sided."""
     kind, keys = rng.random(), {}
     if rng.random() < 0.15:
@@ -136,7 +136,7 @@ def _add_support(rng, sizes, made, where, room, bilateral, pairs, gaps, springs)
         above = {"gap": sizes.number(rng, 0.01)} if rng.random() < 0.6 else {}
         made["supports"] += [dict(where, side="below", **below, **own(), **keys), dict(where, side="above", **above, **own(), **keys)]
         return 2
-    side = rng.choice(("below", "below", "above"))
+    side = "above" if rng.random() < above else "below"
     made["supports"].append(dict(where, side=side, **gap(gaps), **own(), **keys))
     return 1
 
@@ -229,4 +229,7 @@ def mirror_double(made):
     return new
 
 
-__all__ = ["INF", "ORDINARY", "ROUND", "SPREAD", "WIDE", "Sizes", "at", "draw_beam", "draw_loads", "mirror_double", "one_sided", "place", "until_valid"]
+__all__ = [
+    "INF", "ORDINARY", "ROUND", "SPREAD", "WIDE", "Sizes", "draw_beam", "draw_loads", "force", "mirror_double", "nodes_of",
+    "one_sided", "place", "uniform", "until_valid",
+]  # fmt: skip

@@ -7,7 +7,7 @@ import gapbeam
 from gapbeam.errors import Status
 
 from . import draw
-from .compare import compare_state, motion_faults
+from .compare import Look, compare_state, motion_faults
 from .exact import Exact, Fraction, NoSolution, Redundant, falls_surely, stands
 from .verdict import Verdict
 
@@ -111,7 +111,7 @@ def check_path(beam, path, verdict):
         except (ValueError, gapbeam.EngineError) as error:
             verdict.wrong.append(f"{where}{error}")
             return
-        if not compare_state(beam, step, verdict, where):
+        if not compare_state(beam, step, Look(path, {"factor": step.factor}), verdict, where):
             return
         closed = [step.state[i] == "closed" for i in beam.one_sided]
         try:
@@ -156,16 +156,20 @@ def check_changes(beam, path, factor, before, after, verdict):
     """That the events at one factor lead from one scheme to the next, and that something does happen there."""
     idle = {i for closed, found in (before, after) if not found.loose for i in beam.one_sided if beam.course(closed, i, found) == (0, 0)}
     changed = {i for i, a, b in zip(beam.one_sided, before[0], after[0], strict=True) if a != b}
-    named = [event.support for event in path.events if event.factor == factor and event.event in ("opens", "closes")]
-    net = {i for i in named if named.count(i) % 2}
-    if (net ^ changed) - idle:
-        verdict.wrong.append(f"events at {float(factor):.17g}: {sorted(net)} change, but the schemes differ in {sorted(changed)}")
+    here = [event for event in path.events if event.factor == factor]
+    unnamed = changed - idle - {event.support for event in here}
+    if unnamed:
+        verdict.wrong.append(f"events at {float(factor):.17g}: supports {sorted(unnamed)} change and are not named")
+    last = {event.support: event.event for event in here if event.event in ("opens", "closes")}
+    for i, event in last.items():
+        if i not in idle and i in beam.one_sided and (event == "closes") != after[0][beam.one_sided.index(i)]:
+            verdict.wrong.append(f"events at {float(factor):.17g}: support {i} {event}, but not in the scheme after it")
     if before[1].loose or after[1].loose or not changed - idle:
         return
-    _, high, _, last = beam.interval(*before)
-    low, _, first, _ = beam.interval(*after)
-    ended = high is not None and is_zero(beam, *before, factor, high, last)
-    begun = low is not None and is_zero(beam, *after, factor, low, first)
+    _, high, _, ends = beam.interval(*before)
+    low, _, begins, _ = beam.interval(*after)
+    ended = high is not None and is_zero(beam, *before, factor, high, ends)
+    begun = low is not None and is_zero(beam, *after, factor, low, begins)
     if not ended and not begun:
         verdict.wrong.append(f"events: a change at {float(factor):.17g}, but the schemes there end at {shown(high)} and begin at {shown(low)}")
 
@@ -213,8 +217,8 @@ def check_steps(beam, made, count, factors, verdict):
         if not ambiguous(beam, error):
             verdict.wrong.append(f"{count} steps refused: {error}")
         return
-    for step in result.steps:
-        if not compare_state(beam, step, verdict, f"step {step.factor:.9g}: "):
+    for k, step in enumerate(result.steps):
+        if not compare_state(beam, step, Look(result, {"step": k}), verdict, f"step {step.factor:.9g}: "):
             return
     if len(result.steps) < count:
         factor = Fraction((len(result.steps) + 1) / count)
@@ -237,7 +241,7 @@ def check_steps(beam, made, count, factors, verdict):
             if falls and sharp:
                 verdict.wrong.append(f"cold at {factor:.17g}: solved where there is no equilibrium")
             else:
-                compare_state(beam, step, verdict, f"cold at {factor:.17g}: ")
+                compare_state(beam, step, Look(result, {"factor": factor}), verdict, f"cold at {factor:.17g}: ")
 
 
 def ambiguous(beam, error):

@@ -10,7 +10,7 @@ from oracle_forms import Reading
 
 from . import draw
 from .compare import motion_faults
-from .exact import body_work, falls_surely
+from .exact import body_work, falls_surely, stands
 from .verdict import Verdict
 
 NAME = "hinges"
@@ -30,7 +30,9 @@ def draw_scene(seed):
 
 def draw_any(rng):
     """Kind and scene, which may leave no room for the beam."""
-    kind = rng.choices(("few", "many", "held", "spread"), (4, 2, 3, 2))[0]
+    kind = rng.choices(("few", "many", "held", "spread", "long"), (4, 2, 3, 2, 1))[0]
+    if kind == "long":
+        return kind, draw_long(rng)
     sizes = {"spread": draw.SPREAD}.get(kind, rng.choice((draw.ROUND, draw.ORDINARY)))
     spans = {"few": (2, 6), "many": (10, 40)}.get(kind, (3, 12))
     while True:
@@ -42,6 +44,45 @@ def draw_any(rng):
             break
     made["loads"] = draw.draw_loads(rng, sizes, made, most=rng.choice((3, 10)), down=rng.random() < 0.6)
     return kind, made
+
+
+def draw_long(rng):
+    """A heavy beam with many supports from which forces here and there lift it, most often nearly as far as it can stand."""
+    count = rng.choice((60, 150, 400))
+    made = draw.draw_beam(
+        rng, draw.ORDINARY, spans=(count // 2, count), bilateral=rng.choice((0.0, 0.0, 0.02)), most=10**6, pairs=rng.choice((0.0, 0.1)),
+        hinges=rng.choice((0.02, 0.1, 0.3, 0.8)), springs=rng.choice((0.0, 0.3, 1.0)), above=rng.choice((0.0, 0.0, 0.15)),
+    )  # fmt: skip
+    rest_on_two(made)
+    length, most = draw.nodes_of(made)[-1], rng.choice((1.0, 5.0, 20.0))
+    lifted = [draw.force(length * rng.randrange(4096) / 4096.0, round(-most * rng.random(), 2)) for _ in range(count // 2)]
+    made["loads"] = [draw.uniform(2.0, case="dead"), *lifted]
+    if rng.random() < 0.7:
+        share = nearly(Reading(made)) * rng.choice((1 - 1e-2, 1 - 1e-6, 1 + 1e-6, 1 + 1e-2))
+        for load in lifted:
+            load["F"] *= share
+    return made
+
+
+def rest_on_two(made):
+    """Leave out hinges so that every body rests on two supports at least."""
+    places, kept = sorted({draw.place(made, support) for support in made["supports"]}), []
+    for hinge in made["beam"].pop("hinges", []):
+        inside = [x for x in places if (kept[-1] if kept else -1.0) < x <= hinge]
+        if len(inside) > 1 and sum(x > hinge for x in places) > 1:
+            kept.append(hinge)
+    made["beam"]["hinges"] = kept
+
+
+def nearly(beam):
+    """The load factor up to which a beam can stand, to some digits; 1 where it cannot at 0."""
+    low, high = Fraction(0), Fraction(16)
+    if stands(beam, low) == "falls":
+        return 1.0
+    for _ in range(24):
+        middle = (low + high) / 2
+        low, high = (low, middle) if stands(beam, middle) == "falls" else (middle, high)
+    return float(low)
 
 
 def judge(made, seed=0):

@@ -6,7 +6,7 @@ import gapbeam
 from gapbeam.errors import Status
 
 from . import draw
-from .compare import compare_state, motion_faults
+from .compare import Look, compare_state, motion_faults
 from .exact import Exact, Fraction, NoSolution, Redundant, falls_surely
 from .verdict import Verdict
 
@@ -77,7 +77,7 @@ def judge(made, seed=0):
             verdict.wrong += [where + fault for fault in motion_faults(beam, result.motion, Fraction(1)) if sharp]
         else:
             step = result.steps[-1]
-            if not compare_state(beam, step, verdict, where):
+            if not compare_state(beam, step, Look(result, {}), verdict, where):
                 verdict.outcome = "forces not unique"
             states.add(tuple("?" if i in step.undecided else name for i, name in enumerate(step.state)))
     if len(states) > 1 and verdict.outcome == "solved" and not alike(states):
