@@ -3,6 +3,7 @@
 import json
 import tomllib
 from fractions import Fraction
+from functools import partial
 from itertools import product
 from pathlib import Path
 
@@ -10,7 +11,7 @@ import gapbeam
 import numpy as np
 import pytest
 from attack import events, hinges, signs
-from attack.workers import judge_all
+from attack.workers import Ended, judge_all
 from scenes import one_sided
 
 HERE = Path(__file__).parent
@@ -29,8 +30,8 @@ def read(path):
 
 def judged(family, made):
     """What a family finds wrong with a scene, in a process of its own."""
-    ((_, verdict),) = judge_all(family.judge, [made], 1, LIMIT)
-    return verdict.wrong
+    ((_, verdict),) = judge_all(partial(family.judge, seed=0), [made], 1, LIMIT)
+    return [verdict.how] if isinstance(verdict, Ended) else verdict.wrong
 
 
 def followed(name):

@@ -1,33 +1,13 @@
 """The command: what it attacks, prints and writes."""
 
 import argparse
-import json
-import sys
 import time
-import traceback
-from functools import partial
 from pathlib import Path
 
 from . import events, hinges, signs
 from .table import Row, markdown
-from .verdict import Verdict
-from .workers import judge_all
 
-FAMILIES = {family.NAME: family for family in (events, signs, hinges)}
-
-
-def judge_seed(family, seed):
-    """Draw the case of a seed and judge it; the case itself is kept only where something is wrong."""
-    kind, made = family.draw_scene(seed)
-    return kind, judged(family, made, seed)
-
-
-def judged(family, made, seed):
-    """The verdict on a case; an exception that the program does not promise is one, too."""
-    try:
-        return family.judge(made, seed)
-    except Exception as error:
-        return Verdict("raised", [f"{type(error).__name__}: {error} ({traceback.extract_tb(error.__traceback__)[-1]})"])
+FAMILIES = {module.FAMILY.name: module.FAMILY for module in (events, signs, hinges)}
 
 
 def attack(family, seeds, jobs, limit, seconds, folder):
@@ -35,7 +15,7 @@ def attack(family, seeds, jobs, limit, seconds, folder):
 
     Parameters
     ----------
-    family : module
+    family : Family
     seeds : iterable of int
     jobs : int
     limit, seconds : float
@@ -47,33 +27,22 @@ def attack(family, seeds, jobs, limit, seconds, folder):
     -------
     Row
     """
-    row = Row(family.NAME, family.PROMISE)
-    begin = time.monotonic()
-    for seed, answer in judge_all(partial(judge_seed, family), seeds, jobs, limit, begin + seconds):
-        kind, verdict = answer if isinstance(answer, tuple) else ("", answer)
+    row, begin = Row(family.name, family.promise), time.monotonic()
+    for seed, verdict in family.verdicts(seeds, jobs, limit, begin + seconds):
         row.add(verdict)
         if verdict.wrong:
-            path = write_failure(family, seed, verdict, folder)
-            print(f"{path} ({kind}, {verdict.outcome}): {'; '.join(verdict.wrong)[:500]}", flush=True)
+            name, text = family.failure(seed, verdict)
+            folder.mkdir(parents=True, exist_ok=True)
+            (folder / name).write_bytes(text)
+            print(f"{folder / name} ({verdict.kind}, {verdict.outcome}): {'; '.join(verdict.wrong)[:500]}", flush=True)
     row.seconds = time.monotonic() - begin
     return row
 
 
-def write_failure(family, seed, verdict, folder):
-    """Write the scene that failed; its title says what is wrong."""
-    _, made = family.draw_scene(seed)
-    folder.mkdir(parents=True, exist_ok=True)
-    path = folder / f"{family.NAME}-{seed}.json"
-    path.write_text(json.dumps({"title": f"{family.NAME} {seed}: {'; '.join(verdict.wrong)}"[:2000], **made}) + "\n")
-    return path
-
-
 def judge_again(path, name):
-    """Judge a scene that was written."""
-    family = FAMILIES[name or Path(path).name.partition("-")[0]]
-    made = json.loads(Path(path).read_text())
-    seed = int("".join(c for c in made.pop("title", "").partition(":")[0] if c.isdigit()) or 0)
-    verdict = judged(family, made, seed)
+    """Judge a case that was written."""
+    family = FAMILIES[name or path.name.partition("-")[0]]
+    verdict = family.judged(*family.read(path))
     print(verdict.outcome, *verdict.wrong, sep="\n")
     return 1 if verdict.wrong else 0
 
@@ -94,7 +63,7 @@ def main(arguments=None):
     parser.add_argument("--jobs", type=int, default=1, help="processes (default 1)")
     parser.add_argument("--limit", type=float, default=20.0, help="seconds after which a case counts as a hang (default 20)")
     parser.add_argument("--failures", type=Path, default=Path("attack-failures"), metavar="FOLDER", help="where failures are written")
-    parser.add_argument("--scene", metavar="FILE", help="judge one scene that was written, nothing else")
+    parser.add_argument("--scene", type=Path, metavar="FILE", help="judge one scene that was written, nothing else")
     parser.add_argument("--markdown", type=Path, metavar="FILE", help="write the page of the documentation")
     chosen = parser.parse_args(arguments)
     if chosen.scene:

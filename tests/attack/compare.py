@@ -8,7 +8,7 @@ from math import isfinite
 import numpy as np
 from oracle_forms import dot
 
-from .exact import NoSolution, Redundant, body_work
+from .exact import NoSolution, Redundant, body_work, falls_surely
 
 DIGITS = Fraction(1, 10**12)  # of the largest value of a kind
 HALF_UNIT = Fraction(1, 2**53)  # what the last digit of the largest value is worth anyway
@@ -57,7 +57,7 @@ def compare_state(beam, step, look, verdict, where=""):
     Returns
     -------
     bool
-        Whether it was compared; False where forces are not unique.
+        Whether its values were compared; False where forces are not unique, or an equilibrium hangs on a rounding error.
     """
     factor = Fraction(step.factor)
     closed = [step.state[i] == "closed" for i in beam.one_sided]
@@ -79,8 +79,10 @@ def compare_state(beam, step, look, verdict, where=""):
         try:
             _, values = beam.settle(closed, factor)
         except (NoSolution, Redundant):
-            verdict.wrong.append(f"{where}its scheme {step.state} carries nothing")
-            return True
+            falls, sharp = falls_surely(beam, factor)
+            if sharp or not falls:
+                verdict.wrong.append(f"{where}its scheme {step.state} carries nothing")
+            return False
         loose = False
         complaints.append("a mechanism as scheme")
     except Redundant:

@@ -9,9 +9,8 @@ from gapbeam.errors import Status
 from . import draw
 from .compare import Look, compare_state, motion_faults
 from .exact import Exact, Fraction, NoSolution, Redundant, falls_surely, stands
-from .verdict import Verdict
+from .family import Family, Verdict
 
-NAME = "events"
 PROMISE = (
     "Following the events ends for every scene, every event is at its exact load factor, and between them states, values and status "
     "are those of steps and of cold solves just left and right of every event; result.at agrees with the status"
@@ -126,7 +125,7 @@ def check_path(beam, path, verdict):
 def check_end(beam, path, end, verdict):
     """That there is no equilibrium above the end of the path, and that nothing resists its motion."""
     above = end + max(end, 1) * Fraction(NEAR)
-    if "at load factor 0" in path.reason:
+    if path.reason.startswith("no equilibrium at load factor 0:"):
         above = Fraction(0)
     falls, sharp = falls_surely(beam, above, Fraction(1, 10**14))
     if not falls:
@@ -258,3 +257,6 @@ def ambiguous(beam, error):
         if beam.moves_in_clearance(values):
             return True
     return False
+
+
+FAMILY = Family("events", PROMISE, draw_scene, judge)

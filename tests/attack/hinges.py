@@ -11,9 +11,8 @@ from oracle_forms import Reading
 from . import draw
 from .compare import motion_faults
 from .exact import body_work, falls_surely, stands
-from .verdict import Verdict
+from .family import Family, Verdict
 
-NAME = "hinges"
 PROMISE = (
     "Of beams with many hinges it is said right whether they can stand; where not, the loads do work along the motion given, and no "
     "support is in its way; where they can, the reactions have the right signs and balance the loads on every body"
@@ -145,3 +144,6 @@ def balance_faults(beam, step):
         if abs(total) > BALANCE * terms + size:
             faults.append(f"no balance at x = {float(x):g}: {float(total):.3g} of {float(terms):.3g}")
     return faults
+
+
+FAMILY = Family("hinges", PROMISE, draw_scene, judge)

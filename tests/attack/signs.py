@@ -8,9 +8,8 @@ from gapbeam.errors import Status
 from . import draw
 from .compare import Look, compare_state, motion_faults
 from .exact import Exact, Fraction, NoSolution, Redundant, falls_surely
-from .verdict import Verdict
+from .family import Family, Verdict
 
-NAME = "signs"
 PROMISE = (
     "Every state satisfies the contact conditions in rational numbers over nine decades to either side of ordinary magnitudes, or "
     "names the supports that do not as undecided; no bound is below the true error; status and state depend neither on the start "
@@ -77,8 +76,7 @@ def judge(made, seed=0):
             verdict.wrong += [where + fault for fault in motion_faults(beam, result.motion, Fraction(1)) if sharp]
         else:
             step = result.steps[-1]
-            if not compare_state(beam, step, Look(result, {}), verdict, where):
-                verdict.outcome = "forces not unique"
+            compare_state(beam, step, Look(result, {}), verdict, where)
             states.add(tuple("?" if i in step.undecided else name for i, name in enumerate(step.state)))
     if len(states) > 1 and verdict.outcome == "solved" and not alike(states):
         verdict.wrong.append(f"the state depends on start or rule: {sorted(states)}")
@@ -99,3 +97,6 @@ def redundant(beam, count):
     except NoSolution:
         return False
     return False
+
+
+FAMILY = Family("signs", PROMISE, draw_scene, judge)

@@ -2,9 +2,24 @@
 
 import multiprocessing
 import time
+from dataclasses import dataclass
 from multiprocessing.connection import wait
 
-from .verdict import Verdict
+
+@dataclass
+class Ended:
+    """How a process ended that did not answer.
+
+    Attributes
+    ----------
+    outcome : str
+        hang or aborted.
+    how : str
+        In words.
+    """
+
+    outcome: str
+    how: str
 
 
 def work(judge, pipe):
@@ -31,7 +46,7 @@ class Worker:
         self.pipe.send(task)
 
     def take(self):
-        """The verdict on the case that it had, whatever became of the process."""
+        """The answer to the case that it had, whatever became of the process."""
         task, self.task = self.task, None
         try:
             return task, self.pipe.recv()
@@ -39,7 +54,7 @@ class Worker:
             self.process.join()
             how = self.process.exitcode
             self.start()
-            return task, Verdict("aborted", [f"the process ended with {'signal' if how < 0 else 'status'} {abs(how)}"])
+            return task, Ended("aborted", f"the process ended with {'signal' if how < 0 else 'status'} {abs(how)}")
 
     def kill(self, limit):
         """End a case that takes too long."""
@@ -47,7 +62,7 @@ class Worker:
         self.process.kill()
         self.process.join()
         self.start()
-        return task, Verdict("hang", [f"no answer within {limit:g} s"])
+        return task, Ended("hang", f"no answer within {limit:g} s")
 
     def stop(self):
         if self.task is None:
@@ -63,7 +78,7 @@ def judge_all(judge, tasks, jobs, limit, until=float("inf")):
     Parameters
     ----------
     judge : callable
-        From a task to a verdict.
+        From a task to an answer that can be pickled.
     tasks : iterable
     jobs : int
     limit : float
@@ -74,7 +89,8 @@ def judge_all(judge, tasks, jobs, limit, until=float("inf")):
     Yields
     ------
     task
-    verdict : Verdict
+    answer
+        What `judge` gave, or `Ended`.
     """
     tasks, workers = iter(tasks), [Worker(judge) for _ in range(jobs)]
     try:
