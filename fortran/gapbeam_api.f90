@@ -339,12 +339,17 @@ contains
         real(wp), intent(out) :: motion(:)
         !> gapbeam_not_prepared, or gapbeam_bad_input for arrays of another size
         type(error_type), allocatable, intent(out) :: error
+        type(ieee_status_type) :: environment
 
         call require_result(beam, result, gapbeam_no_equilibrium, error)
         if (allocated(error)) return
         call require_size(count_nodes(beam), [size(x), size(motion)], error)
         if (allocated(error)) return
+        call ieee_get_status(environment)
+        call ieee_set_halting_mode(ieee_all, .false.)
+        call ieee_set_rounding_mode(ieee_nearest)
         call motion_of_nodes(beam%lowered, result%state, x, motion)
+        call ieee_set_status(environment)
     end subroutine get_motion
 
     !> How good a result is, and which supports its digits cannot decide

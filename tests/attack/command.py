@@ -4,10 +4,10 @@ import argparse
 import time
 from pathlib import Path
 
-from . import events, hinges, signs
+from . import events, hinges, memory, models, mutants, signs
 from .table import Row, markdown
 
-FAMILIES = {module.FAMILY.name: module.FAMILY for module in (events, signs, hinges)}
+FAMILIES = {module.FAMILY.name: module.FAMILY for module in (events, signs, hinges, mutants, models, memory)}
 
 
 def attack(family, seeds, jobs, limit, seconds, folder):
