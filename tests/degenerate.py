@@ -1,4 +1,4 @@
-"""Small scenes drawn by seed for the agreement run, many of them degenerate on purpose.
+"""Small scenes drawn by seed for the comparison with an enumeration, many of them degenerate on purpose.
 
 `draw(seed)` gives the same scene in every run. Ties are made exactly: a scene is solved in fractions, loads and gaps
 are multiplied until the wanted gap or force is a whole number, and the support is put exactly there. Scenes on which

@@ -1,10 +1,11 @@
-"""Some of the seeds of `agreement.py`: the program and the exact enumeration agree on all of them."""
+"""Some of the seeds of `attack/enumeration.py`: the program and the exact enumeration agree on all of them."""
 
-import agreement
 import degenerate
 import gapbeam
 import oracle
 import pytest
+from attack import enumeration
+from attack.command import main
 from scenes import one_sided
 
 # Seeds of runs over 100,000 on which the program once did not agree
@@ -20,13 +21,13 @@ ONCE_WRONG = (
 @pytest.mark.parametrize("kind", degenerate.KINDS)
 def test_agreement(kind):
     seeds = range(1000, 1000 + 20 * max(degenerate.KINDS[kind], 3))
-    verdicts = [agreement.examine(seed, kind) for seed in seeds]
-    assert [verdict for verdict in verdicts if verdict.wrong] == []
+    verdicts = {seed: enumeration.judge(degenerate.draw(seed, kind)[1], seed) for seed in seeds}
+    assert {seed: verdict.wrong for seed, verdict in verdicts.items() if verdict.wrong} == {}
 
 
 @pytest.mark.parametrize("seed", ONCE_WRONG)
 def test_agreement_of_single_seeds(seed):
-    assert agreement.examine(seed).wrong == ""
+    assert enumeration.FAMILY.judge_seed(seed).wrong == []
 
 
 def test_scenes_are_what_they_are_called():
@@ -61,12 +62,12 @@ def test_disagreement_is_seen():
     made["analysis"] = {"steps": 1}
     beam, result = oracle.Oracle(made), gapbeam.solve(made)
     exact = [beam.solve()]
-    assert agreement.compare(made, beam, result, exact) == ""
+    assert enumeration.compare(made, beam, result, exact) == ""
     i = next(i for i in one_sided(made) if not exact[0].tied[i])
     exact[0].state[i] = "open" if exact[0].state[i] == "closed" else "closed"
-    assert "not" in agreement.compare(made, beam, result, exact)
+    assert "not" in enumeration.compare(made, beam, result, exact)
 
 
 def test_command(capsys):
-    assert agreement.main(["--count", "20", "--seed", "100"]) == 0
-    assert "Disagreements: 0" in capsys.readouterr().out
+    assert main(["--family", "enumeration", "--count", "20", "--seed", "100"]) == 0
+    assert "wrong 0" in capsys.readouterr().out

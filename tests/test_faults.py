@@ -157,7 +157,9 @@ def test_a_support_without_stiffness_is_open():
     try:
         step = gapbeam.solve(fault("D7_stiffness_zero")).steps[-1]
     except gapbeam.SceneError as error:
-        assert "supports[2].stiffness" in str(error)
+        refused = str(error)
     else:
+        refused = ""
         assert step.state[2] == "open"
         assert step.opening[2] == pytest.approx(0.1 + 5 * 4.0**4 / (384 * 1e4), rel=1e-12)
+    assert not refused or refused.startswith("supports[2].stiffness: ")

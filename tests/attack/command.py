@@ -4,10 +4,10 @@ import argparse
 import time
 from pathlib import Path
 
-from . import events, hinges, memory, models, mutants, signs
+from . import enumeration, events, hinges, memory, models, mutants, signs
 from .table import Row, markdown
 
-FAMILIES = {module.FAMILY.name: module.FAMILY for module in (events, signs, hinges, mutants, models, memory)}
+FAMILIES = {module.FAMILY.name: module.FAMILY for module in (enumeration, events, signs, hinges, mutants, models, memory)}
 
 
 def attack(family, seeds, jobs, limit, seconds, folder):
@@ -62,7 +62,7 @@ def main(arguments=None):
     parser.add_argument("--seed", type=int, default=0, help="first seed (default 0)")
     parser.add_argument("--jobs", type=int, default=1, help="processes (default 1)")
     parser.add_argument("--limit", type=float, default=20.0, help="seconds after which a case counts as a hang (default 20)")
-    parser.add_argument("--failures", type=Path, default=Path("attack-failures"), metavar="FOLDER", help="where failures are written")
+    parser.add_argument("--failures", type=Path, default=Path("attack-failures"), metavar="FOLDER", help="for what failed")
     parser.add_argument("--scene", type=Path, metavar="FILE", help="judge one scene that was written, nothing else")
     parser.add_argument("--markdown", type=Path, metavar="FILE", help="write the page of the documentation")
     chosen = parser.parse_args(arguments)

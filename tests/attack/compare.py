@@ -103,8 +103,9 @@ def pairs(beam, step, look, values, loose):
     exact = {side: [beam.state_at(x, inside.get(x, side), values) for x in places] for side in SIDES}
     if not loose:
         nodes = dict(zip(look.nodes, step.solution.deflection.tolist(), strict=True))
+        at_supports = [dot(beam.form(support["x"], 0), values) for support in beam.supports]
         computed = [nodes[float(place)] for place in places] + step.deflection.tolist()
-        yield "deflection", computed, [state[0] for state in exact["left"]] + [dot(beam.form(s["x"], 0), values) for s in beam.supports]
+        yield "deflection", computed, [state[0] for state in exact["left"]] + at_supports
     fields = {side: look.at(list(map(float, places)), side=side) for side in SIDES}
     for k, kind in enumerate(FIELDS):
         if kind == "rotation" and loose:

@@ -25,7 +25,7 @@ class Sizes:
     doublings : int
         Lengths lie within so many powers of two to either side of 2.
     round : bool
-        Whether all numbers are small whole ones, so that coincidences are many.
+        Whether all numbers are small whole ones times a power of two, so that coincidences are many and exact.
     """
 
     decades: float = 0.5
@@ -35,7 +35,7 @@ class Sizes:
     def number(self, rng, usual):
         """A positive number near `usual`."""
         if self.round:
-            return float(rng.choice((1, 1, 2, 3, 4, 5, 10))) * 10.0 ** round(math.log10(usual))
+            return float(rng.choice((1, 1, 2, 3, 4, 5, 10))) * 2.0 ** round(math.log2(usual))
         return float(f"{usual * 10.0 ** rng.uniform(-self.decades, self.decades):.3g}")
 
     def signed(self, rng, usual):
@@ -53,7 +53,9 @@ ROUND, ORDINARY, SPREAD = Sizes(round=True), Sizes(), Sizes(3.0, 4)
 WIDE = Sizes(9.0, 10)
 
 
-def draw_beam(rng, sizes, *, spans=(1, 5), bilateral=0.4, most=8, pairs=0.2, gaps=0.6, hinges=0.2, springs=0.3, above=0.33):
+def draw_beam(
+    rng, sizes, *, spans=(1, 5), bilateral=0.4, most=8, pairs=0.2, gaps=0.6, hinges=0.2, springs=0.3, above=0.33
+):
     """A beam with supports, without loads.
 
     Parameters
@@ -132,9 +134,9 @@ def _add_support(rng, sizes, made, where, room, bilateral, pairs, gaps, springs,
         made["supports"].append(dict(where, **own(), **keys))
         return 0
     if kind < bilateral + pairs and room > 1:
-        below = {"gap": sizes.number(rng, 0.01)}
+        made["supports"].append(dict(where, side="below", gap=sizes.number(rng, 0.01), **own(), **keys))
         above = {"gap": sizes.number(rng, 0.01)} if rng.random() < 0.6 else {}
-        made["supports"] += [dict(where, side="below", **below, **own(), **keys), dict(where, side="above", **above, **own(), **keys)]
+        made["supports"].append(dict(where, side="above", **above, **own(), **keys))
         return 2
     side = "above" if rng.random() < above else "below"
     made["supports"].append(dict(where, side=side, **gap(gaps), **own(), **keys))

@@ -12,8 +12,8 @@ from .exact import Exact, Fraction, NoSolution, Redundant, falls_surely, stands
 from .family import Family, Verdict
 
 PROMISE = (
-    "Following the events ends for every scene, every event is at its exact load factor, and between them states, values and status "
-    "are those of steps and of cold solves just left and right of every event; result.at agrees with the status"
+    "Following the events ends for every scene, every event is at its exact load factor, and between them states, values and "
+    "status are those of steps and of cold solves just left and right of every event; `result.at` agrees with the status"
 )
 NEAR = 1e-7  # how far left and right of an event, relative to its factor
 SAME, NONE = Fraction(1, 10**10), Fraction(1, 10**14)  # factors that differ relatively or absolutely by less are the same
@@ -30,7 +30,7 @@ def draw_any(rng):
     """Kind and scene, which may leave no room for the beam."""
     kind = rng.choice(list(KINDS))
     sizes = rng.choice((draw.ROUND, draw.ROUND, draw.ORDINARY, draw.SPREAD))
-    options = dict(hinges=0.0, gaps=0.7, spans=(1, 5), most=7) | KINDS[kind]
+    options = {"hinges": 0.0, "gaps": 0.7, "spans": (1, 5), "most": 7} | KINDS[kind]
     loads = options.pop("loads", {})
     if kind == "short span":
         sizes = draw.Sizes(0.5, 12)
@@ -146,14 +146,17 @@ def check_segment(beam, segment, closed, found, verdict):
     ):
         if missed and not is_zero(beam, closed, found, factor, root, supports):
             verdict.wrong.append(
-                f"events: the scheme from {segment.start:.17g} to {segment.stop:.17g} is right from {shown(low)} to {shown(high)} only, "
-                f"supports {supports}"
+                f"events: the scheme from {segment.start:.17g} to {segment.stop:.17g} is right from {shown(low)} to "
+                f"{shown(high)} only, supports {supports}"
             )
 
 
 def check_changes(beam, path, factor, before, after, verdict):
     """That the events at one factor lead from one scheme to the next, and that something does happen there."""
-    idle = {i for closed, found in (before, after) if not found.loose for i in beam.one_sided if beam.course(closed, i, found) == (0, 0)}
+    idle = set()
+    for closed, found in (before, after):
+        if not found.loose:
+            idle |= {i for i in beam.one_sided if beam.course(closed, i, found) == (0, 0)}
     changed = {i for i, a, b in zip(beam.one_sided, before[0], after[0], strict=True) if a != b}
     here = [event for event in path.events if event.factor == factor]
     unnamed = changed - idle - {event.support for event in here}
@@ -170,7 +173,9 @@ def check_changes(beam, path, factor, before, after, verdict):
     ended = high is not None and is_zero(beam, *before, factor, high, ends)
     begun = low is not None and is_zero(beam, *after, factor, low, begins)
     if not ended and not begun:
-        verdict.wrong.append(f"events: a change at {float(factor):.17g}, but the schemes there end at {shown(high)} and begin at {shown(low)}")
+        verdict.wrong.append(
+            f"events: a change at {float(factor):.17g}, but the schemes there end at {shown(high)} and begin at {shown(low)}"
+        )
 
 
 def shown(factor):
@@ -183,9 +188,10 @@ def is_zero(beam, closed, found, factor, root, supports):
         return True
     courses = {i: beam.course(closed, i, found) for i in beam.one_sided}
     kind = dict(zip(beam.one_sided, closed, strict=True))
+    ways = max(abs(beam.acting_level(i)) for i in beam.one_sided)  # what distances are differences of
     for i in supports:
         size = max(abs(a) + abs(b) * factor for j, (a, b) in courses.items() if kind[j] == kind[i])
-        if abs(courses[i][0] + courses[i][1] * factor) > ROUNDING * size:
+        if abs(courses[i][0] + courses[i][1] * factor) > ROUNDING * (size if kind[i] else max(size, ways)):
             return False
     return True
 
@@ -244,8 +250,8 @@ def check_steps(beam, made, count, factors, verdict):
 
 
 def ambiguous(beam, error):
-    """Whether no single answer exists at ordinary factors: forces or places are not unique."""
-    for factor in (Fraction(1, 3), Fraction(5, 7), Fraction(1)):
+    """Whether no single answer exists over some of the load: forces or places are not unique."""
+    for factor in (Fraction(k, 13) for k in range(1, 14)):
         if stands(beam, factor) == "indifferent":
             return True
         try:

@@ -7,9 +7,10 @@ body between the hinges, so beams may have as many hinges and supports as one li
 
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import pairwise
 
 from oracle import Oracle, Redundant
-from oracle_forms import dot, null_space, reduce_rows
+from oracle_forms import reduce_rows
 
 ZERO = Fraction(0)
 
@@ -204,7 +205,7 @@ def stands(beam, factor, leeway=ZERO):
     extra = leeway * beam.load_size()
     best = {1: ZERO, -1: ZERO}  # work on all bodies so far while the last cut moves by that; None: it cannot
     indifferent = False
-    for a, b in zip(cuts[:-1], cuts[1:], strict=True):
+    for a, b in pairwise(cuts):
         left, right = body_work(beam, factor, a, b)
         rows = body_rows(beam, a, b)
         work = {s: None if best[s] is None else best[s] + left * s + extra for s in best}
@@ -316,6 +317,3 @@ def falls_surely(beam, factor, leeway=Fraction(1, 10**12)):
     falls = stands(beam, factor) == "falls"
     other = stands(beam, factor, -leeway if falls else leeway) == "falls"
     return falls, falls == other
-
-
-__all__ = ["Affine", "Exact", "NoSolution", "Redundant", "dot", "falls_surely", "null_space", "stands"]

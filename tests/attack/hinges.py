@@ -14,8 +14,8 @@ from .exact import body_work, falls_surely, stands
 from .family import Family, Verdict
 
 PROMISE = (
-    "Of beams with many hinges it is said right whether they can stand; where not, the loads do work along the motion given, and no "
-    "support is in its way; where they can, the reactions have the right signs and balance the loads on every body"
+    "Of beams with many hinges it is said right whether they can stand; where not, the loads do work along the motion given, "
+    "and no support is in its way; where they can, the reactions have the right signs and balance the loads on every body"
 )
 
 BALANCE = Fraction(1, 10**10)  # of the forces at a hinge
@@ -49,8 +49,9 @@ def draw_long(rng):
     """A heavy beam with many supports from which forces here and there lift it, most often nearly as far as it can stand."""
     count = rng.choice((60, 150, 400))
     made = draw.draw_beam(
-        rng, draw.ORDINARY, spans=(count // 2, count), bilateral=rng.choice((0.0, 0.0, 0.02)), most=10**6, pairs=rng.choice((0.0, 0.1)),
-        hinges=rng.choice((0.02, 0.1, 0.3, 0.8)), springs=rng.choice((0.0, 0.3, 1.0)), above=rng.choice((0.0, 0.0, 0.15)),
+        rng, draw.ORDINARY, spans=(count // 2, count), most=10**6, bilateral=rng.choice((0.0, 0.0, 0.02)),
+        pairs=rng.choice((0.0, 0.1)), hinges=rng.choice((0.02, 0.1, 0.3, 0.8)), springs=rng.choice((0.0, 0.3, 1.0)),
+        above=rng.choice((0.0, 0.0, 0.15)),
     )  # fmt: skip
     rest_on_two(made)
     length, most = draw.nodes_of(made)[-1], rng.choice((1.0, 5.0, 20.0))

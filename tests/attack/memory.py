@@ -23,8 +23,8 @@ from gapbeam.study_schemes import gapped_spans, lifted_end, sprung_base
 from .family import Family, Verdict, write_scene
 
 PROMISE = (
-    "Under any limit of the address space a call gives the right result or ends in a MemoryError, or in an EngineError that says so, the "
-    "command in one line; the process goes on, nothing is printed, and the next call has its memory again"
+    "Under any limit of the address space a call gives the right result or ends in a MemoryError, or in an EngineError that "
+    "says so, the command in one line; the process goes on, nothing is printed, and the next call has its memory again"
 )
 RIGHT, REFUSED, WRONG = 40, 41, 42  # exit statuses that nothing else gives
 SECONDS = 20

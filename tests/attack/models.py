@@ -10,8 +10,9 @@ from .family import Family, Verdict
 from .workers import judge_all
 
 PROMISE = (
-    "Whatever stands in the arrays of a model: no access outside them, no undefined operation, no leak, no end of the process; statuses "
-    "are those documented, an error writes nothing, what is solved is finite, and the floating-point environment is the caller's again"
+    "Whatever stands in the arrays of a model: no access outside them, no undefined operation, no leak, no end of the process; "
+    "statuses are those documented, an error writes nothing, what is solved is finite, and the floating-point environment is "
+    "the caller's again"
 )
 TOP = Path(__file__).parents[2]
 BUILD = TOP / ".venv" / "build" / "sanitized"
@@ -26,8 +27,10 @@ OUTCOMES = {
 def build():
     """Build the driver, in the folder and with the options that `tests/run` has for its sanitized build."""
     tools = os.environ | {"PATH": os.pathsep.join((str(Path(sys.executable).parent), os.environ["PATH"]))}
-    commands = [] if (BUILD / "build.ninja").exists() else [["meson", "setup", BUILD, TOP, "--native-file", TOP / "tests" / "sanitized.ini"]]
-    for command in (*commands, ["ninja", "-C", BUILD, DRIVER.relative_to(BUILD)]):
+    commands = [["ninja", "-C", BUILD, DRIVER.relative_to(BUILD)]]
+    if not (BUILD / "build.ninja").exists():
+        commands.insert(0, ["meson", "setup", BUILD, TOP, "--native-file", TOP / "tests" / "sanitized.ini"])
+    for command in commands:
         if shutil.which(command[0], path=tools["PATH"]) is None:
             sys.exit(f"models: {command[0]} is needed to build them: sh tests/run sets it up")
         done = subprocess.run(list(map(str, command)), env=tools, capture_output=True, text=True)

@@ -11,9 +11,9 @@ from .exact import Exact, Fraction, NoSolution, Redundant, falls_surely
 from .family import Family, Verdict
 
 PROMISE = (
-    "Every state satisfies the contact conditions in rational numbers over nine decades to either side of ordinary magnitudes, or "
-    "names the supports that do not as undecided; no bound is below the true error; status and state depend neither on the start "
-    "nor on the rule"
+    "Every state satisfies the contact conditions in rational numbers over nine decades to either side of ordinary magnitudes, "
+    "or names the supports that do not as undecided; no bound is below the true error; status and state depend neither on the "
+    "start nor on the rule"
 )
 SIZES = {"ordinary": draw.ORDINARY, "round": draw.ROUND, "spread": draw.SPREAD, "wide": draw.WIDE, "outlier": draw.ORDINARY}
 OUTLIERS = ("EI", "GA", "stiffness", "rotation", "gap", "settlement", "F", "M", "q")

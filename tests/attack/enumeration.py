@@ -1,71 +1,41 @@
-"""Agreement of the program with exact enumeration (`oracle.py`) on many small scenes, in status and state.
-
-Run as a command it prints how many scenes of which kind were compared and every disagreement with its seed:
-
-    python tests/agreement.py --count 100000 --jobs 2
+"""Small scenes, many of them degenerate, against an enumeration of all contact states (`oracle.py`), in status and state.
 
 Every scene is solved by both rules, from all closed or from a random start. A support that is tied (closed without
 force, or touching within 1e-11 of the largest value of its kind) may be called open or closed.
 """
 
-import argparse
-import collections
-import multiprocessing
 import random
-import sys
-import time
-from dataclasses import dataclass
 
 import gapbeam
 import numpy as np
 import oracle
-from degenerate import KINDS, draw
+from degenerate import draw
 from scenes import one_sided
 
+from .family import Family, Verdict
+
+PROMISE = (
+    "On small scenes with exact ties, loads that cancel, rigid stretches and cycles of schemes, status, states and reactions "
+    "are those of an enumeration of all contact states in rational numbers; where forces or places are not unique, the scene "
+    "may be refused"
+)
 SHARP = 1e-11
 RULES = ("block", "single")
 
 
-@dataclass
-class Verdict:
-    """What became of one scene.
-
-    Attributes
-    ----------
-    seed : int
-    kind : str
-    outcome : str
-        What the enumeration says: solved, no-equilibrium, loose, indifferent; ambiguous if forces are not unique.
-    tied : bool
-        Whether some support is tied exactly.
-    refused : bool
-        Whether the program refused an indifferent or ambiguous scene.
-    wrong : str
-        How the program disagrees; empty if it does not.
-    """
-
-    seed: int
-    kind: str
-    outcome: str
-    tied: bool = False
-    refused: bool = False
-    wrong: str = ""
-
-
-def examine(seed, kind=None):
-    """Draw a scene and solve it both ways.
+def judge(made, seed=0):
+    """Solve a scene both ways and compare it with the enumeration.
 
     Parameters
     ----------
+    made : dict
     seed : int
-    kind : str, optional
-        One of `degenerate.KINDS`; default: drawn too.
+        Of the starts.
 
     Returns
     -------
     Verdict
     """
-    kind, made = draw(seed, kind)
     steps = made["analysis"]["steps"]
     try:
         beam = oracle.Oracle(made)
@@ -75,19 +45,18 @@ def examine(seed, kind=None):
             outcome = "ambiguous"
     except oracle.Redundant:
         exact, outcome = [], "ambiguous"
-    verdict = Verdict(seed, kind, outcome, any(any(solution.tied) for solution in exact))
+    verdict = Verdict(outcome)
     rng = random.Random(-seed - 1)
     for rule in RULES:
         start = [rng.random() < 0.5 for _ in one_sided(made)] if rng.random() < 0.6 else None
         try:
             result = gapbeam.solve(made, rule=rule, start=start)
         except gapbeam.EngineError as error:
-            verdict.refused = outcome in ("indifferent", "ambiguous")
-            wrong = "" if verdict.refused else f"refused: {error}"
+            wrong = "" if outcome in ("indifferent", "ambiguous") else f"refused: {error}"
         else:
             wrong = compare(made, beam, result, exact) if outcome != "ambiguous" else ""
         if wrong:
-            verdict.wrong += f"{' | ' if verdict.wrong else ''}{rule} from {start}: {wrong}"
+            verdict.wrong.append(f"{rule} from {start}: {wrong}")
     return verdict
 
 
@@ -144,43 +113,4 @@ def compare_step(made, beam, step, solution):
     return "; ".join(unlike)
 
 
-def examine_all(seeds, jobs):
-    """Verdicts of many seeds, as they come."""
-    if jobs < 2:
-        yield from map(examine, seeds)
-        return
-    with multiprocessing.get_context("fork").Pool(jobs) as pool:
-        yield from pool.imap_unordered(examine, seeds, chunksize=100)
-
-
-def main(arguments=None):
-    """The command; its exit status is 1 if there is a disagreement."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--count", type=int, default=2000, help="how many scenes (default 2000)")
-    parser.add_argument("--seed", type=int, default=0, help="first seed (default 0)")
-    parser.add_argument("--jobs", type=int, default=1, help="processes (default 1)")
-    parser.add_argument("--show", type=int, metavar="SEED", help="print one scene and what became of it, nothing else")
-    chosen = parser.parse_args(arguments)
-    if chosen.show is not None:
-        print(*draw(chosen.show), examine(chosen.show), sep="\n")
-        return 0
-    begin, kinds, outcomes, wrong = time.perf_counter(), collections.Counter(), collections.Counter(), []
-    ties = refused = 0
-    for verdict in examine_all(range(chosen.seed, chosen.seed + chosen.count), chosen.jobs):
-        kinds[verdict.kind] += 1
-        outcomes[verdict.outcome] += 1
-        ties += verdict.tied
-        refused += verdict.refused
-        if verdict.wrong:
-            wrong.append(verdict)
-            print(f"seed {verdict.seed} ({verdict.kind}, {verdict.outcome}): {verdict.wrong}", flush=True)
-    for name, counts in (("Kinds", {kind: kinds[kind] for kind in KINDS}), ("Outcomes", outcomes)):
-        print(f"{name}: " + ", ".join(f"{key} {number:,}" for key, number in counts.items()))
-    print(f"With exact ties: {ties:,}. Indifferent or ambiguous scenes that the program refused: {refused:,}.")
-    print(f"{chosen.count:,} scenes by {' and '.join(RULES)} in {time.perf_counter() - begin:.0f} s")
-    print(f"Disagreements: {len(wrong):,}")
-    return 1 if wrong else 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+FAMILY = Family("enumeration", PROMISE, draw, judge)
