@@ -5,9 +5,11 @@ x are linear forms in w(0), psi(0), the force of every support, the couple of ev
 kink at every hinge, and the loads (two last columns: dead, live).
 """
 
+import bisect
 import itertools
 import math
 from fractions import Fraction
+from functools import cached_property
 
 
 def inverse(stiffness):
@@ -120,6 +122,83 @@ class Reading:
                 q = load["q"] if load["type"] == "linear" else [load["q"]]
                 total += max(abs(Fraction(v)) for v in q) * (load["end"] - load["start"])
         return total
+
+
+    @cached_property
+    def bodies(self):
+        """The rigid bodies between hinges, from left to right."""
+        cuts = [Fraction(0), *sorted(self.hinges), self.length]
+        found = [Body(a, b) for a, b in itertools.pairwise(cuts)]
+
+        def holding(x):
+            return found[max(bisect.bisect_left(cuts, x) - 1, 0)]
+
+        for i, support in enumerate(self.supports):
+            holding(support["x"]).hold(support, i in self.turning, i not in self.one_sided)
+        for load in self.loads:
+            if "x" in load:
+                holding(load["x"]).add_at_point(load)
+            elif load["type"] != "curvature":
+                first, last = (max(bisect.bisect_left(cuts, load[end]) - 1, 0) for end in ("start", "end"))
+                for body in found[first : last + 1]:
+                    body.add_along(load)
+        return found
+
+
+class Body:
+    """A part of the beam from a to b that moves as a rigid body, by the displacements of its ends.
+
+    Attributes
+    ----------
+    a, b : Fraction
+    rows : list of (Fraction, Fraction, bool)
+        What its supports ask: coefficients of the two displacements whose sum must be 0 or more; True: 0.
+    """
+
+    def __init__(self, a, b):
+        self.a, self.b, self.rows = a, b, []
+        self._work = {"dead": [Fraction(0), Fraction(0)], "live": [Fraction(0), Fraction(0)]}
+
+    def hold(self, support, turns, bilateral):
+        """Add a support; one without stiffness asks for nothing."""
+        if turns:
+            self.rows.append((Fraction(-1), Fraction(1), True))
+        if support.get("stiffness") != 0:
+            share = (support["x"] - self.a) / (self.b - self.a)
+            sign = -1 if support.get("side") == "below" else 1
+            self.rows.append((sign * (1 - share), sign * share, bilateral))
+
+    def _add(self, load, left, right):
+        work = self._work[load.get("case", "live")]
+        work[0] += left
+        work[1] += right
+
+    def add_at_point(self, load):
+        """Add a force or a couple."""
+        length = self.b - self.a
+        if load["type"] == "force":
+            amount, share = Fraction(load["F"]), (load["x"] - self.a) / length
+            self._add(load, amount * (1 - share), amount * share)
+        else:
+            turn = Fraction(load["M"]) / length
+            self._add(load, -turn, turn)
+
+    def add_along(self, load):
+        """Add what a distributed load does on this body."""
+        start, end = max(load["start"], self.a), min(load["end"], self.b)
+        if start >= end:
+            return
+        q0, q1 = (Fraction(load["q"]),) * 2 if load["type"] == "uniform" else map(Fraction, load["q"])
+        slope = (q1 - q0) / (load["end"] - load["start"])
+        first, last, h = q0 + slope * (start - load["start"]), q0 + slope * (end - load["start"]), end - start
+        total = (first + last) * h / 2
+        about = (first + 2 * last) * h * h / 6 + total * (start - self.a)
+        self._add(load, total - about / (self.b - self.a), about / (self.b - self.a))
+
+    def work(self, factor):
+        """Work of the loads for a unit displacement of the left and of the right end."""
+        dead, live = self._work["dead"], self._work["live"]
+        return dead[0] + factor * live[0], dead[1] + factor * live[1]
 
 
 class Forms(Reading):

@@ -6,7 +6,6 @@ import re
 import time
 from dataclasses import replace
 from fractions import Fraction
-from itertools import pairwise
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -14,7 +13,7 @@ import gapbeam
 import numpy as np
 import pytest
 from attack import command, compare, draw, events, hinges, memory, models, mutants, signs
-from attack.exact import Exact, NoSolution, Redundant, body_rows, body_work, falls_surely, stands
+from attack.exact import Exact, NoSolution, Redundant, falls_surely, stands
 from attack.family import Family, Verdict
 from attack.workers import Ended, judge_all
 from degenerate import draw as draw_degenerate
@@ -102,18 +101,18 @@ def test_motions_are_judged():
 
 def work_at_most(beam):
     """The largest work along a free motion whose displacements at hinges and ends are at most 1, by a linear programme."""
-    cuts = [Fraction(0), *sorted(beam.hinges), beam.length]
-    work, rows = np.zeros(len(cuts)), {False: [], True: []}
-    for k, (a, b) in enumerate(pairwise(cuts)):
-        work[k : k + 2] += np.array(body_work(beam, Fraction(1), a, b), dtype=float)
-        for left, right, bilateral in body_rows(beam, a, b):
-            row = np.zeros(len(cuts))
+    count = len(beam.bodies) + 1
+    work, rows = np.zeros(count), {False: [], True: []}
+    for k, body in enumerate(beam.bodies):
+        work[k : k + 2] += np.array(body.work(Fraction(1)), dtype=float)
+        for left, right, bilateral in body.rows:
+            row = np.zeros(count)
             row[k : k + 2] = float(left), float(right)
             rows[bilateral].append(row)
     held = {f"{name}_{side}": value for bilateral, name, sign in ((False, "A", -1.0), (True, "A", 1.0)) if rows[bilateral]
             for side, value in (("eq" if bilateral else "ub", sign * np.array(rows[bilateral])),)}  # fmt: skip
     zeros = {"b" + key[1:]: np.zeros(len(value)) for key, value in held.items()}
-    return -linprog(-work, **held, **zeros, bounds=[(-1.0, 1.0)] * len(cuts)).fun
+    return -linprog(-work, **held, **zeros, bounds=[(-1.0, 1.0)] * count).fun
 
 
 @pytest.mark.parametrize("block", range(4))

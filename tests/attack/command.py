@@ -61,7 +61,7 @@ def main(arguments=None):
     parser.add_argument("--seconds", type=float, default=float("inf"), help="time for each family; default no limit")
     parser.add_argument("--seed", type=int, default=0, help="first seed (default 0)")
     parser.add_argument("--jobs", type=int, default=1, help="processes (default 1)")
-    parser.add_argument("--limit", type=float, default=20.0, help="seconds after which a case counts as a hang (default 20)")
+    parser.add_argument("--limit", type=float, default=30.0, help="seconds after which a case counts as a hang (default 30)")
     parser.add_argument("--failures", type=Path, default=Path("attack-failures"), metavar="FOLDER", help="for what failed")
     parser.add_argument("--scene", type=Path, metavar="FILE", help="judge one scene that was written, nothing else")
     parser.add_argument("--markdown", type=Path, metavar="FILE", help="write the page of the documentation")

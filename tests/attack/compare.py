@@ -2,13 +2,12 @@
 
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import pairwise
 from math import isfinite
 
 import numpy as np
 from oracle_forms import dot
 
-from .exact import NoSolution, Redundant, body_work, falls_surely
+from .exact import NoSolution, Redundant, falls_surely
 
 DIGITS = Fraction(1, 10**12)  # of the largest value of a kind
 HALF_UNIT = Fraction(1, 2**53)  # what the last digit of the largest value is worth anyway
@@ -179,8 +178,8 @@ def motion_faults(beam, motion, factor):
             if abs(ends[k] - ends[k - 1]) > SLACK:
                 faults.append(f"the motion turns support {i}, which holds the rotation")
     work = Fraction(0)
-    for k, (a, b) in enumerate(pairwise([Fraction(0), *sorted(beam.hinges), beam.length])):
-        left, right = body_work(beam, factor, a, b)
+    for k, body in enumerate(beam.bodies):
+        left, right = body.work(factor)
         work += left * Fraction(ends[k]) + right * Fraction(ends[k + 1])
     if work <= 0:
         faults.append(f"the loads do no work along the motion ({float(work):.3g})")

@@ -79,10 +79,14 @@ def draw_beam(
     EI = sizes.number(rng, 1e4)
     made = scene([sizes.length(rng) for _ in range(count)], [], EI=EI)
     if rng.random() < 0.3 and count > 1:
-        made["beam"]["EI"] = [sizes.number(rng, 1e4) for _ in range(count)]
+        made["beam"]["EI"] = [INF if rng.random() < 0.1 else sizes.number(rng, 1e4) for _ in range(count)]
     if rng.random() < 0.25:
         made["beam"]["GA"] = [INF if rng.random() < 0.4 else sizes.number(rng, 1e4) for _ in range(count)]
     nodes = nodes_of(made)
+    if rng.random() < 0.15:
+        k = rng.randrange(count)
+        start = nodes[k] + made["beam"]["spans"][k] * rng.randrange(8) / 8.0
+        made["sections"] = [stretch(start, rng.choice([x for x in nodes if x > start]), EI=sizes.number(rng, 1e4))]
     room = most
     while not made["supports"]:
         for k in range(count + 1):
@@ -200,7 +204,9 @@ def draw_loads(rng, sizes, made, *, dead=0.3, most=4, down=False):
 def mirror_double(made):
     """The beam with its supports and loads repeated on a mirrored half, so that coincidences are exact."""
     spans, length, last = made["beam"]["spans"], nodes_of(made)[-1], len(made["beam"]["spans"])
-    new = scene(spans + spans[::-1], [], EI=made["beam"]["EI"])
+    new = scene(spans + spans[::-1], [], EI=made["beam"]["EI"], sections=made.get("sections", []))
+    for section in made.get("sections", []):
+        new["sections"] = [*new["sections"], dict(section, **stretch(2 * length - section["to"], 2 * length - section["from"]))]
     for key in ("EI", "GA"):
         value = made["beam"].get(key)
         if isinstance(value, list):

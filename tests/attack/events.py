@@ -10,6 +10,7 @@ from . import draw
 from .compare import Look, compare_state, motion_faults
 from .exact import Exact, Fraction, NoSolution, Redundant, falls_surely, stands
 from .family import Family, Verdict
+from .signs import redundant
 
 PROMISE = (
     "Following the events ends for every scene, every event is at its exact load factor, and between them states, values and "
@@ -79,7 +80,7 @@ def judge(made, seed=0):
         path = gapbeam.solve({**made, "analysis": {"follow": "events"}})
     except gapbeam.EngineError as error:
         verdict.outcome = "no single path"
-        if not ambiguous(beam, error):
+        if not no_single_path(beam, error):
             verdict.outcome = "refused"
             verdict.wrong.append(f"events refused: {error}")
     else:
@@ -219,7 +220,7 @@ def check_steps(beam, made, count, factors, verdict):
     try:
         result = gapbeam.solve({**made, "analysis": {"steps": count}})
     except gapbeam.EngineError as error:
-        if not ambiguous(beam, error):
+        if not no_single_path(beam, error):
             verdict.wrong.append(f"{count} steps refused: {error}")
         return
     for k, step in enumerate(result.steps):
@@ -240,7 +241,7 @@ def check_steps(beam, made, count, factors, verdict):
             if sharp and not falls:
                 verdict.wrong.append(f"cold: {error}")
         except gapbeam.EngineError as error:
-            if not ambiguous(beam, error):
+            if not no_single_path(beam, error):
                 verdict.wrong.append(f"cold at {factor:.17g} refused: {error}")
         else:
             if falls and sharp:
@@ -249,7 +250,7 @@ def check_steps(beam, made, count, factors, verdict):
                 compare_state(beam, step, Look(result, {"factor": factor}), verdict, f"cold at {factor:.17g}: ")
 
 
-def ambiguous(beam, error):
+def no_single_path(beam, error):
     """Whether no single answer exists over some of the load: forces or places are not unique."""
     for factor in (Fraction(k, 13) for k in range(1, 14)):
         if stands(beam, factor) == "indifferent":
@@ -262,7 +263,7 @@ def ambiguous(beam, error):
             continue
         if beam.moves_in_clearance(values):
             return True
-    return False
+    return error.status == Status.INDETERMINATE and redundant(beam)
 
 
 FAMILY = Family("events", PROMISE, draw_scene, judge)

@@ -7,7 +7,6 @@ body between the hinges, so beams may have as many hinges and supports as one li
 
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import pairwise
 
 from oracle import Oracle, Redundant
 from oracle_forms import reduce_rows
@@ -201,13 +200,11 @@ def stands(beam, factor, leeway=ZERO):
         "falls" if the loads do work along a free motion, "indifferent" if they do none along some, "stands" if they do
         negative work along all or there is none.
     """
-    cuts = [ZERO, *sorted(beam.hinges), beam.length]
     extra = leeway * beam.load_size()
     best = {1: ZERO, -1: ZERO}  # work on all bodies so far while the last cut moves by that; None: it cannot
     indifferent = False
-    for a, b in pairwise(cuts):
-        left, right = body_work(beam, factor, a, b)
-        rows = body_rows(beam, a, b)
+    for body in beam.bodies:
+        (left, right), rows = body.work(factor), body.rows
         work = {s: None if best[s] is None else best[s] + left * s + extra for s in best}
         for s in best:  # the right end stays
             if work[s] is not None and all(held(c * s, bilateral) for c, _, bilateral in rows):
@@ -257,53 +254,6 @@ def best_work(work, own, rows, s):
     if (low is None or low <= 0) and (high is None or high >= 0):
         found.append(ZERO)
     return max(found) + own if found else None
-
-
-def body_work(beam, factor, a, b):
-    """Work of the loads on one body for a unit displacement of its left and of its right end."""
-    length, left, right = b - a, ZERO, ZERO
-    weights = {"dead": Fraction(1), "live": factor}
-    for load in beam.loads:
-        weight = weights[load.get("case", "live")]
-        if load["type"] == "curvature" or not weight:
-            continue
-        if "x" in load:
-            x = load["x"]
-            if not (a < x <= b or x == a == 0):
-                continue
-            if load["type"] == "force":
-                amount, share = Fraction(load["F"]) * weight, (x - a) / length
-                left, right = left + amount * (1 - share), right + amount * share
-            else:
-                turn = Fraction(load["M"]) * weight / length
-                left, right = left - turn, right + turn
-            continue
-        start, end = max(load["start"], a), min(load["end"], b)
-        if start >= end:
-            continue
-        q0, q1 = (Fraction(load["q"]),) * 2 if load["type"] == "uniform" else map(Fraction, load["q"])
-        slope = (q1 - q0) / (load["end"] - load["start"])
-        first, last, h = q0 + slope * (start - load["start"]), q0 + slope * (end - load["start"]), end - start
-        total, about = (first + last) * h / 2, (first + 2 * last) * h * h / 6 + (first + last) * h / 2 * (start - a)
-        left, right = left + weight * (total - about / length), right + weight * about / length
-    return left, right
-
-
-def body_rows(beam, a, b):
-    """What the supports ask of one body: coefficients of its ends' displacements, and whether for both directions."""
-    rows = []
-    for i, support in enumerate(beam.supports):
-        x = support["x"]
-        if not (a < x <= b or x == a == 0):
-            continue
-        if i in beam.turning:
-            rows.append((Fraction(-1), Fraction(1), True))
-        if support.get("stiffness") == 0:
-            continue
-        share = (x - a) / (b - a)
-        sign = -1 if support.get("side") == "below" else 1
-        rows.append((sign * (1 - share), sign * share, i not in beam.one_sided))
-    return rows
 
 
 def falls_surely(beam, factor, leeway=Fraction(1, 10**12)):

@@ -2,7 +2,6 @@
 
 import random
 from fractions import Fraction
-from itertools import pairwise
 
 import gapbeam
 from gapbeam.errors import Status
@@ -10,7 +9,7 @@ from oracle_forms import Reading
 
 from . import draw
 from .compare import motion_faults
-from .exact import body_work, falls_surely, stands
+from .exact import falls_surely, stands
 from .family import Family, Verdict
 
 PROMISE = (
@@ -126,24 +125,23 @@ def balance_faults(beam, step):
         push = step.reaction[i] * (1.0 if beam.supports[i]["side"] == "below" else -1.0)
         if not push >= 0.0 and i not in step.undecided:
             faults.append(f"support {i} pulls by {-push:.3g}")
-    cuts = [Fraction(0), *sorted(beam.hinges), beam.length]
-    work = [[Fraction(0), Fraction(0)] for _ in cuts]  # of loads and reactions while one cut moves; sizes of the terms
-    for k, (a, b) in enumerate(pairwise(cuts)):
-        for end, amount in enumerate(body_work(beam, Fraction(step.factor), a, b)):
-            work[k + end][0] += amount
-            work[k + end][1] += abs(amount)
-        for i, support in enumerate(beam.supports):
-            x = support["x"]
-            if a < x <= b or x == a == 0:
-                share, turn = (x - a) / (b - a), Fraction(step.couple[i]) / (b - a)
-                force = Fraction(step.reaction[i])
-                for end, amount in ((0, -force * (1 - share)), (1, -force * share), (0, -turn), (1, turn)):
-                    work[k + end][0] += amount
-                    work[k + end][1] += abs(amount)
+    bodies = beam.bodies
+    work = [[Fraction(0), Fraction(0)] for _ in range(len(bodies) + 1)]  # while one cut moves; and the size of its terms
+    terms = [(k + end, amount) for k, body in enumerate(bodies) for end, amount in enumerate(body.work(Fraction(step.factor)))]
+    for i, support in enumerate(beam.supports):
+        k = next(k for k, body in enumerate(bodies) if support["x"] <= body.b)
+        length = bodies[k].b - bodies[k].a
+        share, turn = (support["x"] - bodies[k].a) / length, Fraction(step.couple[i]) / length
+        force = Fraction(step.reaction[i])
+        terms += [(k, -force * (1 - share)), (k + 1, -force * share), (k, -turn), (k + 1, turn)]
+    for k, amount in terms:
+        work[k][0] += amount
+        work[k][1] += abs(amount)
     size = BALANCE * beam.load_size() + len(beam.supports) * Fraction(step.bounds[1])
-    for x, (total, terms) in zip(cuts, work, strict=True):
-        if abs(total) > BALANCE * terms + size:
-            faults.append(f"no balance at x = {float(x):g}: {float(total):.3g} of {float(terms):.3g}")
+    for k, (total, largest) in enumerate(work):
+        if abs(total) > BALANCE * largest + size:
+            x = float(bodies[k].a if k < len(bodies) else bodies[-1].b)
+            faults.append(f"no balance at x = {x:g}: {float(total):.3g} of {float(largest):.3g}")
     return faults
 
 

@@ -7,7 +7,8 @@ from gapbeam.errors import Status
 
 from . import draw
 from .compare import Look, compare_state, motion_faults
-from .exact import Exact, Fraction, NoSolution, Redundant, falls_surely
+from .enumeration import ambiguous
+from .exact import Exact, Fraction, Redundant, falls_surely
 from .family import Family, Verdict
 
 PROMISE = (
@@ -65,7 +66,7 @@ def judge(made, seed=0):
         try:
             result = gapbeam.solve(made, rule=rule, start=start)
         except gapbeam.EngineError as error:
-            if error.status != Status.INDETERMINATE or not redundant(beam, count):
+            if error.status != Status.INDETERMINATE or not redundant(beam):
                 verdict.wrong.append(f"{where}refused: {error}")
             else:
                 verdict.outcome = "forces not unique"
@@ -88,15 +89,12 @@ def alike(states):
     return all(len({name for name in column if name != "?"}) < 2 for column in zip(*states, strict=True))
 
 
-def redundant(beam, count):
-    """Whether the forces are not unique, in the scheme that is right or on the way to it."""
+def redundant(beam):
+    """Whether other forces would do as well."""
     try:
-        beam.settle([True] * count, Fraction(1))
+        return ambiguous(beam, beam.solve())
     except Redundant:
         return True
-    except NoSolution:
-        return False
-    return False
 
 
 FAMILY = Family("signs", PROMISE, draw_scene, judge)

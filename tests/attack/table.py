@@ -16,7 +16,7 @@ class Row:
     wrong, hangs, aborts : int
         Cases with a wrong answer, without any, and that ended the process.
     ratios : dict
-        By value, bounds divided by the true errors.
+        By kind of scene and of value, bounds divided by the true errors.
     seconds : float
     """
 
@@ -35,8 +35,8 @@ class Row:
         self.wrong += bool(verdict.wrong)
         self.hangs += verdict.outcome == "hang"
         self.aborts += verdict.outcome == "aborted"
-        for kind, ratios in verdict.ratios.items():
-            self.ratios.setdefault(kind, []).extend(ratios)
+        for value, ratios in verdict.ratios.items():
+            self.ratios.setdefault((verdict.kind, value), []).extend(ratios)
 
     @property
     def count(self):
@@ -48,8 +48,9 @@ class Row:
         outcomes = ", ".join(f"{name} {number:,}" for name, number in self.outcomes.most_common())
         lines = [f"{self.name}: {self.count:,} cases in {self.seconds:.0f} s ({outcomes})"]
         lines.append(f"  wrong {self.wrong:,}, of which hangs {self.hangs:,}, aborts {self.aborts:,}")
-        for kind, ratios in self.ratios.items():
-            lines.append(f"  bound/error of {kind}: median {share(ratios, 0.5):.3g}, 99 % below {share(ratios, 0.99):.3g}")
+        for value in dict.fromkeys(value for _, value in self.ratios):
+            ratios = [ratio for (_, name), some in self.ratios.items() if name == value for ratio in some]
+            lines.append(f"  bound/error of {value}: median {share(ratios, 0.5):.3g}, 99 % below {share(ratios, 0.99):.3g}")
         return "\n".join(lines)
 
 
@@ -59,10 +60,14 @@ def share(values, part):
 
 
 WORDS = """\
-Every family draws its cases by seed and judges the answers by means of its own: rational arithmetic, free motions from hinge
-to hinge, limits that the system sets. A case counts as wrong if any part of the promise is broken for it; one that gives no
-answer in time is a hang, one that ends the process an abort, and both count as wrong. Bounds are compared with the true error
-or half a unit in the last place of the largest value, whichever is larger.
+Cases are drawn at random by seed, in families, and the answers are judged by other means than those of the program: rational
+arithmetic, free motions passed from hinge to hinge, the standard library's own reading of a file, sanitizers, limits set by the
+system. A case counts as wrong if any part of the promise is broken for it; a hang gives no answer in time, an abort ends the
+process, and both count as wrong. What is wrong is written as a scene that reproduces it.
+"""
+BOUNDS = """\
+Error bounds divided by the true errors of the same state, an error counting as half a unit in the last place of the largest value
+at least:
 """
 
 
@@ -82,10 +87,10 @@ def markdown(rows, command):
     lines = ["# Reliability", "", f"This page is made by `{command}`.", "", WORDS]
     lines += ["| family | cases | wrong | hangs | aborts | what is promised |", "|---|---:|---:|---:|---:|---|"]
     lines += [f"| {r.name} | {r.count:,} | {r.wrong:,} | {r.hangs:,} | {r.aborts:,} | {r.promise} |" for r in rows]
-    lines += ["", "| family | outcome | cases |", "|---|---|---:|"]
+    lines += ["", "What the cases were:", "", "| family | outcome | cases |", "|---|---|---:|"]
     lines += [f"| {r.name} | {outcome} | {number:,} |" for r in rows for outcome, number in r.outcomes.most_common()]
-    bounds = [(r, kind, ratios) for r in rows for kind, ratios in r.ratios.items()]
+    bounds = [(row.name, *key, ratios) for row in rows for key, ratios in sorted(row.ratios.items())]
     if bounds:
-        lines += ["", "| family | bound of | median of bound/error | 99 % below |", "|---|---|---:|---:|"]
-        lines += [f"| {r.name} | {kind} | {share(v, 0.5):.2g} | {share(v, 0.99):.2g} |" for r, kind, v in bounds]
+        lines += ["", BOUNDS, "| family | scenes | bound of | median | 99 % below |", "|---|---|---|---:|---:|"]
+        lines += [f"| {name} | {kind} | {value} | {share(v, 0.5):.2g} | {share(v, 0.99):.2g} |" for name, kind, value, v in bounds]
     return "\n".join(lines) + "\n"
