@@ -105,6 +105,9 @@ def check_path(beam, path, verdict):
     schemes = []
     for segment in segments:
         middle = Fraction((segment.start + segment.stop) / 2)
+        if segment.stop - segment.start <= SAME * middle:  # as long as the error that the factors of its ends may have
+            schemes.append(None)
+            continue
         where = f"events at {float(middle):.9g}: "
         try:
             step = path.state(float(middle))
@@ -120,7 +123,8 @@ def check_path(beam, path, verdict):
             return
         check_segment(beam, segment, *schemes[-1], verdict)
     for (before, after), segment in zip(pairwise(schemes), segments, strict=False):
-        check_changes(beam, path, Fraction(segment.stop), before, after, verdict)
+        if before is not None and after is not None:
+            check_changes(beam, path, Fraction(segment.stop), before, after, verdict)
 
 
 def check_end(beam, path, end, verdict):

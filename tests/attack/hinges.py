@@ -123,7 +123,7 @@ def balance_faults(beam, step):
     faults = []
     for i in beam.one_sided:
         push = step.reaction[i] * (1.0 if beam.supports[i]["side"] == "below" else -1.0)
-        if not push >= 0.0 and i not in step.undecided:
+        if not push >= -step.bounds[1] and i not in step.undecided:
             faults.append(f"support {i} pulls by {-push:.3g}")
     bodies = beam.bodies
     work = [[Fraction(0), Fraction(0)] for _ in range(len(bodies) + 1)]  # while one cut moves; and the size of its terms

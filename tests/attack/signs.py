@@ -60,7 +60,7 @@ def judge(made, seed=0):
     tries = [("block", None), ("single", None)]
     if count:
         tries += [("block", [False] * count), (rng.choice(("block", "single")), [rng.random() < 0.5 for _ in range(count)])]
-    states = set()
+    states, free = set(), set()
     for rule, start in tries:
         where = f"{rule} from {'the default' if start is None else ''.join('co'[not c] for c in start)}: "
         try:
@@ -78,10 +78,19 @@ def judge(made, seed=0):
         else:
             step = result.steps[-1]
             compare_state(beam, step, Look(result, {}), verdict, where)
-            states.add(tuple("?" if i in step.undecided else name for i, name in enumerate(step.state)))
+            states.add(decided(step))
+            free.add(step.indifferent or bool(step.undecided))  # an undecided support may be what holds it
+    if len(free) > 1:
+        verdict.wrong.append("whether the beam can move freely depends on start or rule")
     if len(states) > 1 and verdict.outcome == "solved" and not alike(states):
         verdict.wrong.append(f"the state depends on start or rule: {sorted(states)}")
     return verdict
+
+
+def decided(step):
+    """The state, "?" where it is not decided: named so, or without force where the beam can move freely."""
+    idle = [step.indifferent and abs(force) <= step.bounds[1] for force in step.reaction]
+    return tuple("?" if i in step.undecided or idle[i] else name for i, name in enumerate(step.state))
 
 
 def alike(states):
