@@ -259,7 +259,7 @@ contains
         wrong(first + 1:) = .false.
     end subroutine keep_least_index
 
-    !> Two rigid supports with clearance at one node cannot both act: begin with the first of them
+    !> Two rigid supports at one node cannot both act: begin with the one that holds both ways, or with the first
     pure subroutine separate_rigid_pairs(beam, closed)
         type(beam_type), intent(in) :: beam
         logical, intent(inout) :: closed(:)
@@ -270,7 +270,12 @@ contains
         taken = .false.
         do k = 1, size(closed)
             associate (s => beam%supports(k))
-                if (.not. closed(k) .or. .not. is_rigid(s)) cycle
+                if (s%side == both .and. is_rigid(s)) taken(s%node) = .true.
+            end associate
+        end do
+        do k = 1, size(closed)
+            associate (s => beam%supports(k))
+                if (s%side == both .or. .not. closed(k) .or. .not. is_rigid(s)) cycle
                 closed(k) = .not. taken(s%node)
                 taken(s%node) = .true.
             end associate
