@@ -10,7 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from .errors import SceneError, shown
+from .errors import SceneError
+from .wording import shown
 
 
 def numbers(place: str, value: Any) -> np.ndarray:

@@ -5,6 +5,7 @@ import statistics
 from collections import Counter
 from collections.abc import Iterable, Sequence
 
+from .characters import visible
 from .scene import Scene
 
 
@@ -133,6 +134,29 @@ def stretch(scene: Scene, item: object) -> tuple[float, float]:
     return item.from_, (float(scene.span_ends()[-1]) if item.to is None else item.to)
 
 
+def title(scene: Scene, without: str = "Beam without a title") -> str:
+    r"""Give the title of a scene for one line of a report or a picture.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    without : str
+        What to call it where it has none.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> from gapbeam import Beam, Scene
+    >>> title(Scene(beam=Beam([4.0], EI=1.0), title="Bridge\n2")), title(Scene(beam=Beam([4.0], EI=1.0)))
+    ('Bridge\\n2', 'Beam without a title')
+    """
+    return visible(scene.title) or without
+
+
 def unit(scene: Scene, quantity: str) -> str:
     """Give the unit of a quantity by the labels of the scene; empty where it has none.
 
@@ -155,7 +179,7 @@ def unit(scene: Scene, quantity: str) -> str:
     >>> unit(scene, "moment"), unit(scene, "uniform"), unit(scene, "rotation"), unit(scene, "EI")
     ('kN m', 'kN/m', 'rad', 'kN m^2')
     """
-    force, length = scene.units.force, scene.units.length
+    force, length = visible(scene.units.force), visible(scene.units.length)
     if quantity == "rotation":
         return "rad"
     if quantity in ("x", "deflection", "opening", "gap", "axial_displacement"):

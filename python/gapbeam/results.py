@@ -15,7 +15,6 @@ import numpy as np
 from . import engine
 from .arguments import finite, numbers, whole
 from .engine import METHODS, Solution
-from .errors import shown
 from .lowering import Arrays, locate
 from .memory import refuse_beyond
 from .motion import describe_motion
@@ -23,6 +22,7 @@ from .records import Pickled, Record
 from .scene import POSITION_TOLERANCE, Scene
 from .states import Step, solve_step
 from .steps import LoadSteps, Steps
+from .wording import shown
 
 if TYPE_CHECKING:
     from .path import Event, Path, Segment
@@ -98,7 +98,16 @@ class Fields(Record):
         dict
             Lists of floats.
         """
-        return {f.name: getattr(self, f.name).tolist() for f in fields(self) if getattr(self, f.name) is not None}
+        return {name: column.tolist() for name, column in self.columns().items()}
+
+    def columns(self) -> dict[str, np.ndarray]:
+        """As arrays by name, what is not there left out.
+
+        Returns
+        -------
+        dict
+        """
+        return {f.name: getattr(self, f.name) for f in fields(self) if getattr(self, f.name) is not None}
 
 
 class Result(Pickled):

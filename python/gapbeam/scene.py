@@ -35,8 +35,10 @@ import msgspec
 import numpy as np
 from msgspec import Meta, Struct, field
 
-from .errors import SceneError, shown
-from .scene_checks import POSITION_TOLERANCE, check, plain, read_file, same_place, typed
+from .errors import SceneError
+from .scene_checks import POSITION_TOLERANCE, check, plain, same_place, typed
+from .scene_files import read_file
+from .wording import shown
 
 __all__ = [
     "POSITION_TOLERANCE", "Analysis", "AxialLoad", "Beam", "CurvatureLoad", "ForceLoad", "Foundation",
@@ -419,8 +421,6 @@ def read_scene(source: Scene | Mapping[str, Any] | str | os.PathLike) -> Scene:
     """
     if isinstance(source, str | os.PathLike):
         source = read_file(Path(source))
-        if not isinstance(source, dict):
-            raise SceneError("the scene", f"expected a table, got {shown(source)}")
     if not isinstance(source, Scene | Mapping):
         raise SceneError(f"expected a Scene, a mapping or the path of a file, got {shown(source)}")
     scene = typed(source, Scene)

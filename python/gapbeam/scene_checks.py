@@ -1,4 +1,4 @@
-"""Checks of scenes: is the file readable, are keys and types right, does it make sense.
+"""Checks of scenes: are keys and types right, does it make sense.
 
 Whatever is wrong raises a `SceneError` that names the place, the value and what was expected. The checks look
 at whole columns of numbers at once; only where one fails is the message composed for the row that failed.
@@ -6,25 +6,25 @@ at whole columns of numbers at once; only where one fails is the message compose
 
 from __future__ import annotations
 
-import json
-import re
-import tomllib
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from numbers import Real
 from operator import attrgetter
-from pathlib import Path
-from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import msgspec
 import numpy as np
 
-from .errors import SceneError, explain, number, shown
+from .characters import visible
+from .errors import SceneError
+from .wording import as_text, explain, number, shown
 
 if TYPE_CHECKING:
     from .scene import Scene
 
 S = TypeVar("S", bound=msgspec.Struct)
 
+TOO_DEEP = "tables or lists are nested too deeply"
 POSITION_TOLERANCE = 64 * float(np.finfo(float).eps)
 """Positions whose difference is at most this share of the larger one are the same place."""
 
@@ -49,63 +49,6 @@ def same_place(a: Any, b: Any) -> Any:
     return np.abs(np.subtract(a, b)) <= POSITION_TOLERANCE * np.maximum(np.abs(a), np.abs(b))
 
 
-def read_file(path: Path) -> dict[str, Any]:
-    """Read a TOML or JSON file.
-
-    Parameters
-    ----------
-    path : pathlib.Path
-        A file that ends in .toml or .json.
-
-    Returns
-    -------
-    dict
-        The data as they stand there; only the syntax is checked.
-    """
-    kind = path.suffix.lower()
-    if kind not in (".toml", ".json"):
-        raise SceneError(str(path), f'a scene file ends in .toml or .json, not in "{path.suffix}"')
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except FileNotFoundError:
-        raise SceneError(str(path), "there is no such file") from None
-    except UnicodeDecodeError as error:
-        raise SceneError(str(path), f"not a text in UTF-8 (byte {error.start + 1} is wrong)") from None
-    except (OSError, ValueError) as error:
-        raise SceneError(str(path), f"cannot be read ({getattr(error, 'strerror', None) or error})") from None
-    try:
-        return tomllib.loads(text) if kind == ".toml" else json.loads(text, object_pairs_hook=_table)
-    except tomllib.TOMLDecodeError as error:
-        found = re.search(r"\(at line (\d+), column (\d+)\)", str(error))
-        end = text.count("\n") + 1, len(text.rpartition("\n")[2]) + 1
-        line, column = map(int, found.groups()) if found else end
-        _syntax(path, text, line, column, str(error).partition(" (at ")[0])
-    except json.JSONDecodeError as error:
-        _syntax(path, text, error.lineno, error.colno, error.msg)
-    except RecursionError:
-        raise SceneError(str(path), "tables or lists are nested too deeply") from None
-    except ValueError as error:
-        raise SceneError(str(path), str(error)) from None
-
-
-def _table(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    """Make a JSON table; of two equal keys one would get lost without a word."""
-    table = dict(pairs)
-    if len(table) < len(pairs):
-        keys = [key for key, _ in pairs]
-        twice = next(key for key in keys if keys.count(key) > 1)
-        raise ValueError(f'the key "{twice}" stands twice in one table')
-    return table
-
-
-def _syntax(path: Path, text: str, line: int, column: int, problem: str) -> NoReturn:
-    source = (text.splitlines()[line - 1 : line] or [""])[0]
-    comma = re.search(r"(?<![\d,\[])\s\d+,\d+\s*(#|$)", source)
-    hint = f'; write numbers with a point: "{comma[0].strip(" #").replace(",", ".")}"' if comma else ""
-    quoted = f", in: {source.strip()[:80]}" if source.strip() else ""
-    raise SceneError(f"{path}, line {line}, column {column}", f"{problem}{quoted}{hint}") from None
-
-
 def typed(source: S | Mapping[str, Any], struct: type[S]) -> S:
     """Turn data into a struct whose keys and types are right, all through.
 
@@ -127,13 +70,19 @@ def typed(source: S | Mapping[str, Any], struct: type[S]) -> S:
             return msgspec.msgpack.decode(msgspec.msgpack.encode(source, enc_hook=_simple), type=struct)
         if not _has_structs(source):
             return msgspec.convert(source, struct)
-    except (msgspec.ValidationError, OverflowError, TypeError):
-        pass  # once more, slowly: to word the message, or to take numpy numbers
-    plain = msgspec.to_builtins(source, enc_hook=_simple, str_keys=False)
+    except (msgspec.ValidationError, OverflowError, RecursionError, TypeError, UnicodeEncodeError):
+        pass  # once more, slowly: to word the message, or to take numpy numbers and what UTF-8 does not know
     try:
-        return msgspec.convert(plain, struct)
+        data = msgspec.to_builtins(source, enc_hook=_simple, str_keys=False)
+        try:
+            return msgspec.convert(data, struct)
+        except UnicodeEncodeError:  # titles and labels may hold halves of characters; this is a key or a choice
+            data = _written_out(data)
+            return msgspec.convert(data, struct)
     except msgspec.ValidationError as error:
-        raise explain(error, plain, struct) from None
+        raise explain(error, data, struct) from None
+    except RecursionError:
+        raise SceneError("the scene", TOO_DEEP) from None
 
 
 def plain(struct: msgspec.Struct) -> dict[str, Any]:
@@ -154,11 +103,28 @@ def plain(struct: msgspec.Struct) -> dict[str, Any]:
 
 def _simple(value: Any) -> Any:
     """Numbers and lists for what stands for them; anything else as its text, to be refused as such."""
+    if isinstance(value, np.ma.MaskedArray):
+        value = value.astype(object).filled("masked")  # numpy's null would mean that the key is left out
     if hasattr(value, "tolist"):
-        return value.tolist()
-    if isinstance(value, Real):
-        return float(value)
-    return dict(value) if isinstance(value, Mapping) else str(value)
+        listed = value.tolist()
+        if type(listed) is not type(value):
+            return listed
+        return f"{value} ({type(value).__name__}; take float() of it)"  # more digits than a double holds
+    if isinstance(value, Mapping):
+        return dict(value)
+    with suppress(OverflowError):
+        if isinstance(value, Real):
+            return float(value)
+    return as_text(value)
+
+
+def _written_out(data: Any) -> Any:
+    """All texts of plain data without halves of characters."""
+    if isinstance(data, dict):
+        return {_written_out(key): _written_out(value) for key, value in data.items()}
+    if isinstance(data, list):
+        return [_written_out(item) for item in data]
+    return visible(data) if isinstance(data, str) else data
 
 
 def _has_structs(data: Mapping[str, Any]) -> bool:
@@ -200,7 +166,7 @@ def check(scene: Scene) -> None:
         )
     _check_loads(scene, ends, hinges)
     if scene.analysis.steps < 1:
-        raise SceneError("analysis.steps", f"expected a whole number, 1 or more, got {scene.analysis.steps}")
+        raise SceneError("analysis.steps", f"expected a whole number, 1 or more, got {shown(scene.analysis.steps)}")
 
 
 class _Rows:
@@ -229,7 +195,11 @@ class _Rows:
         values = list(map(attrgetter("from_" if key == "from" else key), self.items))
         if not values or (values[0] is None and values.count(None) == len(values)):
             return np.full(len(values), np.nan)
-        numbers = np.fromiter(values, float if np.isscalar(values[0] or 0.0) else (float, 2), len(values))
+        try:
+            numbers = np.fromiter(values, float if np.isscalar(values[0] or 0.0) else (float, 2), len(values))
+        except OverflowError:  # msgspec minds integers that are too large, but not those far below 0
+            row = next(row for row, value in enumerate(values) if isinstance(value, int) and value < -(2**31))
+            raise SceneError(self.path(row, key), f"expected a whole number, got {shown(values[row])}") from None
         wrong = ~np.isfinite(numbers) if finite else np.isnan(numbers)
         bad = np.flatnonzero(wrong if wrong.ndim == 1 else wrong.any(axis=1))
         if bad.size and bad.size > values.count(None):

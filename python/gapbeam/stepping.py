@@ -10,12 +10,13 @@ import numpy as np
 
 from . import engine
 from .arguments import scheme
-from .errors import SceneError, shown
+from .errors import SceneError
 from .lowering import Arrays, lower
 from .path import follow
 from .results import Result
 from .scene import Scene, read_scene
 from .steps import LoadSteps, PathSteps
+from .wording import shown
 
 
 def solve(

@@ -1,0 +1,32 @@
+"""Characters that would not be seen in a line of text, but would change how it looks."""
+
+import re
+
+UNSEEN = re.compile(
+    "[\0-\x1f\x7f-\x9f"  # control characters
+    "\xad\u200b\u2060-\u2064\ufeff"  # of no width
+    "\u200e\u200f\u202a-\u202e\u2066-\u2069"  # what turns the direction of writing
+    "\u2028\u2029"  # ends of lines
+    "\ud800-\udfff\ufffe\uffff]"  # halves of characters, and what is none
+)
+
+
+def visible(text: str) -> str:
+    r"""Write what would not be seen as an escape, and everything else as it is.
+
+    Parameters
+    ----------
+    text : str
+        A title, a label, a name, in the words of a user.
+
+    Returns
+    -------
+    str
+        One line that a terminal, a picture and a file in UTF-8 can show.
+
+    Examples
+    --------
+    >>> visible("50 % of $F$ [kN]"), visible("beam\n\x1b[31m")
+    ('50 % of $F$ [kN]', 'beam\\n\\x1b[31m')
+    """
+    return UNSEEN.sub(lambda found: found[0].encode("unicode_escape").decode("ascii"), text)
