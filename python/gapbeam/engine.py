@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from . import _f77
+from . import calls as _f77  # the engine itself, but for Ctrl-C
 from .errors import EngineError, Status
 from .lowering import Arrays
 from .records import Pickled, Record, read_only
@@ -429,15 +429,15 @@ def values(arrays: Arrays, factor: float, starts: np.ndarray, piece: np.ndarray,
     numpy.ndarray
         4 by places: deflection, rotation, moment, shear.
     """
-    where = np.asarray(piece, dtype=np.int32) + np.int32(1)
-    if len(piece) == 0:
-        return np.empty((4, 0))
     inner = arrays.scaled
     length, force = arrays.exponents
-    found = _f77.gbvalu(
-        inner.pieces.T, inner.dead.T, inner.live.T, factor, starts, where, np.ldexp(distance, -length)
-    )
-    return np.ldexp(found, _field_exponents(length, force)[:, None])
+    found = np.empty((4, len(piece)))
+    for part in _f77.parts(len(piece)):
+        where = np.asarray(piece[part], dtype=np.int32) + np.int32(1)
+        at = np.ldexp(distance[part], -length)
+        some = _f77.gbvalu(inner.pieces.T, inner.dead.T, inner.live.T, factor, starts, where, at)
+        found[:, part] = np.ldexp(some, _field_exponents(length, force)[:, None])
+    return found
 
 
 def extremes(arrays: Arrays, factor: float, starts: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -11,13 +11,14 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from . import formatting as fmt
 from .plots_beam import FACES, SupportLanes, draw_beam, draw_contacts, legend_handles
 from .plots_loads import LoadLanes, draw_loads
+from .plots_save import literal, save
+from .plots_thin import outline
 
 if TYPE_CHECKING:
     from .results import Result
@@ -52,10 +53,7 @@ def plot(result: "Result", path: str | os.PathLike, step: int = -1) -> None:
     step : int
         Load step; default the last.
     """
-    # The same picture is the same file, and its text stays text
-    with rc_context({"svg.fonttype": "none", "svg.hashsalt": "gapbeam"}):
-        metadata = {"Date": None} if str(path).lower().endswith(".svg") else None
-        figure(result, step).savefig(path, metadata=metadata)
+    save(figure(result, step), path)
 
 
 def figure(result: "Result", step: int = -1) -> Figure:
@@ -118,7 +116,7 @@ def figure(result: "Result", step: int = -1) -> Figure:
     if panels:
         panel.tick_params(labelbottom=True)
         panel.set_xlabel(fmt.with_unit(scene, "x"), fontsize=8)
-    return picture
+    return literal(picture)
 
 
 def _axes(picture: Figure, scene: "Scene", bottom: float, height: float) -> Axes:
@@ -135,7 +133,7 @@ def _axes(picture: Figure, scene: "Scene", bottom: float, height: float) -> Axes
 def _headings(picture: Figure, result: "Result", step: int, states: tuple[str, ...], rows: int) -> None:
     height = picture.get_figheight()
     left = LEFT / WIDTH * 0.25
-    title = result.scene.title or "Beam"
+    title = fmt.title(result.scene, "Beam")
     picture.text(left, 1 - 0.22 / height, _cut(title, 95), fontsize=10, fontweight="bold", va="center")
     if result.status == "no-equilibrium":
         text = outcome(result)
@@ -193,6 +191,7 @@ def _curve(
     axes: Axes, x: np.ndarray, values: np.ndarray, extreme: dict[str, tuple[float, float]], avoid: Sequence[Point]
 ) -> None:
     """Draw one field with its largest and smallest value, whose labels keep clear of some points."""
+    x, values = outline(x, values, (WIDTH - LEFT - RIGHT) * 72)
     axes.fill_between(x, 0.0, values, color="0.9", linewidth=0, zorder=1)
     axes.plot(x, values, color="black", linewidth=1.1 if len(x) < 3000 else 0.6, solid_joinstyle="round", zorder=3, label="curve")
     shown = {kind: pair for kind, pair in extreme.items() if _counts(pair[0], extreme)}

@@ -5,11 +5,11 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 
-from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator
 
+from .plots_save import literal, save
 from .study_accuracy import Comparison
 from .study_methods import front
 
@@ -46,9 +46,7 @@ def plot_accuracy(comparisons: Sequence[Comparison], path: str | os.PathLike) ->
     path : str or os.PathLike
         The suffix decides on the format: .png, .pdf or .svg.
     """
-    with rc_context({"svg.fonttype": "none", "svg.hashsalt": "gapbeam"}):
-        metadata = {"Date": None} if str(path).lower().endswith(".svg") else None
-        accuracy_figure(comparisons).savefig(path, metadata=metadata)
+    save(accuracy_figure(comparisons), path)
 
 
 def accuracy_figure(comparisons: Sequence[Comparison]) -> Figure:
@@ -80,7 +78,7 @@ def accuracy_figure(comparisons: Sequence[Comparison]) -> Figure:
         [lines[name] for name in order], order, loc="center left", frameon=False, fontsize=8, title="method (circled: Pareto front)"
     )
     legend.get_title().set_fontsize(8)
-    return picture
+    return literal(picture)
 
 
 def _panel(axes: Axes, name: str, members: Sequence[Comparison]) -> None:

@@ -6,12 +6,12 @@ import os
 from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from . import formatting as fmt
 from .plots import LEFT, WIDTH, outcome
+from .plots_save import literal, save
 
 if TYPE_CHECKING:
     from .results import Result
@@ -40,9 +40,7 @@ def plot_path(result: Result, path: str | os.PathLike) -> None:
     path : str or os.PathLike
         The suffix decides on the format: .png, .pdf or .svg.
     """
-    with rc_context({"svg.fonttype": "none", "svg.hashsalt": "gapbeam"}):
-        metadata = {"Date": None} if str(path).lower().endswith(".svg") else None
-        path_figure(result).savefig(path, metadata=metadata)
+    save(path_figure(result), path)
 
 
 def path_figure(result: Result) -> Figure:
@@ -74,7 +72,7 @@ def path_figure(result: Result) -> Figure:
     factors = np.array([step.factor for step in states])
     height = (0.35 if result.status == "solved" else 0.65) + 2 * (GAP + PANEL) + FOOT
     picture = Figure(figsize=(WIDTH, height), dpi=200)
-    picture.text(0.02, 1 - 0.22 / height, scene.title or "Beam without a title", fontsize=11, fontweight="bold", va="center")
+    picture.text(0.02, 1 - 0.22 / height, fmt.title(scene), fontsize=11, fontweight="bold", va="center")
     if result.status != "solved":
         picture.text(0.02, 1 - 0.36 / height, outcome(result), fontsize=8, va="top", color="0.3", linespacing=1.3)
     normal = [k for k, support in enumerate(scene.supports) if support.direction == "normal"]
@@ -97,7 +95,7 @@ def path_figure(result: Result) -> Figure:
             axes.set_title(f"the {len(drawn[name])} largest of {moving}", loc="right", fontsize=8, color="0.3")
     note = "dots: load steps" if dots else "circles: filled, the support closes; open, it opens" if result.events else ""
     axes.set_xlabel("load factor" + (f" ({note})" if note else ""), fontsize=9)
-    return picture
+    return literal(picture)
 
 
 def _bends(result: Result) -> list[int]:

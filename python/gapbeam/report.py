@@ -7,14 +7,18 @@ import csv
 import io
 import json
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from types import GeneratorType
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from . import formatting as fmt
+from .calls import parts
 from .memory import refuse_beyond
 from .report_data import result_data, step_data
 from .report_scheme import legend, merged, scheme_table, symbol
+from .results import Fields
 from .states import BOUNDED
 
 if TYPE_CHECKING:
@@ -134,14 +138,21 @@ def json_parts(result: "Result", points: int = 20) -> Iterator[str]:
     ------
     str
     """
-    yield from _layout(result_data(result, points, steps=iter), "")
+    yield from _layout(result_data(result, points, steps=iter, fields=Fields.columns), "")
     yield "\n"
 
 
 def _layout(value: Any, indent: str) -> Iterator[str]:
     """Write JSON with every list of numbers, and every object without lists in it, on one line; generators as lists."""
+    if isinstance(value, np.ndarray):
+        for part in parts(len(value)):
+            yield "[" if part.start == 0 else ", "
+            yield json.dumps(value[part].tolist(), allow_nan=False)[1:-1]
+        yield "]"
+        return
     inner = value.values() if isinstance(value, dict) else value if isinstance(value, list | tuple) else ()
-    if type(value) is not GeneratorType and not any(isinstance(item, (dict, list, tuple, GeneratorType)) for item in inner):
+    lists = (dict, list, tuple, np.ndarray, GeneratorType)
+    if type(value) is not GeneratorType and not any(isinstance(item, lists) for item in inner):
         yield json.dumps(value, allow_nan=False)
         return
     named = isinstance(value, dict)
@@ -168,16 +179,36 @@ def to_csv(result: "Result", points: int = 20) -> str:
     str
         Where moment, shear or axial force jump, x appears twice: the left value, then the right one.
     """
-    columns = result.fields(points=points).to_dict()
+    return "".join(csv_parts(result, points))
+
+
+def csv_parts(result: "Result", points: int = 20) -> Iterator[str]:
+    """Write what `to_csv` writes, part by part.
+
+    Parameters
+    ----------
+    result, points
+        As for `to_csv`.
+
+    Yields
+    ------
+    str
+    """
+    columns = result.fields(points=points).columns()
+    headings = [fmt.with_unit(result.scene, name, name) for name in columns]
+    yield _csv([headings])
+    for part in parts(len(columns["x"])):
+        yield _csv(zip(*(column[part].tolist() for column in columns.values()), strict=True))
+
+
+def _csv(rows: Iterable[Sequence]) -> str:
     stream = io.StringIO()
-    writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow([fmt.with_unit(result.scene, name, name) for name in columns])
-    writer.writerows(zip(*columns.values(), strict=True))
+    csv.writer(stream, lineterminator="\n").writerows(rows)
     return stream.getvalue()
 
 
 def _headline(say: "Writer", result: "Result") -> None:
-    say.line(result.scene.title or "Beam without a title", "bold")
+    say.line(fmt.title(result.scene), "bold")
     if result.status != "solved":
         return
     way = fmt.count(len(result.steps), "load step") if result.path is None else fmt.count(len(result.events), "event")

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-if TYPE_CHECKING:
-    from .results import Result
+from .results import Fields, Result
 
 
-def result_data(result: Result, points: int = 20, steps: Callable[[Iterator], Any] = list) -> dict[str, Any]:
+def result_data(
+    result: Result, points: int = 20, steps: Callable[[Iterator], Any] = list, fields: Callable[[Fields], dict] = Fields.to_dict
+) -> dict[str, Any]:
     """Everything as plain data.
 
     Parameters
@@ -20,6 +21,8 @@ def result_data(result: Result, points: int = 20, steps: Callable[[Iterator], An
         Divisions of each span in the table of fields.
     steps : callable
         What becomes of the steps, which come one by one, each made when its turn comes: a list unless given.
+    fields : callable
+        What becomes of the fields: lists unless given.
 
     Returns
     -------
@@ -32,7 +35,7 @@ def result_data(result: Result, points: int = 20, steps: Callable[[Iterator], An
         `points` is no whole number, or too large.
     """
     scene = result.scene
-    fields = result.fields(points=points).to_dict() if result.steps else {}
+    columns = fields(result.fields(points=points)) if result.steps else {}
     data: dict[str, Any] = {
         "title": scene.title,
         "units": {"force": scene.units.force, "length": scene.units.length},
@@ -48,7 +51,7 @@ def result_data(result: Result, points: int = 20, steps: Callable[[Iterator], An
             {"factor": e.factor, "support": e.support, "x": e.x, "event": e.event} for e in result.events
         ]
     if result.steps:
-        data["fields"] = fields
+        data["fields"] = columns
         data["extremes"] = {
             name: {which: list(pair) for which, pair in row.items()} for name, row in result.extremes().items()
         }

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from math import inf, isnan, nan
@@ -259,6 +260,26 @@ def markdown_table(columns: Iterable[str], cells: list[list[str]], texts: int) -
     rule = "|---" * texts + "|---:" * (len(cells[0]) - texts) + "|"
     rows = ["| " + " | ".join(row) + " |" for row in (list(columns), *cells)]
     return [rows[0], rule, *rows[1:]]
+
+
+def literal_markdown(text: str) -> str:
+    r"""Write a text of the user so that Markdown shows it as it is.
+
+    Parameters
+    ----------
+    text : str
+        One line.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> literal_markdown("EI_1 <b> [x](y)")
+    'EI\\_1 \\<b\\> \\[x\\](y)'
+    """
+    return re.sub(r"([\\`*_\[\]<>#|$~])", r"\\\1", text)
 
 
 def print_extremes(rows: list[Row], console: Console | None = None) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf, isnan, nan
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
@@ -16,7 +16,7 @@ from .errors import SceneError
 from .exact import Reference
 from .scene import Analysis, Scene, read_scene
 from .stepping import solve
-from .study import markdown_table
+from .study import literal_markdown, markdown_table
 from .study_beam import MeshedBeam, Unfit, many_spans, mesh, one_span, soft_and_stiff, stiffness_jumps
 from .study_methods import (
     CONDENSED,
@@ -197,7 +197,7 @@ def _engine_alone(scene: Scene) -> Comparison:
         deflection = reference.error("deflection", left.deflection)
         reaction = reference.error("reaction", result.steps[-1].reaction)
         rows.append(Measured(name, deflection, moment, reaction, seconds, result.solves))
-    return Comparison(scene.title or "scene", len(reference.x) - 1, rows)
+    return Comparison(fmt.title(scene, "scene"), len(reference.x) - 1, rows)
 
 
 def tables(comparisons: Iterable[Comparison], cell: Callable[[Measured, bool], str]) -> dict[str, Table]:
@@ -334,6 +334,7 @@ def to_markdown(comparisons: Sequence[Comparison], picture: str = "", remark: st
     -------
     str
     """
+    comparisons = [replace(one, beam=literal_markdown(one.beam)) for one in comparisons]
     command = " ".join(["gapbeam study accuracy", *options.split(), "--markdown docs/accuracy.md --plot docs/accuracy.svg"])
     made = f"This page is made by `{command}`."
     lines = ["# Error against run time", "", made, "", *WORDS, "", *(f"* {line}" for line in _sentences(METHODS)), ""]

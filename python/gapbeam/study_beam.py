@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from .formatting import title
 from .lowering import HINGE, RESTRAINED, lower
 from .scene import CurvatureLoad, LinearLoad, MomentLoad, Scene, read_scene
 
@@ -220,7 +221,7 @@ def mesh(source: Mapping[str, Any] | Scene | str, parts: int, name: str = "") ->
     x = np.append(np.repeat(arrays.point_x[:-1], parts), arrays.point_x[-1])
     x[:-1] += np.tile(np.arange(parts), len(EI)) * length
     return MeshedBeam(
-        name or scene.title or "scene",
+        name or title(scene, "scene"),
         length,
         np.repeat(EI, parts),
         np.repeat(loads[:, 0], parts),

@@ -14,7 +14,8 @@ from time import perf_counter
 import numpy as np
 from msgspec import structs
 
-from . import _f77, _yardsticks
+from . import _yardsticks
+from .calls import gbkern, interruptible
 from .errors import GapbeamError
 from .scene import Analysis
 from .stepping import solve
@@ -123,9 +124,10 @@ def yardstick(name: str, number: int, refinements: int = 0, precise: bool = Fals
     -------
     Method
     """
+    solve = interruptible(_yardsticks.ysbeam, large=4)
 
     def run(beam: MeshedBeam, repeat: int) -> Answer:
-        w, m, r, closed, solves, status = _yardsticks.ysbeam(
+        w, m, r, closed, solves, status = solve(
             number, refinements, precise, reactions, beam.length, beam.EI, beam.q, beam.side, beam.stiffness, beam.level,
             beam.force, *beam.clamped, repeat,
         )  # fmt: skip
@@ -148,7 +150,7 @@ def kernel(refinements: int = 0) -> Method:
     """
 
     def run(beam: MeshedBeam, repeat: int) -> Answer:
-        w, m, status = _f77.gbkern(beam.length, beam.EI, beam.q, beam.stiffness, beam.force, refinements, repeat)
+        w, m, status = gbkern(beam.length, beam.EI, beam.q, beam.stiffness, beam.force, refinements, repeat)
         return Answer(w, m, None, beam.stiffness > 0.0, 1, WHY[1] if status else "")
 
     def fits(beam: MeshedBeam) -> bool:

@@ -1,0 +1,80 @@
+"""Files that are written in whole or left as they were."""
+
+from __future__ import annotations
+
+import errno
+import os
+import secrets
+import stat
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager, suppress
+
+
+def write_files(contents: Mapping[str | os.PathLike, bytes | Iterable[str]]) -> None:
+    """Write files, each in whole, and none of them before all are complete.
+
+    They are written under other names beside their places and put there at the end, so neither a full disk nor Ctrl-C
+    leaves half a file. A link stays a link; what it points to is replaced, and keeps owner and permissions. Devices
+    and pipes are written to as they are.
+
+    Parameters
+    ----------
+    contents : mapping of path to bytes or iterable of str
+        What is to stand in each file, texts in UTF-8.
+
+    Raises
+    ------
+    OSError
+        Names the file, and why it cannot be written.
+    """
+    places = {name: os.path.realpath(name) for name in contents if not _is_device(name)}
+    beside = {name: os.path.join(os.path.dirname(place), f".gapbeam-{secrets.token_hex(8)}") for name, place in places.items()}
+    try:
+        for name, content in contents.items():
+            data = [content] if isinstance(content, bytes) else (text.encode("utf-8") for text in content)
+            with _named(name):
+                if name in places:
+                    _write_new(beside[name], data, places[name])
+                else:
+                    with open(name, "wb") as stream:
+                        stream.writelines(data)
+        for name, place in places.items():
+            with _named(name):
+                os.replace(beside[name], place)
+    finally:
+        for path in beside.values():
+            with suppress(FileNotFoundError):
+                os.unlink(path)
+
+
+def _is_device(name: str | os.PathLike) -> bool:
+    """Whether there is something that cannot be replaced by a file."""
+    try:
+        return not stat.S_ISREG(os.stat(name).st_mode)
+    except FileNotFoundError:
+        return False
+
+
+def _write_new(path: str, data: Iterable[bytes], model: str) -> None:
+    """Write a file that is not there yet, down to the disk, with owner and permissions of another one if that exists."""
+    old = os.stat(model) if os.path.exists(model) else None
+    if old and not os.access(model, os.W_OK):
+        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
+    with open(path, "xb") as stream:
+        if old:
+            with suppress(AttributeError, PermissionError):  # Windows has no owners, and only root gives files away
+                os.chown(path, old.st_uid, old.st_gid)
+            with suppress(PermissionError):  # a disk that knows no permissions
+                os.chmod(path, stat.S_IMODE(old.st_mode))
+        stream.writelines(data)
+        stream.flush()
+        os.fsync(stream.fileno())
+
+
+@contextmanager
+def _named(name: str | os.PathLike) -> Iterator[None]:
+    """Let an error name the file that the user named."""
+    try:
+        yield
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, os.fspath(name)) from None
