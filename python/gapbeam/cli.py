@@ -4,22 +4,22 @@ What a command does not need is not imported: checking a scene loads neither ric
 """
 
 import argparse
-import json
 import os
+import signal
 import sys
-import tomllib
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
-from pathlib import Path
+import warnings
+from collections.abc import Iterable, Sequence
+from contextlib import suppress
+from textwrap import shorten
+from traceback import extract_tb
 from typing import NoReturn
 
-from .errors import GapbeamError, SceneError
+from .characters import visible
+from .cli_outputs import Outputs, source, until_closed
+from .errors import GapbeamError, SceneError, Status
 
 #: Exit statuses
-SOLVED, NO_SOLUTION, BAD_INPUT = 0, 1, 2
-
-#: Suffixes of pictures
-PICTURES = (".png", ".pdf", ".svg")
+SOLVED, NO_SOLUTION, REFUSED, FAILED, INTERRUPTED = 0, 1, 2, 3, 130
 
 SCENE = """\
 A small scene, beam.toml:
@@ -62,19 +62,26 @@ Units: any consistent set. The scene's labels go into the report and change no n
 
 STATUSES = """\
 Exit status:
-  0  solved, or the scene is valid
-  1  the structure cannot stand: the report says how it moves
-  2  bad input: one line on standard error, nothing is written
+  0    solved, or the scene is valid
+  1    the structure cannot stand: the report says how it moves
+  2    refused: bad input, a file that cannot be read or written, or a scene without one single answer;
+       one line on standard error says why, no file is written
+  3    failed: not enough memory, or a fault of gapbeam; one line says what happened and what to do
+  130  ended by Ctrl-C: no file is written in part
 """
 
 DESCRIPTION = "Beams of many spans on supports that act on one side only, with gaps: a scene file in, a report out."
 
 
 class _Parser(argparse.ArgumentParser):
-    """Refuses in one line."""
+    """Refuses in one line, and says so when the help cannot be written."""
 
     def error(self, message: str) -> NoReturn:
         raise SceneError(f"{message} (see {self.prog} --help)")
+
+    def print_help(self, file: None = None) -> None:
+        with until_closed():
+            print(self.format_help(), end="", file=file)
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -83,37 +90,67 @@ def main(argv: Sequence[str] | None = None) -> int:
     Parameters
     ----------
     argv : sequence of str, optional
-        Arguments without the name of the program; default ``sys.argv[1:]``.
+        Arguments without the name of the program; default ``sys.argv[1:]``: then warnings are one line each, and
+        Ctrl-C ends the process.
 
     Returns
     -------
     int
-        Exit status: 0 solved or valid, 1 the structure cannot stand, 2 bad input.
+        Exit status: 0 solved or valid, 1 the structure cannot stand, 2 refused, 3 failed, 130 ended by Ctrl-C.
     """
+    if argv is None:
+        warnings.formatwarning = lambda message, *_: f"gapbeam: warning: {message}\n"
     try:
         arguments = _parser().parse_args(argv)
         return arguments.command(arguments)
-    except (GapbeamError, OSError) as error:
-        print(f"gapbeam: error: {_one_line(error)}", file=sys.stderr)
-        return BAD_INPUT
+    except KeyboardInterrupt:
+        status = _tell(INTERRUPTED, "interrupted")
+        if argv is None:
+            _end(status)
+        return status
+    except Exception as error:
+        return _report(error)
 
 
-@contextmanager
-def _until_closed() -> Iterator[None]:
-    """Write to standard output until its reader has seen enough; a title may hold characters it has not."""
-    if hasattr(sys.stdout, "reconfigure"):
-        sys.stdout.reconfigure(errors="replace")
-    try:
-        yield
-        sys.stdout.flush()
-    except (BrokenPipeError, SystemExit):  # rich turns the first into the second
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+def _end(status: int) -> NoReturn:
+    """End the process; neither Ctrl-C once more nor a call of the engine that goes on in its thread may hold it up."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    for stream in (sys.stdout, sys.stderr):
+        with suppress(AttributeError, OSError):
+            stream.flush()
+    os._exit(status)
 
 
-def _one_line(error: Exception) -> str:
+def _tell(status: int, message: str) -> int:
+    """Write one line on standard error; where that is closed, the status has to do."""
+    with suppress(AttributeError, OSError):
+        sys.stderr.write(f"gapbeam: {visible(' '.join(message.split()))}\n")
+    return status
+
+
+def _report(error: Exception) -> int:
+    """Say what went wrong, and whose fault it is."""
+    if isinstance(error, MemoryError) or getattr(error, "status", None) == Status.NO_MEMORY:
+        return _tell(FAILED, f"error: not enough memory{_reason(error)}; ask for fewer load steps or files, or give it more")
+    if isinstance(error, GapbeamError):
+        return _tell(REFUSED, f"error: {error}")
     if isinstance(error, OSError) and error.filename is not None:
-        return f"{error.filename}: {error.strerror}"
-    return " ".join(str(error).split())
+        return _tell(REFUSED, f"error: {os.fsdecode(error.filename)}: {error.strerror}")
+    if isinstance(error, ImportError):
+        while isinstance(error.__cause__, ImportError):
+            error = error.__cause__
+        return _tell(FAILED, f"error: a part of gapbeam cannot be loaded{_reason(error)}; give it more memory, or install it again")
+    frames = [frame for frame in extract_tb(error.__traceback__) if os.path.dirname(frame.filename) == os.path.dirname(__file__)]
+    place = f"{os.path.basename(frames[-1].filename)}, line {frames[-1].lineno}"
+    return _tell(
+        FAILED,
+        f"internal error: {type(error).__name__}{_reason(error)} in {place}; this is a fault of gapbeam, not of the scene: "
+        "please send this line, the scene and what gapbeam --version prints to those who maintain it",
+    )
+
+
+def _reason(error: Exception) -> str:
+    return f" ({shorten(str(error), 300)})" if str(error) else ""
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -128,9 +165,9 @@ def _parser() -> argparse.ArgumentParser:
         "openings,\nextremes with their places, residuals against run time.",
     )  # fmt: skip
     _add_scene(run)
-    run.add_argument("--json", metavar="FILE", help="write everything as JSON; - is standard output, without report")
-    run.add_argument("--csv", metavar="FILE", help="write the fields along the beam at the last load step as a table; "
-                     "- is standard output, without report")  # fmt: skip
+    run.add_argument("--json", metavar="FILE", help="write everything as JSON (.json); - is standard output, without report")
+    run.add_argument("--csv", metavar="FILE", help="write the fields along the beam at the last load step as a table "
+                     "(.csv); - is standard output, without report")  # fmt: skip
     run.add_argument("--plot", metavar="FILE", help="draw beam, deflection, moment and shear (.png, .pdf or .svg)")
     run.add_argument("--path", metavar="FILE", help="draw reactions and openings over the load factor, every event marked; "
                      "best with follow = \"events\" (.png, .pdf or .svg)")  # fmt: skip
@@ -167,105 +204,72 @@ class _Version(argparse.Action):
     """Looks the version up only when asked."""
 
     def __call__(self, parser: argparse.ArgumentParser, *_: object) -> NoReturn:
-        from . import __version__
+        from importlib.metadata import version
 
-        print(f"gapbeam {__version__}")
+        with until_closed():
+            print(f"gapbeam {version('gapbeam')}")
         parser.exit()
 
 
-def _source(name: str) -> Mapping | str:
-    """Give `read_scene` what it takes: the name of a file, or the contents of standard input."""
-    if name != "-":
-        return name
-    text = sys.stdin.read()
-    try:
-        return json.loads(text) if text.lstrip().startswith("{") else tomllib.loads(text)
-    except ValueError as error:
-        raise SceneError("standard input", str(error)) from None
-
-
 def _run(arguments: argparse.Namespace) -> int:
-    outputs = {"--json": arguments.json, "--csv": arguments.csv, "--plot": arguments.plot, "--path": arguments.path}
-    _check_outputs(outputs)
+    names = {"--json": arguments.json, "--csv": arguments.csv, "--plot": arguments.plot, "--path": arguments.path}
+    outputs = Outputs(names, arguments.scene)
     from .scene import read_scene
     from .stepping import solve
 
-    result = solve(read_scene(_source(arguments.scene)))
-    status = SOLVED if result.status == "solved" else NO_SOLUTION
-    report_wanted = not arguments.quiet and "-" not in outputs.values()
-    from .report import print_report, to_csv, to_json
+    result = solve(read_scene(source(arguments.scene)))
+    solved = result.status == "solved"
+    from .report import csv_parts, json_parts, print_report
 
-    if arguments.json:
-        _write(arguments.json, to_json(result))
-    if arguments.csv and status == SOLVED:
-        _write(arguments.csv, to_csv(result))
-    if arguments.plot:
-        from .plots import plot
+    contents: dict[str, bytes | Iterable[str]] = {}
+    if "--json" in outputs:
+        contents["--json"] = json_parts(result)
+    if "--csv" in outputs and solved:
+        contents["--csv"] = csv_parts(result)
+    if "--plot" in outputs:
+        from .plots import figure
+        from .plots_save import picture
 
-        plot(result, arguments.plot)
-    if arguments.path and result.steps:
-        from .plots_path import plot_path
+        contents["--plot"] = picture(figure(result), outputs.suffix("--plot"))
+    if "--path" in outputs and result.steps:
+        from .plots_path import path_figure
+        from .plots_save import picture
 
-        plot_path(result, arguments.path)
-    if report_wanted:  # after the files: the reader of the report, such as head, may leave early
-        with _until_closed():
+        contents["--path"] = picture(path_figure(result), outputs.suffix("--path"))
+    outputs.write(contents)
+    if not arguments.quiet and not outputs.on_standard_output:
+        with until_closed():  # after the files: the reader of the report, such as head, may leave early
             print_report(result)
-    elif status != SOLVED:
-        print(f"gapbeam: {result.reason}", file=sys.stderr)
-    if arguments.csv and status != SOLVED:
-        print(f"gapbeam: {arguments.csv} is not written: there are no fields without equilibrium", file=sys.stderr)
-    return status
-
-
-def _write(name: str, text: str) -> None:
-    if name == "-":
-        with _until_closed():
-            sys.stdout.write(text)
-    else:
-        Path(name).write_text(text, encoding="utf-8", newline="")
-
-
-def _check_outputs(outputs: Mapping[str, str | None]) -> None:
-    """Refuse before solving what could not be written after it."""
-    names = [name for name in outputs.values() if name]
-    for option, name in outputs.items():
-        if name is None:
-            continue
-        if name == "-" and option not in ("--plot", "--path"):
-            continue
-        path = Path(name)
-        if option in ("--plot", "--path") and path.suffix.lower() not in PICTURES:
-            raise SceneError(option, f'expected a file that ends in .png, .pdf or .svg, got "{name}"')
-        if not name or path.is_dir():
-            raise SceneError(option, f'expected the name of a file, got "{name}"')
-        if not path.parent.is_dir():
-            raise SceneError(option, f'the folder of "{name}" does not exist')
-        if not os.access(path if path.exists() else path.parent, os.W_OK):
-            raise SceneError(option, f'no permission to write "{name}"')
-    if len(set(names)) < len(names):
-        raise SceneError(f"{', '.join(option for option, name in outputs.items() if name)} need different files")
+    elif not solved:
+        _tell(NO_SOLUTION, result.reason)
+    for option in ("--csv", "--path"):
+        if option in outputs and option not in contents:
+            _tell(NO_SOLUTION, f"{outputs[option]} is not written: there is nothing to show without equilibrium")
+    return SOLVED if solved else NO_SOLUTION
 
 
 def _check(arguments: argparse.Namespace) -> int:
-    from .formatting import count, number
+    from .formatting import count, number, unit
     from .scene import read_scene
 
-    scene = read_scene(_source(arguments.scene))
-    length = f"{number(float(scene.span_ends()[-1]))} {scene.units.length}".rstrip()
+    scene = read_scene(source(arguments.scene))
+    length = f"{number(float(scene.span_ends()[-1]))} {unit(scene, 'x')}".rstrip()
     one_sided = sum(support.side != "both" for support in scene.supports)
     parts = [
         f"{count(len(scene.beam.spans), 'span')}, {length}",
         f"{count(len(scene.supports), 'support')}, {one_sided:,} of them one-sided",
         count(len(scene.loads), "load"),
     ]
-    with _until_closed():
-        print(f"{arguments.scene}: valid: " + "; ".join(parts))
+    with until_closed():
+        print(f"{visible(arguments.scene)}: valid: " + "; ".join(parts))
     return SOLVED
 
 
 def _schema(_: argparse.Namespace) -> int:
+    import json
+
     from .scene import scene_schema
 
-    with _until_closed():
+    with until_closed():
         print(json.dumps(scene_schema(), indent=2, allow_nan=False))
     return SOLVED

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import argparse
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .cli import SOLVED, _check_outputs, _source, _until_closed, _write
+from .cli import SOLVED
+from .cli_outputs import Outputs, source, until_closed
 from .errors import SceneError
 
 if TYPE_CHECKING:
@@ -70,34 +71,27 @@ def add_studies(commands: argparse._SubParsersAction) -> None:
         description="Count the linear solves and events of the reference problems from all starting schemes, of fronts that move\n"
         "over thousands of supports, cold and warm, and of many spans. Takes some seconds.",
     )  # fmt: skip
-    schemes.add_argument("--markdown", metavar="FILE", help="write the table as a page for the documentation; - is standard output")
+    schemes.add_argument("--markdown", metavar="FILE", help="write the table as a page for the documentation (.md); - is standard "
+                         "output")  # fmt: skip
     schemes.set_defaults(command=_study_schemes)
 
 
 def _add_tables(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--csv", metavar="FILE", help="write the table with all digits; - is standard output, nothing else")
-    parser.add_argument("--markdown", metavar="FILE", help="write the table as a page for the documentation; - as above")
+    parser.add_argument("--csv", metavar="FILE", help="write the table with all digits (.csv); - is standard output, nothing else")
+    parser.add_argument("--markdown", metavar="FILE", help="write the table as a page for the documentation (.md); - as above")
 
 
 def _study_extremes(arguments: argparse.Namespace) -> int:
-    outputs = {"--csv": arguments.csv, "--markdown": arguments.markdown}
-    _check_outputs(outputs)
+    outputs = _outputs(arguments)
     from .study import extremes, print_extremes, to_csv, to_markdown
     from .study_extremes import cases
 
     rows = list(extremes(cases(arguments.largest)))
-    for name, form in ((arguments.csv, to_csv), (arguments.markdown, to_markdown)):
-        if name:
-            _write(name, form(rows))
-    if "-" not in outputs.values():
-        with _until_closed():
-            print_extremes(rows)
-    return SOLVED
+    return _tell(outputs, {"--csv": to_csv, "--markdown": to_markdown}, print_extremes, rows)
 
 
 def _study_accuracy(arguments: argparse.Namespace) -> int:
-    outputs = {"--csv": arguments.csv, "--markdown": arguments.markdown, "--plot": arguments.plot}
-    _check_outputs(outputs)
+    outputs = _outputs(arguments, arguments.scene)
     from .study_accuracy import (
         FAMILIES,
         PARTS,
@@ -119,64 +113,68 @@ def _study_accuracy(arguments: argparse.Namespace) -> int:
         raise SceneError("--parts and --largest", "expected positive numbers")
     remark = ""
     if arguments.scene:
-        comparisons, remark = scene_comparisons(_source(arguments.scene), arguments.parts or PARTS)
+        comparisons, remark = scene_comparisons(source(arguments.scene), arguments.parts or PARTS)
     else:
         comparisons = list(families(arguments.family, arguments.largest))
     if not comparisons:
         raise SceneError("--largest", f"no mesh has as few as {arguments.largest} elements")
-    if arguments.csv:
-        _write(arguments.csv, to_csv(comparisons))
-    if arguments.plot:
-        from .plots_accuracy import plot_accuracy
 
-        plot_accuracy(comparisons, arguments.plot)
-    if arguments.markdown:
-        picture = os.path.relpath(arguments.plot, Path(arguments.markdown).parent) if arguments.plot else ""
+    def drawing(comparisons: list) -> bytes:
+        from .plots_accuracy import accuracy_figure
+        from .plots_save import picture
+
+        return picture(accuracy_figure(comparisons), outputs.suffix("--plot"))
+
+    def page(comparisons: list) -> str:
+        beside = os.path.relpath(arguments.plot, Path(arguments.markdown).parent) if arguments.plot else ""
         options = [arguments.scene or "", *(f"--family {name}" for name in arguments.family)]
-        _write(arguments.markdown, to_markdown(comparisons, picture, remark, " ".join(options)))
-    if "-" not in outputs.values():
-        with _until_closed():
-            print_comparisons(comparisons, remark)
-    return SOLVED
+        return to_markdown(comparisons, beside, remark, " ".join(options))
+
+    forms = {"--csv": to_csv, "--plot": drawing, "--markdown": page}
+    return _tell(outputs, forms, lambda comparisons: print_comparisons(comparisons, remark), comparisons)
 
 
 def _study_contact(arguments: argparse.Namespace) -> int:
-    _check_outputs({"--csv": arguments.csv, "--markdown": arguments.markdown})
+    outputs = _outputs(arguments)
     from .study_contact import PAGE, contact, table, values
 
-    return _tell(arguments, PAGE, list(contact(arguments.largest)), table, values)
+    return _tell_page(arguments, outputs, PAGE, list(contact(arguments.largest)), table, values)
 
 
 def _study_kernel(arguments: argparse.Namespace) -> int:
-    _check_outputs({"--csv": arguments.csv, "--markdown": arguments.markdown})
+    outputs = _outputs(arguments)
     from .study_kernel import PAGE, kernels, table, values
 
-    return _tell(arguments, PAGE, list(kernels(arguments.largest)), table, values)
-
-
-def _tell(arguments: argparse.Namespace, page: Page, rows: list, table: Callable, values: Callable) -> int:
-    """Write a study's table into the files asked for, and print it unless one of them is standard output."""
-    if not rows:
-        raise SceneError("--largest", f"nothing is as small as {arguments.largest}")
-    if arguments.csv:
-        _write(arguments.csv, page.csv(values(rows)))
-    if arguments.markdown:
-        _write(arguments.markdown, page.markdown(table(rows)))
-    if "-" not in (arguments.csv, arguments.markdown):
-        with _until_closed():
-            page.show(table(rows))
-    return SOLVED
+    return _tell_page(arguments, outputs, PAGE, list(kernels(arguments.largest)), table, values)
 
 
 def _study_schemes(arguments: argparse.Namespace) -> int:
-    outputs = {"--markdown": arguments.markdown}
-    _check_outputs(outputs)
+    outputs = _outputs(arguments)
     from .study_schemes import print_schemes, schemes, to_markdown
 
-    rows = list(schemes())
-    if arguments.markdown:
-        _write(arguments.markdown, to_markdown(rows))
-    if arguments.markdown != "-":
-        with _until_closed():
-            print_schemes(rows)
+    return _tell(outputs, {"--markdown": to_markdown}, print_schemes, list(schemes()))
+
+
+def _outputs(arguments: argparse.Namespace, scene: str | None = None) -> Outputs:
+    """Check the files that the options of a study name."""
+    return Outputs({f"--{name}": getattr(arguments, name, None) for name in ("csv", "markdown", "plot")}, scene)
+
+
+def _tell_page(
+    arguments: argparse.Namespace, outputs: Outputs, page: Page, rows: list, table: Callable, values: Callable
+) -> int:
+    """Tell a study that is one table."""
+    if not rows:
+        raise SceneError("--largest", f"nothing is as small as {arguments.largest}")
+    forms = {"--csv": lambda rows: page.csv(values(rows)), "--markdown": lambda rows: page.markdown(table(rows))}
+    return _tell(outputs, forms, lambda rows: page.show(table(rows)), rows)
+
+
+def _tell(outputs: Outputs, forms: Mapping[str, Callable], show: Callable, rows: list) -> int:
+    """Write what a study found into the files asked for, and print it unless one of them is standard output."""
+    contents = {option: form(rows) for option, form in forms.items() if option in outputs}
+    outputs.write({option: [content] if isinstance(content, str) else content for option, content in contents.items()})
+    if not outputs.on_standard_output:
+        with until_closed():
+            show(rows)
     return SOLVED
