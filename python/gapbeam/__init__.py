@@ -13,60 +13,24 @@ Units: any consistent set. Signs: x to the right; deflections and loads positive
 sagging, rotations and couples clockwise.
 """
 
-from importlib.metadata import version as _version
+from importlib import import_module
+from importlib.util import find_spec
+from typing import TYPE_CHECKING, Any
 
-from .errors import EngineError, GapbeamError, SceneError, Status
-from .prepared import Cases, Prepared, prepare
-from .results import Fields, Result, System
-from .scene import (
-    Analysis,
-    AxialLoad,
-    Beam,
-    CurvatureLoad,
-    ForceLoad,
-    Foundation,
-    LinearLoad,
-    MomentLoad,
-    Scene,
-    Section,
-    Support,
-    UniformLoad,
-    Units,
-    read_scene,
-    scene_schema,
-)
-from .states import Step
-from .stepping import solve
+if TYPE_CHECKING:
+    from .interface import *  # noqa: F403
 
-__version__ = _version("gapbeam")
 
-__all__ = [
-    "Analysis",
-    "AxialLoad",
-    "Beam",
-    "Cases",
-    "CurvatureLoad",
-    "EngineError",
-    "Fields",
-    "ForceLoad",
-    "Foundation",
-    "GapbeamError",
-    "LinearLoad",
-    "MomentLoad",
-    "Prepared",
-    "Result",
-    "Scene",
-    "SceneError",
-    "Section",
-    "Status",
-    "Step",
-    "Support",
-    "System",
-    "UniformLoad",
-    "Units",
-    "__version__",
-    "prepare",
-    "read_scene",
-    "scene_schema",
-    "solve",
-]
+def __getattr__(name: str) -> Any:
+    """Import what is first asked for, so that the command can report when that fails, or is interrupted."""
+    if find_spec(f"{__name__}.{name}"):
+        return import_module(f"{__name__}.{name}")
+    interface = import_module(f"{__name__}.interface")
+    globals().update({key: getattr(interface, key) for key in ("__all__", *interface.__all__)})
+    if name not in globals():
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return globals()[name]
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__getattr__("__all__")})

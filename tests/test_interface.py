@@ -1,0 +1,47 @@
+"""What `import gapbeam` offers, which is imported when it is first asked for."""
+
+import pickle
+import subprocess
+import sys
+
+import gapbeam
+import pytest
+
+
+def fresh(code):
+    """Run a line in an interpreter that has imported nothing yet."""
+    return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+
+
+@pytest.mark.parametrize("name", gapbeam.__all__)
+def test_names(name):
+    run = fresh(f"import gapbeam; gapbeam.{name}; from gapbeam import {name}")
+    assert (run.returncode, run.stderr) == (0, "")
+
+
+def test_all_of_them_at_once():
+    run = fresh("from gapbeam import *; import gapbeam; assert set(gapbeam.__all__) <= set(dir(gapbeam)) & set(globals())")
+    assert (run.returncode, run.stderr) == (0, "")
+
+
+@pytest.mark.parametrize("name", ["engine", "errors", "stepping", "plots", "_f77", "cli"])
+def test_modules(name):
+    run = fresh(f"import gapbeam; gapbeam.{name}; import gapbeam.{name}; from gapbeam import {name}")
+    assert (run.returncode, run.stderr) == (0, "")
+
+
+def test_nothing_is_imported_before():
+    code = "import sys, gapbeam, gapbeam.cli; sys.exit(bool({'numpy', 'msgspec', 'gapbeam._f77'} & set(sys.modules)))"
+    assert fresh(code).returncode == 0
+
+
+def test_other_names():
+    with pytest.raises(AttributeError, match="module 'gapbeam' has no attribute 'solv'"):
+        _ = gapbeam.solv
+    with pytest.raises(ImportError, match="cannot import name 'solv'"):
+        exec("from gapbeam import solv")
+
+
+def test_objects_belong_to_their_modules():
+    assert pickle.loads(pickle.dumps(gapbeam.Beam([1.0], EI=2.0))) == gapbeam.Beam([1.0], EI=2.0)
+    assert gapbeam.solve.__module__ == "gapbeam.stepping"
