@@ -11,14 +11,16 @@
 ! equilibrium, above 10 an error with its MESSAGE and nothing else set.
 
 ! Condense the pieces between nodes into links
-subroutine gbcond(np, nl, piece, dead, live, last, link)
+subroutine gbcond(np, nl, piece, dead, live, last, link, status)
     use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
+    use gapbeam_error, only: gapbeam_solved, gapbeam_no_memory
     use gapbeam_link, only: link_type, piece_type, load_type, condense_link
     implicit none
     integer, intent(in) :: np, nl
     double precision, intent(in), target :: piece(3, np), dead(5, np), live(5, np)
     integer, intent(in) :: last(nl)
     double precision, intent(out), target :: link(21, nl)
+    integer, intent(out) :: status
     !f2py threadsafe
     !f2py integer, intent(hide), depend(piece) :: np = shape(piece, 1)
     !f2py integer, intent(hide), depend(last) :: nl = shape(last, 0)
@@ -26,13 +28,16 @@ subroutine gbcond(np, nl, piece, dead, live, last, link)
     type(load_type), pointer :: deads(:), lives(:)
     type(link_type), pointer :: links(:)
     double precision, allocatable :: work(:)
-    integer :: i, first
+    integer :: i, first, stat
 
+    status = gapbeam_no_memory
+    allocate (work(np), stat=stat)
+    if (stat /= 0) return
+    status = gapbeam_solved
     call c_f_pointer(c_loc(piece), pieces, [np])
     call c_f_pointer(c_loc(dead), deads, [np])
     call c_f_pointer(c_loc(live), lives, [np])
     call c_f_pointer(c_loc(link), links, [nl])
-    allocate (work(np))
     first = 1
     do i = 1, nl
         call condense_link(pieces(first:last(i)), deads(first:last(i)), lives(first:last(i)), work, links(i))
@@ -44,7 +49,8 @@ end subroutine gbcond
 subroutine gbsolv(np, nl, ns, piece, dead, live, last, link, kind, compli, force, couple, snode, sside, sstiff, scont, &
                   factor, rule, closed, undec, w, ml, mr, shear, react, motion, solves, method, indiff, back, status, message)
     use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
-    use gapbeam_error, only: error_type, gapbeam_solved
+    use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_memory
+    use gapbeam_memory, only: enough_memory, for_solving
     use gapbeam_link, only: link_type
     use gapbeam_model, only: beam_type, new_beam
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
@@ -90,6 +96,20 @@ subroutine gbsolv(np, nl, ns, piece, dead, live, last, link, kind, compli, force
     type(error_type), allocatable :: error
     logical, allocatable :: acting(:)
 
+    w = 0.0d0
+    ml = 0.0d0
+    mr = 0.0d0
+    shear = 0.0d0
+    react = 0.0d0
+    motion = 0.0d0
+    undec = 0
+    indiff = 0
+    solves = 0
+    method = 0
+    back = 0
+    message = " "
+    status = gapbeam_no_memory
+    if (.not. enough_memory(for_solving, nl, ns, np)) return
     call c_f_pointer(c_loc(link), links, [nl])
     call c_f_pointer(c_loc(piece), detail%pieces, [np])
     call c_f_pointer(c_loc(dead), detail%dead, [np])
@@ -101,18 +121,9 @@ subroutine gbsolv(np, nl, ns, piece, dead, live, last, link, kind, compli, force
     allocate (acting(ns))
     acting(:) = closed /= 0
     call decide_scheme(beam, detail, factor, rule, acting, work, outcome, error)
-    w = 0.0d0
-    ml = 0.0d0
-    mr = 0.0d0
-    shear = 0.0d0
-    react = 0.0d0
-    motion = 0.0d0
-    undec = 0
-    indiff = 0
     solves = work%solves
     method = work%method
     back = merge(1, 0, work%came_back)
-    message = " "
     if (allocated(error)) then
         status = error%code
         message = error%message
@@ -133,14 +144,15 @@ end subroutine gbsolv
 
 ! Residuals, and bounds for the errors, of a state that GBSOLV found
 subroutine gbcert(np, nl, ns, piece, dead, live, last, link, kind, compli, force, couple, snode, sside, sstiff, scont, &
-                  factor, closed, w, ml, mr, react, start, resid, bound, known)
+                  factor, closed, w, ml, mr, react, start, resid, bound, known, status, message)
     use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
     use gapbeam_element, only: field_type
     use gapbeam_link, only: link_type
     use gapbeam_model, only: beam_type, new_beam
     use gapbeam_referee, only: detail_type
     use gapbeam_certificate, only: certify, certificate_type
-    use gapbeam_error, only: error_type
+    use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_memory
+    use gapbeam_memory, only: enough_memory, for_certifying
     implicit none
     ! As for GBSOLV, START by GBRECO
     integer, intent(in) :: np, nl, ns
@@ -158,9 +170,10 @@ subroutine gbcert(np, nl, ns, piece, dead, live, last, link, kind, compli, force
     ! Relative residuals of compatibility, equilibrium, complementarity
     double precision, intent(out) :: resid(3)
     ! Largest errors of deflections of the nodes, of reactions; of deflections, rotations, moments, shears along the beam; 1, or 0
-    ! where the position is free: deflections and rotations have none then; -1 where the state could not be checked
+    ! where the position is free: deflections and rotations have none then
     double precision, intent(out) :: bound(6)
-    integer, intent(out) :: known
+    integer, intent(out) :: known, status
+    character(len=240), intent(out) :: message
     !f2py threadsafe
     !f2py integer, intent(hide), depend(piece) :: np = shape(piece, 1)
     !f2py integer, intent(hide), depend(link) :: nl = shape(link, 1)
@@ -173,6 +186,12 @@ subroutine gbcert(np, nl, ns, piece, dead, live, last, link, kind, compli, force
     type(error_type), allocatable :: error
     logical, allocatable :: acting(:)
 
+    resid = 0.0d0
+    bound = 0.0d0
+    known = 0
+    message = " "
+    status = gapbeam_no_memory
+    if (.not. enough_memory(for_certifying, nl, ns, np)) return
     call c_f_pointer(c_loc(link), links, [nl])
     call c_f_pointer(c_loc(start), starts, [np])
     call c_f_pointer(c_loc(piece), detail%pieces, [np])
@@ -186,14 +205,19 @@ subroutine gbcert(np, nl, ns, piece, dead, live, last, link, kind, compli, force
     resid = [found%compatibility, found%equilibrium, found%complementarity]
     bound = [found%of_nodes, found%reaction, found%deflection, found%rotation, found%moment, found%shear]
     known = merge(1, 0, found%known)
-    if (allocated(error)) known = -1
+    status = gapbeam_solved
+    if (allocated(error)) then
+        status = error%code
+        message = error%message
+    end if
 end subroutine gbcert
 
 ! Follow the load from one factor to another, from event to event
 subroutine gbpath(np, nl, ns, most, piece, dead, live, last, link, kind, compli, force, couple, snode, sside, sstiff, scont, &
                   limit, factor, closed, margin, events, at, which, what, motion, solves, nodes, status, message)
     use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
-    use gapbeam_error, only: error_type
+    use gapbeam_error, only: error_type, gapbeam_no_memory
+    use gapbeam_memory, only: enough_memory, for_following
     use gapbeam_link, only: link_type
     use gapbeam_model, only: beam_type, new_beam
     use gapbeam_scheme, only: outcome_type
@@ -236,6 +260,16 @@ subroutine gbpath(np, nl, ns, most, piece, dead, live, last, link, kind, compli,
     type(error_type), allocatable :: error
     logical, allocatable :: acting(:), zero(:)
 
+    events = 0
+    at = 0.0d0
+    which = 0
+    what = 0
+    motion = 0.0d0
+    message = " "
+    solves = 0
+    nodes = 0
+    status = gapbeam_no_memory
+    if (.not. enough_memory(for_following, nl, ns, np)) return
     call c_f_pointer(c_loc(link), links, [nl])
     call c_f_pointer(c_loc(piece), detail%pieces, [np])
     call c_f_pointer(c_loc(dead), detail%dead, [np])
@@ -245,11 +279,6 @@ subroutine gbpath(np, nl, ns, most, piece, dead, live, last, link, kind, compli,
     allocate (acting(ns), zero(ns))
     acting(:) = closed /= 0
     zero(:) = margin /= 0
-    at = 0.0d0
-    which = 0
-    what = 0
-    motion = 0.0d0
-    message = " "
     call follow_load(beam, detail, limit, most, factor, acting, zero, path, outcome, error)
     closed = merge(1, 0, acting)
     margin = merge(1, 0, zero)
@@ -268,8 +297,10 @@ subroutine gbpath(np, nl, ns, most, piece, dead, live, last, link, kind, compli,
 end subroutine gbpath
 
 ! What each load does to the links, for GBCASE: rows of loads on pieces, sorted by load, then piece (both from 1)
-subroutine gbshar(np, nl, nr, piece, link, last, rload, rpiece, rvalue, nshare, sload, slink, share)
+subroutine gbshar(np, nl, nr, piece, link, last, rload, rpiece, rvalue, nshare, sload, slink, share, status)
     use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
+    use gapbeam_error, only: gapbeam_solved, gapbeam_no_memory
+    use gapbeam_memory, only: enough_memory, for_fields
     use gapbeam_link, only: link_type, piece_type, load_type
     use gapbeam_cases, only: share_type, condense_shares
     implicit none
@@ -281,6 +312,7 @@ subroutine gbshar(np, nl, nr, piece, link, last, rload, rpiece, rvalue, nshare, 
     ! NSHARE shares: load, link, values
     integer, intent(out) :: nshare, sload(nr), slink(nr)
     double precision, intent(out), target :: share(6, nr)
+    integer, intent(out) :: status
     !f2py threadsafe
     !f2py integer, intent(hide), depend(piece) :: np = shape(piece, 1)
     !f2py integer, intent(hide), depend(link) :: nl = shape(link, 1)
@@ -290,6 +322,10 @@ subroutine gbshar(np, nl, nr, piece, link, last, rload, rpiece, rvalue, nshare, 
     type(load_type), pointer :: values(:)
     type(share_type), pointer :: shares(:)
 
+    nshare = 0
+    status = gapbeam_no_memory
+    if (.not. enough_memory(for_fields, nl, 0, np)) return
+    status = gapbeam_solved
     call c_f_pointer(c_loc(piece), pieces, [np])
     call c_f_pointer(c_loc(link), links, [nl])
     call c_f_pointer(c_loc(rvalue), values, [nr])
@@ -307,7 +343,8 @@ subroutine gbcase(nl, ns, nd, nsh, nno, nc, link, kind, compli, snode, sside, ss
     use gapbeam_model, only: beam_type, new_beam
     use gapbeam_workspace, only: workspace_type, new_workspace
     use gapbeam_cases, only: share_type, node_share_type, solve_case
-    use gapbeam_error, only: gapbeam_solved
+    use gapbeam_error, only: gapbeam_solved, gapbeam_no_memory
+    use gapbeam_memory, only: enough_memory, for_solving
     implicit none
     ! As for GBSOLV; ND loads, NSH shares of links, NNO shares of nodes, NC cases
     integer, intent(in) :: nl, ns, nd, nsh, nno, nc
@@ -327,6 +364,7 @@ subroutine gbcase(nl, ns, nd, nsh, nno, nc, link, kind, compli, snode, sside, ss
     ! Schemes: start in, working scheme out; of a case that is not solved all open, and its results are not numbers
     integer, intent(inout) :: closed(ns, nc)
     double precision, intent(out) :: w(0:nl, nc), ml(0:nl, nc), mr(0:nl, nc), shear(nl, nc), react(ns, nc)
+    ! Where memory ends all STATUS say so
     integer, intent(out) :: solves(nc), status(nc)
     !f2py threadsafe
     !f2py integer, intent(hide), depend(link) :: nl = shape(link, 1)
@@ -345,6 +383,9 @@ subroutine gbcase(nl, ns, nd, nsh, nno, nc, link, kind, compli, snode, sside, ss
     double precision :: nan
     integer :: i
 
+    solves = 0
+    status = gapbeam_no_memory
+    if (.not. enough_memory(for_solving, nl, ns, 0)) return
     call c_f_pointer(c_loc(link), links, [nl])
     call c_f_pointer(c_loc(share), shares, [nsh])
     call c_f_pointer(c_loc(pshare), node_shares, [nno])
@@ -361,6 +402,10 @@ subroutine gbcase(nl, ns, nd, nsh, nno, nc, link, kind, compli, snode, sside, ss
     do i = 1, nc
         acting(:) = closed(:, i) /= 0
         call solve_case(factor(:, i), sload, slink, shares, pload, pnode, node_shares, rule, beam, acting, work, status(i))
+        if (status(i) == gapbeam_no_memory) then
+            status = gapbeam_no_memory
+            return
+        end if
         solves(i) = work%solves
         closed(:, i) = 0
         if (status(i) /= gapbeam_solved) cycle
@@ -374,8 +419,10 @@ subroutine gbcase(nl, ns, nd, nsh, nno, nc, link, kind, compli, snode, sside, ss
 end subroutine gbcase
 
 ! Fields at the left end of every piece
-subroutine gbreco(np, nl, piece, dead, live, factor, link, last, kind, w, ml, mr, shear, start)
+subroutine gbreco(np, nl, piece, dead, live, factor, link, last, kind, w, ml, mr, shear, start, status)
     use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
+    use gapbeam_error, only: gapbeam_solved, gapbeam_no_memory
+    use gapbeam_memory, only: enough_memory, for_fields
     use gapbeam_element, only: field_type
     use gapbeam_link, only: link_type, piece_type, load_type
     use gapbeam_recover, only: recover_beam
@@ -387,6 +434,7 @@ subroutine gbreco(np, nl, piece, dead, live, factor, link, last, kind, w, ml, mr
     double precision, intent(in) :: w(0:nl), ml(0:nl), mr(0:nl), shear(nl)
     ! Deflection, rotation, moment, shear just right of the left end of each piece
     double precision, intent(out), target :: start(4, np)
+    integer, intent(out) :: status
     !f2py threadsafe
     !f2py integer, intent(hide), depend(piece) :: np = shape(piece, 1)
     !f2py integer, intent(hide), depend(link) :: nl = shape(link, 1)
@@ -395,6 +443,9 @@ subroutine gbreco(np, nl, piece, dead, live, factor, link, last, kind, w, ml, mr
     type(link_type), pointer :: links(:)
     type(field_type), pointer :: starts(:)
 
+    status = gapbeam_no_memory
+    if (.not. enough_memory(for_fields, nl, 0, np)) return
+    status = gapbeam_solved
     call c_f_pointer(c_loc(piece), pieces, [np])
     call c_f_pointer(c_loc(dead), deads, [np])
     call c_f_pointer(c_loc(live), lives, [np])
@@ -458,6 +509,8 @@ end subroutine gbextr
 
 ! The axial system: N bars between points 0..N
 subroutine gbaxia(n, flex, force, stiff, settle, u, pull, react, state, place)
+    use gapbeam_error, only: gapbeam_no_memory
+    use gapbeam_memory, only: enough_memory, for_fields
     use gapbeam_axial, only: solve_axial
     implicit none
     integer, intent(in) :: n
@@ -465,16 +518,23 @@ subroutine gbaxia(n, flex, force, stiff, settle, u, pull, react, state, place)
     double precision, intent(in) :: flex(n), force(0:n), stiff(0:n), settle(0:n)
     ! Displacement of each point, normal force of each bar (tension), force of each support on the beam
     double precision, intent(out) :: u(0:n), pull(n), react(0:n)
-    ! 0 solved, 1 slides, 2 rigid between two rigid supports, at point PLACE
+    ! 0 solved, 1 slides, 2 rigid between two rigid supports, at point PLACE; or GAPBEAM_NO_MEMORY
     integer, intent(out) :: state, place
     !f2py threadsafe
     !f2py integer, intent(hide), depend(flex) :: n = shape(flex, 0)
 
+    u = 0.0d0
+    pull = 0.0d0
+    react = 0.0d0
+    place = 0
+    state = gapbeam_no_memory
+    if (.not. enough_memory(for_fields, 0, 0, n)) return
     call solve_axial(flex, force, stiff, settle, u, pull, react, state, place)
 end subroutine gbaxia
 
 ! Deflections and moments of a beam of N elements over two-sided supports, REPEAT times (for measuring)
 subroutine gbkern(n, length, ei, q, stiff, force, refine, repeat, w, m, status)
+    use gapbeam_error, only: gapbeam_no_memory
     use gapbeam_kernel, only: eliminated_type, last_step
     use gapbeam_elements, only: solve_elements, refine_elements, elements_solved
     implicit none
@@ -485,15 +545,19 @@ subroutine gbkern(n, length, ei, q, stiff, force, refine, repeat, w, m, status)
     ! Steps of refinement
     integer, intent(in) :: refine, repeat
     double precision, intent(out) :: w(0:n), m(0:n)
-    ! 0 solved, 1 an end without support, 2 a length or EI that is not positive
+    ! 0 solved, 1 an end without support, 2 a length or EI that is not positive; or GAPBEAM_NO_MEMORY
     integer, intent(out) :: status
     !f2py threadsafe
     !f2py integer, intent(hide), depend(length) :: n = shape(length, 0)
     type(eliminated_type), allocatable :: eliminated(:)
     double precision, allocatable :: correction(:, :)
-    integer :: k, step
+    integer :: k, step, stat
 
-    allocate (eliminated(0:last_step(n)), correction(0:n, 2))
+    w = 0.0d0
+    m = 0.0d0
+    status = gapbeam_no_memory
+    allocate (eliminated(0:last_step(n)), correction(0:n, 2), stat=stat)
+    if (stat /= 0) return
     do k = 1, repeat
         call solve_elements(length, ei, q, stiff, force, eliminated, w, m, status)
         if (status /= elements_solved) return

@@ -1,39 +1,51 @@
-!> Is there memory for a solve
+!> Is there memory for what is to be done
 module gapbeam_memory
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_error, only: error_type, no_memory
-    use gapbeam_lowered, only: lowered_type
     implicit none
     private
-    public :: reserve_memory, for_solving, for_following, for_fields, for_certifying
+    public :: reserve_memory, enough_memory
+    public :: for_solving, for_refining, for_following, for_following_closely, for_certifying, for_fields
 
-    !> What the memory is for
-    integer, parameter :: for_solving = 1, for_following = 2, for_fields = 3, for_certifying = 4
-    !> Bytes it takes for every link and every support: one and a half times the most that was measured (1050 and 100, 2300 and
-    !> 250; tests/test_memory.c shows that it is enough); for every piece and axial bar; for small arrays and the allocator itself
-    integer(int64), parameter :: per_link(4) = [1600, 3600, 32, 6000], &
-        per_support(4) = [200, 600, 0, 1000], per_piece = 160, besides = 65536
+    !> What the memory is for: to solve a beam; the same again in quadruple precision; to follow the load; the same in quadruple
+    !> precision; to certify a state; to go into the links, condense loads, or solve along the axis
+    integer, parameter :: for_solving = 1, for_refining = 2, for_following = 3, for_following_closely = 4, for_certifying = 5, &
+        for_fields = 6
+    !> Bytes it takes for every link, every support and every piece: one and a half times the most that was measured, of beams in
+    !> which the search goes through part after part (tests/test_memory.c and tests/test_memory.py show that it is enough)
+    integer(int64), parameter :: per_link(6) = [2800, 5400, 5400, 9600, 6400, 48], &
+        per_support(6) = [200, 600, 500, 1000, 600, 0], per_piece(6) = [0, 350, 0, 350, 600, 100]
+    !> Bytes for small arrays and the allocator itself
+    integer(int64), parameter :: besides = 65536
 
 contains
 
     !> Ask the system for as much memory as the engine may want, and give it back. The engine's own allocations, many and
     !> small, then succeed, unless another thread or process takes the memory in between
-    subroutine reserve_memory(lowered, purpose, error)
-        !> The beam that is to be solved
-        type(lowered_type), intent(in) :: lowered
-        !> for_solving, for_following, for_fields or for_certifying
+    function enough_memory(purpose, links, supports, pieces) result(enough)
+        !> One of the purposes above
         integer, intent(in) :: purpose
-        !> Set where the system refuses
-        type(error_type), allocatable, intent(out) :: error
+        !> Numbers of links and supports of the beam, and of pieces (or axial bars) if they are worked on
+        integer, intent(in) :: links, supports, pieces
+        !> False where the system refuses
+        logical :: enough
         integer(int64), allocatable :: block(:)
         integer(int64) :: bytes
         integer :: stat
 
-        ! Axial bars are made of pieces
-        bytes = besides + per_link(purpose)*size(lowered%beam%links) + per_support(purpose)*size(lowered%beam%supports) &
-            + per_piece*size(lowered%pieces)
+        bytes = besides + per_link(purpose)*links + per_support(purpose)*supports + per_piece(purpose)*pieces
         allocate (block(bytes/8), stat=stat)
-        if (stat /= 0) call no_memory(error)
+        enough = stat == 0
+    end function enough_memory
+
+    !> The same, with an error where the system refuses
+    subroutine reserve_memory(purpose, links, supports, pieces, error)
+        !> As for enough_memory
+        integer, intent(in) :: purpose, links, supports, pieces
+        !> Set where the system refuses
+        type(error_type), allocatable, intent(out) :: error
+
+        if (.not. enough_memory(purpose, links, supports, pieces)) call no_memory(error)
     end subroutine reserve_memory
 
 end module gapbeam_memory

@@ -17,13 +17,14 @@
 module gapbeam_path
     use gapbeam_kinds, only: wp, qp
     use gapbeam_error, only: error_type, gapbeam_solved
+    use gapbeam_memory, only: for_following_closely
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_rules, only: find_doubtful
     use gapbeam_search, only: rule_block
     use gapbeam_scheme, only: find_scheme, outcome_type
     use gapbeam_line, only: line_type, value_at, width_at, falls, stays_at_zero
-    use gapbeam_referee, only: detail_type, refine_beam, decide_scheme
+    use gapbeam_referee, only: detail_type, refine_beam, decide_scheme, reserve_for
     use gapbeam_scheme_quad, only: fine_outcome_type => outcome_type
     use gapbeam_line_quad, only: fine_value_at => value_at, fine_width_at => width_at
     use gapbeam_cell, only: find_cell
@@ -276,6 +277,8 @@ contains
         type(fine_outcome_type) :: found
         logical, allocatable :: was_far(:), is_far(:)
 
+        call reserve_for(for_following_closely, beam, detail, error)
+        if (allocated(error)) return
         if (.not. stretch%has_fine) then
             call refine_beam(beam, detail, stretch%fine)
             stretch%has_fine = .true.

@@ -90,7 +90,7 @@ contains
         type(error_type), allocatable, intent(out) :: error
 
         if (state%has_starts) return
-        call reserve_memory(lowered, for_fields, error)
+        call reserve_memory(for_fields, size(lowered%beam%links), size(lowered%beam%supports), size(lowered%pieces), error)
         if (allocated(error)) return
         call recover_state(lowered, state, state%starts)
         state%has_starts = .true.

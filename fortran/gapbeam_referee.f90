@@ -8,6 +8,7 @@
 module gapbeam_referee
     use gapbeam_kinds, only: wp, qp
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_memory
+    use gapbeam_memory, only: reserve_memory, for_refining
     use gapbeam_link, only: piece_type, load_type
     use gapbeam_model, only: beam_type, both
     use gapbeam_workspace, only: workspace_type, set_loads
@@ -25,7 +26,7 @@ module gapbeam_referee
     use gapbeam_scheme_quad, only: find_fine_scheme => find_scheme, fine_outcome_type => outcome_type
     implicit none
     private
-    public :: decide_scheme, find_undecided, held_by_ties, detail_type, refine_beam, fine_piece, fine_load
+    public :: decide_scheme, find_undecided, held_by_ties, detail_type, refine_beam, fine_piece, fine_load, reserve_for
 
     !> Of more supports near zero than these all are named
     integer, parameter :: most_examined = 64
@@ -84,6 +85,22 @@ contains
         if (size(work%reaction) > 0) lost = maxval(work%reaction_error) > worst_digits*maxval(abs(work%reaction))
     end function digits_lost
 
+    !> Is there the memory for what is to be done to a beam
+    subroutine reserve_for(purpose, beam, detail, error)
+        !> One of the purposes of gapbeam_memory
+        integer, intent(in) :: purpose
+        !> The beam, and what its links are made of
+        type(beam_type), intent(in) :: beam
+        type(detail_type), intent(in) :: detail
+        !> Set where there is not
+        type(error_type), allocatable, intent(out) :: error
+        integer :: pieces
+
+        pieces = 0
+        if (associated(detail%pieces)) pieces = size(detail%pieces)
+        call reserve_memory(purpose, size(beam%links), size(beam%supports), pieces, error)
+    end subroutine reserve_for
+
     !> The same in quadruple precision
     subroutine refer(beam, detail, factor, closed, undecided, work, outcome, error)
         type(beam_type), intent(in) :: beam
@@ -101,10 +118,11 @@ contains
         type(fine_outcome_type) :: found
 
         undecided(:) = .false.
+        call reserve_for(for_refining, beam, detail, error)
+        if (allocated(error)) return
         call refine_beam(beam, detail, fine)
         call new_fine_workspace(fine, fine_work)
         call set_fine_loads(fine, real(factor, qp), fine_work)
-        if (allocated(error)) deallocate (error)
         call find_fine_scheme(fine, real(factor, qp), rule_block, closed, fine_work, found, error)
         work%solves = work%solves + fine_work%solves
         work%method = fine_work%method
@@ -134,9 +152,11 @@ contains
         type(fine_workspace_type), intent(inout) :: work
         logical, intent(out) :: undecided(:)
         type(sensitivity_type) :: sensitivity
-        real(qp) :: margin(size(closed)), rounding(size(closed)), movement
+        real(qp), allocatable :: margin(:), rounding(:)
+        real(qp) :: movement
         integer :: k
 
+        allocate (margin(size(closed)), rounding(size(closed)))
         do k = 1, size(closed)
             undecided(k) = .false.
             associate (s => fine%supports(k))

@@ -7,13 +7,13 @@ module gapbeam_state
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_recover, only: recover_beam
     use gapbeam_scheme, only: outcome_type
-    use gapbeam_referee, only: decide_scheme, detail_type
+    use gapbeam_referee, only: decide_scheme, detail_type, reserve_for
     use gapbeam_certificate, only: certificate_type, certify
     use gapbeam_path, only: follow_load, path_type, event_turns
     use gapbeam_axial, only: solve_axial, axial_slides, axial_indeterminate
     use gapbeam_check, only: shown
     use gapbeam_lowered, only: lowered_type
-    use gapbeam_memory, only: reserve_memory, for_solving, for_following, for_certifying
+    use gapbeam_memory, only: for_solving, for_following, for_certifying
     implicit none
     private
     public :: state_type, event_type, new_state, solve_state, recover_state, certify_state, follow_events
@@ -129,7 +129,7 @@ contains
         call forget(state)
         state%factor = factor
         state%fingerprint = lowered%fingerprint
-        call reserve_memory(lowered, for_solving, error)
+        call reserve_for(for_solving, lowered%beam, detail_of(lowered), error)
         if (allocated(error)) return
         allocate (acting(size(state%closed)), stat=stat)
         if (stat /= 0) then
@@ -226,7 +226,7 @@ contains
         type(error_type), allocatable, intent(out) :: error
         type(field_type), allocatable :: starts(:)
 
-        call reserve_memory(lowered, for_certifying, error)
+        call reserve_for(for_certifying, lowered%beam, detail_of(lowered), error)
         if (allocated(error)) return
         allocate (starts(size(lowered%pieces)))
         call recover_state(lowered, state, starts)
@@ -267,7 +267,7 @@ contains
         at = 0.0_wp
         solves = state%solves
         do while (at < factor)
-            call reserve_memory(lowered, for_following, error)
+            call reserve_for(for_following, lowered%beam, detail_of(lowered), error)
             if (allocated(error)) return
             call follow_load(lowered%beam, detail_of(lowered), factor, changes_at_a_time, at, state%closed, state%undecided, &
                              path, outcome, error)

@@ -89,9 +89,11 @@ contains
         real(wp), intent(in) :: factor
         logical, intent(inout) :: closed(:)
         type(stretch_type), intent(inout) :: stretch
-        integer :: groups(2, size(changed)), count, window(2), window_of_live(2), state, i, j
+        integer, allocatable :: groups(:, :)
+        integer :: count, window(2), window_of_live(2), state, i, j
 
         closed(changed) = .not. closed(changed)
+        allocate (groups(2, size(changed)))
         call find_groups(beam, changed, groups, count)
         do j = 1, count
             call update_scheme(beam, closed, groups(:, j), .true., stretch%dead, window, state)

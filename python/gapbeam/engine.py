@@ -13,6 +13,7 @@ from .records import Pickled, Record, read_only
 
 SOLVED, NO_EQUILIBRIUM = Status.SOLVED, Status.NO_EQUILIBRIUM
 """Outcomes, as in gapbeam_error; codes above 10 are errors."""
+_NO_MEMORY = int(Status.NO_MEMORY)  # compared faster
 RULES = {"block": 0, "single": 1}
 OPENS, CLOSES, TURNS = 0, 1, 3
 """Events, as in gapbeam_path."""
@@ -65,6 +66,34 @@ class Solution(Record):
     came_back: bool
 
 
+def check_status(status: int, message: bytes = b"", where: str = "") -> None:
+    """Raise what a status of the engine says, unless it is an outcome.
+
+    Parameters
+    ----------
+    status : int
+        From the engine.
+    message : bytes
+        Its words for an error.
+    where : str
+        What they are about, to be put before them.
+
+    Raises
+    ------
+    MemoryError
+        The system gives the engine no more memory.
+    EngineError
+        Any other error.
+    """
+    if status == _NO_MEMORY:
+        raise MemoryError(
+            f"{where}the system gives the engine no more memory: end other programs, raise the limit of this one "
+            "(ulimit -v), or take fewer spans and supports"
+        )
+    if status not in (SOLVED, NO_EQUILIBRIUM):
+        raise EngineError(where + message.decode().strip(), status)
+
+
 def condense(arrays: Arrays) -> np.ndarray:
     """Condense all pieces between nodes into links.
 
@@ -79,7 +108,9 @@ def condense(arrays: Arrays) -> np.ndarray:
         The links, for the other calls only.
     """
     inner = arrays.scaled
-    return read_only(_f77.gbcond(inner.pieces.T, inner.dead.T, inner.live.T, _last(arrays)))
+    links, status = _f77.gbcond(inner.pieces.T, inner.dead.T, inner.live.T, _last(arrays))
+    check_status(status)
+    return read_only(links)
 
 
 def solve(arrays: Arrays, links: np.ndarray, factor: float, rule: str, closed: np.ndarray) -> Solution:
@@ -112,8 +143,7 @@ def solve(arrays: Arrays, links: np.ndarray, factor: float, rule: str, closed: n
     *values, indifferent, came_back, status, message = _f77.gbsolv(
         *_detail(arrays), *_beam(arrays, links), factor, RULES[rule], scheme
     )
-    if status not in (SOLVED, NO_EQUILIBRIUM):
-        raise EngineError(message.decode().strip(), status)
+    check_status(status, message)
     solution = Solution(status, scheme, *values, bool(indifferent), bool(came_back))
     if len(closed) == 0:
         solution = replace(solution, closed=scheme[:0], undecided=scheme[:0], reaction=solution.reaction[:0])
@@ -190,8 +220,7 @@ def follow(
         most, *_detail(arrays), *_beam(arrays, links), 1.0, at, closed, marginal
     )
     factor = float(at)
-    if status not in (SOLVED, NO_EQUILIBRIUM):
-        raise EngineError(f"at load factor {factor:g}: {message.decode().strip()}", status)
+    check_status(status, message, f"at load factor {factor:g}: ")
     return Path(
         status,
         factor,
@@ -241,6 +270,8 @@ class CaseSolver(Pickled):
             factors = np.zeros((max(cases, 1), max(loads, 1)))
             closed = closed if cases else np.ones((1, closed.shape[1]), dtype=np.int32)
         *values, solves, status = _f77.gbcase(*self._fixed, factors.T, rule, closed.T)
+        if status[0] == _NO_MEMORY:  # then all are
+            check_status(_NO_MEMORY)
         return (*(value.T[:cases] for value in values), solves[:cases], status[:cases])
 
 
@@ -286,9 +317,10 @@ def prepare_cases(
     def integers(values: np.ndarray, first: int) -> np.ndarray:
         return np.asarray(values + first, dtype=np.int32)
 
-    count, load, link, share = _f77.gbshar(
+    count, load, link, share, status = _f77.gbshar(
         arrays.scaled.pieces.T, links, _last(arrays), integers(row_load, 1), integers(row_piece, 1), row_values.T
     )
+    check_status(status)
     links, kinds, compliance, _, _, *supports = _beam(arrays, links)
     return CaseSolver((
         *(links, kinds, compliance, *supports),
@@ -328,12 +360,11 @@ def certify(
     length, force = arrays.exponents
     inner = _outer(solution, -length, -force)
     reaction = inner.reaction if len(inner.reaction) else np.zeros(1)
-    residuals, bounds, known = _f77.gbcert(
+    residuals, bounds, known, status, message = _f77.gbcert(
         *_detail(arrays), *_beam(arrays, links), factor, _scheme(inner.closed),
         inner.deflection, inner.moment_left, inner.moment_right, reaction, starts,
     )  # fmt: skip
-    if known < 0:
-        raise EngineError("the state could not be checked in quadruple precision", Status.NOT_CONVERGED)
+    check_status(status, message, "the state could not be checked in quadruple precision: ")
     return residuals, np.ldexp(bounds, [length, force, *_field_exponents(length, force)]), bool(known)
 
 
@@ -394,7 +425,7 @@ def recover(arrays: Arrays, links: np.ndarray, factor: float, solution: Solution
     inner = arrays.scaled
     length, force = arrays.exponents
     solution = _outer(solution, -length, -force)
-    starts = _f77.gbreco(
+    starts, status = _f77.gbreco(
         inner.pieces.T,
         inner.dead.T,
         inner.live.T,
@@ -407,6 +438,7 @@ def recover(arrays: Arrays, links: np.ndarray, factor: float, solution: Solution
         solution.moment_right,
         solution.shear,
     )
+    check_status(status)
     return read_only(starts)
 
 
@@ -483,6 +515,8 @@ def solve_axial(arrays: Arrays, factor: float) -> tuple[np.ndarray, np.ndarray, 
     axial = arrays.axial
     force = axial.force[0] + factor * axial.force[1]
     u, tension, reaction, state, place = _f77.gbaxia(axial.flexibility, force, axial.stiffness, axial.settlement)
+    if state == _NO_MEMORY:
+        check_status(state)
     if state == 2:
         x = arrays.point_x[axial.points[place]]
         raise EngineError(

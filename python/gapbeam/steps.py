@@ -10,7 +10,7 @@ import numpy as np
 
 from .errors import SceneError
 from .lowering import Arrays
-from .memory import refuse_beyond
+from .memory import LITTLE, refuse_beyond
 from .records import Pickled, read_only
 from .states import Known, Step, name_states, solve_step
 
@@ -140,12 +140,15 @@ class LoadSteps(Steps):
         self._solved = 0
         row = -(-len(start) // 8)
         what, remedy = f"{count:,} load steps", 'take fewer, or follow = "events"'
-        refuse_beyond("analysis.steps", what, float(count) * (row + 12), remedy)
+        needed = float(count) * (row + 12)
+        refuse_beyond("analysis.steps", what, needed, remedy)
         try:
             self._schemes = np.empty((count, row), dtype=np.uint8)
             self._solves = np.empty(count, dtype=np.int32)
             self._seconds = np.empty(count)
         except MemoryError:
+            if needed <= LITTLE:
+                raise  # it is not for the steps that there is no memory
             raise SceneError("analysis.steps", f"there is no memory for {what}; {remedy}") from None
 
     def __len__(self) -> int:

@@ -16,7 +16,8 @@ from msgspec import structs
 
 from . import _yardsticks
 from .calls import gbkern, interruptible
-from .errors import GapbeamError
+from .engine import check_status
+from .errors import GapbeamError, Status
 from .scene import Analysis
 from .stepping import solve
 from .study_beam import MeshedBeam
@@ -151,6 +152,8 @@ def kernel(refinements: int = 0) -> Method:
 
     def run(beam: MeshedBeam, repeat: int) -> Answer:
         w, m, status = gbkern(beam.length, beam.EI, beam.q, beam.stiffness, beam.force, refinements, repeat)
+        if status == Status.NO_MEMORY:
+            check_status(status)
         return Answer(w, m, None, beam.stiffness > 0.0, 1, WHY[1] if status else "")
 
     def fits(beam: MeshedBeam) -> bool:

@@ -1,0 +1,142 @@
+"""Where memory ends, calls end in MemoryError: all of them under limits of the address space, each in a process of its own."""
+
+import hashlib
+import json
+import os
+import subprocess
+import sys
+from collections import Counter
+from contextlib import suppress
+
+import numpy as np
+import pytest
+
+import gapbeam
+
+resource = pytest.importorskip("resource")
+
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="limits of the address space cannot be set here")
+
+SPANS = 5_000
+RIGHT, REFUSED, WRONG = 0, 15, 1
+"""How a process ends; anything else is not its own doing."""
+TWO_SPRINGS = {  # quadruple precision decides which one bears
+    "beam": {"spans": [5.0], "EI": 1e4, "EA": 1e5},
+    "supports": [
+        {"node": 0, "side": "below", "stiffness": 1e15, "settlement": 0.04},
+        {"node": 0, "stiffness": 100.0},
+        {"node": 1},
+        {"node": 1, "direction": "axial"},
+    ],
+    "loads": [{"type": "force", "node": 0, "F": 3.9}, {"type": "axial", "node": 0, "F": 2.0}],
+}
+SEESAW = {  # turns at factor 0.5, which is followed in quadruple precision
+    "beam": {"spans": [4.0, 4.0], "EI": 1e4},
+    "supports": [{"node": 1}, {"node": 0, "side": "below"}, {"node": 2, "side": "below", "gap": 0.1}],
+    "loads": [{"type": "force", "node": 0, "F": 10.0, "case": "dead"}, {"type": "force", "node": 2, "F": 20.0}],
+    "analysis": {"follow": "events"},
+}
+
+
+def long_beam(follow, stiffness=50.0, at=SPANS / 2 + 0.25):
+    """A beam on one-sided supports, pressed down at one place."""
+    return {
+        "beam": {"spans": [1.0] * SPANS, "EI": 1e4},
+        "supports": [{"node": i, "side": "below", "stiffness": stiffness} for i in range(SPANS + 1)],
+        "loads": [{"type": "uniform", "q": 0.1, "case": "dead"}, {"type": "force", "x": at, "F": 40.0}],
+        "analysis": {"follow": follow},
+    }
+
+
+def every_answer(scene):
+    """Solve a scene and ask for all that there is."""
+    result = gapbeam.solve(scene)
+    step = result.steps[-1]
+    fields = result.at([0.3, 1.7, 2.0])
+    extremes = [pair for pairs in result.extremes().values() for pair in pairs.values()]
+    return [step.reaction, fields.deflection, fields.moment, extremes, list(step.certificate.values())]
+
+
+def cases(scene):
+    """Solve load cases of a beam that is prepared."""
+    found = gapbeam.prepare(scene).solve([[1.0, factor] for factor in (0.0, 0.5, 1.0)])
+    return [found.reaction, found.deflection]
+
+
+CALLS = {
+    "two springs": (every_answer, TWO_SPRINGS, 400_000, 41),
+    "seesaw": (every_answer, SEESAW, 400_000, 41),
+    "two springs as cases": (cases, TWO_SPRINGS, 400_000, 41),
+    "steps": (every_answer, long_beam("steps"), 80_000_000, 45),
+    "events": (every_answer, long_beam("events"), 120_000_000, 45),
+    "ties": (every_answer, long_beam("steps", float("inf"), SPANS / 2), 80_000_000, 45),
+    "cases": (cases, long_beam("steps"), 60_000_000, 45),
+}
+"""What is called, with what, and the limits: up to so many bytes more than at first, and how many of them."""
+SMALL = ("two springs", "seesaw", "two springs as cases")
+
+
+def digits(name):
+    """Call it, and digest its numbers."""
+    call, scene, *_ = CALLS[name]
+    return hashlib.sha256(b"".join(np.asarray(part, dtype=float).tobytes() for part in call(scene))).hexdigest()
+
+
+def attempt(name, room, right):
+    """Call it when all memory is taken but so many bytes; how the process is to end."""
+    with open("/proc/self/statm", encoding="ascii") as file:
+        in_use = int(file.read().split()[0]) * os.sysconf("SC_PAGESIZE")
+    resource.setrlimit(resource.RLIMIT_AS, (in_use, resource.RLIM_INFINITY))
+    taken = []
+    for size in (2**20, 2**16, 2**12, 2**10):
+        with suppress(MemoryError):
+            while True:
+                taken.append(bytearray(size))
+    resource.setrlimit(resource.RLIMIT_AS, (in_use + room, resource.RLIM_INFINITY))
+    try:
+        return RIGHT if digits(name) == right else WRONG
+    except MemoryError:
+        return REFUSED
+
+
+def in_a_process(call, *arguments):
+    """Call in a copy of this process; its exit status, below 0 for a signal, and what it wrote."""
+    reading, writing = os.pipe()
+    child = os.fork()
+    if child == 0:
+        ended = WRONG
+        try:
+            found = call(*arguments)
+            ended = found if isinstance(found, int) else RIGHT
+            os.write(writing, str(found).encode())
+        except BaseException as error:
+            os.write(2, f"{type(error).__name__}: {error}\n".encode())
+        finally:
+            os._exit(ended)
+    os.close(writing)
+    with open(reading, encoding="ascii") as pipe:
+        text = pipe.read()
+    return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), text
+
+
+def main(name):
+    """Print how often each way a call ended under its limits."""
+    for small in SMALL:
+        digits(small)  # imports what is imported at first use
+    _, _, above, count = CALLS[name]
+    _, right = in_a_process(digits, name)
+    ends = (in_a_process(attempt, name, above * k // (count - 1), right)[0] for k in range(count))
+    print(json.dumps(Counter(ends)))
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_every_limit(name):
+    run = subprocess.run([sys.executable, __file__, name], capture_output=True, text=True, check=False)
+    ended = json.loads(run.stdout)
+    assert set(ended) <= {str(RIGHT), str(REFUSED)}, run.stderr
+    assert ended[str(RIGHT)] > 2
+    assert ended[str(REFUSED)] > 2
+
+
+if __name__ == "__main__":
+    main(sys.argv[1])
