@@ -84,7 +84,9 @@ def compare_state(beam, step, look, verdict, where=""):
         complaints.append("a mechanism as scheme")
     except Redundant:
         return False
-    complaints += compare_values(beam, step, look, values, loose, verdict)
+    if step.indifferent and not (loose or step.undecided):
+        complaints.append("said to be free to move, though every support that holds it carries something")
+    complaints += compare_values(beam, step, look, values, loose or step.indifferent, verdict)
     verdict.wrong += [where + text for text in complaints]
     return True
 
