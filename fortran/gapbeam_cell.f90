@@ -81,12 +81,26 @@ contains
             ! Nearer, before what happens there
             trial = factor + (min(from, trial) - factor)/2
         end do
-        ! Where the position is not unique, supports may be touched here or there, without end
-        if (outcome%indifferent .and. cell%to < min(limit, factor + indifferent_share*scale_of_factor)) then
+        if (.not. outcome%indifferent .or. cell%to >= limit) return
+        ! The position is not unique, so what it touches is no event of the load
+        if (touches(cell) .or. cell%to < factor + indifferent_share*scale_of_factor) then
             call fatal_error(error, gapbeam_not_converged, "above this load factor the beam can move freely without work "// &
                              "of the loads, so there is no single path of its supports: follow the load by steps")
         end if
     end subroutine find_cell
+
+    !> Does a stretch end because an open support is reached
+    pure function touches(cell) result(reached)
+        type(cell_type), intent(in) :: cell
+        logical :: reached
+        integer :: k
+
+        reached = .false.
+        do k = 1, size(cell%lines)
+            if (cell%closed(k) .or. .not. falls(cell%lines(k))) cycle
+            reached = reached .or. zero_of(cell%lines(k)) <= cell%to
+        end do
+    end function touches
 
     !> The factor above which the loads do work along a motion
     function start_of_motion(beam, motion) result(factor)

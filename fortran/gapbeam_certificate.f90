@@ -27,8 +27,9 @@ module gapbeam_certificate
     private
     public :: certificate_type, certify
 
-    !> Movements are taken so many times: they are estimates, hardly ever more than so many times too small
-    real(wp), parameter :: safety = 3.0_wp
+    !> Movements are taken so many times: they are estimates, hardly ever more than so many times too small; so are the forces of
+    !> weak springs, since levers make more of them
+    real(wp), parameter :: safety = 4.0_wp
     !> Roundings of a term of a field's polynomial, at most
     real(wp), parameter :: roundings = 4.0_wp
     !> Error of the solution in quadruple precision, relative to the sizes of its terms
@@ -95,7 +96,7 @@ contains
             certificate%rotation = certificate%rotation + moves(of_rotations)
             certificate%moment = certificate%moment + moves(of_moments)
             ! Weak springs of a beam that is free to move are a load that it does not have
-            springs = real(sum(work%ease*abs(work%reference - a%deflection)), wp)
+            springs = safety*real(sum(work%ease*abs(work%reference - a%deflection)), wp)
             certificate%reaction = certificate%reaction + springs
             certificate%moment = certificate%moment + springs*real(sum(fine%links%length), wp)
             certificate%shear = certificate%shear + springs + moves(of_shears) + real(fine_error*maxval(work%shear_size), wp)

@@ -139,13 +139,14 @@ contains
         logical, allocatable :: wrong(:)
         type(runaway_type), allocatable :: runaways(:)
         real(wp), allocatable :: eased(:), direction(:)
-        real(wp) :: ease, way
-        logical :: settled, stable, in_doubt
+        real(wp) :: ease, way, moved, moved_before
+        logical :: settled, stable, in_doubt, at_rest
         integer :: move, state, place, r
 
         allocate (wrong(size(closed)), eased(0:size(beam%links)), direction(0:size(beam%links)))
         ease = ease_ratio*softest(beam)
         work%reference = 0.0_wp
+        moved_before = huge(moved_before)
         do move = 1, most_moves
             work%ease = ease
             call settle(beam, rule, .false., closed, work, settled, error)
@@ -164,10 +165,13 @@ contains
                     if (.not. any(wrong)) return
                 end if
             else if (size(runaways) == 0) then
-                ! Free to move, but no load does work: the springs carry nothing once the reference has come to rest
-                if (maxval(abs(eased - work%reference)) <= max(4096*epsilon(1.0_wp)*maxval(abs(eased)), &
-                                                               (epsilon(1.0_wp)*maxval(work%shear_size) &
-                                                                + least_force*maxval(work%load_size))/ease)) then
+                ! Free to move, but no load does work: the springs carry nothing once the reference has come to rest, but for
+                ! what loads that balance each other have left to rounding
+                moved = maxval(abs(eased - work%reference))
+                at_rest = moved <= max(4096*epsilon(1.0_wp)*maxval(abs(eased)), epsilon(1.0_wp)*maxval(work%shear_size)/ease) &
+                    .or. (moved <= least_force*maxval(work%load_size)/ease .and. moved > moved_before/2)
+                moved_before = moved
+                if (at_rest) then
                     outcome%indifferent = .true.
                     outcome%in_doubt = in_doubt
                     return
