@@ -7,6 +7,7 @@ Ctrl-C goes on to the end of its one call, with arrays that nobody else has, and
 
 from __future__ import annotations
 
+import mmap
 import os
 import threading
 from _thread import allocate_lock, start_new_thread
@@ -27,6 +28,8 @@ NODES_AT_A_TIME = 20_000
 """Nodes of all cases in the first call for many cases; later calls take about `SECONDS`, by what the one before took."""
 SECONDS = 0.1
 """Time of a call for some of many cases, and between two looks whether a signal has come."""
+THREAD = 2**25
+"""Bytes that must be there for a thread, mostly its stack: Python does not survive one that cannot begin."""
 PART = 200_000
 """Numbers that Python turns into objects or text in some tenths of a second."""
 
@@ -69,10 +72,11 @@ class _Beside:
         """Make a call there, and wait for it as long as no signal says otherwise."""
         try:
             if self.calls is None:
+                mmap.mmap(-1, THREAD).close()
                 calls: SimpleQueue[_Call | None] = SimpleQueue()
                 start_new_thread(_work, (calls,))
                 self.calls = calls
-        except RuntimeError:  # no more threads here
+        except (RuntimeError, OSError, MemoryError):  # no more threads here
             return routine(*arguments)
         call = _Call(routine, arguments)
         try:
