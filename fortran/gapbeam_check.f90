@@ -119,8 +119,12 @@ contains
             if (.not. is_inside(model%hinges(i), ends(n))) then
                 call outside("x", model%hinges(i), ends(n), problem)
                 call refuse(error, of_hinges, i, size(model%hinges), problem)
-                return
+            else if (.not. (model%hinges(i) > position_tolerance*ends(n) .and. &
+                            model%hinges(i) < ends(n) - position_tolerance*ends(n))) then
+                call refuse(error, of_hinges, i, size(model%hinges), "it is at an end of the beam, where no hinge can be; "// &
+                            "remove it")
             end if
+            if (allocated(error)) return
         end do
         do i = 1, size(model%supports)
             call check_support(model%supports(i), i, size(model%supports), ends, error)

@@ -91,7 +91,8 @@ contains
                     call add(merge(load%to, load%x, is_stretch(load)), merge(gapbeam_by_x, load%node, is_stretch(load)))
                 end associate
             end do
-            call merge_places(lowered%ends, span, offset, order, chosen, point, number)
+            at = 1 + n + size(model%supports) + size(model%hinges)
+            call merge_places(lowered%ends, span, offset, at, order, chosen, point, number)
             allocate (lowered%point_span(0:number - 1), lowered%point_offset(0:number - 1), lowered%hinged(0:number - 1), stat=stat)
             if (stat /= 0) then
                 call no_memory(error)
@@ -144,9 +145,7 @@ contains
 
             lowered%hinged(:) = .false.
             do k = 1, size(points)
-                if (points(k) == 0 .or. points(k) == number - 1) then
-                    call refuse(error, of_hinges, k, size(points), "it is at an end of the beam, where no hinge can be; remove it")
-                else if (lowered%hinged(points(k))) then
+                if (lowered%hinged(points(k))) then
                     call refuse(error, of_hinges, k, size(points), "there is a hinge at this place already; remove one of them")
                 end if
                 if (allocated(error)) return

@@ -1,5 +1,10 @@
 !> Places along the beam: kept as a span and a distance from the span's left end, so that a short span far from the
-!> origin keeps its digits; places that differ by rounding only become one point.
+!> origin keeps its digits.
+!>
+!> Places that differ by rounding only (position_tolerance) count as one point: a place becomes the span end that is so near,
+!> else the nearest support or hinge, else the first of the loads' ends to its left. What is near is near to the point itself,
+!> not to another place near it, so no chain of places can become one: no place is moved by more than the tolerance, and no
+!> two points of a span are nearer to each other than that. python/gapbeam/places.py does the same for scenes.
 module gapbeam_places
     use gapbeam_kinds, only: wp
     use gapbeam_scene, only: span_type
@@ -65,12 +70,14 @@ contains
     end subroutine locate
 
     !> Points from left to right, places that differ by rounding only taken as one
-    pure subroutine merge_places(ends, span, offset, order, chosen, point, number)
+    pure subroutine merge_places(ends, span, offset, anchors, order, chosen, point, number)
         !> Span ends, shape (0:n)
         real(wp), intent(in) :: ends(0:)
         !> All places, shape (m)
         integer, intent(in) :: span(:)
         real(wp), intent(in) :: offset(:)
+        !> The first so many of them are span ends, supports and hinges
+        integer, intent(in) :: anchors
         !> Workspace, shape (m)
         integer, intent(out) :: order(:)
         !> The place that stands for each point, the first `number` entries of shape (m)
@@ -79,24 +86,86 @@ contains
         integer, intent(out) :: point(:)
         !> How many points there are
         integer, intent(out) :: number
-        real(wp) :: previous
-        integer :: i, k, previous_span
+        integer :: i, k, last
 
         call sort_places(span, offset, order, chosen)
-        number = 0
-        previous = 0.0_wp
-        previous_span = -1
+        ! Until the points are numbered, point holds the place that stands for the point of each
+        last = order(1)
         do i = 1, size(order)
             k = order(i)
-            if (span(k) /= previous_span .or. offset(k) - previous > position_tolerance*(ends(span(k)) + offset(k))) then
-                number = number + 1
-                chosen(number) = k
-            end if
-            point(k) = number - 1
-            previous_span = span(k)
-            previous = offset(k)
+            if (k > anchors) cycle
+            if (.not. is_near(ends, span, offset, last, k)) last = k
+            point(k) = last
         end do
+        call join_anchors(ends, span, offset, anchors, order, chosen, point)
+        last = 0
+        do i = 1, size(order)
+            k = order(i)
+            if (point(k) /= 0) cycle
+            if (last == 0) last = k
+            if (.not. is_near(ends, span, offset, last, k)) last = k
+            point(k) = last
+        end do
+        number = 0
+        do i = 1, size(order)
+            if (point(order(i)) /= order(i)) cycle
+            number = number + 1
+            chosen(number) = order(i)
+        end do
+        do i = 1, number
+            order(chosen(i)) = i - 1
+        end do
+        point(:) = order(point)
     end subroutine merge_places
+
+    !> Does place b, not left of place a, differ from it by rounding only
+    pure function is_near(ends, span, offset, a, b) result(near)
+        !> As for merge_places
+        real(wp), intent(in) :: ends(0:)
+        integer, intent(in) :: span(:)
+        real(wp), intent(in) :: offset(:)
+        !> The places
+        integer, intent(in) :: a, b
+        logical :: near
+
+        near = span(a) == span(b) .and. offset(b) - offset(a) <= position_tolerance*(ends(span(b)) + offset(b))
+    end function is_near
+
+    !> What is near a point of the anchors is at the nearest of them
+    pure subroutine join_anchors(ends, span, offset, anchors, order, next, stands)
+        !> As for merge_places
+        real(wp), intent(in) :: ends(0:)
+        integer, intent(in) :: span(:)
+        real(wp), intent(in) :: offset(:)
+        integer, intent(in) :: anchors, order(:)
+        !> Workspace: the next point of the anchors to the right, 0: none
+        integer, intent(out) :: next(:)
+        !> Of anchors in, of the others 0 where no point of an anchor is near
+        integer, intent(inout) :: stands(:)
+        integer :: i, k, left, right
+
+        right = 0
+        do i = size(order), 1, -1
+            k = order(i)
+            next(i) = right
+            if (k > anchors) cycle
+            if (stands(k) == k) right = k
+        end do
+        left = order(1)
+        do i = 1, size(order)
+            k = order(i)
+            right = next(i)
+            if (k <= anchors) then
+                if (stands(k) == k) left = k
+                cycle
+            end if
+            stands(k) = 0
+            if (is_near(ends, span, offset, left, k)) stands(k) = left
+            if (right == 0) cycle
+            if (.not. is_near(ends, span, offset, k, right)) cycle
+            if (stands(k) == 0 .or. offset(right) - offset(k) < offset(k) - offset(left)) stands(k) = right
+        end do
+    end subroutine join_anchors
 
     !> Order of the places from left to right by merging sorted runs; equal ones stay in their order
     pure subroutine sort_places(span, offset, order, work)

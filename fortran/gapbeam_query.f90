@@ -142,7 +142,7 @@ contains
         logical, intent(in) :: from_left
         integer, intent(out) :: piece
         real(wp), intent(out) :: distance
-        real(wp) :: offset, tolerance
+        real(wp) :: offset, tolerance, to_right
         integer :: span, low, high, middle
 
         call locate(x, lowered%ends, span, offset)
@@ -153,13 +153,19 @@ contains
         if (span < ubound(lowered%ends, 1)) high = lowered%end_point(span + 1)
         do while (high - low > 1)
             middle = low + (high - low)/2
-            if (lowered%point_offset(middle) <= offset + tolerance) then
+            if (lowered%point_offset(middle) <= offset) then
                 low = middle
             else
                 high = middle
             end if
         end do
-        distance = max(offset - lowered%point_offset(low), 0.0_wp)
+        distance = offset - lowered%point_offset(low)
+        high = min(low + 1, ubound(lowered%point_span, 1))
+        to_right = lowered%point_offset(high) - offset
+        if (lowered%point_span(high) == span .and. to_right <= tolerance .and. to_right < distance) then
+            low = high
+            distance = 0.0_wp
+        end if
         if (distance <= tolerance) distance = 0.0_wp
         piece = low + 1
         if (distance > 0.0_wp .or. low == 0) return

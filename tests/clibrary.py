@@ -4,7 +4,6 @@ import ctypes as c
 import math
 
 import numpy as np
-from scenes import nodes_of
 
 SIDES = {"both": 0, "below": 1, "above": -1}
 KINDS = {"force": 1, "moment": 2, "uniform": 3, "linear": 3, "curvature": 4, "axial": 5}
@@ -67,7 +66,7 @@ class Certificate(c.Structure):
 def columns(scene):
     """The arrays of the C interface for a scene without sections."""
     spans, supports, loads = scene["beam"]["spans"], scene["supports"], scene["loads"]
-    end = nodes_of(scene)[-1]
+    end = math.fsum(scene["beam"]["spans"])
 
     def real(rows, key, default):
         return np.array([default if row.get(key) is None else row[key] for row in rows], dtype=float)
@@ -150,6 +149,11 @@ class CBeam:
         self.c.gapbeam_free_state(self.state)
         self.c.gapbeam_free_beam(self.handle)
 
+    def replace_loads(self, library, scene):
+        """Status of taking the loads of another scene."""
+        arrays = columns(scene)
+        return self.c.gapbeam_replace_loads(self.handle, c.byref(library.model(arrays)), None, c.c_size_t(0))
+
     def solve(self, factor, rule="block"):
         """Status and message of a solve."""
         options, message = Options(c.sizeof(Options), RULES[rule], 0), c.create_string_buffer(400)
@@ -182,20 +186,20 @@ class CBeam:
         assert self.c.gapbeam_get_supports(self.handle, self.state, *map(pointer, values)) == 0
         return values
 
-    def fields(self, x, left=False):
-        """Fields at places, 6 by places."""
+    def fields(self, x, left=False, expect=0):
+        """Fields at places, 6 by places; the status must be as expected."""
         x = np.array(x, dtype=float)
         found = np.empty((len(x), 6))
         status = self.c.gapbeam_get_fields(
             self.handle, self.state, len(x), pointer(x), int(left), pointer(found), None, c.c_size_t(0)
         )
-        assert status == 0
+        assert status == expect
         return found.T
 
-    def extremes(self):
-        """Values and places, 6 by 2 each."""
+    def extremes(self, expect=0):
+        """Values and places, 6 by 2 each; the status must be as expected."""
         value, x = np.empty((6, 2)), np.empty((6, 2))
-        assert self.c.gapbeam_get_extremes(self.handle, self.state, pointer(value), pointer(x)) == 0
+        assert self.c.gapbeam_get_extremes(self.handle, self.state, pointer(value), pointer(x)) == expect
         return value, x
 
     def motion(self):
@@ -267,16 +271,16 @@ class F77Beam:
         assert self.call("gbsupp", *self.both, values, state) == 0
         return [*values.T, state]
 
-    def fields(self, x, left=False):
+    def fields(self, x, left=False, expect=0):
         """As CBeam.fields."""
         found = np.empty((len(x), 6))
-        assert self.call("gbflds", *self.both, len(x), np.array(x, dtype=float), int(left), found) == 0
+        assert self.call("gbflds", *self.both, len(x), np.array(x, dtype=float), int(left), found) == expect
         return found.T
 
-    def extremes(self):
+    def extremes(self, expect=0):
         """As CBeam.extremes."""
         value, x = np.empty((6, 2)), np.empty((6, 2))
-        assert self.call("gbxtrm", *self.both, value, x) == 0
+        assert self.call("gbxtrm", *self.both, value, x) == expect
         return value, x
 
     def motion(self):

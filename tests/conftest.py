@@ -9,6 +9,7 @@ from hypothesis import HealthCheck, settings
 
 sys.path.insert(0, os.path.dirname(__file__))  # the helper modules beside the tests
 
+from clibrary import Library
 from installation import LANGUAGES, install
 
 CALM = [HealthCheck.too_slow, HealthCheck.data_too_large, HealthCheck.filter_too_much]
@@ -23,6 +24,12 @@ settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "fixed"))
 def installed(tmp_path_factory):
     """The library as `meson install` puts it in place."""
     return install(tmp_path_factory.mktemp("installed"))
+
+
+@pytest.fixture(scope="session")
+def library(installed):
+    """The installed library, loaded."""
+    return Library(installed.library)
 
 
 @pytest.fixture(scope="session")

@@ -8,17 +8,12 @@ import random
 import gapbeam
 import numpy as np
 import pytest
-from clibrary import F77Beam, Library
+from clibrary import F77Beam
 from gapbeam.errors import EngineError, SceneError
 from scenes import nodes_of, random_scene
 
 FIELDS = ("deflection", "rotation", "moment", "shear", "axial_force", "axial_displacement")
 CONDITIONS = {"open": 0, "closed": 1, "bilateral": 2}
-
-
-@pytest.fixture(scope="session")
-def library(installed):
-    return Library(installed.library)
 
 
 def scene_of(seed):

@@ -19,8 +19,9 @@ from math import inf, isinf
 
 import numpy as np
 
-from .lowering import SIDES, locate
+from .places import locate
 from .scene import CurvatureLoad, ForceLoad, MomentLoad, Scene, UniformLoad
+from .scene_checks import SIDES
 
 DIGITS = 200
 """Decimal digits where a beam has too many places for fractions."""

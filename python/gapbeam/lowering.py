@@ -14,9 +14,9 @@ from operator import attrgetter
 
 import numpy as np
 
+from .places import find_nearby_points, find_points
 from .records import Record, read_only
 from .scene import (
-    POSITION_TOLERANCE,
     AxialLoad,
     CurvatureLoad,
     ForceLoad,
@@ -25,11 +25,10 @@ from .scene import (
     Scene,
     UniformLoad,
 )
+from .scene_checks import SIDES, contact_levels, rotational_stiffnesses
 
 PLAIN, HINGE, RESTRAINED = 0, 1, 2
 """Kinds of node, as in gapbeam_band."""
-SIDES = {"both": 0, "below": 1, "above": -1}
-"""Sides of a support, as in gapbeam_model."""
 CASES = {"dead": 0, "live": 1}
 KINDS_OF_LOADS = (ForceLoad, MomentLoad, AxialLoad, UniformLoad, LinearLoad, CurvatureLoad)
 """Loads at a point, along the beam, and on a stretch."""
@@ -165,6 +164,33 @@ class Arrays(Record):
             support_contact=np.ldexp(self.support_contact, -length),
         )
 
+    @cached_property
+    def _first_points(self) -> np.ndarray:
+        """The point at every span end, and the number of points."""
+        return read_only(np.searchsorted(self.point_span, np.arange(len(self.ends) + 1)))
+
+    def find_pieces(self, x: np.ndarray, left: bool) -> tuple[np.ndarray, np.ndarray]:
+        """Find the piece of given places.
+
+        Parameters
+        ----------
+        x : numpy.ndarray
+            Places on the beam.
+        left : bool
+            Whether the piece left of a point is meant, or that on its right.
+
+        Returns
+        -------
+        piece : numpy.ndarray of int
+            The pieces.
+        distance : numpy.ndarray
+            Distances from their left ends.
+        """
+        point, distance = find_nearby_points(x, self.ends, self.point_span, self.point_offset, self._first_points)
+        before = (distance == 0.0) & (point > 0) & (left | (point == len(self.pieces)))
+        piece = np.where(before, point - 1, point)
+        return piece, np.where(before, self.pieces[piece, 0], distance)
+
     @property
     def node_x(self) -> np.ndarray:
         """X of every node."""
@@ -260,19 +286,14 @@ def lower_by_load(scene: Scene) -> tuple[Arrays, LoadRows]:
     axial_load = np.flatnonzero(kinds_of_loads == KINDS_OF_LOADS.index(AxialLoad))
     point_load = np.flatnonzero(kinds_of_loads < 2)
     stretch_load = np.flatnonzero(kinds_of_loads > 2)
-    pulls, at_a_point, stretches = ([scene.loads[k] for k in some] for some in (axial_load, point_load, stretch_load))
+    at_a_point, stretches = ([scene.loads[k] for k in some] for some in (point_load, stretch_load))
 
-    points = _Points(ends, lengths)
-    at_supports = points.add_items(scene.supports)
-    at_hinges = points.add_x(np.asarray(scene.beam.hinges, dtype=float))
-    at_loads, at_pulls = points.add_items(at_a_point), points.add_items(pulls)
-    section_from, section_to = points.add_stretches(scene.sections)
-    load_from, load_to = points.add_stretches(stretches)
-    span, offset, index = points.merge()
-    at_supports, at_hinges, at_loads, at_pulls = (index[part] for part in (at_supports, at_hinges, at_loads, at_pulls))
-    load_from, load_to = index[load_from], index[load_to]
+    points = find_points(scene, ends)
+    span, offset = points.span, points.offset
+    at_loads, at_pulls = points.load_from[point_load], points.load_from[axial_load]
+    load_from, load_to = points.load_from[stretch_load], points.load_to[stretch_load]
 
-    pieces, axial_flexibility = _pieces(scene, lengths, span, offset, index[section_from], index[section_to])
+    pieces, axial_flexibility = _pieces(scene, lengths, span, offset, points.section_from, points.section_to)
     q, bent = _end_values(stretches, kinds_of_loads[stretch_load])
     stretch, piece, piece_values = _distributed(q, bent, ends, span, offset, load_from, load_to)
     point_values = np.zeros((len(at_a_point), 2))
@@ -285,23 +306,20 @@ def lower_by_load(scene: Scene) -> tuple[Arrays, LoadRows]:
     normal = np.flatnonzero(~axial_support)
     is_node = np.zeros(len(span), dtype=bool)
     is_node[[0, -1]] = True
-    is_node[at_hinges] = True
-    is_node[at_supports[normal]] = True
-    is_node |= _beyond(at_supports[normal], len(span)) & _bears(len(span), at_loads, load_from, load_to)
+    is_node[points.hinges] = True
+    is_node[points.supports[normal]] = True
+    is_node |= _beyond(points.supports[normal], len(span)) & _bears(len(span), at_loads, load_from, load_to)
     node_points = np.flatnonzero(is_node)
     node_of_point = np.cumsum(is_node) - 1
 
     shares = [np.array([load.case == case for load in scene.loads], dtype=float) for case in CASES]
     (dead, dead_nodes), (live, live_nodes) = (rows.spread(share, is_node) for share in shares)
     kinds = np.zeros(len(node_points), dtype=np.int32)
-    kinds[node_of_point[at_hinges]] = HINGE
+    kinds[node_of_point[points.hinges]] = HINGE
     columns = [scene.supports[k] for k in normal]
-    support_nodes = node_of_point[at_supports[normal]]
+    support_nodes = node_of_point[points.supports[normal]]
     compliance, couple_share = _restraints(columns, support_nodes, kinds)
     sides = np.array([SIDES[s.side] for s in columns], dtype=np.int32)
-    contact = np.array([s.settlement for s in columns], dtype=float) + sides * np.array(
-        [s.gap for s in columns], dtype=float
-    )
     arrays = Arrays(
         ends=ends,
         point_span=span,
@@ -321,9 +339,9 @@ def lower_by_load(scene: Scene) -> tuple[Arrays, LoadRows]:
         support_nodes=support_nodes.astype(np.int32),
         support_sides=sides,
         support_stiffness=np.array([s.stiffness for s in columns], dtype=float),
-        support_contact=contact,
+        support_contact=contact_levels(columns),
         couple_share=couple_share,
-        axial=_axial(scene, np.flatnonzero(axial_support), at_supports, axial_load, at_pulls, pieces[:, 0] * axial_flexibility),
+        axial=_axial(scene, np.flatnonzero(axial_support), points.supports, axial_load, at_pulls, pieces[:, 0] * axial_flexibility),
     )
     return arrays, rows
 
@@ -343,86 +361,6 @@ def _bears(count: int, *places: np.ndarray) -> np.ndarray:
     for part in places:
         bears[part] = True
     return bears
-
-
-def locate(x: np.ndarray, ends: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Span and distance from its left end of given places.
-
-    Parameters
-    ----------
-    x : numpy.ndarray
-        Places along the beam.
-    ends : numpy.ndarray
-        x of the span ends.
-
-    Returns
-    -------
-    span : numpy.ndarray of int
-        The span; the right end of the beam is the left end of a span that does not exist.
-    offset : numpy.ndarray
-        Exactly 0 at a span end, also for an x that differs from it by rounding only.
-    """
-    span = np.clip(np.searchsorted(ends, x, side="right") - 1, 0, len(ends) - 2)
-    tolerance = POSITION_TOLERANCE * np.abs(x)
-    at_right = ends[span + 1] - x <= tolerance
-    span = span + at_right
-    offset = np.where(at_right, 0.0, x - ends[span])
-    return span, np.where(offset <= tolerance, 0.0, offset)
-
-
-class _Points:
-    """Collects places and merges those that differ by rounding only."""
-
-    def __init__(self, ends: np.ndarray, lengths: np.ndarray):
-        self.ends = ends
-        self.spans = [np.arange(len(ends), dtype=np.int32)]
-        self.offsets = [np.zeros(len(ends))]
-        self.number = len(ends)
-
-    def _add(self, span: np.ndarray, offset: np.ndarray) -> np.ndarray:
-        self.spans.append(span.astype(np.int32))
-        self.offsets.append(offset)
-        self.number += len(span)
-        return np.arange(self.number - len(span), self.number)
-
-    def add_x(self, x: np.ndarray) -> np.ndarray:
-        return self._add(*locate(x, self.ends))
-
-    def add_items(self, items: list) -> np.ndarray:
-        """Supports or point loads, given by node or by x."""
-        by_node = np.array([item.x is None for item in items], dtype=bool)
-        x = np.array([0.0 if item.x is None else item.x for item in items], dtype=float)
-        span, offset = locate(x, self.ends)
-        span[by_node] = [item.node for item in items if item.x is None]
-        offset[by_node] = 0.0
-        return self._add(span, offset)
-
-    def add_stretches(self, items: list) -> tuple[np.ndarray, np.ndarray]:
-        """Both ends of sections or distributed loads."""
-        start = np.array(list(map(attrgetter("from_"), items)), dtype=float)
-        stop = np.array(list(map(attrgetter("to"), items)), dtype=float)  # nan where left out
-        return self.add_x(start), self.add_x(np.where(np.isnan(stop), self.ends[-1], stop))
-
-    def merge(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Distinct points from left to right, and for every collected place the number of its point.
-
-        Nothing collected is kept, and the work is done in place: this is where a large scene needs most memory.
-        """
-        span, offset = np.concatenate(self.spans), np.concatenate(self.offsets)
-        self.spans.clear()
-        self.offsets.clear()
-        order = np.lexsort((offset, span))
-        span, offset = span[order], offset[order]
-        tolerance = self.ends[span]
-        tolerance += offset
-        tolerance *= POSITION_TOLERANCE
-        new = np.ones(len(order), dtype=bool)
-        new[1:] = np.diff(offset) > tolerance[1:]
-        del tolerance
-        new[1:] |= span[1:] != span[:-1]
-        index = np.empty(len(order), dtype=np.int32)
-        index[order] = np.cumsum(new, dtype=np.int32) - 1
-        return span[new], offset[new], index
 
 
 def _expand(start: np.ndarray, stop: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -495,10 +433,7 @@ def _sums(size: int, at: np.ndarray, loads: list, name: str) -> np.ndarray:
 
 def _restraints(supports, nodes, kinds) -> tuple[np.ndarray, np.ndarray]:
     """Rotational compliance of every node and the share of every support in it; sets the kind of these nodes."""
-    own = np.zeros(len(supports))
-    for k, support in enumerate(supports):
-        if support.rotation != "free":
-            own[k] = np.inf if support.rotation == "fixed" else support.rotation
+    own = rotational_stiffnesses(supports)
     stiffness = np.bincount(nodes, own, len(kinds))
     restrained = stiffness > 0.0
     kinds[restrained] = RESTRAINED

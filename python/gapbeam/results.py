@@ -15,11 +15,12 @@ import numpy as np
 from . import engine
 from .arguments import finite, numbers, whole
 from .engine import METHODS, Solution
-from .lowering import Arrays, locate
+from .lowering import Arrays
 from .memory import refuse_beyond
 from .motion import describe_motion
+from .places import POSITION_TOLERANCE
 from .records import Pickled, Record
-from .scene import POSITION_TOLERANCE, Scene
+from .scene import Scene
 from .states import Step, solve_step
 from .steps import LoadSteps, Steps
 from .wording import shown
@@ -295,27 +296,9 @@ class Result(Pickled):
         slack = POSITION_TOLERANCE * end
         if not np.all((x >= -slack) & (x <= end + slack)):
             raise ValueError(f"x: the beam goes from 0 to {end:g}, got {x[~((x >= 0) & (x <= end))].flat[0]:g}")
-        span, offset = locate(x.ravel(), arrays.ends)
-        piece, distance = self._piece(span, offset, side == "left")
+        piece, distance = arrays.find_pieces(x.ravel(), side == "left")
         state = self._chosen(step, factor)
         return self._fields(x.ravel(), piece, distance, state, x.shape)
-
-    def _piece(self, span: np.ndarray, offset: np.ndarray, left: bool) -> tuple[np.ndarray, np.ndarray]:
-        """Piece of each place and the distance from its left end; at a point the piece on the given side."""
-        arrays = self.arrays
-        tolerance = POSITION_TOLERANCE * (arrays.ends[span] + offset)
-        first = np.searchsorted(arrays.point_span, np.arange(len(arrays.ends)))  # the point at every span end
-        key = arrays.point_offset
-        # Points of one span are contiguous and sorted by offset: search in span-wise shifted offsets
-        scale = 2.0 * arrays.ends[-1]
-        point = np.searchsorted(arrays.point_span * scale + key, span * scale + offset + tolerance, side="right") - 1
-        point = np.maximum(point, first[span])
-        distance = np.maximum(offset - key[point], 0.0)
-        distance = np.where(distance <= tolerance, 0.0, distance)
-        last = len(arrays.pieces) - 1
-        before = (distance == 0.0) & (point > 0) & (left | (point > last))
-        piece = np.where(before, point - 1, point)
-        return piece, np.where(before, arrays.pieces[piece, 0], distance)
 
     def _fields(self, x, piece, distance, state, shape) -> Fields:
         arrays = self.arrays

@@ -36,7 +36,9 @@ import numpy as np
 from msgspec import Meta, Struct, field
 
 from .errors import SceneError
-from .scene_checks import POSITION_TOLERANCE, check, plain, same_place, typed
+from .place_checks import check_places
+from .places import POSITION_TOLERANCE, same_place
+from .scene_checks import check, plain, typed
 from .scene_files import read_file
 from .wording import shown
 
@@ -425,6 +427,7 @@ def read_scene(source: Scene | Mapping[str, Any] | str | os.PathLike) -> Scene:
         raise SceneError(f"expected a Scene, a mapping or the path of a file, got {shown(source)}")
     scene = typed(source, Scene)
     check(scene)
+    check_places(scene)
     return scene
 
 

@@ -1,4 +1,4 @@
-"""Checks of scenes: are keys and types right, does it make sense.
+"""Checks of scenes: are keys and types right, does every value make sense.
 
 Whatever is wrong raises a `SceneError` that names the place, the value and what was expected. The checks look
 at whole columns of numbers at once; only where one fails is the message composed for the row that failed.
@@ -17,36 +17,15 @@ import numpy as np
 
 from .characters import visible
 from .errors import SceneError
+from .places import POSITION_TOLERANCE, same_place
 from .wording import as_text, explain, number, shown
 
 if TYPE_CHECKING:
-    from .scene import Scene
+    from .scene import Scene, Support
 
 S = TypeVar("S", bound=msgspec.Struct)
 
 TOO_DEEP = "tables or lists are nested too deeply"
-POSITION_TOLERANCE = 64 * float(np.finfo(float).eps)
-"""Positions whose difference is at most this share of the larger one are the same place."""
-
-
-def same_place(a: Any, b: Any) -> Any:
-    """Whether positions differ by rounding only.
-
-    Parameters
-    ----------
-    a, b : float or numpy.ndarray
-        Positions along the beam (length).
-
-    Returns
-    -------
-    bool or numpy.ndarray of bool
-
-    Examples
-    --------
-    >>> bool(same_place(6.0, 6.000000000000001)), bool(same_place(6.0, 6.0000000001))
-    (True, False)
-    """
-    return np.abs(np.subtract(a, b)) <= POSITION_TOLERANCE * np.maximum(np.abs(a), np.abs(b))
 
 
 def typed(source: S | Mapping[str, Any], struct: type[S]) -> S:
@@ -150,8 +129,8 @@ def check(scene: Scene) -> None:
         Of several errors the first one found.
     """
     ends = _check_spans(scene)
-    hinges = _check_beam(scene, ends)
-    sections = _Rows("sections", scene.sections)
+    _check_beam(scene, ends)
+    sections = Rows("sections", scene.sections)
     sections.stretch(ends)
     idle = np.ones(len(scene.sections), dtype=bool)
     for key in ("EI", "GA", "EA"):
@@ -159,17 +138,17 @@ def check(scene: Scene) -> None:
         sections.refuse(values <= 0, key, "a number above 0 (inf = rigid)")
         idle &= np.isnan(values)
     sections.refuse_first(idle, "", "changes nothing; give EI, GA or EA")
-    _check_supports(scene, ends, hinges)
+    _check_supports(scene, ends)
     if scene.foundation:
         raise SceneError(
             "foundation[0]", "foundations are not available in this version; use elastic supports"
         )
-    _check_loads(scene, ends, hinges)
+    _check_loads(scene, ends)
     if scene.analysis.steps < 1:
         raise SceneError("analysis.steps", f"expected a whole number, 1 or more, got {shown(scene.analysis.steps)}")
 
 
-class _Rows:
+class Rows:
     """Equal structs of a scene, their numbers by column.
 
     Parameters
@@ -220,8 +199,8 @@ class _Rows:
         if wrong.any():
             raise SceneError(self.path(int(np.argmax(wrong)), key), problem)
 
-    def points(self, ends: np.ndarray) -> np.ndarray:
-        """Places by node or x, checked."""
+    def points(self, ends: np.ndarray) -> None:
+        """Check places by node or x."""
         x, node = self.column("x"), self.column("node")
         wrong = np.isnan(x) == np.isnan(node)
         if wrong.any():
@@ -236,8 +215,6 @@ class _Rows:
             nodes = f"the nodes of the beam are 0 to {len(ends) - 1}"
             raise SceneError(self.path(row, "node"), f"there is no node {number(node[row])}; {nodes}")
         self.inside(x, "x", ends)
-        at_node = ends[np.where(np.isnan(node), 0, node).astype(np.intp)]
-        return np.clip(np.where(np.isnan(x), at_node, x), 0.0, ends[-1])
 
     def inside(self, x: np.ndarray, key: str, ends: np.ndarray) -> None:
         """Refuse what lies off the beam by more than rounding."""
@@ -248,18 +225,9 @@ class _Rows:
             raise SceneError(self.path(row, key), _outside(x[row], ends))
 
     def stretch(self, ends: np.ndarray) -> None:
-        """Check from and to."""
-        start, stop = self.column("from"), self.column("to")
-        self.inside(start, "from", ends)
-        self.inside(stop, "to", ends)
-        stop = np.where(np.isnan(stop), ends[-1], stop)
-        wrong = (start >= stop) | same_place(start, stop)
-        if wrong.any():
-            row = int(np.argmax(wrong))
-            stretch = f"from = {number(start[row])} to = {number(stop[row])}"
-            raise SceneError(
-                self.path(row), f"the stretch {stretch} has no length; from must be less than to"
-            )
+        """Check that from and to are on the beam."""
+        for key in ("from", "to"):
+            self.inside(self.column(key), key, ends)
 
 
 def _outside(x: float, ends: np.ndarray) -> str:
@@ -291,8 +259,8 @@ def _check_spans(scene: Scene) -> np.ndarray:
     return ends
 
 
-def _check_beam(scene: Scene, ends: np.ndarray) -> np.ndarray:
-    """Check stiffnesses and hinges; return the places of the hinges, sorted."""
+def _check_beam(scene: Scene, ends: np.ndarray) -> None:
+    """Check stiffnesses and hinges."""
     beam = scene.beam
     for key in ("EI", "GA", "EA"):
         value = getattr(beam, key)
@@ -315,39 +283,23 @@ def _check_beam(scene: Scene, ends: np.ndarray) -> np.ndarray:
         elif -slack <= x[i] <= ends[-1] + slack:
             problem = f"x = {number(x[i])} is an end of the beam, where no hinge can be; remove it"
         raise SceneError(f"beam.hinges[{i}]", problem)
-    order = np.argsort(x, kind="stable")
-    for k in np.flatnonzero(same_place(x[order[1:]], x[order[:-1]]))[:1]:
-        first, second = sorted((int(order[k]), int(order[k + 1])))
-        there = f"at x = {number(x[second])} there is a hinge already (beam.hinges[{first}])"
-        raise SceneError(f"beam.hinges[{second}]", f"{there}; remove one of them")
-    return x[order]
 
 
-def _on_hinge(x: np.ndarray, hinges: np.ndarray) -> np.ndarray:
-    """Which positions lie on one of the sorted hinges."""
-    if not hinges.size:
-        return np.zeros(len(x), dtype=bool)
-    after = np.searchsorted(hinges, x)
-    right, left = hinges[np.minimum(after, hinges.size - 1)], hinges[np.maximum(after - 1, 0)]
-    return same_place(x, right) | same_place(x, left)
-
-
-def _check_supports(scene: Scene, ends: np.ndarray, hinges: np.ndarray) -> None:
-    """Check supports, each alone and those at the same place together."""
-    rows = _Rows("supports", scene.supports)
+def _check_supports(scene: Scene, ends: np.ndarray) -> None:
+    """Check supports, each alone."""
+    rows = Rows("supports", scene.supports)
     items = rows.items
-    x = rows.points(ends)
+    rows.points(ends)
     stiffness = rows.column("stiffness")
     rows.refuse(stiffness < 0, "stiffness", "a number, 0 or more (inf = rigid)")
-    gap, settlement = rows.column("gap", finite=True), rows.column("settlement", finite=True)
-    turn = np.fromiter([_ROTATION.get(item.rotation, item.rotation) for item in items], float, len(items))
+    gap = rows.column("gap", finite=True)
+    rows.column("settlement", finite=True)
+    turn = rotational_stiffnesses(items)
     rows.refuse(~(turn >= 0), "rotation", '"free", "fixed" or a number, 0 or more')
     bilateral = np.array([item.side == "both" for item in items], dtype=bool)
-    below = np.array([item.side == "below" for item in items], dtype=bool)
     axial = np.array([item.direction == "axial" for item in items], dtype=bool)
 
     law = np.array([item.law is not None for item in items], dtype=bool)
-    held_hinge = (turn > 0) & _on_hinge(x, hinges)
     for wrong, key, problem in (
         (axial & ~bilateral, "side", 'an axial support holds on both sides; use side = "both"'),
         (axial & (gap != 0), "gap", "an axial support has no gap; remove it"),
@@ -357,74 +309,67 @@ def _check_supports(scene: Scene, ends: np.ndarray, hinges: np.ndarray) -> None:
             "an axial support holds no rotation; a normal one here can do that",
         ),
         (bilateral & (gap != 0), "gap", 'only a support with side = "below" or "above" has a gap'),
-        (held_hinge, "rotation", "there is a hinge here, so it is open which side is held; move one aside"),
         (law & (stiffness != np.inf), "", "has both stiffness and law; give one of the two"),
         (law, "law", "piecewise linear laws are not available in this version; give stiffness instead"),
     ):
         rows.refuse_first(wrong, key, problem)
 
-    rigid = np.isinf(stiffness)
-    _check_one_each(rows, x, axial, "hold the beam horizontally")
-    _check_one_each(rows, x, np.isinf(turn), "hold the rotation of the beam rigidly")
-    kinds = {"both": rigid & bilateral & ~axial, "below": rigid & below, "above": rigid & ~below & ~bilateral}
-    for side, rows_of_kind in kinds.items():
-        _check_one_each(rows, x, rows_of_kind, f'are rigid with side = "{side}"')
-    level = {"both": settlement, "below": settlement + gap, "above": settlement - gap}
-    for lower, upper in (("below", "above"), ("below", "both"), ("both", "above")):
-        _check_room(rows, x, (kinds[lower], level[lower]), (kinds[upper], level[upper]), (lower, upper))
 
-
-_ROTATION = {"free": 0.0, "fixed": np.inf}
-
-
-def _check_one_each(rows: _Rows, x: np.ndarray, chosen: np.ndarray, what: str) -> None:
-    """Of the chosen supports at most one may stand at a place."""
-    which = np.flatnonzero(chosen)
-    which = which[np.argsort(x[which], kind="stable")]
-    for k in np.flatnonzero(same_place(x[which[1:]], x[which[:-1]]))[:1]:
-        first, second = sorted(which[k : k + 2].tolist())
-        twice = f"this one and {rows.path(first)} both stand at x = {number(x[second])} and {what}"
-        raise SceneError(rows.path(second), f"{twice}; remove one of them")
-
-
-def _check_room(rows: _Rows, x: np.ndarray, lower: tuple, upper: tuple, sides: tuple[str, str]) -> None:
-    """Refuse rigid supports that leave no room; lower and upper are (which, level at which they act)."""
-    low, high = np.flatnonzero(lower[0]), np.flatnonzero(upper[0])
-    if not low.size or not high.size:
-        return
-    high = high[np.argsort(x[high], kind="stable")]
-    after = np.searchsorted(x[high], x[low])
-    for at in (high[np.minimum(after, high.size - 1)], high[np.maximum(after - 1, 0)]):
-        stop, start = lower[1][low], upper[1][at]
-        slack = POSITION_TOLERANCE * np.maximum(np.abs(stop), np.abs(start))
-        tight = stop - start < -slack if "both" not in sides else stop - start <= slack
-        for k in np.flatnonzero(same_place(x[low], x[at]) & tight)[:1]:
-            here = f"this one ({sides[0]}, acts at a deflection of {number(stop[k])})"
-            there = f"{rows.path(at[k])} ({sides[1]}, acts at {number(start[k])})"
-            problem = f"{here} and {there} leave no room at x = {number(x[low[k]])}; give a greater gap"
-            raise SceneError(rows.path(low[k]), problem)
-
-
-def _check_loads(scene: Scene, ends: np.ndarray, hinges: np.ndarray) -> None:
+def _check_loads(scene: Scene, ends: np.ndarray) -> None:
     """Check loads, kind by kind."""
     kinds: dict[str, list[int]] = {}
     for i, load in enumerate(scene.loads):
         kinds.setdefault(load.__struct_config__.tag, []).append(i)
     for kind, index in kinds.items():
-        rows = _Rows("loads", [scene.loads[i] for i in index], index)
+        rows = Rows("loads", [scene.loads[i] for i in index], index)
         if kind in ("force", "moment", "axial"):
-            x = rows.points(ends)
+            rows.points(ends)
         else:
             rows.stretch(ends)
         rows.column(_VALUE[kind], finite=True)
-        if kind == "moment" and (on_hinge := _on_hinge(x, hinges)).any():
-            row = int(np.argmax(on_hinge))
-            there = f"the moment acts exactly at the hinge at x = {number(x[row])}"
-            problem = f"{there}, so it is open which side takes it; put it on one side of the hinge"
-            raise SceneError(rows.path(row), problem)
         if kind == "axial" and not any(support.direction == "axial" for support in scene.supports):
             problem = 'nothing holds the beam horizontally; give a support direction = "axial"'
             raise SceneError(rows.path(0), problem)
 
+
+def rotational_stiffnesses(supports: Sequence[Support]) -> np.ndarray:
+    """Collect the stiffnesses of rotational restraints.
+
+    Parameters
+    ----------
+    supports : sequence of Support
+        Supports of a scene.
+
+    Returns
+    -------
+    numpy.ndarray
+        Of each (force*length/rad): 0 free, inf fixed.
+    """
+    return np.array([_ROTATION.get(support.rotation, support.rotation) for support in supports], dtype=float)
+
+
+_ROTATION = {"free": 0.0, "fixed": np.inf}
+
+
+def contact_levels(supports: Sequence[Support]) -> np.ndarray:
+    """Collect the deflections at which supports begin to act.
+
+    Parameters
+    ----------
+    supports : sequence of Support
+        Supports of a scene.
+
+    Returns
+    -------
+    numpy.ndarray
+        Of each (length, positive downward): settlement + gap (below), settlement - gap (above), settlement (both).
+    """
+    settlement, gap = (np.array(list(map(attrgetter(key), supports)), dtype=float) for key in ("settlement", "gap"))
+    with np.errstate(over="ignore"):  # inf is refused with the other numbers that leave the range
+        return settlement + np.array([SIDES[support.side] for support in supports], dtype=float) * gap
+
+
+SIDES = {"both": 0, "below": 1, "above": -1}
+"""Sides of a support, as in gapbeam_model."""
 
 _VALUE = {"force": "F", "moment": "M", "axial": "F", "uniform": "q", "linear": "q", "curvature": "kappa"}
