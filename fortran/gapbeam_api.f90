@@ -12,10 +12,13 @@ module gapbeam_api
     use gapbeam_search, only: rule_block, rule_single
     use gapbeam_scene, only: model_type, load_type, gapbeam_axial
     use gapbeam_lowered, only: lowered_type, copy_model
-    use gapbeam_lower, only: lower_model, lower_loads
+    use gapbeam_units, only: bound_outside, moment_unit, rotation_unit
+    use gapbeam_lower, only: lower_model
+    use gapbeam_lower_loads, only: lower_loads
     use gapbeam_check, only: check_loads, shown
     use gapbeam_certificate, only: found_type => certificate_type
-    use gapbeam_state, only: state_type, event_type, new_state, solve_state, certify_state, follow_events
+    use gapbeam_solution, only: state_type, new_state
+    use gapbeam_state, only: event_type, solve_state, certify_state, follow_events
     use gapbeam_query, only: support_values, find_undecided, fields_at_places, extremes_of_fields, motion_of_nodes, field_count
     implicit none
     private
@@ -75,7 +78,7 @@ contains
         type(model_type), intent(in) :: model
         !> Ready for solve_beam and follow_load
         type(prepared_type), intent(out) :: beam
-        !> gapbeam_bad_input with the array and the entry, or gapbeam_no_memory; beam is then not prepared
+        !> gapbeam_bad_input with the array and the entry, gapbeam_not_finite or gapbeam_no_memory; beam is then not prepared
         type(error_type), allocatable, intent(out) :: error
         type(ieee_status_type) :: environment
         integer :: stat
@@ -114,10 +117,7 @@ contains
         call ieee_set_rounding_mode(ieee_nearest)
         if (same_places(beam%lowered%model%loads, loads)) then
             call check_loads(loads, beam%lowered%ends, any(beam%lowered%model%supports%direction == gapbeam_axial), error)
-            if (.not. allocated(error)) then
-                beam%lowered%model%loads(:) = loads
-                call lower_loads(beam%lowered, error)
-            end if
+            if (.not. allocated(error)) call exchange_loads(beam%lowered, loads, error)
         else
             allocate (other, stat=stat)
             if (stat == 0) call copy_model(beam%lowered%model, other%model, stat)
@@ -135,6 +135,28 @@ contains
         end if
         call ieee_set_status(environment)
     end subroutine replace_loads
+
+    !> Take other values of the loads; the old ones stay where numbers leave the range of double precision
+    subroutine exchange_loads(lowered, loads, error)
+        type(lowered_type), intent(inout) :: lowered
+        type(load_type), intent(in) :: loads(:)
+        type(error_type), allocatable, intent(out) :: error
+        type(error_type), allocatable :: none
+        type(load_type), allocatable :: before(:)
+        integer :: stat
+
+        allocate (before(size(loads)), stat=stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        before(:) = lowered%model%loads
+        lowered%model%loads(:) = loads
+        call lower_loads(lowered, error)
+        if (.not. allocated(error)) return
+        lowered%model%loads(:) = before
+        call lower_loads(lowered, none)
+    end subroutine exchange_loads
 
     !> Do two lists of loads differ in their values only
     pure function same_places(a, b) result(same)
@@ -250,7 +272,7 @@ contains
         real(wp), intent(out) :: reaction(:)
         !> Deflection of the beam there, down; at an axial support to the right
         real(wp), intent(out) :: deflection(:)
-        !> Distance still to go until it acts
+        !> Distance still to go until it acts; negative where the beam has gone past one without stiffness
         real(wp), intent(out) :: opening(:)
         !> Couple on the beam, clockwise
         real(wp), intent(out) :: couple(:)
@@ -282,7 +304,7 @@ contains
         !> Deflection (down), rotation (clockwise), moment (sagging), shear, axial force (tension), axial displacement (to the
         !> right), shape (6, n)
         real(wp), intent(out) :: fields(:, :)
-        !> gapbeam_not_prepared, gapbeam_no_memory, or gapbeam_bad_input for a place off the beam
+        !> gapbeam_not_prepared, gapbeam_not_finite, gapbeam_no_memory, or gapbeam_bad_input for a place off the beam
         type(error_type), allocatable, intent(out) :: error
         !> Where a field jumps: its value left of the place; default right of it
         logical, intent(in), optional :: from_left
@@ -311,7 +333,7 @@ contains
         type(result_type), intent(inout) :: result
         !> Maximum (1) and minimum (2) of the fields in the order of get_fields, and where they are, shape (2, 6)
         real(wp), intent(out) :: value(:, :), x(:, :)
-        !> gapbeam_not_prepared, gapbeam_no_memory, or gapbeam_bad_input for arrays of another size
+        !> gapbeam_not_prepared, gapbeam_not_finite, gapbeam_no_memory, or gapbeam_bad_input for arrays of another size
         type(error_type), allocatable, intent(out) :: error
         type(ieee_status_type) :: environment
 
@@ -376,11 +398,13 @@ contains
         call certify_state(beam%lowered, result%state, found, error)
         if (.not. allocated(error)) then
             call find_undecided(beam%lowered, result%state, undecided)
-            associate (length => beam%lowered%length_exponent, force => beam%lowered%force_exponent)
+            associate (units => beam%lowered%units)
                 certificate = certificate_type(found%equilibrium, found%compatibility, found%complementarity, found%known, &
-                                               scale(found%of_nodes, length), scale(found%reaction, force), &
-                                               [scale(found%deflection, length), found%rotation, &
-                                                scale(found%moment, force + length), scale(found%shear, force)])
+                                               bound_outside(found%of_nodes, units%deflection), &
+                                               bound_outside(found%reaction, units%force), &
+                                               bound_outside([found%deflection, found%rotation, found%moment, found%shear], &
+                                                             [units%deflection, rotation_unit(units), moment_unit(units), &
+                                                              units%force]))
             end associate
         end if
         call ieee_set_status(environment)

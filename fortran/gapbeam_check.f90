@@ -2,14 +2,14 @@
 module gapbeam_check
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, fatal_error, gapbeam_bad_input
+    use gapbeam_error, only: error_type, fatal_error, gapbeam_bad_input, gapbeam_not_finite
     use gapbeam_scene, only: model_type, span_type, support_type, load_type, gapbeam_by_x, &
         gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_normal, gapbeam_axial, &
         gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, gapbeam_live, gapbeam_dead
     use gapbeam_lowered, only: position_tolerance
     implicit none
     private
-    public :: check_spans, check_rest, check_loads, refuse, shown
+    public :: check_spans, check_rest, check_loads, refuse, refuse_range, named, shown
     public :: of_spans, of_hinges, of_supports, of_loads
 
     !> The arrays of a model
@@ -28,13 +28,30 @@ contains
         integer, intent(in) :: table, entry, count
         !> What is wrong, and what was expected
         character(len=*), intent(in) :: problem
-        character(len=60) :: place
 
-        write (place, "(a, 1x, i0, ' of ', i0)") trim(names(table)), entry, count
-        call fatal_error(error, gapbeam_bad_input, trim(place)//": "//problem)
+        call fatal_error(error, gapbeam_bad_input, trim(named(table, entry, count))//": "//problem)
         error%table = table
         error%entry = entry
     end subroutine refuse
+
+    !> "support 3 of 4", blanks behind it
+    pure function named(table, entry, count) result(text)
+        !> As for refuse
+        integer, intent(in) :: table, entry, count
+        character(len=40) :: text
+
+        write (text, "(a, 1x, i0, ' of ', i0)") trim(names(table)), entry, count
+    end function named
+
+    !> Say what left the range of double precision
+    pure subroutine refuse_range(error, what, remedy)
+        !> Becomes allocated
+        type(error_type), allocatable, intent(out) :: error
+        !> What it is and why, and what to do about it
+        character(len=*), intent(in) :: what, remedy
+
+        call fatal_error(error, gapbeam_not_finite, "numbers left the range of double precision: "//what//"; "//remedy)
+    end subroutine refuse_range
 
     !> A number as a user would write it, blanks behind it. Not of deferred length: gfortran keeps the length of such a result in
     !> static storage, which threads share
@@ -75,8 +92,6 @@ contains
                     call wrong(i, "GA", s%GA, "a number above 0 (infinite: rigid in shear)")
                 else if (.not. s%EA > 0.0_wp) then
                     call wrong(i, "EA", s%EA, "a number above 0 (infinite: rigid)")
-                else if (min(s%EI, s%GA, s%EA) < 1/huge(1.0_wp)) then
-                    call wrong(i, "EI, GA or EA", min(s%EI, s%GA, s%EA), "numbers whose reciprocals are in the range of doubles")
                 end if
             end associate
             if (allocated(error)) return

@@ -11,16 +11,18 @@
 ! equilibrium, above 10 an error with its MESSAGE and nothing else set.
 
 ! Condense the pieces between nodes into links
-subroutine gbcond(np, nl, piece, dead, live, last, link, status)
+subroutine gbcond(np, nl, piece, dead, live, last, link, lost, status)
     use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
     use gapbeam_error, only: gapbeam_solved, gapbeam_no_memory
     use gapbeam_link, only: link_type, piece_type, load_type, condense_link
+    use gapbeam_range, only: first_lost_link
     implicit none
     integer, intent(in) :: np, nl
     double precision, intent(in), target :: piece(3, np), dead(5, np), live(5, np)
     integer, intent(in) :: last(nl)
     double precision, intent(out), target :: link(21, nl)
-    integer, intent(out) :: status
+    ! The first link, from 1, that lost digits; with a minus the first whose loads are no numbers; 0: none
+    integer, intent(out) :: lost, status
     !f2py threadsafe
     !f2py integer, intent(hide), depend(piece) :: np = shape(piece, 1)
     !f2py integer, intent(hide), depend(last) :: nl = shape(last, 0)
@@ -30,6 +32,7 @@ subroutine gbcond(np, nl, piece, dead, live, last, link, status)
     double precision, allocatable :: work(:)
     integer :: i, first, stat
 
+    lost = 0
     status = gapbeam_no_memory
     allocate (work(np), stat=stat)
     if (stat /= 0) return
@@ -43,6 +46,7 @@ subroutine gbcond(np, nl, piece, dead, live, last, link, status)
         call condense_link(pieces(first:last(i)), deads(first:last(i)), lives(first:last(i)), work, links(i))
         first = last(i) + 1
     end do
+    lost = first_lost_link(pieces, links, last)
 end subroutine gbcond
 
 ! Find the working scheme at one load factor and solve it

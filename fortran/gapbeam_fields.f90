@@ -1,5 +1,6 @@
 !> Fields anywhere along the beam, and their extremes
 module gapbeam_fields
+    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_positive_inf, ieee_negative_inf
     use gapbeam_kinds, only: wp
     use gapbeam_element, only: field_type, fields_at
     use gapbeam_link, only: piece_type, load_type, combine_loads
@@ -111,6 +112,13 @@ contains
         case default
             value = fields%shear
         end select
+        if (.not. abs(value) <= huge(value)) then
+            ! Nothing is beyond it: who asked will see it
+            values(:) = [ieee_value(value, ieee_positive_inf), ieee_value(value, ieee_negative_inf)]
+            pieces(:) = j
+            distances(:) = s
+            return
+        end if
         if (value > values(1)) then
             values(1) = value
             pieces(1) = j

@@ -24,7 +24,7 @@
 ! Prepare a beam
 subroutine gbprep(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, work, lwork, iwork, liwork, info)
     use, intrinsic :: iso_fortran_env, only: int64
-    use gapbeam_error, only: error_type, gapbeam_no_memory
+    use gapbeam_error, only: error_type, gapbeam_no_memory, gapbeam_bad_input
     use gapbeam_scene, only: model_type
     use gapbeam_api, only: prepared_type, prepare_model
     use gapbeam_work, only: sizes_of_beam, read_model, put_beam
@@ -39,7 +39,7 @@ subroutine gbprep(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, alo
     ! The beam
     double precision, intent(inout) :: work(*)
     integer, intent(inout) :: iwork(*)
-    ! -1, -2, -4, -6 or -7, -9 or -10: bad input; -12, -14: too short; 15
+    ! -1, -2, -4, -6 or -7, -9 or -10: bad input; -12, -14: too short; 14, 15
     integer, intent(out) :: info
     type(model_type) :: model
     type(prepared_type) :: beam
@@ -71,7 +71,7 @@ subroutine gbprep(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, alo
     if (.not. allocated(error)) call prepare_model(model, beam, error)
     if (allocated(error)) then
         info = error%code
-        if (error%code /= gapbeam_no_memory) info = -argument(error%table)
+        if (error%code == gapbeam_bad_input) info = -argument(error%table)
         iwork(1) = error%entry
         return
     end if
@@ -96,7 +96,7 @@ subroutine gbload(nload, iload, aload, work, lwork, iwork, liwork, info)
     integer, intent(in) :: lwork, liwork
     double precision, intent(inout) :: work(*)
     integer, intent(inout) :: iwork(*)
-    ! -1; -2: bad load; -4: no beam in WORK; -5: too short; 15
+    ! -1; -2: bad load; -4: no beam in WORK; -5: too short; 14, 15
     integer, intent(out) :: info
     type(prepared_type) :: beam
     type(load_type), allocatable :: loads(:)
@@ -253,7 +253,7 @@ subroutine gbsupp(work, iwork, state, istate, supval, kstate, info)
     ! Beam and state
     double precision, intent(in) :: work(*), state(*)
     integer, intent(in) :: iwork(*), istate(*)
-    ! Reaction, deflection, opening, couple of every support
+    ! Reaction, deflection, opening (negative: the beam has gone past a support without stiffness), couple of every support
     double precision, intent(inout) :: supval(4, *)
     ! 0 open, 1 closed, 2 bilateral
     integer, intent(inout) :: kstate(*)
@@ -273,7 +273,7 @@ end subroutine gbsupp
 
 ! Exact fields anywhere along the beam
 subroutine gbflds(work, iwork, state, istate, nx, x, left, field, info)
-    use gapbeam_error, only: error_type, gapbeam_bad_input, gapbeam_no_memory
+    use gapbeam_error, only: error_type, gapbeam_bad_input, gapbeam_not_finite, gapbeam_no_memory
     use gapbeam_api, only: prepared_type, result_type, get_fields
     use gapbeam_work, only: take_both
     implicit none
@@ -287,7 +287,8 @@ subroutine gbflds(work, iwork, state, istate, nx, x, left, field, info)
     integer, intent(in) :: left
     ! Deflection, rotation, moment, shear, axial force, axial displacement at every place
     double precision, intent(inout) :: field(6, *)
-    ! -1: no beam; -3: nothing solved, or not of this beam; -5; -6: a place off the beam; 15
+    ! -1: no beam; -3: nothing solved, or not of this beam; -5; -6: a place off the beam; 14: a field out of range, those at
+    ! places before it are written; 15
     integer, intent(out) :: info
     type(prepared_type) :: beam
     type(result_type) :: result
@@ -300,12 +301,12 @@ subroutine gbflds(work, iwork, state, istate, nx, x, left, field, info)
     if (.not. allocated(error)) return
     info = -3
     if (error%code == gapbeam_bad_input) info = -6
-    if (error%code == gapbeam_no_memory) info = gapbeam_no_memory
+    if (any(error%code == [gapbeam_not_finite, gapbeam_no_memory])) info = error%code
 end subroutine gbflds
 
 ! Exact extremes of all fields
 subroutine gbxtrm(work, iwork, state, istate, value, xvalue, info)
-    use gapbeam_error, only: error_type, gapbeam_no_memory
+    use gapbeam_error, only: error_type, gapbeam_not_finite, gapbeam_no_memory
     use gapbeam_api, only: prepared_type, result_type, get_extremes
     use gapbeam_work, only: take_both
     implicit none
@@ -314,7 +315,7 @@ subroutine gbxtrm(work, iwork, state, istate, value, xvalue, info)
     integer, intent(in) :: iwork(*), istate(*)
     ! Maximum and minimum of the six fields of GBFLDS, and where they are
     double precision, intent(inout) :: value(2, 6), xvalue(2, 6)
-    ! -1: no beam; -3: nothing solved, or not of this beam; 15
+    ! -1: no beam; -3: nothing solved, or not of this beam; 14: a field out of range; 15
     integer, intent(out) :: info
     type(prepared_type) :: beam
     type(result_type) :: result
@@ -323,7 +324,7 @@ subroutine gbxtrm(work, iwork, state, istate, value, xvalue, info)
     call take_both(work, iwork, state, istate, beam, result, info)
     if (info /= 0) return
     call get_extremes(beam, result, value, xvalue, error)
-    if (allocated(error)) info = merge(error%code, -3, error%code == gapbeam_no_memory)
+    if (allocated(error)) info = merge(error%code, -3, any(error%code == [gapbeam_not_finite, gapbeam_no_memory]))
 end subroutine gbxtrm
 
 ! The free motion where there is no equilibrium

@@ -7,10 +7,10 @@ module gapbeam_lower_supports
         gapbeam_axial_force
     use gapbeam_model, only: node_support_type => support_type, order_supports => place_supports
     use gapbeam_lowered, only: lowered_type, position_tolerance
-    use gapbeam_check, only: refuse, shown, of_supports
+    use gapbeam_check, only: refuse, refuse_range, named, shown, of_supports
     implicit none
     private
-    public :: lower_supports
+    public :: lower_supports, contact_level
 
 contains
 
@@ -167,55 +167,69 @@ contains
         end associate
     end subroutine choose_nodes
 
-    !> The supports across the beam in the engine's units
+    !> The supports across the beam that can carry, and rotational restraints; their numbers come with the units
     subroutine place_supports(lowered, error)
         type(lowered_type), intent(inout) :: lowered
         type(error_type), allocatable, intent(out) :: error
         type(node_support_type), allocatable :: supports(:)
-        real(wp), allocatable :: turning(:)
+        logical, allocatable :: clamped(:)
         integer :: k, j, m, n, stat
 
         n = ubound(lowered%node_point, 1)
-        m = count(lowered%model%supports%direction == gapbeam_normal)
-        associate (beam => lowered%beam, l => lowered%length_exponent, f => lowered%force_exponent)
+        associate (beam => lowered%beam, given => lowered%model%supports)
+            m = count(can_carry(given))
             allocate (beam%links(n), beam%kind(0:n), beam%compliance(0:n), beam%force(2, 0:n), beam%couple(2, 0:n), &
-                      lowered%normal(m), lowered%couple_share(m), turning(0:n), supports(m), stat=stat)
+                      lowered%normal(m), lowered%beam_support(size(given)), lowered%couple_share(size(given)), &
+                      lowered%turning(0:n), clamped(0:n), supports(m), stat=stat)
             ! order_supports frees and allocates these again
             if (stat == 0) allocate (beam%supports(m), beam%order(m), beam%first(0:n + 1), stat=stat)
             if (stat /= 0) then
                 call no_memory(error)
                 return
             end if
-            turning(:) = 0.0_wp
+            lowered%turning(:) = 0.0_wp
+            clamped(:) = .false.
+            lowered%beam_support(:) = 0
             beam%kind(:) = merge(hinge, plain, lowered%hinged(lowered%node_point))
             j = 0
-            do k = 1, size(lowered%model%supports)
-                associate (s => lowered%model%supports(k))
-                    if (s%direction /= gapbeam_normal) cycle
+            do k = 1, size(given)
+                if (given(k)%direction /= gapbeam_normal) cycle
+                associate (node => lowered%node_of_point(lowered%support_point(k)))
+                    lowered%turning(node) = lowered%turning(node) + given(k)%rotation
+                    if (given(k)%rotation > huge(given(k)%rotation)) clamped(node) = .true.
+                    if (.not. can_carry(given(k))) cycle
                     j = j + 1
                     lowered%normal(j) = k
-                    supports(j) = node_support_type(lowered%node_of_point(lowered%support_point(k)), s%side, &
-                                                         scale(s%stiffness, l - f), scale(contact_level(s), -l))
-                    turning(supports(j)%node) = turning(supports(j)%node) + s%rotation
+                    lowered%beam_support(k) = j
+                    supports(j) = node_support_type(node, given(k)%side, 0.0_wp, 0.0_wp)
                 end associate
             end do
             call order_supports(supports, beam)
-            beam%compliance(:) = 0.0_wp
-            do j = 0, n
-                if (.not. turning(j) > 0.0_wp) cycle
-                beam%kind(j) = restrained
-                beam%compliance(j) = 1/turning(j)
-            end do
-            do j = 1, m
-                associate (turn => lowered%model%supports(lowered%normal(j))%rotation)
+            where (lowered%turning > 0.0_wp) beam%kind = restrained
+            do k = 1, size(given)
+                lowered%couple_share(k) = 0.0_wp
+                associate (turn => given(k)%rotation, node => lowered%node_of_point(lowered%support_point(k)))
+                    if (.not. turn > 0.0_wp) cycle
                     ! A clamp takes all of the couple
-                    lowered%couple_share(j) = 1.0_wp
-                    if (turn <= huge(turn)) lowered%couple_share(j) = turn*beam%compliance(beam%supports(j)%node)
+                    lowered%couple_share(k) = 1.0_wp
+                    if (turn > huge(turn)) cycle
+                    lowered%couple_share(k) = turn/lowered%turning(node)
+                    if (.not. lowered%turning(node) > huge(turn) .or. clamped(node)) cycle
+                    call refuse_range(error, "the rotations of "//trim(named(of_supports, k, size(given)))// &
+                                      " and others at its place are too great together", "clamp it")
+                    return
                 end associate
             end do
-            beam%compliance(:) = scale(beam%compliance, f + l)
         end associate
     end subroutine place_supports
+
+    !> Can a support carry: a one-sided one without stiffness only says where the beam is
+    elemental function can_carry(support) result(yes)
+        type(support_type), intent(in) :: support
+        logical :: yes
+
+        yes = support%direction == gapbeam_normal .and. (support%stiffness > 0.0_wp .or. support%side == gapbeam_both)
+    end function can_carry
 
     !> The axial system: its points are the beam's ends and the places of axial forces and supports
     subroutine build_axial(lowered, error)
@@ -241,20 +255,14 @@ contains
                 if (model%loads(k)%kind == gapbeam_axial_force) node(lowered%load_from(k)) = 0
             end do
             i = count(node == 0) - 1
-            allocate (axial%point(0:i), axial%flexibility(i), axial%force(2, 0:i), axial%stiffness(0:i), &
+            allocate (axial%point(0:i), axial%softness(n), axial%flexibility(i), axial%force(2, 0:i), axial%stiffness(0:i), &
                       axial%settlement(0:i), stat=stat)
             if (stat /= 0) then
                 call no_memory(error)
                 return
             end if
-            axial%flexibility(:) = 0.0_wp
-            axial%stiffness(:) = 0.0_wp
-            axial%settlement(:) = 0.0_wp
-            axial%point(0) = 0
-            i = 0
-            do j = 1, n
-                axial%flexibility(i + 1) = axial%flexibility(i + 1) &
-                    + scale(lowered%pieces(j)%length, lowered%length_exponent)*lowered%axial_flexibility(j)
+            i = -1
+            do j = 0, n
                 if (node(j) < 0) cycle
                 i = i + 1
                 node(j) = i
@@ -262,11 +270,7 @@ contains
             end do
             do k = 1, size(model%supports)
                 axial%node(k) = -1
-                if (model%supports(k)%direction /= gapbeam_axial) cycle
-                i = node(lowered%support_point(k))
-                axial%node(k) = i
-                axial%stiffness(i) = model%supports(k)%stiffness
-                axial%settlement(i) = model%supports(k)%settlement
+                if (model%supports(k)%direction == gapbeam_axial) axial%node(k) = node(lowered%support_point(k))
             end do
         end associate
     end subroutine build_axial

@@ -4,18 +4,24 @@ module gapbeam_lowered
     use gapbeam_kinds, only: wp
     use gapbeam_link, only: piece_type, piece_load_type => load_type
     use gapbeam_model, only: beam_type
-    use gapbeam_scene, only: model_type
+    use gapbeam_scene, only: model_type, load_type, gapbeam_distributed, gapbeam_curvature
+    use gapbeam_units, only: units_type
     implicit none
     private
-    public :: lowered_type, axial_type, copy_model, fingerprint, position_tolerance
+    public :: lowered_type, axial_type, copy_model, fingerprint, position_tolerance, is_stretch, point_x, piece_length
 
     !> Positions whose difference is at most this share of the larger one are the same place
     real(wp), parameter :: position_tolerance = 64*epsilon(1.0_wp)
 
-    !> The axial system: bars between points with an axial load or support; none allocated if it is not needed
+    !> The axial system: bars between points with an axial load or support, in units of its own; none allocated if it is not
+    !> needed
     type :: axial_type
+        !> Units of force and of displacement along the axis
+        type(units_type) :: units
         !> Points of the beam that are its nodes, shape (0:n)
         integer, allocatable :: point(:)
+        !> Length/EA of every piece of the beam, shape (npiece)
+        real(wp), allocatable :: softness(:)
         !> int 1/EA over each bar, shape (n)
         real(wp), allocatable :: flexibility(:)
         !> Dead and live force at each point, to the right, shape (2, 0:n)
@@ -31,8 +37,8 @@ module gapbeam_lowered
         !> What the user gave, and its fingerprint
         type(model_type) :: model
         integer :: fingerprint = 0
-        !> The engine's units of length and force, as powers of two; 0 but for models far from 1
-        integer :: length_exponent = 0, force_exponent = 0
+        !> The engine's units
+        type(units_type) :: units
         !> x of the span ends, shape (0:nspan), and the point at each of them
         real(wp), allocatable :: ends(:)
         integer, allocatable :: end_point(:)
@@ -43,23 +49,58 @@ module gapbeam_lowered
         integer, allocatable :: support_point(:), load_from(:), load_to(:)
         !> Is there a hinge at a point, shape (0:npiece)
         logical, allocatable :: hinged(:)
-        !> Pieces and their loads in the engine's units; 1/EA in the user's, shape (npiece)
+        !> Pieces and their loads in the engine's units, shape (npiece)
         type(piece_type), allocatable :: pieces(:)
         type(piece_load_type), allocatable :: dead(:), live(:)
-        real(wp), allocatable :: axial_flexibility(:)
         !> Points that are nodes, shape (0:nlink); node_point(1:) is also the last piece of every link
         integer, allocatable :: node_point(:)
         !> Node of every point, -1: none, shape (0:npiece)
         integer, allocatable :: node_of_point(:)
         !> The beam in the engine's units
         type(beam_type) :: beam
-        !> For every support of the beam its number in the model, and its share in the rotational restraint of its node
+        !> For every support of the beam its number in the model: those across the beam that can carry
         integer, allocatable :: normal(:)
-        real(wp), allocatable :: couple_share(:)
+        !> For every support of the model its place among those of the beam, 0: none
+        integer, allocatable :: beam_support(:)
+        !> Stiffness of the rotational restraint of every node in the user's units, shape (0:nlink), and the share that every
+        !> support of the model has in that of its node
+        real(wp), allocatable :: turning(:), couple_share(:)
         type(axial_type) :: axial
     end type lowered_type
 
 contains
+
+    !> Does a load act over a stretch
+    elemental function is_stretch(load) result(yes)
+        type(load_type), intent(in) :: load
+        logical :: yes
+
+        yes = load%kind == gapbeam_distributed .or. load%kind == gapbeam_curvature
+    end function is_stretch
+
+    !> x of a point
+    pure function point_x(lowered, point) result(x)
+        type(lowered_type), intent(in) :: lowered
+        integer, intent(in) :: point
+        real(wp) :: x
+
+        x = lowered%ends(lowered%point_span(point)) + lowered%point_offset(point)
+    end function point_x
+
+    !> Length of a piece in the user's units
+    pure function piece_length(lowered, piece) result(length)
+        type(lowered_type), intent(in) :: lowered
+        integer, intent(in) :: piece
+        real(wp) :: length
+
+        associate (span => lowered%point_span, offset => lowered%point_offset)
+            if (span(piece) == span(piece - 1)) then
+                length = offset(piece) - offset(piece - 1)
+            else
+                length = lowered%model%spans(span(piece - 1) + 1)%length - offset(piece - 1)
+            end if
+        end associate
+    end function piece_length
 
     !> Copy a model, what is missing as arrays of size 0
     pure subroutine copy_model(source, copy, stat)

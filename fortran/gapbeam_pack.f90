@@ -4,8 +4,9 @@ module gapbeam_pack
     use gapbeam_link, only: link_type, piece_type, piece_load_type => load_type
     use gapbeam_model, only: node_support_type => support_type
     use gapbeam_scene, only: model_type
+    use gapbeam_units, only: units_type
     use gapbeam_lowered, only: lowered_type
-    use gapbeam_state, only: state_type
+    use gapbeam_solution, only: state_type
     use gapbeam_tape, only: tape_type, exchange, exchange_size, reading
     implicit none
     private
@@ -22,8 +23,7 @@ contains
 
         call exchange_model(tape, lowered%model)
         call exchange(tape, lowered%fingerprint)
-        call exchange(tape, lowered%length_exponent)
-        call exchange(tape, lowered%force_exponent)
+        call exchange_units(tape, lowered%units)
         call exchange(tape, lowered%ends, 0)
         call exchange(tape, lowered%end_point, 0)
         call exchange(tape, lowered%point_span, 0)
@@ -35,7 +35,6 @@ contains
         call exchange_pieces(tape, lowered%pieces)
         call exchange_piece_loads(tape, lowered%dead)
         call exchange_piece_loads(tape, lowered%live)
-        call exchange(tape, lowered%axial_flexibility, 1)
         call exchange(tape, lowered%node_point, 0)
         call exchange(tape, lowered%node_of_point, 0)
         call exchange_links(tape, lowered%beam%links)
@@ -47,14 +46,28 @@ contains
         call exchange(tape, lowered%beam%order, 1)
         call exchange(tape, lowered%beam%first, 0)
         call exchange(tape, lowered%normal, 1)
+        call exchange(tape, lowered%beam_support, 1)
+        call exchange(tape, lowered%turning, 0)
         call exchange(tape, lowered%couple_share, 1)
+        call exchange_units(tape, lowered%axial%units)
         call exchange(tape, lowered%axial%point, 0)
+        call exchange(tape, lowered%axial%softness, 1)
         call exchange(tape, lowered%axial%flexibility, 1)
         call exchange(tape, lowered%axial%force)
         call exchange(tape, lowered%axial%stiffness, 0)
         call exchange(tape, lowered%axial%settlement, 0)
         call exchange(tape, lowered%axial%node, 1)
     end subroutine exchange_beam
+
+    !> Units
+    subroutine exchange_units(tape, units)
+        type(tape_type), intent(inout) :: tape
+        type(units_type), intent(inout) :: units
+
+        call exchange(tape, units%length)
+        call exchange(tape, units%force)
+        call exchange(tape, units%deflection)
+    end subroutine exchange_units
 
     !> Everything of a state
     subroutine exchange_state(tape, state)

@@ -6,12 +6,15 @@ module gapbeam_query
     use gapbeam_fields, only: values_at, find_extremes
     use gapbeam_model, only: both
     use gapbeam_scene, only: gapbeam_axial
-    use gapbeam_lowered, only: lowered_type, position_tolerance
+    use gapbeam_units, only: moment_unit, rotation_unit
+    use gapbeam_lowered, only: lowered_type, position_tolerance, point_x, piece_length
     use gapbeam_places, only: locate
-    use gapbeam_check, only: shown
+    use gapbeam_lower_units, only: name_farthest
+    use gapbeam_check, only: shown, refuse_range
     use gapbeam_path, only: event_opens, event_closes, event_turns
     use gapbeam_memory, only: reserve_memory, for_fields
-    use gapbeam_state, only: state_type, recover_state
+    use gapbeam_solution, only: state_type, couple_at_node, way_to_contact
+    use gapbeam_state, only: recover_state
     implicit none
     private
     public :: support_values, find_undecided, fields_at_places, extremes_of_fields, motion_of_nodes, node_places
@@ -23,6 +26,8 @@ module gapbeam_query
     integer, parameter :: gapbeam_turns = event_turns
     !> Fields: deflection, rotation, moment, shear, axial force, axial displacement
     integer, parameter :: field_count = 6
+    character(len=*), parameter :: field_names(field_count) = [character(len=18) :: "deflection", "rotation", "moment", "shear", &
+                                                               "axial force", "axial displacement"]
 
 contains
 
@@ -35,38 +40,40 @@ contains
         real(wp), intent(out) :: reaction(:)
         !> Deflection of the beam there, down; at an axial support to the right, shape (nsupport)
         real(wp), intent(out) :: deflection(:)
-        !> Distance still to go until it acts, shape (nsupport)
+        !> Distance still to go until it acts, negative where the beam has gone past one without stiffness, shape (nsupport)
         real(wp), intent(out) :: opening(:)
         !> Couple on the beam, clockwise, shape (nsupport)
         real(wp), intent(out) :: couple(:)
         !> gapbeam_open, gapbeam_closed or gapbeam_bilateral, shape (nsupport)
         integer, intent(out) :: condition(:)
-        real(wp) :: at_node
         integer :: j, k
 
-        associate (l => lowered%length_exponent, f => lowered%force_exponent, beam => lowered%beam)
+        associate (units => lowered%units, beam => lowered%beam, axial => lowered%axial)
             do k = 1, size(reaction)
                 reaction(k) = 0.0_wp
                 deflection(k) = 0.0_wp
                 opening(k) = 0.0_wp
                 couple(k) = 0.0_wp
                 condition(k) = gapbeam_bilateral
-                if (lowered%model%supports(k)%direction /= gapbeam_axial .or. .not. allocated(lowered%axial%node)) cycle
-                reaction(k) = state%axial_reaction(lowered%axial%node(k))
-                deflection(k) = state%displacement(lowered%axial%node(k))
-            end do
-            do j = 1, size(lowered%normal)
-                k = lowered%normal(j)
-                associate (s => beam%supports(j), node => beam%supports(j)%node)
-                    reaction(k) = scale(state%reaction(j), f)
-                    deflection(k) = scale(state%deflection(node), l)
-                    if (s%side /= both) condition(k) = merge(gapbeam_closed, gapbeam_open, state%closed(j))
-                    if (.not. state%closed(j)) opening(k) = scale(max(0.0_wp, s%side*(s%contact - state%deflection(node))), l)
-                    if (.not. lowered%couple_share(j) > 0.0_wp) cycle
-                    ! Across a node the moment grows by the applied couple and that of the supports
-                    at_node = (state%moment_right(node) - state%moment_left(node)) &
-                        - (beam%couple(1, node) + state%factor*beam%couple(2, node))
-                    couple(k) = scale(at_node*lowered%couple_share(j), f + l)
+                associate (s => lowered%model%supports(k), node => lowered%node_of_point(lowered%support_point(k)))
+                    if (s%direction == gapbeam_axial) then
+                        if (.not. allocated(axial%node)) cycle
+                        reaction(k) = scale(state%axial_reaction(axial%node(k)), axial%units%force)
+                        deflection(k) = scale(state%displacement(axial%node(k)), axial%units%deflection)
+                        cycle
+                    end if
+                    deflection(k) = scale(state%deflection(node), units%deflection)
+                    j = lowered%beam_support(k)
+                    if (j > 0) reaction(k) = scale(state%reaction(j), units%force)
+                    if (s%side /= both) then
+                        condition(k) = gapbeam_open
+                        if (j > 0) condition(k) = merge(gapbeam_closed, gapbeam_open, state%closed(j))
+                        opening(k) = scale(way_to_contact(lowered, state, k), units%deflection)
+                        ! The beam goes past a support without stiffness
+                        if (j > 0) opening(k) = merge(0.0_wp, max(0.0_wp, opening(k)), state%closed(j))
+                    end if
+                    if (.not. lowered%couple_share(k) > 0.0_wp) cycle
+                    couple(k) = scale(couple_at_node(lowered, state, node)*lowered%couple_share(k), moment_unit(units))
                 end associate
             end do
         end associate
@@ -88,11 +95,19 @@ contains
         type(lowered_type), intent(in) :: lowered
         type(state_type), intent(inout) :: state
         type(error_type), allocatable, intent(out) :: error
+        integer :: i
 
         if (state%has_starts) return
         call reserve_memory(for_fields, size(lowered%beam%links), size(lowered%beam%supports), size(lowered%pieces), error)
         if (allocated(error)) return
         call recover_state(lowered, state, state%starts)
+        do i = 1, size(state%starts)
+            associate (a => state%starts(i))
+                if (all(abs([a%deflection, a%rotation, a%moment, a%shear]) <= huge(1.0_wp))) cycle
+            end associate
+            call name_farthest(lowered, error)
+            return
+        end do
         state%has_starts = .true.
     end subroutine make_starts
 
@@ -107,11 +122,11 @@ contains
         logical, intent(in) :: from_left
         !> Shape (field_count, n)
         real(wp), intent(out) :: fields(:, :)
-        !> A place outside the beam, or no memory
+        !> A place outside the beam, a field out of range, or no memory
         type(error_type), allocatable, intent(out) :: error
         type(field_type) :: field(1)
-        real(wp) :: distance, end
-        integer :: i, piece
+        real(wp) :: distance, end, found(field_count)
+        integer :: i, k, piece
 
         end = lowered%ends(ubound(lowered%ends, 1))
         do i = 1, size(x)
@@ -123,17 +138,54 @@ contains
         end do
         call make_starts(lowered, state, error)
         if (allocated(error)) return
-        associate (l => lowered%length_exponent, f => lowered%force_exponent)
-            do i = 1, size(x)
-                call find_piece(lowered, x(i), from_left, piece, distance)
-                call values_at(lowered%pieces, lowered%dead, lowered%live, state%factor, state%starts, [piece], &
-                               [scale(distance, -l)], field)
-                fields(1:4, i) = [scale(field(1)%deflection, l), field(1)%rotation, scale(field(1)%moment, f + l), &
-                                  scale(field(1)%shear, f)]
-                call axial_fields(lowered, state, piece, distance, fields(5, i), fields(6, i))
-            end do
-        end associate
+        do i = 1, size(x)
+            call find_piece(lowered, x(i), from_left, piece, distance)
+            call values_at(lowered%pieces, lowered%dead, lowered%live, state%factor, state%starts, [piece], &
+                           [scale(distance, -lowered%units%length)], field)
+            found(1:4) = [field(1)%deflection, field(1)%rotation, field(1)%moment, field(1)%shear]
+            call axial_fields(lowered, state, piece, distance, found(5), found(6))
+            fields(:, i) = scale(found, field_units(lowered))
+            k = findloc(abs(fields(:, i)) <= huge(distance), .false., 1)
+            if (k == 0) cycle
+            call refuse_field(lowered, k, found(k), x(i), error)
+            error%entry = i
+            return
+        end do
     end subroutine fields_at_places
+
+    !> Exponents of the units of all fields
+    pure function field_units(lowered) result(powers)
+        type(lowered_type), intent(in) :: lowered
+        integer :: powers(field_count)
+
+        associate (units => lowered%units, axial => lowered%axial%units)
+            powers = [units%deflection, rotation_unit(units), moment_unit(units), units%force, axial%force, axial%deflection]
+        end associate
+    end function field_units
+
+    !> A field is too great for the user's units, or no number
+    subroutine refuse_field(lowered, field, value, x, error)
+        type(lowered_type), intent(in) :: lowered
+        !> Its number, its value in the engine's units, and the place
+        integer, intent(in) :: field
+        real(wp), intent(in) :: value, x
+        type(error_type), allocatable, intent(out) :: error
+        character(len=40) :: remedy
+
+        if (abs(value) <= huge(value) .or. field > 4) then
+            select case (field)
+            case (1, 6)
+                remedy = "choose a greater unit of length"
+            case (2)
+                remedy = "give a stiffer beam or smaller loads"
+            case default
+                remedy = "choose a greater unit of force"
+            end select
+            call refuse_range(error, "the "//trim(field_names(field))//" at x = "//trim(shown(x))//" is too great", trim(remedy))
+        else
+            call name_farthest(lowered, error)
+        end if
+    end subroutine refuse_field
 
     !> Piece of a place, and the distance from its left end
     pure subroutine find_piece(lowered, x, from_left, piece, distance)
@@ -171,11 +223,11 @@ contains
         if (distance > 0.0_wp .or. low == 0) return
         if (from_left .or. piece > size(lowered%pieces)) then
             piece = low
-            distance = scale(lowered%pieces(piece)%length, lowered%length_exponent)
+            distance = piece_length(lowered, piece)
         end if
     end subroutine find_piece
 
-    !> Normal force and displacement along the axis; zero without an axial system
+    !> Normal force and displacement along the axis in units of the axial system; zero without one
     pure subroutine axial_fields(lowered, state, piece, distance, tension, displacement)
         type(lowered_type), intent(in) :: lowered
         type(state_type), intent(in) :: state
@@ -201,9 +253,9 @@ contains
                 end if
             end do
             bar = high
-            way = distance*lowered%axial_flexibility(piece)
+            way = lowered%axial%softness(piece)*(distance/piece_length(lowered, piece))
             do j = point(bar - 1) + 1, piece - 1
-                way = way + scale(lowered%pieces(j)%length, lowered%length_exponent)*lowered%axial_flexibility(j)
+                way = way + lowered%axial%softness(j)
             end do
         end associate
         tension = state%tension(bar)
@@ -217,43 +269,38 @@ contains
         type(state_type), intent(inout) :: state
         !> Maximum (1) and minimum (2) of every field, and their places, shape (2, field_count)
         real(wp), intent(out) :: value(:, :), x(:, :)
-        !> No memory
+        !> A field out of range, or no memory
         type(error_type), allocatable, intent(out) :: error
-        real(wp) :: distance(2, 4)
-        integer :: piece(2, 4), exponents(4), i, k
+        real(wp) :: found(2, field_count), distance(2, 4)
+        integer :: piece(2, 4), powers(field_count), i, k
 
         call make_starts(lowered, state, error)
         if (allocated(error)) return
-        call find_extremes(lowered%pieces, lowered%dead, lowered%live, state%factor, state%starts, value(:, 1:4), piece, distance)
-        associate (l => lowered%length_exponent, f => lowered%force_exponent)
-            exponents = [l, 0, f + l, f]
-            do k = 1, 4
-                do i = 1, 2
-                    value(i, k) = scale(value(i, k), exponents(k))
-                    x(i, k) = point_x(piece(i, k) - 1) + scale(distance(i, k), l)
-                end do
+        call find_extremes(lowered%pieces, lowered%dead, lowered%live, state%factor, state%starts, found(:, 1:4), piece, distance)
+        do k = 1, 4
+            do i = 1, 2
+                x(i, k) = point_x(lowered, piece(i, k) - 1) + scale(distance(i, k), lowered%units%length)
             end do
-        end associate
-        value(:, 5:6) = 0.0_wp
+        end do
+        found(:, 5:6) = 0.0_wp
         x(:, 5:6) = 0.0_wp
-        if (.not. allocated(lowered%axial%point)) return
-        associate (point => lowered%axial%point)
-            value(:, 5) = [maxval(state%tension), minval(state%tension)]
-            x(:, 5) = [point_x(point(maxloc(state%tension, 1) - 1)), point_x(point(minloc(state%tension, 1) - 1))]
-            value(:, 6) = [maxval(state%displacement), minval(state%displacement)]
-            x(:, 6) = [point_x(point(maxloc(state%displacement, 1) - 1)), point_x(point(minloc(state%displacement, 1) - 1))]
-        end associate
-
-    contains
-
-        !> x of a point
-        pure function point_x(j) result(place)
-            integer, intent(in) :: j
-            real(wp) :: place
-
-            place = lowered%ends(lowered%point_span(j)) + lowered%point_offset(j)
-        end function point_x
-
+        if (allocated(lowered%axial%point)) then
+            associate (point => lowered%axial%point, tension => state%tension, displacement => state%displacement)
+                found(:, 5) = [maxval(tension), minval(tension)]
+                x(:, 5) = [point_x(lowered, point(maxloc(tension, 1) - 1)), point_x(lowered, point(minloc(tension, 1) - 1))]
+                found(:, 6) = [maxval(displacement), minval(displacement)]
+                x(:, 6) = [point_x(lowered, point(maxloc(displacement, 1) - 1)), &
+                           point_x(lowered, point(minloc(displacement, 1) - 1))]
+            end associate
+        end if
+        powers = field_units(lowered)
+        do k = 1, field_count
+            value(:, k) = scale(found(:, k), powers(k))
+            i = findloc(abs(value(:, k)) <= huge(value), .false., 1)
+            if (i == 0) cycle
+            call refuse_field(lowered, k, found(i, k), x(i, k), error)
+            return
+        end do
     end subroutine extremes_of_fields
 
     !> x of all nodes
@@ -264,9 +311,7 @@ contains
         integer :: i
 
         do i = 0, ubound(x, 1)
-            associate (j => lowered%node_point(i))
-                x(i) = lowered%ends(lowered%point_span(j)) + lowered%point_offset(j)
-            end associate
+            x(i) = point_x(lowered, lowered%node_point(i))
         end do
     end subroutine node_places
 

@@ -50,13 +50,13 @@ module gapbeam_scene
         integer :: node = gapbeam_by_x
         !> gapbeam_both, gapbeam_below or gapbeam_above
         integer :: side = gapbeam_both
-        !> Force per length; infinite: rigid
+        !> Force per length; infinite: rigid; 0 and one-sided: it never carries
         real(wp) :: stiffness = gapbeam_infinity
         !> Distance to be closed before it acts; negative: lack of fit; one-sided supports only
         real(wp) :: gap = 0.0_wp
         !> Movement of the support itself, down; of an axial one to the right
         real(wp) :: settlement = 0.0_wp
-        !> Rotational stiffness (force*length/rad): 0 free, infinite clamped
+        !> Rotational stiffness (force*length/rad): 0 free, infinite clamped; it acts where the support is open too, as a guide
         real(wp) :: rotation = 0.0_wp
         !> gapbeam_normal or gapbeam_axial
         integer :: direction = gapbeam_normal

@@ -2,7 +2,7 @@
 module gapbeam_state
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_no_equilibrium, &
-        gapbeam_indeterminate, gapbeam_not_converged
+        gapbeam_indeterminate, gapbeam_not_finite
     use gapbeam_element, only: field_type
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_recover, only: recover_beam
@@ -12,41 +12,16 @@ module gapbeam_state
     use gapbeam_path, only: follow_load, path_type, event_turns
     use gapbeam_axial, only: solve_axial, axial_slides, axial_indeterminate
     use gapbeam_check, only: shown
-    use gapbeam_lowered, only: lowered_type
+    use gapbeam_lowered, only: lowered_type, point_x
+    use gapbeam_lower_units, only: name_farthest
+    use gapbeam_solution, only: state_type, forget, check_range
     use gapbeam_memory, only: for_solving, for_following, for_certifying
     implicit none
     private
-    public :: state_type, event_type, new_state, solve_state, recover_state, certify_state, follow_events
+    public :: event_type, solve_state, recover_state, certify_state, follow_events
 
     !> Changes of the scheme followed at a time
     integer, parameter :: changes_at_a_time = 1000
-
-    !> A state, in the engine's units but for the axial system; arrays have one entry per support of the engine's beam, or
-    !> per node 0..n
-    type :: state_type
-        !> gapbeam_solved or gapbeam_no_equilibrium; -1: nothing solved yet
-        integer :: status = -1
-        !> Load factor of the live loads
-        real(wp) :: factor = 0.0_wp
-        !> Fingerprint of the model with the loads that were solved
-        integer :: fingerprint = 0
-        !> Linear solves it took, and the system solved last (gapbeam_system)
-        integer :: solves = 0, method = 0
-        !> Can the beam move freely without work of the loads; does it slide along its axis
-        logical :: indifferent = .false., slides = .false.
-        !> The scheme: which supports act, and whose reaction or opening is zero, so that they may be closed or open
-        logical, allocatable :: closed(:), undecided(:)
-        !> Deflections and moments left and right of the nodes; the free motion where there is no equilibrium
-        real(wp), allocatable :: deflection(:), moment_left(:), moment_right(:), motion(:)
-        !> Shear of every link beside that of the simple bar
-        real(wp), allocatable :: shear(:)
-        real(wp), allocatable :: reaction(:)
-        !> Displacements and reactions of the axial system's points, forces in its bars; of size 0 without one
-        real(wp), allocatable :: displacement(:), axial_reaction(:), tension(:)
-        !> Fields at the left end of every piece; made when first asked for
-        type(field_type), allocatable :: starts(:)
-        logical :: has_starts = .false.
-    end type state_type
 
     !> A change of the working scheme
     type :: event_type
@@ -60,54 +35,6 @@ module gapbeam_state
     end type event_type
 
 contains
-
-    !> A state for a beam, nothing solved, all supports closed
-    subroutine new_state(lowered, state, error)
-        !> The beam
-        type(lowered_type), intent(in) :: lowered
-        !> Ready for solve_state
-        type(state_type), intent(out) :: state
-        !> No memory
-        type(error_type), allocatable, intent(out) :: error
-        integer :: n, m, bars, stat
-
-        n = size(lowered%beam%links)
-        m = size(lowered%beam%supports)
-        bars = 0
-        if (allocated(lowered%axial%point)) bars = ubound(lowered%axial%point, 1)
-        allocate (state%closed(m), state%undecided(m), state%reaction(m), state%deflection(0:n), state%moment_left(0:n), &
-                  state%moment_right(0:n), state%motion(0:n), state%shear(n), state%displacement(0:bars), &
-                  state%axial_reaction(0:bars), state%tension(bars), state%starts(size(lowered%pieces)), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
-        state%closed(:) = .true.
-        state%displacement(:) = 0.0_wp
-        state%axial_reaction(:) = 0.0_wp
-        state%tension(:) = 0.0_wp
-        state%starts(:) = field_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
-        call forget(state)
-    end subroutine new_state
-
-    !> Numbers of an earlier solve are not to be taken for those of a later one
-    pure subroutine forget(state)
-        type(state_type), intent(inout) :: state
-
-        state%status = -1
-        state%solves = 0
-        state%method = 0
-        state%indifferent = .false.
-        state%slides = .false.
-        state%has_starts = .false.
-        state%undecided(:) = .false.
-        state%reaction(:) = 0.0_wp
-        state%deflection(:) = 0.0_wp
-        state%moment_left(:) = 0.0_wp
-        state%moment_right(:) = 0.0_wp
-        state%motion(:) = 0.0_wp
-        state%shear(:) = 0.0_wp
-    end subroutine forget
 
     !> Solve at one load factor; the search starts from the scheme the state holds
     subroutine solve_state(lowered, factor, rule, state, error)
@@ -143,6 +70,7 @@ contains
             call new_workspace(beam, work)
             call set_loads(beam, factor, work)
             call decide_scheme(beam, detail_of(lowered), factor, rule, acting, work, outcome, error)
+            call name_range(lowered, error)
             if (allocated(error)) return
             state%solves = work%solves
             state%method = work%method
@@ -164,7 +92,18 @@ contains
             state%shear(:) = work%shear
             state%reaction(:) = work%reaction
         end associate
+        call check_range(lowered, state, error)
     end subroutine solve_state
+
+    !> Say what it was where the engine left the range of double precision
+    subroutine name_range(lowered, error)
+        type(lowered_type), intent(in) :: lowered
+        !> The engine's error, if there is one
+        type(error_type), allocatable, intent(inout) :: error
+
+        if (.not. allocated(error)) return
+        if (error%code == gapbeam_not_finite) call name_farthest(lowered, error)
+    end subroutine name_range
 
     !> The axial system, if there is one
     subroutine solve_along_axis(lowered, state, error)
@@ -181,7 +120,7 @@ contains
             if (found /= axial_indeterminate) return
             associate (point => axial%point(place))
                 call fatal_error(error, gapbeam_indeterminate, "the axial support at x = " &
-                                 //trim(shown(lowered%ends(lowered%point_span(point)) + lowered%point_offset(point)))// &
+                                 //trim(shown(point_x(lowered, point)))// &
                                  " and another one hold a stretch with infinite EA at both ends, so their forces cannot "// &
                                  "be told apart: give the beam a finite EA")
             end associate
@@ -271,6 +210,7 @@ contains
             if (allocated(error)) return
             call follow_load(lowered%beam, detail_of(lowered), factor, changes_at_a_time, at, state%closed, state%undecided, &
                              path, outcome, error)
+            call name_range(lowered, error)
             if (allocated(error)) then
                 error%message = "at load factor "//trim(shown(at))//": "//error%message
                 return

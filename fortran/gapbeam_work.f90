@@ -6,7 +6,7 @@ module gapbeam_work
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_no_memory, gapbeam_not_prepared
     use gapbeam_search, only: rule_block, rule_single
     use gapbeam_scene, only: load_type, model_type
-    use gapbeam_state, only: state_type, new_state
+    use gapbeam_solution, only: state_type, new_state
     use gapbeam_api, only: prepared_type, result_type
     use gapbeam_tape, only: tape_type, writing, reading
     use gapbeam_pack, only: exchange_beam, exchange_state
@@ -30,8 +30,8 @@ contains
         ! No more points than places given, no more nodes than hinges, supports and places of loads beside the two ends
         points = 1_int64 + spans + hinges + supports + 2_int64*loads
         nodes = min(points, 2_int64 + hinges + supports + 2_int64*loads)
-        reals = 5_int64*spans + hinges + 7_int64*supports + 4_int64*loads + 24*points + 26*nodes + 16
-        integers = header + 2_int64*spans + 11_int64*supports + 5_int64*loads + 4*points + 3*nodes + 53
+        reals = 5_int64*spans + hinges + 8_int64*supports + 4_int64*loads + 24*points + 27*nodes + 16
+        integers = header + 2_int64*spans + 11_int64*supports + 5_int64*loads + 4*points + 3*nodes + 59
     end subroutine sizes_of_beam
 
     !> Lengths that a state of a beam takes

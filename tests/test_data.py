@@ -73,7 +73,7 @@ def arrays_in(value, seen):
     elif type(value).__module__.startswith("gapbeam") and id(value) not in seen:
         seen.add(id(value))
         for name in dir(value):
-            if name != "scaled" and not name.startswith("_") and not callable(getattr(value, name)):
+            if not name.startswith("_") and not callable(getattr(value, name)):
                 yield from arrays_in(getattr(value, name), seen)
 
 

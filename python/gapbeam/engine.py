@@ -7,9 +7,11 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from . import calls as _f77  # the engine itself, but for Ctrl-C
-from .errors import EngineError, Status
+from .engine_arrays import LONGER, STIFFER, STRONGER, check_links, refuse_farthest, to_scene
+from .errors import Status, check_status
 from .lowering import Arrays
 from .records import Pickled, Record, read_only
+from .units import scaled
 
 SOLVED, NO_EQUILIBRIUM = Status.SOLVED, Status.NO_EQUILIBRIUM
 """Outcomes, as in gapbeam_error; codes above 10 are errors."""
@@ -23,7 +25,7 @@ METHODS = ("block tridiagonal mixed", "three-moment", "mixed with pivoting")
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Solution(Record):
-    """What the engine found at one load factor.
+    """What the engine found at one load factor, in its own units (`Arrays.units`).
 
     Attributes
     ----------
@@ -66,34 +68,6 @@ class Solution(Record):
     came_back: bool
 
 
-def check_status(status: int, message: bytes = b"", where: str = "") -> None:
-    """Raise what a status of the engine says, unless it is an outcome.
-
-    Parameters
-    ----------
-    status : int
-        From the engine.
-    message : bytes
-        Its words for an error.
-    where : str
-        What they are about, to be put before them.
-
-    Raises
-    ------
-    MemoryError
-        The system gives the engine no more memory.
-    EngineError
-        Any other error.
-    """
-    if status == _NO_MEMORY:
-        raise MemoryError(
-            f"{where}the system gives the engine no more memory: end other programs, raise the limit of this one "
-            "(ulimit -v), or take fewer spans and supports"
-        )
-    if status not in (SOLVED, NO_EQUILIBRIUM):
-        raise EngineError(where + message.decode().strip(), status)
-
-
 def condense(arrays: Arrays) -> np.ndarray:
     """Condense all pieces between nodes into links.
 
@@ -106,10 +80,15 @@ def condense(arrays: Arrays) -> np.ndarray:
     -------
     numpy.ndarray
         The links, for the other calls only.
+
+    Raises
+    ------
+    EngineError
+        A number left the range of double precision: which one.
     """
-    inner = arrays.scaled
-    links, status = _f77.gbcond(inner.pieces.T, inner.dead.T, inner.live.T, _last(arrays))
+    links, lost, status = _f77.gbcond(*_detail(arrays))
     check_status(status)
+    check_links(arrays, lost)
     return read_only(links)
 
 
@@ -143,11 +122,13 @@ def solve(arrays: Arrays, links: np.ndarray, factor: float, rule: str, closed: n
     *values, indifferent, came_back, status, message = _f77.gbsolv(
         *_detail(arrays), *_beam(arrays, links), factor, RULES[rule], scheme
     )
+    if status == Status.NOT_FINITE:
+        refuse_farthest(arrays)
     check_status(status, message)
     solution = Solution(status, scheme, *values, bool(indifferent), bool(came_back))
     if len(closed) == 0:
         solution = replace(solution, closed=scheme[:0], undecided=scheme[:0], reaction=solution.reaction[:0])
-    return _outer(solution, *arrays.exponents)
+    return solution
 
 
 @dataclass(frozen=True, slots=True)
@@ -220,6 +201,8 @@ def follow(
         most, *_detail(arrays), *_beam(arrays, links), 1.0, at, closed, marginal
     )
     factor = float(at)
+    if status == Status.NOT_FINITE:
+        refuse_farthest(arrays)
     check_status(status, message, f"at load factor {factor:g}: ")
     return Path(
         status,
@@ -305,10 +288,9 @@ def prepare_cases(
     CaseSolver
         To be called with factors.
     """
-    length, force = arrays.exponents
-    exponents = np.array([length - force, length - force, length, -force, -force - length])
-    row_values = np.ldexp(row_values, exponents)
-    node_values = np.ldexp(node_values, exponents[3:])
+    units = arrays.units
+    row_values = scaled(row_values, -units.load)
+    node_values = scaled(node_values, -units.load[3:])
     if len(row_load) == 0:  # f2py takes no arrays of size 0: a load of nothing
         row_load, row_piece, row_values = np.zeros(1), np.zeros(1), np.zeros((1, 5))
     if len(node_load) == 0:
@@ -318,7 +300,7 @@ def prepare_cases(
         return np.asarray(values + first, dtype=np.int32)
 
     count, load, link, share, status = _f77.gbshar(
-        arrays.scaled.pieces.T, links, _last(arrays), integers(row_load, 1), integers(row_piece, 1), row_values.T
+        arrays.engine.pieces.T, links, _last(arrays), integers(row_load, 1), integers(row_piece, 1), row_values.T
     )
     check_status(status)
     links, kinds, compliance, _, _, *supports = _beam(arrays, links)
@@ -348,7 +330,8 @@ def certify(
     residuals : numpy.ndarray
         Relative residuals of compatibility, equilibrium and complementarity.
     bounds : numpy.ndarray
-        Largest errors of deflections of the nodes and of reactions; of deflections, rotations, moments, shears along the beam.
+        Largest errors of deflections of the nodes and of reactions; of deflections, rotations, moments, shears along the beam,
+        in the engine's units.
     known : bool
         False where the beam is free to move: deflections and rotations have no bound then.
 
@@ -357,34 +340,13 @@ def certify(
     EngineError
         The state cannot be checked.
     """
-    length, force = arrays.exponents
-    inner = _outer(solution, -length, -force)
-    reaction = inner.reaction if len(inner.reaction) else np.zeros(1)
+    reaction = solution.reaction if len(solution.reaction) else np.zeros(1)
     residuals, bounds, known, status, message = _f77.gbcert(
-        *_detail(arrays), *_beam(arrays, links), factor, _scheme(inner.closed),
-        inner.deflection, inner.moment_left, inner.moment_right, reaction, starts,
+        *_detail(arrays), *_beam(arrays, links), factor, _scheme(solution.closed),
+        solution.deflection, solution.moment_left, solution.moment_right, reaction, starts,
     )  # fmt: skip
     check_status(status, message, "the state could not be checked in quadruple precision: ")
-    return residuals, np.ldexp(bounds, [length, force, *_field_exponents(length, force)]), bool(known)
-
-
-def _field_exponents(length: int, force: int) -> np.ndarray:
-    """Exponents of deflection, rotation, moment, shear."""
-    return np.array([length, 0, force + length, force])
-
-
-def _outer(solution: Solution, length: int, force: int) -> Solution:
-    """Turn a solution from the engine's units into the scene's."""
-    if (length, force) == (0, 0):
-        return solution
-    return replace(
-        solution,
-        deflection=np.ldexp(solution.deflection, length),
-        moment_left=np.ldexp(solution.moment_left, force + length),
-        moment_right=np.ldexp(solution.moment_right, force + length),
-        shear=np.ldexp(solution.shear, force),
-        reaction=np.ldexp(solution.reaction, force),
-    )
+    return residuals, bounds, bool(known)
 
 
 def _scheme(closed: np.ndarray) -> np.ndarray:
@@ -394,17 +356,17 @@ def _scheme(closed: np.ndarray) -> np.ndarray:
 
 def _detail(arrays: Arrays) -> tuple[np.ndarray, ...]:
     """Collect what the links are made of."""
-    inner = arrays.scaled
+    inner = arrays.engine
     return inner.pieces.T, inner.dead.T, inner.live.T, _last(arrays)
 
 
 def _beam(arrays: Arrays, links: np.ndarray) -> tuple[np.ndarray, ...]:
     """Collect what every contact call needs; a support without stiffness stands for no support."""
-    inner = arrays.scaled
-    supports = (inner.support_nodes, inner.support_sides, inner.support_stiffness, inner.support_contact)
-    if len(inner.support_nodes) == 0:
+    inner = arrays.engine
+    supports = (arrays.support_nodes, arrays.support_sides, inner.support_stiffness, inner.support_contact)
+    if len(arrays.supports) == 0:
         supports = (np.zeros(1, np.int32), np.ones(1, np.int32), np.zeros(1), np.zeros(1))
-    return links, inner.kinds, inner.compliance, inner.force.T, inner.couple.T, *supports
+    return links, arrays.kinds, inner.compliance, inner.force.T, inner.couple.T, *supports
 
 
 def recover(arrays: Arrays, links: np.ndarray, factor: float, solution: Solution) -> np.ndarray:
@@ -420,11 +382,9 @@ def recover(arrays: Arrays, links: np.ndarray, factor: float, solution: Solution
     Returns
     -------
     numpy.ndarray
-        Deflection, rotation, moment, shear by piece, for `values` and `extremes`.
+        Deflection, rotation, moment, shear by piece, in the engine's units, for `values` and `extremes`.
     """
-    inner = arrays.scaled
-    length, force = arrays.exponents
-    solution = _outer(solution, -length, -force)
+    inner = arrays.engine
     starts, status = _f77.gbreco(
         inner.pieces.T,
         inner.dead.T,
@@ -439,6 +399,8 @@ def recover(arrays: Arrays, links: np.ndarray, factor: float, solution: Solution
         solution.shear,
     )
     check_status(status)
+    if not np.isfinite(starts).all():
+        refuse_farthest(arrays)
     return read_only(starts)
 
 
@@ -461,15 +423,22 @@ def values(arrays: Arrays, factor: float, starts: np.ndarray, piece: np.ndarray,
     numpy.ndarray
         4 by places: deflection, rotation, moment, shear.
     """
-    inner = arrays.scaled
-    length, force = arrays.exponents
+    inner, units = arrays.engine, arrays.units
     found = np.empty((4, len(piece)))
     for part in _f77.parts(len(piece)):
         where = np.asarray(piece[part], dtype=np.int32) + np.int32(1)
-        at = np.ldexp(distance[part], -length)
-        some = _f77.gbvalu(inner.pieces.T, inner.dead.T, inner.live.T, factor, starts, where, at)
-        found[:, part] = np.ldexp(some, _field_exponents(length, force)[:, None])
-    return found
+        at = scaled(distance[part], -units.length)
+        found[:, part] = _f77.gbvalu(inner.pieces.T, inner.dead.T, inner.live.T, factor, starts, where, at)
+    x = arrays.point_x[piece] + distance
+    return np.stack([_field_in_scene(arrays, k, row, x) for k, row in enumerate(found)])
+
+
+def _field_in_scene(arrays: Arrays, field: int, values: np.ndarray, x: np.ndarray) -> np.ndarray:
+    """Values of one of the fields in the scene's units."""
+    if not np.isfinite(np.abs(values).max(initial=0.0)):
+        refuse_farthest(arrays)
+    name, remedy = (("deflection", LONGER), ("rotation", STIFFER), ("moment", STRONGER), ("shear", STRONGER))[field]
+    return to_scene(values, arrays.units.field[field], x, name, remedy)
 
 
 def extremes(arrays: Arrays, factor: float, starts: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -487,44 +456,27 @@ def extremes(arrays: Arrays, factor: float, starts: np.ndarray) -> tuple[np.ndar
     x : numpy.ndarray
         Where they are.
     """
-    inner = arrays.scaled
-    length, force = arrays.exponents
+    inner, units = arrays.engine, arrays.units
     value, where, distance = _f77.gbextr(inner.pieces.T, inner.dead.T, inner.live.T, factor, starts)
-    x = arrays.point_x[where - 1] + np.ldexp(distance, length)
-    return np.ldexp(value, _field_exponents(length, force)), x
+    x = arrays.point_x[where - 1] + scaled(distance, units.length)
+    return np.stack([_field_in_scene(arrays, k, value[:, k], x[:, k]) for k in range(4)], axis=1), x
 
 
-def solve_axial(arrays: Arrays, factor: float) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
-    """Solve the axial system.
+def largest_fields(arrays: Arrays, factor: float, starts: np.ndarray) -> np.ndarray:
+    """Largest absolute values of all fields.
 
     Parameters
     ----------
-    arrays, factor
-        As for `solve`; the scene has an axial system.
+    arrays, factor, starts
+        As for `values`.
 
     Returns
     -------
-    displacement, tension, reaction : numpy.ndarray
-        At its points, in its bars, at its points; None where nothing holds the beam lengthwise.
-
-    Raises
-    ------
-    EngineError
-        Where a rigid stretch lies between two rigid supports.
+    numpy.ndarray
+        Of deflection, rotation, moment, shear, in the engine's units.
     """
-    axial = arrays.axial
-    force = axial.force[0] + factor * axial.force[1]
-    u, tension, reaction, state, place = _f77.gbaxia(axial.flexibility, force, axial.stiffness, axial.settlement)
-    if state == _NO_MEMORY:
-        check_status(state)
-    if state == 2:
-        x = arrays.point_x[axial.points[place]]
-        raise EngineError(
-            f"the axial support at x = {x:g} and another one hold a stretch with EA = inf at both ends, so their "
-            "forces cannot be told apart: give the beam a finite EA",
-            Status.INDETERMINATE,
-        )
-    return None if state == 1 else read_only((u, tension, reaction))
+    inner = arrays.engine
+    return np.abs(_f77.gbextr(inner.pieces.T, inner.dead.T, inner.live.T, factor, starts)[0]).max(axis=0)
 
 
 def _last(arrays: Arrays) -> np.ndarray:

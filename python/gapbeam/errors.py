@@ -85,3 +85,31 @@ class EngineError(GapbeamError, RuntimeError):
     def __reduce__(self) -> tuple:
         """Pickle with the status."""
         return type(self), (str(self), int(self.status))
+
+
+def check_status(status: int, message: bytes = b"", where: str = "") -> None:
+    """Raise what a status of the engine says, unless it is an outcome.
+
+    Parameters
+    ----------
+    status : int
+        From the engine.
+    message : bytes
+        Its words for an error.
+    where : str
+        What they are about, to be put before them.
+
+    Raises
+    ------
+    MemoryError
+        The system gives the engine no more memory.
+    EngineError
+        Any other error.
+    """
+    if status == Status.NO_MEMORY:
+        raise MemoryError(
+            f"{where}the system gives the engine no more memory: end other programs, raise the limit of this one "
+            "(ulimit -v), or take fewer spans and supports"
+        )
+    if status not in (Status.SOLVED, Status.NO_EQUILIBRIUM):
+        raise EngineError(where + message.decode().strip(), status)

@@ -8,12 +8,14 @@ the places of loads: the moments there follow from the loads farther out alone.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from operator import attrgetter
 
 import numpy as np
 
+from .axial import Axial, lower_axial
+from .engine_arrays import EngineArrays, refuse_range, to_engine
 from .places import find_nearby_points, find_points
 from .records import Record, read_only
 from .scene import (
@@ -26,55 +28,18 @@ from .scene import (
     UniformLoad,
 )
 from .scene_checks import SIDES, contact_levels, rotational_stiffnesses
+from .units import Units, choose_units
 
 PLAIN, HINGE, RESTRAINED = 0, 1, 2
 """Kinds of node, as in gapbeam_band."""
 CASES = {"dead": 0, "live": 1}
 KINDS_OF_LOADS = (ForceLoad, MomentLoad, AxialLoad, UniformLoad, LinearLoad, CurvatureLoad)
 """Loads at a point, along the beam, and on a stretch."""
-ORDINARY_EXPONENT = 64
-"""Scenes whose lengths or forces are beyond two to this power are solved in other units."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Axial(Record):
-    """The axial system: bars between points with an axial load or support.
-
-    Attributes
-    ----------
-    points : numpy.ndarray of int
-        Points of the beam that are its nodes, n + 1.
-    flexibility : numpy.ndarray
-        int 1/EA over each bar, n.
-    force : numpy.ndarray
-        Dead and live force at each point, positive to the right, 2 by n + 1.
-    stiffness, settlement : numpy.ndarray
-        Support of each point (0: none), n + 1.
-    supports : numpy.ndarray of int
-        Axial supports of the scene, by their number there.
-    support_points : numpy.ndarray of int
-        The point (0..n) of each of them.
-    loads, load_points : numpy.ndarray of int
-        Axial loads of the scene, by their number there, and the point (0..n) of each of them.
-    load_force : numpy.ndarray
-        Their forces.
-    """
-
-    points: np.ndarray
-    flexibility: np.ndarray
-    force: np.ndarray
-    stiffness: np.ndarray
-    settlement: np.ndarray
-    supports: np.ndarray
-    support_points: np.ndarray
-    loads: np.ndarray
-    load_points: np.ndarray
-    load_force: np.ndarray
 
 
 @dataclass(frozen=True, eq=False)
 class Arrays(Record):
-    """A scene as the engine takes it; see fortran/gapbeam_f2py.f90 for the columns.
+    """A scene as arrays, in its own units; `engine` is what the engine takes.
 
     Attributes
     ----------
@@ -83,29 +48,34 @@ class Arrays(Record):
     point_span, point_offset, point_x : numpy.ndarray
         Place of every point between pieces: its span, the distance from the span's left end, and x.
     pieces : numpy.ndarray
-        Length, 1/EI, 1/GA of every piece, n by 3.
-    axial_flexibility : numpy.ndarray
-        1/EA of every piece.
+        Length, EI, GA of every piece, n by 3.
     dead, live : numpy.ndarray
-        Loads of every piece, n by 5.
+        Load per length at the left and right end of every piece, imposed curvature, force and couple at its right end
+        unless a node is there, n by 5.
     node_points : numpy.ndarray of int
         The points that are nodes.
     kinds : numpy.ndarray of int
         PLAIN, HINGE or RESTRAINED for every node.
-    compliance : numpy.ndarray
-        Compliance of the rotational restraint of every node.
+    turning : numpy.ndarray
+        Stiffness of the rotational restraint of every node, 0 where there is none.
     force, couple : numpy.ndarray
         Dead and live force and couple at every node, nodes by 2.
-    support_count : int
-        Supports of the scene, axial ones included.
     supports : numpy.ndarray of int
-        Supports across the beam, by their number in the scene.
+        Supports across the beam that can carry, by their number in the scene.
     support_nodes, support_sides : numpy.ndarray of int
         Node and side of each of them.
     support_stiffness, support_contact : numpy.ndarray
         Stiffness, and deflection at which it begins to act.
+    across : numpy.ndarray of bool
+        Which supports of the scene are across the beam, not axial.
+    places : numpy.ndarray of int
+        Node of every support of the scene; 0 for axial ones.
+    sides : numpy.ndarray of int
+        Side of every support of the scene.
+    levels : numpy.ndarray
+        Deflection at which every support of the scene begins to act; 0 for axial ones.
     couple_share : numpy.ndarray
-        The share each of them has in the rotational restraint of its node.
+        The share every support of the scene has in the rotational restraint of its node.
     axial : Axial or None
         The axial system, if the scene needs it.
     """
@@ -115,54 +85,34 @@ class Arrays(Record):
     point_offset: np.ndarray
     point_x: np.ndarray
     pieces: np.ndarray
-    axial_flexibility: np.ndarray
     dead: np.ndarray
     live: np.ndarray
     node_points: np.ndarray
     kinds: np.ndarray
-    compliance: np.ndarray
+    turning: np.ndarray
     force: np.ndarray
     couple: np.ndarray
-    support_count: int
     supports: np.ndarray
     support_nodes: np.ndarray
     support_sides: np.ndarray
     support_stiffness: np.ndarray
     support_contact: np.ndarray
+    across: np.ndarray
+    places: np.ndarray
+    sides: np.ndarray
+    levels: np.ndarray
     couple_share: np.ndarray
     axial: Axial | None
 
     @cached_property
-    def exponents(self) -> tuple[int, int]:
-        """Powers of two that are the engine's units of length and force: 0, 0 but for scenes far from 1.
-
-        In the scene's own units products such as stiffness * flexibility * length^2 might leave the range of doubles.
-        """
-        length = int(np.frexp(self.ends[-1] / (len(self.ends) - 1))[1])
-        bending = self.pieces[self.pieces[:, 1] > 0.0, 1]
-        stiffness = -int(np.frexp(np.median(bending))[1]) if len(bending) else 2 * length
-        force = stiffness - 2 * length
-        return (length, force) if max(abs(length), abs(force)) > ORDINARY_EXPONENT else (0, 0)
+    def units(self) -> Units:
+        """The engine's units."""
+        return choose_units(self)
 
     @cached_property
-    def scaled(self) -> Arrays:
-        """The same in the engine's units; nothing is rounded, the units are powers of two."""
-        length, force = self.exponents
-        if (length, force) == (0, 0):
-            return self
-        piece = np.array([-length, force + 2 * length, force])
-        load = np.array([length - force, length - force, length, -force, -force - length])
-        return replace(
-            self,
-            pieces=np.ldexp(self.pieces, piece),
-            dead=np.ldexp(self.dead, load),
-            live=np.ldexp(self.live, load),
-            compliance=np.ldexp(self.compliance, force + length),
-            force=np.ldexp(self.force, -force),
-            couple=np.ldexp(self.couple, -force - length),
-            support_stiffness=np.ldexp(self.support_stiffness, length - force),
-            support_contact=np.ldexp(self.support_contact, -length),
-        )
+    def engine(self) -> EngineArrays:
+        """The same in the engine's units."""
+        return to_engine(self, self.units)
 
     @cached_property
     def _first_points(self) -> np.ndarray:
@@ -283,17 +233,16 @@ def lower_by_load(scene: Scene) -> tuple[Arrays, LoadRows]:
     ends = scene.span_ends()
     lengths = np.asarray(scene.beam.spans, dtype=float)
     kinds_of_loads = np.array(list(map(KINDS_OF_LOADS.index, map(type, scene.loads))), dtype=int)
-    axial_load = np.flatnonzero(kinds_of_loads == KINDS_OF_LOADS.index(AxialLoad))
     point_load = np.flatnonzero(kinds_of_loads < 2)
     stretch_load = np.flatnonzero(kinds_of_loads > 2)
     at_a_point, stretches = ([scene.loads[k] for k in some] for some in (point_load, stretch_load))
 
     points = find_points(scene, ends)
     span, offset = points.span, points.offset
-    at_loads, at_pulls = points.load_from[point_load], points.load_from[axial_load]
+    at_loads = points.load_from[point_load]
     load_from, load_to = points.load_from[stretch_load], points.load_to[stretch_load]
 
-    pieces, axial_flexibility = _pieces(scene, lengths, span, offset, points.section_from, points.section_to)
+    pieces, EA = _pieces(scene, lengths, span, offset, points.section_from, points.section_to)
     q, bent = _end_values(stretches, kinds_of_loads[stretch_load])
     stretch, piece, piece_values = _distributed(q, bent, ends, span, offset, load_from, load_to)
     point_values = np.zeros((len(at_a_point), 2))
@@ -302,46 +251,49 @@ def lower_by_load(scene: Scene) -> tuple[Arrays, LoadRows]:
         point_values[some, column] = [getattr(at_a_point[k], name) for k in some]
     rows = LoadRows(stretch_load[stretch], piece, piece_values, point_load, at_loads, point_values)
 
-    axial_support = np.array([support.direction == "axial" for support in scene.supports], dtype=bool)
-    normal = np.flatnonzero(~axial_support)
+    across = np.array([support.direction == "normal" for support in scene.supports], dtype=bool)
+    at_normal = points.supports[across]
     is_node = np.zeros(len(span), dtype=bool)
     is_node[[0, -1]] = True
     is_node[points.hinges] = True
-    is_node[points.supports[normal]] = True
-    is_node |= _beyond(points.supports[normal], len(span)) & _bears(len(span), at_loads, load_from, load_to)
-    node_points = np.flatnonzero(is_node)
+    is_node[at_normal] = True
+    is_node |= _beyond(at_normal, len(span)) & _bears(len(span), at_loads, load_from, load_to)
     node_of_point = np.cumsum(is_node) - 1
+    kinds = np.zeros(node_of_point[-1] + 1, dtype=np.int32)
+    kinds[node_of_point[points.hinges]] = HINGE
+    places = np.where(across, node_of_point[points.supports], 0).astype(np.int32)
+    turning, couple_share = _restraints(scene.supports, places, kinds)
+    sides = np.array([SIDES[support.side] for support in scene.supports], dtype=np.int32)
+    stiffness = np.array([support.stiffness for support in scene.supports], dtype=float)
+    levels = np.where(across, contact_levels(scene.supports), 0.0)
+    carries = np.flatnonzero(across & ((stiffness > 0.0) | (sides == 0)))
 
     shares = [np.array([load.case == case for load in scene.loads], dtype=float) for case in CASES]
     (dead, dead_nodes), (live, live_nodes) = (rows.spread(share, is_node) for share in shares)
-    kinds = np.zeros(len(node_points), dtype=np.int32)
-    kinds[node_of_point[points.hinges]] = HINGE
-    columns = [scene.supports[k] for k in normal]
-    support_nodes = node_of_point[points.supports[normal]]
-    compliance, couple_share = _restraints(columns, support_nodes, kinds)
-    sides = np.array([SIDES[s.side] for s in columns], dtype=np.int32)
     arrays = Arrays(
         ends=ends,
         point_span=span,
         point_offset=offset,
         point_x=ends[span] + offset,
         pieces=pieces,
-        axial_flexibility=axial_flexibility,
         dead=dead,
         live=live,
-        node_points=node_points,
+        node_points=np.flatnonzero(is_node),
         kinds=kinds,
-        compliance=compliance,
+        turning=turning,
         force=np.stack((dead_nodes[:, 0], live_nodes[:, 0]), axis=1),
         couple=np.stack((dead_nodes[:, 1], live_nodes[:, 1]), axis=1),
-        support_count=len(scene.supports),
-        supports=normal,
-        support_nodes=support_nodes.astype(np.int32),
-        support_sides=sides,
-        support_stiffness=np.array([s.stiffness for s in columns], dtype=float),
-        support_contact=contact_levels(columns),
+        supports=carries,
+        support_nodes=places[carries],
+        support_sides=sides[carries],
+        support_stiffness=stiffness[carries],
+        support_contact=levels[carries],
+        across=across,
+        places=places,
+        sides=sides,
+        levels=levels,
         couple_share=couple_share,
-        axial=_axial(scene, np.flatnonzero(axial_support), points.supports, axial_load, at_pulls, pieces[:, 0] * axial_flexibility),
+        axial=lower_axial(scene, points, ends[span] + offset, pieces[:, 0], EA),
     )
     return arrays, rows
 
@@ -374,17 +326,17 @@ def _expand(start: np.ndarray, stop: np.ndarray) -> tuple[np.ndarray, np.ndarray
 
 
 def _pieces(scene, lengths, span, offset, start, stop) -> tuple[np.ndarray, np.ndarray]:
-    """Length and flexibilities of every piece; later sections win."""
+    """Length and stiffnesses of every piece; later sections win."""
     left = span[:-1]
     pieces = np.empty((len(left), 3))
     pieces[:, 0] = np.where(span[1:] == left, offset[1:], lengths[left]) - offset[:-1]
     axial = np.empty(len(left))
     covered, owner = _expand(start, stop)
     for name, column in (("EI", pieces[:, 1]), ("GA", pieces[:, 2]), ("EA", axial)):
-        column[:] = (1.0 / np.broadcast_to(np.asarray(getattr(scene.beam, name), dtype=float), lengths.shape))[left]
+        column[:] = np.broadcast_to(np.asarray(getattr(scene.beam, name), dtype=float), lengths.shape)[left]
         given = np.array(list(map(attrgetter(name), scene.sections)), dtype=float)  # nan where left out
         if not np.all(np.isnan(given)):
-            values = 1.0 / given[owner]
+            values = given[owner]
             valid = ~np.isnan(values)
             column[covered[valid]] = values[valid]  # of several values for one piece numpy keeps the last
     return pieces, axial
@@ -424,49 +376,15 @@ def _end_values(loads, kinds) -> tuple[np.ndarray, np.ndarray]:
     return values, kinds == KINDS_OF_LOADS.index(CurvatureLoad)
 
 
-def _sums(size: int, at: np.ndarray, loads: list, name: str) -> np.ndarray:
-    """Sum of point loads at every point, dead and live: 2 by points."""
-    values = np.array([getattr(load, name) for load in loads], dtype=float)
-    live = np.array([load.case == "live" for load in loads], dtype=bool)
-    return np.stack([np.bincount(at[part], values[part], size) for part in (~live, live)])
-
-
-def _restraints(supports, nodes, kinds) -> tuple[np.ndarray, np.ndarray]:
-    """Rotational compliance of every node and the share of every support in it; sets the kind of these nodes."""
+def _restraints(supports, places, kinds) -> tuple[np.ndarray, np.ndarray]:
+    """Rotational stiffness of every node and the share of every support in it; sets the kind of these nodes."""
     own = rotational_stiffnesses(supports)
-    stiffness = np.bincount(nodes, own, len(kinds))
-    restrained = stiffness > 0.0
-    kinds[restrained] = RESTRAINED
-    compliance = np.divide(1.0, stiffness, out=np.zeros(len(kinds)), where=restrained)
-    elastic = np.where(np.isinf(own), 0.0, own)
-    share = np.where(np.isinf(own), 1.0, elastic * compliance[nodes])
-    return compliance, share
-
-
-def _axial(scene, supports, at_supports, loads, at_loads, flexibility) -> Axial | None:
-    """Build the axial system; None where no axial load and no settlement asks for one."""
-    pulls = [scene.loads[k] for k in loads]
-    settles = any(scene.supports[k].settlement for k in supports)
-    if not pulls and not settles:
-        return None
-    last = len(flexibility)
-    points = np.unique(np.concatenate(([0, last], at_loads, at_supports[supports])))
-    force = _sums(last + 1, at_loads, pulls, "F")[:, points]
-    support_points = np.searchsorted(points, at_supports[supports])
-    stiffness, settlement = np.zeros(len(points)), np.zeros(len(points))
-    for k, i in zip(supports, support_points, strict=True):
-        support = scene.supports[k]
-        stiffness[i] = support.stiffness
-        settlement[i] = support.settlement
-    return Axial(
-        points=points,
-        flexibility=np.add.reduceat(flexibility, points[:-1]),
-        force=force,
-        stiffness=stiffness,
-        settlement=settlement,
-        supports=supports,
-        support_points=support_points,
-        loads=loads,
-        load_points=np.searchsorted(points, at_loads),
-        load_force=np.array([load.F for load in pulls], dtype=float),
-    )
+    stiffness = np.bincount(places, own, len(kinds))
+    for k in np.flatnonzero(np.isinf(stiffness) & (np.bincount(places, np.isinf(own), len(kinds)) == 0.0))[:1]:
+        which = np.flatnonzero(places == k)[-1]
+        refuse_range(f"the rotations of supports[{which}] and others at its place are too great together", 'give "fixed"')
+    kinds[stiffness > 0.0] = RESTRAINED
+    elastic = (own > 0.0) & np.isfinite(own)
+    share = np.where(np.isinf(own), 1.0, 0.0)
+    np.divide(own, stiffness[places], out=share, where=elastic)
+    return stiffness, share

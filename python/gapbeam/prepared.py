@@ -17,12 +17,14 @@ from numpy.typing import ArrayLike
 
 from . import engine
 from .arguments import numbers, scheme
+from .errors import Status
 from .lowering import Arrays, LoadRows, lower_by_load
-from .records import Pickled, Record
+from .records import Pickled, Record, read_only
 from .results import Result
 from .scene import Scene, read_scene
 from .stepping import choose_rule
 from .steps import LoadSteps
+from .units import scaled
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -74,11 +76,10 @@ class Prepared(Pickled):
         self.scene = scene
         self._arrays, self._rows = lower_by_load(scene)
         self.node_x = self._arrays.node_x
-        self.supports = self._arrays.supports
+        self.supports = read_only(np.flatnonzero(self._arrays.across))
         self._links = engine.condense(self._arrays)
         self._rule = rule
         self._call = engine.prepare_cases(self._arrays, self._links, *self._sorted_rows(self._arrays, self._rows))
-        self._units = self._arrays.exponents
 
     def _sorted_rows(self, arrays: Arrays, rows: LoadRows) -> tuple[np.ndarray, ...]:
         """Loads on pieces with those at points inside links, by load and piece; loads at nodes."""
@@ -136,19 +137,33 @@ class Prepared(Pickled):
         """
         factors = self._checked(factors)
         many = factors if factors.ndim == 2 else factors[None]
-        closed = np.ones((len(many), max(len(self.supports), 1)), dtype=np.int32)
+        arrays, units = self._arrays, self._arrays.units
+        carries = np.searchsorted(self.supports, arrays.supports)
+        closed = np.ones((len(many), max(len(carries), 1)), dtype=np.int32)
         if start is not None:
-            closed[:, : len(self.supports)] = scheme(start, len(self.supports), "support across the beam")
+            closed[:, : len(carries)] = scheme(start, len(self.supports), "support across the beam")[carries]
         w, left, right, _, reaction, solves, status = self._call(many, engine.RULES[self._rule], closed)
-        if self._units != (0, 0):
-            length, force = self._units
-            w, reaction = np.ldexp(w, length), np.ldexp(reaction, force)
-            left, right = np.ldexp(left, force + length), np.ldexp(right, force + length)
-        if len(self.supports) == 0:
-            closed, reaction = closed[:, :0], reaction[:, :0]
+        w, reaction = scaled(w, units.deflection), scaled(reaction, units.force)
+        left, right = scaled(left, units.moment), scaled(right, units.moment)
+        closed, reaction = closed[:, : len(carries)], reaction[:, : len(carries)]
+        lost = status == Status.SOLVED
+        lost &= ~np.all([np.isfinite(values).all(axis=1) for values in (w, left, right, reaction)], axis=0)
+        if lost.any():
+            status[lost], closed[lost] = Status.NOT_FINITE, 0
+            for values in (w, left, right, reaction):
+                values[lost] = np.nan
+        if len(carries) < len(self.supports):
+            closed = self._with_idle(closed, carries, np.zeros(len(many), dtype=np.int32))
+            reaction = self._with_idle(reaction, carries, np.where(status == Status.SOLVED, 0.0, np.nan))
         if factors.ndim == 2:
             return Cases(status, closed, reaction, w, left, right, solves)
         return Cases(status[0], closed[0], reaction[0], w[0], left[0], right[0], solves[0])
+
+    def _with_idle(self, values: np.ndarray, carries: np.ndarray, idle: np.ndarray) -> np.ndarray:
+        """Add the columns of supports that can carry nothing."""
+        columns = np.repeat(idle[:, None], len(self.supports), axis=1)
+        columns[:, carries] = values
+        return columns
 
     def _checked(self, factors: ArrayLike | None) -> np.ndarray:
         count = len(self.scene.loads)
@@ -187,7 +202,7 @@ class Prepared(Pickled):
         arrays = self._with_loads(factors)
         links = engine.condense(arrays)
         result = Result(self.scene, arrays, links, self._rule)
-        result.steps = LoadSteps(arrays, links, self._rule, np.ones(len(self.supports), dtype=np.int32), 1)
+        result.steps = LoadSteps(arrays, links, self._rule, np.ones(len(arrays.supports), dtype=np.int32), 1)
         fallen = result.steps.solve_all()
         if fallen is not None:
             result.refuse("in this load case", fallen[1])
@@ -202,9 +217,8 @@ class Prepared(Pickled):
         nothing = np.zeros(len(at_nodes))
         axial = arrays.axial
         if axial is not None:
-            pulls = np.zeros((2, len(axial.points)))
-            np.add.at(pulls[1], axial.load_points, factors[axial.loads] * axial.load_force)
-            axial = replace(axial, force=pulls)
+            pulls = axial.with_factors(factors)
+            axial = replace(axial, force=np.stack((np.zeros_like(pulls), pulls)))
         return replace(
             arrays,
             dead=np.zeros_like(arrays.dead),

@@ -347,7 +347,8 @@ def _doubts(say: "Writer", result: "Result") -> None:
     step = result.steps[-1]
     bounds = ((kind, step.certificate[f"error_bound_{kind}"]) for kind in BOUNDED)
     listed = ", ".join(f"{kind} {bound:.1e}" for kind, bound in bounds if bound is not None)
-    say.line(f"Error bounds at the last step, relative to the largest of each kind: {listed}.")
+    if listed:
+        say.line(f"Error bounds at the last step, relative to the largest of each kind: {listed}.")
     if step.undecided:
         x = result.scene.positions(result.scene.supports)
         names = ", ".join(f"{k} (x = {x[k]:g})" for k in step.undecided[:10])

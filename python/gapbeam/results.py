@@ -15,6 +15,7 @@ import numpy as np
 from . import engine
 from .arguments import finite, numbers, whole
 from .engine import METHODS, Solution
+from .engine_arrays import LONGER, STRONGER, to_scene
 from .lowering import Arrays
 from .memory import refuse_beyond
 from .motion import describe_motion
@@ -23,6 +24,7 @@ from .records import Pickled, Record
 from .scene import Scene
 from .states import Step, solve_step
 from .steps import LoadSteps, Steps
+from .units import scaled
 from .wording import shown
 
 if TYPE_CHECKING:
@@ -231,10 +233,10 @@ class Result(Pickled):
         three_moment = METHODS[method] == "three-moment"
         needed = {
             "axial": arrays.axial is not None,
-            "shear": bool(np.any(arrays.pieces[:, 2] > 0.0)),
+            "shear": bool(np.isfinite(arrays.pieces[:, 2]).any()),
             "foundation": False,
             "hinges": bool(self.scene.beam.hinges),
-            "rotational restraints": bool(np.any(arrays.compliance > 0.0) or np.any(arrays.couple_share > 0.0)),
+            "rotational restraints": bool(arrays.turning.any()),
             "iteration": bool(np.any(arrays.support_sides != 0)),
             "deflections": not three_moment,
         }
@@ -305,13 +307,14 @@ class Result(Pickled):
         values = engine.values(arrays, state.factor, state.starts, piece, distance)
         columns = dict(zip(BENDING, (row.reshape(shape) for row in values), strict=True))
         if arrays.axial is not None:
+            axial = arrays.axial
             u, tension, _ = state.axial
-            bar = np.clip(np.searchsorted(arrays.axial.points, piece, side="right") - 1, 0, len(tension) - 1)
-            softness = arrays.pieces[:, 0] * arrays.axial_flexibility
-            before = np.concatenate(([0.0], np.cumsum(softness)))
-            way = before[piece] - before[arrays.axial.points[bar]] + distance * arrays.axial_flexibility[piece]
-            columns["axial_force"] = tension[bar].reshape(shape)
-            columns["axial_displacement"] = (u[bar] + tension[bar] * way).reshape(shape)
+            bar = np.clip(np.searchsorted(axial.points, piece, side="right") - 1, 0, len(tension) - 1)
+            before = np.concatenate(([0.0], np.cumsum(axial.softness)))
+            way = before[piece] - before[axial.points[bar]] + axial.softness[piece] * (distance / arrays.pieces[piece, 0])
+            force = to_scene(tension[bar], axial.units.force, x, "axial force", STRONGER)
+            moved = to_scene(u[bar] + tension[bar] * way, axial.units.deflection, x, "axial displacement", LONGER)
+            columns["axial_force"], columns["axial_displacement"] = force.reshape(shape), moved.reshape(shape)
         return Fields(x.reshape(shape), **columns)
 
     def fields(self, step: int | None = None, points: int = 20) -> Fields:
@@ -343,7 +346,7 @@ class Result(Pickled):
         refuse_beyond("points", f"fields at {shown(points)} points a span", rows * BYTES_PER_PLACE, "give fewer")
         size = len(arrays.pieces)
         spans = np.diff(arrays.ends)[arrays.point_span[:-1]]
-        parts = np.maximum(np.ceil(points * arrays.pieces[:, 0] / spans).astype(int), 1)
+        parts = np.maximum(np.ceil(points * (arrays.pieces[:, 0] / spans)).astype(int), 1)
         piece = np.repeat(np.arange(size), parts + 1)
         place = np.arange(len(piece)) - np.repeat(np.cumsum(parts + 1) - (parts + 1), parts + 1)
         distance = arrays.pieces[piece, 0] * (place / parts[piece])
@@ -378,10 +381,14 @@ class Result(Pickled):
         }
         if state.axial is not None:
             u, tension, _ = state.axial
-            at = self.arrays.point_x[self.arrays.axial.points]
-            for name, row in (("axial_force", tension), ("axial_displacement", u)):
-                high, low = int(np.argmax(row)), int(np.argmin(row))
-                result[name] = {"max": (float(row[high]), float(at[high])), "min": (float(row[low]), float(at[low]))}
+            axial = self.arrays.axial
+            at = self.arrays.point_x[axial.points]
+            for name, row, power in (
+                ("axial_force", tension, axial.units.force),
+                ("axial_displacement", u, axial.units.deflection),
+            ):
+                places = {"max": int(np.argmax(row)), "min": int(np.argmin(row))}
+                result[name] = {which: (float(scaled(row[k], power)), float(at[k])) for which, k in places.items()}
         return result
 
     def history(self) -> list[tuple[float, tuple[str, ...]]]:

@@ -171,7 +171,8 @@ class Support(_Point, kw_only=True, gc=False):
     side : {"both", "below", "above"}
         both (default) holds the beam, below pushes it up only, above pushes it down only.
     stiffness : float
-        Stiffness (force/length), default inf (rigid).
+        Stiffness (force/length), default inf (rigid). A one-sided support with 0 never carries: it is open, and its
+        opening negative where the beam has gone past it.
     gap : float
         Distance to be closed before it acts (length); negative = lack of fit; one-sided supports only.
     settlement : float

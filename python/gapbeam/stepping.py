@@ -10,6 +10,7 @@ import numpy as np
 
 from . import engine
 from .arguments import scheme
+from .axial import solve_axial
 from .errors import SceneError
 from .lowering import Arrays, lower
 from .path import follow
@@ -67,7 +68,7 @@ def solve(
     links = engine.condense(arrays)
     result = Result(scene, arrays, links, rule)
     if scene.analysis.follow == "events":
-        if arrays.axial is not None and engine.solve_axial(arrays, 1.0) is None:
+        if arrays.axial is not None and solve_axial(arrays, 1.0) is None:
             result.refuse("above load factor 0", None)
             return result
         result.path = follow(result, rule, closed)
@@ -110,7 +111,9 @@ def choose_rule(scene: Scene, rule: str | None) -> str:
 
 def _starting_scheme(arrays: Arrays, start: Sequence[bool] | None) -> np.ndarray:
     closed = np.ones(len(arrays.supports), dtype=np.int32)
-    if start is not None:
-        one_sided = np.flatnonzero(arrays.support_sides)
-        closed[one_sided] = scheme(start, len(one_sided), "one-sided support")
-    return closed
+    if start is None:
+        return closed
+    one_sided = np.flatnonzero(arrays.sides)
+    of_all = np.ones(len(arrays.sides), dtype=np.int32)
+    of_all[one_sided] = scheme(start, len(one_sided), "one-sided support")
+    return of_all[arrays.supports]

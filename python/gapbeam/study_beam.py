@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import isinf
 from typing import Any
 
 import numpy as np
@@ -197,19 +196,15 @@ def mesh(source: Mapping[str, Any] | Scene | str, parts: int, name: str = "") ->
     places = arrays.node_points[arrays.support_nodes]
     for wrong, what in (
         (np.any(arrays.kinds == HINGE), "hinges"),
-        (np.any(clamps & ~at_ends) or np.any(arrays.compliance[clamps] != 0.0), "a rotational support that is no clamp at an end"),
-        (np.any(arrays.pieces[:, 2] != 0.0), "shear flexibility"),
-        (np.any(arrays.pieces[:, 1] == 0.0), "a rigid stretch"),
+        (np.any(clamps & ~at_ends) or np.isfinite(arrays.turning[clamps]).any(), "a rotational support that is no clamp at an end"),
+        (np.isfinite(arrays.pieces[:, 2]).any(), "shear flexibility"),
+        (np.isinf(arrays.pieces[:, 1]).any(), "a rigid stretch"),
         (others, "loads other than forces and uniform ones"),
         (len(set(places.tolist())) < len(places), "two supports at one place"),
     ):  # fmt: skip
         if wrong:
             raise Unfit(what)
-    # The EI that the scene gives, where 1/(1/EI) would differ from it in the last digit
-    given = [scene.beam.EI] if isinstance(scene.beam.EI, float | int) else list(scene.beam.EI)
-    given += [section.EI for section in scene.sections if section.EI is not None]
-    exact = {1.0 / value: value for value in given if not isinf(value)}
-    EI = np.array([exact.get(value, 1.0 / value) for value in arrays.pieces[:, 1].tolist()])
+    EI = arrays.pieces[:, 1]
     loads = arrays.dead + arrays.live
     nodes = parts * len(EI) + 1
     force, stiffness, level, side = np.zeros(nodes), np.zeros(nodes), np.zeros(nodes), np.zeros(nodes, np.int32)

@@ -16,8 +16,7 @@ from msgspec import structs
 
 from . import _yardsticks
 from .calls import gbkern, interruptible
-from .engine import check_status
-from .errors import GapbeamError, Status
+from .errors import GapbeamError, Status, check_status
 from .scene import Analysis
 from .stepping import solve
 from .study_beam import MeshedBeam

@@ -1,0 +1,297 @@
+!> The units in which a model is solved, and everything in them as the engine takes it; what does not fit into double precision
+!> is refused by name
+module gapbeam_lower_units
+    use gapbeam_kinds, only: wp
+    use gapbeam_error, only: error_type
+    use gapbeam_link, only: piece_load_type => load_type
+    use gapbeam_range, only: is_lost
+    use gapbeam_units, only: units_type, exponents_type, rotation_unit, moment_unit, stiffness_unit, turning_unit, &
+        units_with_loads, middle, largest, no_exponent, ordinary_exponent
+    use gapbeam_lowered, only: lowered_type, point_x, piece_length
+    use gapbeam_lower_supports, only: contact_level
+    use gapbeam_check, only: refuse_range, named, shown, of_supports
+    implicit none
+    private
+    public :: change_units, refuse_link, name_farthest
+
+    character(len=*), parameter :: too_great_loads = " are too great together, or beside the levels at which supports act", &
+        smaller_loads = "give smaller ones"
+
+contains
+
+    !> Choose the engine's units, and take pieces, supports and loads to them
+    subroutine change_units(lowered, error)
+        !> Points, nodes, supports, and loads in the user's units in
+        type(lowered_type), intent(inout) :: lowered
+        !> Numbers out of range
+        type(error_type), allocatable, intent(out) :: error
+
+        call choose_units(lowered)
+        call cut_pieces(lowered, error)
+        if (.not. allocated(error)) call scale_supports(lowered, error)
+        if (.not. allocated(error)) call scale_loads(lowered, error)
+    end subroutine change_units
+
+    !> Refuse a link that lost digits, or whose loads are no numbers
+    subroutine refuse_link(lowered, lost, error)
+        type(lowered_type), intent(in) :: lowered
+        !> As first_lost_link gives it, not 0
+        integer, intent(in) :: lost
+        !> Becomes allocated
+        type(error_type), allocatable, intent(out) :: error
+
+        if (lost > 0) then
+            call name_farthest(lowered, error)
+        else
+            call refuse_range(error, "the loads "//trim(from_to(lowered, lowered%node_point(-lost - 1), &
+                                                                lowered%node_point(-lost)))//too_great_loads, smaller_loads)
+        end if
+    end subroutine refuse_link
+
+    !> The engine's units: 1 but for models far from it. In them the lengths of the pieces lie about 1, and so does EI; loads and
+    !> contact levels likewise, as the deflections that they make. Products such as stiffness * flexibility * length**2 might
+    !> otherwise leave the range of doubles
+    pure subroutine choose_units(lowered)
+        type(lowered_type), intent(inout) :: lowered
+        type(exponents_type) :: lengths, stiff(4), forces, ways
+        integer :: length, j, k, stiffness
+
+        do j = 1, size(lowered%pieces)
+            call lengths%note(piece_length(lowered, j), 0)
+        end do
+        length = middle(lengths)
+        associate (beam => lowered%beam, model => lowered%model)
+            do j = 1, size(model%spans)
+                call stiff(1)%note(model%spans(j)%EI, -3*length)
+                call stiff(2)%note(model%spans(j)%GA, -length)
+            end do
+            do k = 1, size(lowered%normal)
+                associate (s => model%supports(lowered%normal(k)))
+                    call stiff(3)%note(s%stiffness, 0)
+                    call ways%note(abs(contact_level(s)), 0)
+                end associate
+            end do
+            do j = 0, size(beam%links)
+                call stiff(4)%note(lowered%turning(j), -2*length)
+                call forces%note(maxval(abs(beam%force(:, j))), 0)
+                call forces%note(maxval(abs(beam%couple(:, j))), -length)
+            end do
+        end associate
+        do j = 1, size(lowered%pieces)
+            associate (a => lowered%dead(j), b => lowered%live(j))
+                call forces%note(max(abs(a%qa), abs(a%qb), abs(b%qa), abs(b%qb)), length)
+                call forces%note(max(abs(a%force), abs(b%force)), 0)
+                call forces%note(max(abs(a%couple), abs(b%couple)), -length)
+                call ways%note(max(abs(a%kappa), abs(b%kappa)), 2*length)
+            end associate
+        end do
+        stiffness = no_exponent
+        do k = size(stiff), 1, -1
+            if (middle(stiff(k)) /= no_exponent) stiffness = middle(stiff(k))
+        end do
+        lowered%units = units_with_loads(length, stiffness, largest(forces), largest(ways))
+    end subroutine choose_units
+
+    !> Length and flexibilities of every piece in the engine's units
+    subroutine cut_pieces(lowered, error)
+        type(lowered_type), intent(inout) :: lowered
+        type(error_type), allocatable, intent(out) :: error
+        integer :: j
+
+        do j = 1, size(lowered%pieces)
+            associate (units => lowered%units, p => lowered%pieces(j), &
+                       span => lowered%model%spans(lowered%point_span(j - 1) + 1))
+                p%length = scale(piece_length(lowered, j), -units%length)
+                p%flexibility = 1/scale(span%EI, -turning_unit(units) - units%length)
+                p%shear_flexibility = 1/scale(span%GA, rotation_unit(units) - units%force)
+                if (is_lost(p%length)) then
+                    call refuse_range(error, "the stretch "//trim(from_to(lowered, j - 1, j))//", "// &
+                                      trim(shown(piece_length(lowered, j)))//" long, is too far from the other lengths of "// &
+                                      "the beam", "bring them nearer together")
+                else if (is_lost(p%flexibility) .and. span%EI <= huge(span%EI)) then
+                    call refuse_stiffness("EI", span%EI)
+                else if (is_lost(p%shear_flexibility) .and. span%GA <= huge(span%GA)) then
+                    call refuse_stiffness("GA", span%GA)
+                end if
+            end associate
+            if (allocated(error)) return
+        end do
+
+    contains
+
+        !> A stiffness is out of range
+        subroutine refuse_stiffness(name, value)
+            character(len=*), intent(in) :: name
+            real(wp), intent(in) :: value
+
+            call refuse_range(error, name//" = "//trim(shown(value))//" "//trim(from_to(lowered, j - 1, j))// &
+                              " is too far from the other stiffnesses of the beam", "bring them nearer together")
+        end subroutine refuse_stiffness
+
+    end subroutine cut_pieces
+
+    !> Supports and rotational restraints in the engine's units
+    subroutine scale_supports(lowered, error)
+        type(lowered_type), intent(inout) :: lowered
+        type(error_type), allocatable, intent(out) :: error
+        integer :: i, k, m
+
+        m = size(lowered%model%supports)
+        associate (beam => lowered%beam, units => lowered%units)
+            beam%compliance(:) = 0.0_wp
+            do i = 0, size(beam%links)
+                if (.not. lowered%turning(i) > 0.0_wp) cycle
+                beam%compliance(i) = 1/scale(lowered%turning(i), -turning_unit(units))
+                if (.not. is_lost(beam%compliance(i)) .or. lowered%turning(i) > huge(1.0_wp)) cycle
+                call refuse_range(error, "rotation = "//trim(shown(lowered%turning(i)))//" of the supports at x = "// &
+                                  trim(shown(point_x(lowered, lowered%node_point(i))))// &
+                                  " is too far from the stiffness of the beam", "clamp it, or leave it free")
+                return
+            end do
+            do k = 1, size(beam%supports)
+                associate (s => beam%supports(k), given => lowered%model%supports(lowered%normal(k)))
+                    s%stiffness = scale(given%stiffness, -stiffness_unit(units))
+                    s%contact = scale(contact_level(given), -units%deflection)
+                    if (is_lost(s%stiffness) .and. given%stiffness > 0.0_wp .and. given%stiffness <= huge(1.0_wp)) then
+                        call refuse_range(error, trim(named(of_supports, lowered%normal(k), m))//": stiffness = "// &
+                                          trim(shown(given%stiffness))//" is too far from the stiffness of the beam", &
+                                          "make it infinite (rigid) or 0")
+                    else if (.not. abs(s%contact) <= huge(1.0_wp)) then
+                        call refuse_range(error, trim(named(of_supports, lowered%normal(k), m))//": it acts at a deflection of "// &
+                                          trim(shown(contact_level(given)))//", too far from the deflections that the loads "// &
+                                          "make", "give a smaller one")
+                    end if
+                end associate
+                if (allocated(error)) return
+            end do
+        end associate
+    end subroutine scale_supports
+
+    !> Loads in the engine's units
+    subroutine scale_loads(lowered, error)
+        type(lowered_type), intent(inout) :: lowered
+        type(error_type), allocatable, intent(out) :: error
+        integer :: i, j
+
+        associate (units => lowered%units, beam => lowered%beam)
+            call rescale(lowered%dead, units)
+            call rescale(lowered%live, units)
+            beam%force(:, :) = scale(beam%force, -units%force)
+            beam%couple(:, :) = scale(beam%couple, -moment_unit(units))
+            do j = 1, size(lowered%pieces)
+                if (is_finite(lowered%dead(j)) .and. is_finite(lowered%live(j))) cycle
+                call refuse_range(error, "the loads "//trim(from_to(lowered, j - 1, j))//too_great_loads, smaller_loads)
+                return
+            end do
+            do i = 0, size(beam%links)
+                if (all(abs([beam%force(:, i), beam%couple(:, i)]) <= huge(1.0_wp))) cycle
+                call refuse_range(error, "the loads at x = "//trim(shown(point_x(lowered, lowered%node_point(i))))// &
+                                  too_great_loads, smaller_loads)
+                return
+            end do
+        end associate
+    end subroutine scale_loads
+
+    !> Say which of the lengths, stiffnesses and levels is farthest from the others, where solving left the range of double
+    !> precision
+    subroutine name_farthest(lowered, error)
+        type(lowered_type), intent(in) :: lowered
+        !> Becomes allocated
+        type(error_type), allocatable, intent(out) :: error
+        integer :: farthest, kind, entry, i, j, k
+
+        farthest = ordinary_exponent
+        kind = 0
+        do j = 1, size(lowered%pieces)
+            call meet(lowered%pieces(j)%length, 1, j)
+        end do
+        do j = 1, size(lowered%pieces)
+            call meet(lowered%pieces(j)%flexibility, 2, j)
+        end do
+        do j = 1, size(lowered%pieces)
+            call meet(lowered%pieces(j)%shear_flexibility, 3, j)
+        end do
+        do i = 0, size(lowered%beam%links)
+            call meet(lowered%beam%compliance(i), 4, i)
+        end do
+        do k = 1, size(lowered%beam%supports)
+            call meet(lowered%beam%supports(k)%stiffness, 5, lowered%normal(k))
+        end do
+        do k = 1, size(lowered%beam%supports)
+            call meet(abs(lowered%beam%supports(k)%contact), 6, lowered%normal(k))
+        end do
+        associate (spans => lowered%model%spans, supports => lowered%model%supports)
+            select case (kind)
+            case (1)
+                call say("the length of the stretch "//trim(from_to(lowered, entry - 1, entry)))
+            case (2)
+                call say("EI = "//trim(shown(spans(lowered%point_span(entry - 1) + 1)%EI))//" "//from_to(lowered, entry - 1, entry))
+            case (3)
+                call say("GA = "//trim(shown(spans(lowered%point_span(entry - 1) + 1)%GA))//" "//from_to(lowered, entry - 1, entry))
+            case (4)
+                call say("rotation = "//trim(shown(lowered%turning(entry)))//" of the supports at x = "// &
+                         shown(point_x(lowered, lowered%node_point(entry))))
+            case (5)
+                call say(trim(named(of_supports, entry, size(supports)))//": stiffness = "//shown(supports(entry)%stiffness))
+            case (6)
+                call say(trim(named(of_supports, entry, size(supports)))//": the deflection of "// &
+                         trim(shown(contact_level(supports(entry))))//" at which it acts")
+            case default
+                call refuse_range(error, "though no length, stiffness or level is far from the rest", &
+                                  "this is an error of gapbeam, please report it")
+            end select
+        end associate
+
+    contains
+
+        !> Keep what is farthest from 1 in the engine's units
+        subroutine meet(value, what, number)
+            real(wp), intent(in) :: value
+            integer, intent(in) :: what, number
+
+            if (.not. (value > 0.0_wp .and. value <= huge(value))) return
+            if (abs(exponent(value)) <= farthest) return
+            farthest = abs(exponent(value))
+            kind = what
+            entry = number
+        end subroutine meet
+
+        !> Name it
+        subroutine say(what)
+            character(len=*), intent(in) :: what
+
+            call refuse_range(error, trim(what)//" is too far from the rest", "bring them nearer together")
+        end subroutine say
+
+    end subroutine name_farthest
+
+    !> Are all numbers of a load finite
+    elemental function is_finite(load) result(finite)
+        type(piece_load_type), intent(in) :: load
+        logical :: finite
+
+        finite = all(abs([load%qa, load%qb, load%kappa, load%force, load%couple]) <= huge(1.0_wp))
+    end function is_finite
+
+    !> The load of a piece in other units
+    elemental subroutine rescale(load, units)
+        type(piece_load_type), intent(inout) :: load
+        type(units_type), intent(in) :: units
+
+        load%qa = scale(load%qa, units%length - units%force)
+        load%qb = scale(load%qb, units%length - units%force)
+        load%kappa = scale(load%kappa, units%length - rotation_unit(units))
+        load%force = scale(load%force, -units%force)
+        load%couple = scale(load%couple, -moment_unit(units))
+    end subroutine rescale
+
+    !> "from x = 0 to x = 6": a stretch between two points, blanks behind it
+    pure function from_to(lowered, first, last) result(text)
+        type(lowered_type), intent(in) :: lowered
+        integer, intent(in) :: first, last
+        character(len=80) :: text
+
+        text = "from x = "//trim(shown(point_x(lowered, first)))//" to x = "//trim(shown(point_x(lowered, last)))
+    end function from_to
+
+end module gapbeam_lower_units

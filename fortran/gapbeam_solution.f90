@@ -1,0 +1,174 @@
+!> The state of a beam at one load factor as numbers: in which units, at which places, and whether they are numbers at all
+module gapbeam_solution
+    use gapbeam_kinds, only: wp
+    use gapbeam_error, only: error_type, no_memory
+    use gapbeam_element, only: field_type
+    use gapbeam_check, only: shown, refuse_range
+    use gapbeam_units, only: moment_unit
+    use gapbeam_lowered, only: lowered_type, point_x
+    use gapbeam_lower_supports, only: contact_level
+    use gapbeam_lower_units, only: name_farthest
+    implicit none
+    private
+    public :: state_type, new_state, forget, check_range, couple_at_node, way_to_contact
+
+    !> A state, in the engine's units and those of the axial system; arrays have one entry per support of the engine's beam, or
+    !> per node 0..n
+    type :: state_type
+        !> gapbeam_solved or gapbeam_no_equilibrium; -1: nothing solved yet
+        integer :: status = -1
+        !> Load factor of the live loads
+        real(wp) :: factor = 0.0_wp
+        !> Fingerprint of the model with the loads that were solved
+        integer :: fingerprint = 0
+        !> Linear solves it took, and the system solved last (gapbeam_system)
+        integer :: solves = 0, method = 0
+        !> Can the beam move freely without work of the loads; does it slide along its axis
+        logical :: indifferent = .false., slides = .false.
+        !> The scheme: which supports act, and whose reaction or opening is zero, so that they may be closed or open
+        logical, allocatable :: closed(:), undecided(:)
+        !> Deflections and moments left and right of the nodes; the free motion where there is no equilibrium
+        real(wp), allocatable :: deflection(:), moment_left(:), moment_right(:), motion(:)
+        !> Shear of every link beside that of the simple bar
+        real(wp), allocatable :: shear(:)
+        real(wp), allocatable :: reaction(:)
+        !> Displacements and reactions of the axial system's points, forces in its bars; of size 0 without one
+        real(wp), allocatable :: displacement(:), axial_reaction(:), tension(:)
+        !> Fields at the left end of every piece; made when first asked for
+        type(field_type), allocatable :: starts(:)
+        logical :: has_starts = .false.
+    end type state_type
+
+contains
+
+    !> A state for a beam, nothing solved, all supports closed
+    subroutine new_state(lowered, state, error)
+        !> The beam
+        type(lowered_type), intent(in) :: lowered
+        !> Ready for solve_state
+        type(state_type), intent(out) :: state
+        !> No memory
+        type(error_type), allocatable, intent(out) :: error
+        integer :: n, m, bars, stat
+
+        n = size(lowered%beam%links)
+        m = size(lowered%beam%supports)
+        bars = 0
+        if (allocated(lowered%axial%point)) bars = ubound(lowered%axial%point, 1)
+        allocate (state%closed(m), state%undecided(m), state%reaction(m), state%deflection(0:n), state%moment_left(0:n), &
+                  state%moment_right(0:n), state%motion(0:n), state%shear(n), state%displacement(0:bars), &
+                  state%axial_reaction(0:bars), state%tension(bars), state%starts(size(lowered%pieces)), stat=stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        state%closed(:) = .true.
+        state%displacement(:) = 0.0_wp
+        state%axial_reaction(:) = 0.0_wp
+        state%tension(:) = 0.0_wp
+        state%starts(:) = field_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
+        call forget(state)
+    end subroutine new_state
+
+    !> Numbers of an earlier solve are not to be taken for those of a later one
+    pure subroutine forget(state)
+        type(state_type), intent(inout) :: state
+
+        state%status = -1
+        state%solves = 0
+        state%method = 0
+        state%indifferent = .false.
+        state%slides = .false.
+        state%has_starts = .false.
+        state%undecided(:) = .false.
+        state%reaction(:) = 0.0_wp
+        state%deflection(:) = 0.0_wp
+        state%moment_left(:) = 0.0_wp
+        state%moment_right(:) = 0.0_wp
+        state%motion(:) = 0.0_wp
+        state%shear(:) = 0.0_wp
+    end subroutine forget
+
+    !> Refuse a solution with numbers that are none, or none in the user's units
+    subroutine check_range(lowered, state, error)
+        type(lowered_type), intent(in) :: lowered
+        type(state_type), intent(inout) :: state
+        !> Set, and the state forgotten, where that is so
+        type(error_type), allocatable, intent(out) :: error
+        integer :: i, j, k
+
+        associate (units => lowered%units, axial => lowered%axial)
+            do i = 0, ubound(state%deflection, 1)
+                call look(state%deflection(i), units%deflection, "deflection", "length", lowered%node_point(i))
+                call look(state%moment_left(i), moment_unit(units), "moment", "force", lowered%node_point(i))
+                call look(state%moment_right(i), moment_unit(units), "moment", "force", lowered%node_point(i))
+                if (i > 0) call look(state%shear(i), units%force, "shear", "force", lowered%node_point(i))
+                if (lowered%turning(i) > 0.0_wp) then
+                    call look(couple_at_node(lowered, state, i), moment_unit(units), "couple of the rotational restraint", &
+                              "force", lowered%node_point(i))
+                end if
+            end do
+            do k = 1, size(lowered%model%supports)
+                j = lowered%beam_support(k)
+                associate (point => lowered%support_point(k))
+                    if (j > 0) call look(state%reaction(j), units%force, "reaction of the support", "force", point)
+                    if (lowered%model%supports(k)%side == 0) cycle
+                    call look(way_to_contact(lowered, state, k), units%deflection, "opening of the support", "length", point)
+                end associate
+            end do
+            if (.not. allocated(axial%point)) return
+            do i = 0, ubound(axial%point, 1)
+                call look(state%displacement(i), axial%units%deflection, "axial displacement", "length", axial%point(i))
+                call look(state%axial_reaction(i), axial%units%force, "axial reaction", "force", axial%point(i))
+                if (i > 0) call look(state%tension(i), axial%units%force, "axial force", "force", axial%point(i))
+            end do
+        end associate
+
+    contains
+
+        !> Is a value finite in the user's units
+        subroutine look(value, power, what, unit, point)
+            real(wp), intent(in) :: value
+            integer, intent(in) :: power, point
+            character(len=*), intent(in) :: what, unit
+
+            if (abs(scale(value, power)) <= huge(value) .or. allocated(error)) return
+            if (abs(value) <= huge(value) .or. index(what, "axial") == 1) then
+                call refuse_range(error, "the "//what//" at x = "//trim(shown(point_x(lowered, point)))//" is too great", &
+                                  "choose a greater unit of "//unit)
+            else
+                call name_farthest(lowered, error)
+            end if
+            call forget(state)
+        end subroutine look
+
+    end subroutine check_range
+
+    !> Couple of the rotational restraint of a node on the beam, in the engine's units: across a node the moment grows by the
+    !> applied couple and that of the supports
+    pure function couple_at_node(lowered, state, node) result(couple)
+        !> The beam, and its solved state
+        type(lowered_type), intent(in) :: lowered
+        type(state_type), intent(in) :: state
+        integer, intent(in) :: node
+        real(wp) :: couple
+
+        associate (applied => lowered%beam%couple(:, node))
+            couple = (state%moment_right(node) - state%moment_left(node)) - (applied(1) + state%factor*applied(2))
+        end associate
+    end function couple_at_node
+
+    !> How far the beam is from a one-sided support of the model, in the engine's units; negative where it has gone past it
+    pure function way_to_contact(lowered, state, support) result(way)
+        !> The beam, and its solved state
+        type(lowered_type), intent(in) :: lowered
+        type(state_type), intent(in) :: state
+        integer, intent(in) :: support
+        real(wp) :: way
+
+        associate (s => lowered%model%supports(support), node => lowered%node_of_point(lowered%support_point(support)))
+            way = s%side*(scale(contact_level(s), -lowered%units%deflection) - state%deflection(node))
+        end associate
+    end function way_to_contact
+
+end module gapbeam_solution
