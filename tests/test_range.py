@@ -10,7 +10,8 @@ import pytest
 from clibrary import F77Beam
 from extreme_scenes import POWERS, extreme_scene, in_units
 from gapbeam.errors import EngineError, SceneError, Status
-from scenes import at, curvature, force, moment, nodes_of, random_scene, scene, uniform
+from gapbeam.report import report_text
+from scenes import at, curvature, force, moment, nodes_of, random_scene, scene, stretch, uniform
 
 FIELDS = ("deflection", "rotation", "moment", "shear")
 NOT_FINITE = Status.NOT_FINITE
@@ -325,3 +326,24 @@ def test_support_without_stiffness_changes_no_answer():
             assert b.reaction[1:-1] == pytest.approx(a.reaction[2:], rel=1e-9, abs=1e-12 * np.abs(a.reaction).max())
             assert b.state[1:-1] == a.state[2:] or b.undecided
             assert b.state[0] == b.state[-1] == "open"
+
+
+def test_open_support_holds_the_rotation(library):
+    """A rotational restraint belongs to the place: open or closed, the beam is held as by a guide, and the report says so."""
+    made = simple([4.0, 4.0], [at(0), at(1, side="below", rotation=500.0), at(2)], EI=100.0)
+    made["loads"] = [uniform(-1.0, **stretch(0.0, 4.0))]
+    made["units"] = {"force": "kN", "length": "m"}
+    result = gapbeam.solve(made)
+    step = result.steps[0]
+    assert step.state[1] == "open"
+    assert step.couple[1] == pytest.approx(-500.0 * result.at(4.0).rotation, rel=1e-12)
+    assert abs(step.couple[1]) > 0.1
+    text = report_text(result, width=200)
+    assert f"Open, but still held in rotation, as by a guide: support 1 (x = 4, couple {step.couple[1]:.6g} kN m)." in text
+    # The same as a rotational spring beside a support that is not there
+    free = gapbeam.solve({**made, "supports": [at(0), at(1, stiffness=0.0, rotation=500.0), at(2)]})
+    np.testing.assert_array_equal(free.steps[0].couple, step.couple)
+    beam, _ = library.prepare(made)
+    assert beam.solve(1.0) == (0, "")
+    assert beam.at_supports()[3].tolist() == step.couple.tolist()
+    beam.close()

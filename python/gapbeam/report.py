@@ -293,6 +293,20 @@ def _supports(say: "Writer", result: "Result", at: str) -> None:
     counts = Counter(step.state)
     words.append(", ".join(f"{counts[state]:,} {state}" for state in sorted(counts)))
     say.line("; ".join(words) + ".", "dim")
+    _restraints_of_open_supports(say, result)
+
+
+def _restraints_of_open_supports(say: "Writer", result: "Result") -> None:
+    """Say which open supports still hold the rotation of the beam."""
+    step, x = result.steps[-1], result.scene.positions(result.scene.supports)
+    held = [
+        f"{k} (x = {fmt.number(x[k])}, couple {fmt.number(step.couple[k])} {fmt.unit(result.scene, 'moment')}".rstrip() + ")"
+        for k, (support, state) in enumerate(zip(result.scene.supports, step.state, strict=True))
+        if state == "open" and support.rotation not in ("free", 0.0)
+    ]
+    if held:
+        more = f" and {len(held) - 10} more" if len(held) > 10 else ""
+        say.line(f"Open, but still held in rotation, as by a guide: support {', '.join(held[:10])}{more}.")
 
 
 def _stacked(scene: "Scene", quantity: str) -> str:

@@ -178,7 +178,8 @@ class Support(_Point, kw_only=True, gc=False):
     settlement : float
         Movement of the support itself (length), positive downward; for an axial support to the right.
     rotation : {"free", "fixed"} or float
-        free (default), fixed, or a rotational stiffness (force*length/rad).
+        free (default), fixed, or a rotational stiffness (force*length/rad). It holds the beam at this place whether the
+        support is closed or open, as a guide does.
     direction : {"normal", "axial"}
         normal (default) is across the beam; axial holds it horizontally, only with axial loads.
     law : list of (float, float), optional
