@@ -84,11 +84,12 @@ def assert_same_state(beam, f77, result, scene, rng):
         for k, name in enumerate(FIELDS):
             pairs = extremes.get(name, {"max": (0.0, 0.0), "min": (0.0, 0.0)})
             assert_equal(np.transpose([value[k], place[k]]), np.array([pairs["max"], pairs["min"]]), name.startswith("axial"))
-    bounds = [bound or 0.0 for bound in step.bounds]
+    along = [step.error_bounds[name] for name in ("deflection", "rotation", "moment", "shear")]
+    bounds = [bound or 0.0 for bound in (*step.bounds, *along)]
     residuals = step.residuals
     numbers = [residuals["equilibrium"], residuals["compatibility"], residuals["complementarity"], *bounds]
     certificate, undecided = beam.certificate()
-    assert [getattr(certificate, name) for name, _ in certificate._fields_[1:6]] == numbers
+    assert [*(getattr(certificate, name) for name, _ in certificate._fields_[1:6]), *certificate.field_bound] == numbers
     assert certificate.known == (step.bounds[0] is not None)
     assert np.flatnonzero(undecided).tolist() == list(step.undecided)
     of_f77, known, undecided_f77 = f77.certificate()
@@ -159,7 +160,7 @@ def test_events_agree(library, first):
             continue
         assert (status == 1) == (result.status == "no-equilibrium")
         if not (status == 1 and beam.info().slides):
-            expected = [(e.factor, e.support, {"opens": 0, "closes": 1}[e.event]) for e in result.events]
+            expected = [(e.factor, e.support, {"opens": 0, "closes": 1, "turns": 3}[e.event]) for e in result.events]
             assert found == expected
             assert found_f77 == expected
             events += len(expected)
