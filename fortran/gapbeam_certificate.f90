@@ -14,7 +14,8 @@ module gapbeam_certificate
         set_plain_loads => set_loads, apply_scheme
     use gapbeam_sensitivity, only: sensitivity_type, prepare_sensitivity, largest_movement, of_deflections, of_rotations, &
         of_moments, of_shears, of_reactions
-    use gapbeam_referee, only: detail_type, refine_beam, find_undecided, held_by_ties, fine_piece, fine_load
+    use gapbeam_kinematics_quad, only: held_by_ties
+    use gapbeam_referee, only: detail_type, refine_beam, find_undecided, fine_piece, fine_load
     use gapbeam_element_quad, only: fine_field_type => field_type
     use gapbeam_model_quad, only: fine_beam_type => beam_type
     use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type, new_workspace, set_loads

@@ -10,7 +10,7 @@ module gapbeam_kinematics
     use gapbeam_model, only: beam_type
     implicit none
     private
-    public :: free_motions, motion_type, work_of_loads
+    public :: free_motions, motion_type, work_of_loads, held_by_ties
 
     !> An independent free motion
     type :: motion_type
@@ -158,6 +158,46 @@ contains
         end subroutine record
 
     end subroutine free_motions
+
+    !> Is the beam free to move but for supports that carry nothing: then its position is not unique
+    function held_by_ties(beam, closed, undecided) result(free)
+        !> The beam and its scheme
+        type(beam_type), intent(in) :: beam
+        logical, intent(in) :: closed(:)
+        !> Supports at zero
+        logical, intent(in) :: undecided(:)
+        logical :: free
+        type(motion_type), allocatable :: motions(:)
+        integer :: m, way
+
+        free = .false.
+        if (.not. any(closed .and. undecided)) return
+        call free_motions(beam, closed .and. .not. undecided, motions)
+        do m = 1, size(motions)
+            do way = -1, 1, 2
+                free = free .or. leaves_ties(motions(m), way)
+            end do
+        end do
+
+    contains
+
+        !> Does a motion go away from every support at zero that it moves
+        function leaves_ties(motion, way) result(leaves)
+            type(motion_type), intent(in) :: motion
+            integer, intent(in) :: way
+            logical :: leaves
+            integer :: k
+
+            leaves = .true.
+            do k = 1, size(undecided)
+                associate (s => beam%supports(k))
+                    if (.not. undecided(k) .or. s%node < motion%first .or. s%node > motion%last) cycle
+                    leaves = leaves .and. way*s%side*motion%displacement(s%node) <= 0.0_wp
+                end associate
+            end do
+        end function leaves_ties
+
+    end function held_by_ties
 
     !> Work of the loads along a motion, and the sum of the absolute values of its parts
     pure subroutine work_of_loads(beam, factor, displacement, range, work, size_of_parts)

@@ -7,7 +7,7 @@
 !> data move (gapbeam_sensitivity), is a tie: then either state is right, and the support is named (undecided).
 module gapbeam_referee
     use gapbeam_kinds, only: wp, qp
-    use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_memory
+    use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_memory, gapbeam_indeterminate
     use gapbeam_memory, only: reserve_memory, for_refining
     use gapbeam_link, only: piece_type, load_type
     use gapbeam_model, only: beam_type, both
@@ -16,7 +16,8 @@ module gapbeam_referee
     use gapbeam_scheme, only: find_scheme, outcome_type
     use gapbeam_link_quad, only: fine_piece_type => piece_type, fine_load_type => load_type, fine_link_type => link_type, &
         condense_link
-    use gapbeam_kinematics_quad, only: free_motions, motion_type
+    use gapbeam_kinematics, only: held_by_ties
+    use gapbeam_kinematics_quad, only: fine_held_by_ties => held_by_ties
     use gapbeam_model_quad, only: fine_beam_type => beam_type, new_beam
     use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type, new_fine_workspace => new_workspace, &
         set_fine_loads => set_loads
@@ -26,7 +27,7 @@ module gapbeam_referee
     use gapbeam_scheme_quad, only: find_fine_scheme => find_scheme, fine_outcome_type => outcome_type
     implicit none
     private
-    public :: decide_scheme, find_undecided, held_by_ties, detail_type, refine_beam, fine_piece, fine_load, reserve_for
+    public :: decide_scheme, find_undecided, detail_type, refine_beam, fine_piece, fine_load, reserve_for
 
     !> Of more supports near zero than these all are named
     integer, parameter :: most_examined = 64
@@ -71,7 +72,11 @@ contains
         else
             in_doubt = outcome%in_doubt
         end if
-        if (in_doubt) call refer(beam, detail, factor, closed, undecided, work, outcome, error)
+        if (in_doubt) then
+            call refer(beam, detail, factor, closed, undecided, work, outcome, error)
+        else if (outcome%status == gapbeam_solved) then
+            outcome%indifferent = outcome%indifferent .or. held_by_ties(beam, closed, undecided)
+        end if
         if (allocated(error) .or. outcome%status /= gapbeam_solved) return
         call move_alloc(undecided, outcome%undecided)
     end subroutine decide_scheme
@@ -116,6 +121,7 @@ contains
         type(fine_beam_type) :: fine
         type(fine_workspace_type) :: fine_work
         type(fine_outcome_type) :: found
+        integer :: try
 
         undecided(:) = .false.
         call reserve_for(for_refining, beam, detail, error)
@@ -125,6 +131,14 @@ contains
         call set_fine_loads(fine, real(factor, qp), fine_work)
         call find_fine_scheme(fine, real(factor, qp), rule_block, closed, fine_work, found, error)
         work%solves = work%solves + fine_work%solves
+        do try = 1, 2
+            ! Rigid stretches may touch more supports than they need: whether there is an answer must not depend on the start
+            if (.not. statics_cannot_tell(error)) exit
+            deallocate (error)
+            closed(:) = try == 1 .or. beam%supports%side == both
+            call find_fine_scheme(fine, real(factor, qp), rule_block, closed, fine_work, found, error)
+            work%solves = work%solves + fine_work%solves
+        end do
         work%method = fine_work%method
         if (allocated(error)) return
         outcome = outcome_type(status=found%status, indifferent=found%indifferent)
@@ -133,7 +147,7 @@ contains
             return
         end if
         call find_undecided(fine, real(factor, qp), closed, fine_work, undecided)
-        outcome%indifferent = outcome%indifferent .or. held_by_ties(fine, closed, undecided)
+        outcome%indifferent = outcome%indifferent .or. fine_held_by_ties(fine, closed, undecided)
         associate (a => fine_work%answers)
             work%answers%deflection = real(a%deflection, wp)
             work%answers%moment_left = real(a%moment_left, wp)
@@ -142,6 +156,15 @@ contains
         work%shear = real(fine_work%shear, wp)
         work%reaction = real(fine_work%reaction, wp)
     end subroutine refer
+
+    !> Did a search end at a rigid stretch over more rigid supports than statics can tell apart
+    pure function statics_cannot_tell(error) result(ended)
+        type(error_type), allocatable, intent(in) :: error
+        logical :: ended
+
+        ended = allocated(error)
+        if (ended) ended = error%code == gapbeam_indeterminate
+    end function statics_cannot_tell
 
     !> Supports whose reaction or opening is smaller than what it moves when the data change in their last digits. A reaction that
     !> is nothing but rounding is none
@@ -175,46 +198,6 @@ contains
             undecided(k) = abs(margin(k)) <= max(movement, first_width*rounding(k))
         end do
     end subroutine find_undecided
-
-    !> Is the beam free to move but for supports that carry nothing: then its position is not unique
-    function held_by_ties(fine, closed, undecided) result(free)
-        !> The beam and its scheme
-        type(fine_beam_type), intent(in) :: fine
-        logical, intent(in) :: closed(:)
-        !> From find_undecided
-        logical, intent(in) :: undecided(:)
-        logical :: free
-        type(motion_type), allocatable :: motions(:)
-        integer :: m, way
-
-        free = .false.
-        if (.not. any(closed .and. undecided)) return
-        call free_motions(fine, closed .and. .not. undecided, motions)
-        do m = 1, size(motions)
-            do way = -1, 1, 2
-                free = free .or. leaves_ties(motions(m), way)
-            end do
-        end do
-
-    contains
-
-        !> Does a motion go away from every support at zero that it moves
-        function leaves_ties(motion, way) result(leaves)
-            type(motion_type), intent(in) :: motion
-            integer, intent(in) :: way
-            logical :: leaves
-            integer :: k
-
-            leaves = .true.
-            do k = 1, size(undecided)
-                associate (s => fine%supports(k))
-                    if (.not. undecided(k) .or. s%node < motion%first .or. s%node > motion%last) cycle
-                    leaves = leaves .and. way*s%side*motion%displacement(s%node) <= 0.0_qp
-                end associate
-            end do
-        end function leaves_ties
-
-    end function held_by_ties
 
     !> The beam in quadruple precision
     subroutine refine_beam(beam, detail, fine)

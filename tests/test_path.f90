@@ -3,7 +3,7 @@ program test_path
     use testing, only: check, check_close, finish
     use beams, only: sample_type, make_beam, detail_of, infinite
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_equilibrium
+    use gapbeam_error, only: gapbeam_not_converged, error_type, gapbeam_solved, gapbeam_no_equilibrium
     use gapbeam_model, only: support_type, below, above, both
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_search, only: rule_block
@@ -171,8 +171,8 @@ contains
         call check_close(walk%outcome%motion, [-1.0_wp, 0.0_wp, 0.5_wp], "it tips about the support beside the load")
     end subroutine tipping
 
-    !> Loads that balance each other bend a beam on its ends until it touches a stop in the middle, and then push it up: it is free
-    !> to move without work, and its position is not unique. As long as that makes no events without end it is followed
+    !> Loads that balance each other bend a beam on its ends until it touches a stop in the middle, about which it then rocks
+    !> without work: what it touches by that is no event of the load
     subroutine no_single_path()
         type(sample_type), target :: sample
         type(walk_type) :: walk
