@@ -114,7 +114,7 @@ def whole(place: str, value: Any, least: int | None = None) -> int:
         number = operator.index(value)
     except TypeError:
         raise ValueError(f"{place}: expected a whole number{bound}, got {_words(value)}") from None
-    if isinstance(value, bool | np.bool) or (least is not None and number < least):
+    if isinstance(value, bool | np.bool_) or (least is not None and number < least):
         raise ValueError(f"{place}: expected a whole number{bound}, got {_words(value)}")
     return number
 
