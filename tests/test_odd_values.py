@@ -68,8 +68,8 @@ def test_long_integers(digits, sign):
 @pytest.mark.parametrize(
     ("value", "shown"),
     [
-        (np.longdouble("1.5"), "1.5 (longdouble; take float() of it)"),
-        (np.clongdouble(2), "(2+0j) (clongdouble; take float() of it)"),
+        (np.longdouble("1.5"), f"1.5 ({np.longdouble.__name__}; take float() of it)"),
+        (np.clongdouble(2), f"(2+0j) ({np.clongdouble.__name__}; take float() of it)"),
         (np.ma.masked, "masked"),
         (np.ma.array(1.0, mask=True), "masked"),
         (1 + 2j, "(1+2j)"),

@@ -28,12 +28,13 @@ def source(name: str) -> Mapping | str:
 @contextmanager
 def until_closed() -> Iterator[None]:
     """Write to standard output until its reader has seen enough; a title may hold characters it has not."""
+    if sys.stdout is None:  # closed: nobody reads
+        sys.stdout = open(os.devnull, "w")  # noqa: SIM115  to the end of the process
     if hasattr(sys.stdout, "reconfigure"):
         sys.stdout.reconfigure(errors="backslashreplace")
     try:
         yield
-        if sys.stdout is not None:
-            sys.stdout.flush()
+        sys.stdout.flush()
     except (BrokenPipeError, SystemExit):  # rich turns the first into the second
         _drop_standard_output()
     except OSError as error:
