@@ -59,11 +59,13 @@ contains
         type(error_type), allocatable, intent(out) :: error
         type(workspace_type) :: work
         real(wp) :: scale_of_factor, trial, from
+        logical :: farther
 
         scale_of_factor = max(abs(factor), limit - factor)
         trial = factor + first_share*scale_of_factor
         call new_workspace(beam, work)
         allocate (cell%closed(size(start)), cell%lines(size(start)))
+        farther = .false.
         do
             cell%closed(:) = start
             call set_loads(beam, trial, work)
@@ -77,30 +79,24 @@ contains
             else
                 from = start_of_motion(beam, outcome%motion)
             end if
-            if (.not. from > factor + last_share*scale_of_factor) exit
-            ! Nearer, before what happens there
-            trial = factor + (min(from, trial) - factor)/2
+            if (from > factor + last_share*scale_of_factor) then
+                if (farther) exit
+                ! Nearer, before what happens there
+                trial = factor + (min(from, trial) - factor)/2
+            else
+                ! Farther, if so near to the factor even this precision cannot tell what falls from zero
+                farther = outcome%status == gapbeam_solved .and. .not. cell%to > trial .and. trial < limit
+                if (.not. farther) exit
+                trial = min(limit, factor + 16*(trial - factor))
+            end if
         end do
         if (.not. outcome%indifferent .or. cell%to >= limit) return
-        ! The position is not unique, so what it touches is no event of the load
-        if (touches(cell) .or. cell%to < factor + indifferent_share*scale_of_factor) then
+        ! The position is not unique, so supports may be touched here or there, without end
+        if (cell%to < factor + indifferent_share*scale_of_factor) then
             call fatal_error(error, gapbeam_not_converged, "above this load factor the beam can move freely without work "// &
                              "of the loads, so there is no single path of its supports: follow the load by steps")
         end if
     end subroutine find_cell
-
-    !> Does a stretch end because an open support is reached
-    pure function touches(cell) result(reached)
-        type(cell_type), intent(in) :: cell
-        logical :: reached
-        integer :: k
-
-        reached = .false.
-        do k = 1, size(cell%lines)
-            if (cell%closed(k) .or. .not. falls(cell%lines(k))) cycle
-            reached = reached .or. zero_of(cell%lines(k)) <= cell%to
-        end do
-    end function touches
 
     !> The factor above which the loads do work along a motion
     function start_of_motion(beam, motion) result(factor)

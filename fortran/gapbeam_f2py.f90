@@ -73,7 +73,7 @@ subroutine gbsolv(np, nl, ns, piece, dead, live, last, link, kind, compli, force
     ! Supports: node, side (1 below, -1 above, 0 both), stiffness (infinite: rigid), deflection of first contact
     integer, intent(in) :: snode(ns), sside(ns)
     double precision, intent(in) :: sstiff(ns), scont(ns)
-    ! Factor of the live loads; rule 0 block, 1 single
+    ! Factor of the live loads; rule 0 block, 1 single, 2 CLOSED is known to be the working scheme (as along a path)
     double precision, intent(in) :: factor
     integer, intent(in) :: rule
     ! Scheme: 1 closed, 0 open; start in, working scheme out

@@ -317,10 +317,7 @@ contains
         integer :: k, pass, holds
 
         holds = 0
-        if (any((before .neqv. after) .and. merge(was_far, is_far, after))) then
-            holds = findloc(after .and. .not. before, .true., 1)
-            if (holds == 0) holds = findloc(before .neqv. after, .true., 1)
-        end if
+        if (any((before .neqv. after) .and. merge(was_far, is_far, after))) holds = findloc(after .and. .not. before, .true., 1)
         do pass = 1, 2
             closes = pass == 2
             if (closes .and. holds > 0) call add_event(path, factor, holds, event_turns)

@@ -12,7 +12,9 @@ module gapbeam_referee
     use gapbeam_link, only: piece_type, load_type
     use gapbeam_model, only: beam_type, both
     use gapbeam_workspace, only: workspace_type, set_loads
-    use gapbeam_rules, only: find_doubtful
+    use gapbeam_rules, only: find_doubtful, find_wrong, first_width
+    use gapbeam_system, only: solve_scheme, refine_scheme
+    use gapbeam_band, only: band_ok
     use gapbeam_scheme, only: find_scheme, outcome_type
     use gapbeam_link_quad, only: fine_piece_type => piece_type, fine_load_type => load_type, fine_link_type => link_type, &
         condense_link
@@ -21,7 +23,7 @@ module gapbeam_referee
     use gapbeam_model_quad, only: fine_beam_type => beam_type, new_beam
     use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type, new_fine_workspace => new_workspace, &
         set_fine_loads => set_loads
-    use gapbeam_rules_quad, only: margin_of, first_width
+    use gapbeam_rules_quad, only: margin_of, fine_width => first_width
     use gapbeam_sensitivity_quad, only: sensitivity_type, prepare_sensitivity, movement_of_support
     use gapbeam_search_quad, only: rule_block
     use gapbeam_scheme_quad, only: find_fine_scheme => find_scheme, fine_outcome_type => outcome_type
@@ -29,6 +31,8 @@ module gapbeam_referee
     private
     public :: decide_scheme, find_undecided, detail_type, refine_beam, fine_piece, fine_load, reserve_for
 
+    !> Beside the rules of gapbeam_search: the scheme is known
+    integer, parameter :: rule_given = 2
     !> Of more supports near zero than these all are named
     integer, parameter :: most_examined = 64
     !> Rounding error of a reaction, relative to the largest, from which on quadruple precision is worth its time
@@ -62,7 +66,11 @@ contains
 
         allocate (undecided(size(closed)))
         undecided(:) = .false.
-        call find_scheme(beam, factor, rule, closed, work, outcome, error)
+        if (rule == rule_given) then
+            call solve_given(beam, closed, undecided, work, outcome)
+            if (allocated(outcome%undecided)) return
+        end if
+        call find_scheme(beam, factor, merge(rule_block, rule, rule == rule_given), closed, work, outcome, error)
         if (allocated(error)) then
             if (error%code == gapbeam_no_memory) return
             in_doubt = .true.
@@ -80,6 +88,32 @@ contains
         if (allocated(error) .or. outcome%status /= gapbeam_solved) return
         call move_alloc(undecided, outcome%undecided)
     end subroutine decide_scheme
+
+    !> Solve a scheme that is known from the path of the load. At the factor of an event, rounded to a double, a search could as
+    !> well end on the other side of it
+    subroutine solve_given(beam, closed, undecided, work, outcome)
+        type(beam_type), intent(in) :: beam
+        logical, intent(in) :: closed(:)
+        logical, intent(inout) :: undecided(:)
+        type(workspace_type), intent(inout) :: work
+        !> With undecided allocated if the scheme has been solved, and nothing in it is wrong
+        type(outcome_type), intent(inout) :: outcome
+        logical, allocatable :: wrong(:)
+        integer :: state, place
+
+        work%solves = 0
+        work%came_back = .false.
+        work%ease = 0.0_wp
+        call solve_scheme(beam, closed, work, state, place)
+        if (state /= band_ok) return
+        call refine_scheme(beam, closed, work)
+        allocate (wrong(size(closed)))
+        call find_wrong(beam, closed, first_width, work, wrong)
+        if (any(wrong) .or. digits_lost(work) .or. .not. all(abs(work%answers%deflection) <= huge(1.0_wp))) return
+        call find_doubtful(beam, closed, work, undecided)
+        outcome%indifferent = held_by_ties(beam, closed, undecided)
+        outcome%undecided = undecided
+    end subroutine solve_given
 
     !> Are reactions known to few digits, as those of springs far stiffer than the beam beside each other
     pure function digits_lost(work) result(lost)
@@ -186,8 +220,8 @@ contains
                 if (s%side == both .or. .not. s%stiffness > 0.0_qp) cycle
             end associate
             call margin_of(fine, closed(k), k, work, margin(k), rounding(k))
-            undecided(k) = abs(margin(k)) <= first_width*rounding(k)*(epsilon(1.0_wp)/epsilon(1.0_qp))
-            if (closed(k) .and. abs(margin(k)) <= first_width*rounding(k)) work%reaction(k) = 0.0_qp
+            undecided(k) = abs(margin(k)) <= fine_width*rounding(k)*(epsilon(1.0_wp)/epsilon(1.0_qp))
+            if (closed(k) .and. abs(margin(k)) <= fine_width*rounding(k)) work%reaction(k) = 0.0_qp
         end do
         if (.not. any(undecided) .or. count(undecided) > most_examined) return
         call prepare_sensitivity(fine, factor, work, sensitivity)
@@ -195,7 +229,7 @@ contains
         do k = 1, size(closed)
             if (.not. undecided(k)) cycle
             call movement_of_support(fine, sensitivity, closed(k), k, work, movement)
-            undecided(k) = abs(margin(k)) <= max(movement, first_width*rounding(k))
+            undecided(k) = abs(margin(k)) <= max(movement, fine_width*rounding(k))
         end do
     end subroutine find_undecided
 

@@ -17,6 +17,8 @@ SOLVED, NO_EQUILIBRIUM = Status.SOLVED, Status.NO_EQUILIBRIUM
 """Outcomes, as in gapbeam_error; codes above 10 are errors."""
 _NO_MEMORY = int(Status.NO_MEMORY)  # compared faster
 RULES = {"block": 0, "single": 1}
+GIVEN = "given"
+"""Instead of a rule: the scheme is known, as along a path."""
 OPENS, CLOSES, TURNS = 0, 1, 3
 """Events, as in gapbeam_path."""
 METHODS = ("block tridiagonal mixed", "three-moment", "mixed with pivoting")
@@ -103,8 +105,8 @@ def solve(arrays: Arrays, links: np.ndarray, factor: float, rule: str, closed: n
         Its condensed links.
     factor : float
         Factor of the live loads.
-    rule : {"block", "single"}
-        How the working scheme is found.
+    rule : {"block", "single", "given"}
+        How the working scheme is found; GIVEN where it is known.
     closed : numpy.ndarray of int
         Starting scheme, one entry per support; left as it is.
 
@@ -120,7 +122,7 @@ def solve(arrays: Arrays, links: np.ndarray, factor: float, rule: str, closed: n
     """
     scheme = _scheme(closed)
     *values, indifferent, came_back, status, message = _f77.gbsolv(
-        *_detail(arrays), *_beam(arrays, links), factor, RULES[rule], scheme
+        *_detail(arrays), *_beam(arrays, links), factor, RULES.get(rule, 2), scheme
     )
     if status == Status.NOT_FINITE:
         refuse_farthest(arrays)

@@ -69,6 +69,9 @@ def path_figure(result: Result) -> Figure:
     states = [result.steps[k] for k in (range(len(result.steps)) if dots else _bends(result))]
     if result.segments:
         states.insert(0, result.state(0.0))
+        # Where the beam turns it is in two places at one load factor
+        turns = {event.factor for event in result.events if event.event == "turns"} - {0.0, states[-1].factor}
+        states = sorted([*states, *map(result.state, turns)], key=lambda step: step.factor)
     factors = np.array([step.factor for step in states])
     height = (0.35 if result.status == "solved" else 0.65) + 2 * (GAP + PANEL) + FOOT
     picture = Figure(figsize=(WIDTH, height), dpi=200)
@@ -119,7 +122,7 @@ def _style(order: int) -> dict:
 def _mark_events(axes: Axes, result: Result, k: int, factors: np.ndarray, values: np.ndarray) -> None:
     """Mark where a support opens or closes."""
     for event in result.events:
-        if event.support == k:
+        if event.support == k and event.event != "turns":
             face = "white" if event.event == "opens" else "black"
             axes.plot(event.factor, np.interp(event.factor, factors, values), "o", color="black", markerfacecolor=face,
                       markersize=5, clip_on=False)  # fmt: skip

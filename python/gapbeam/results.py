@@ -219,7 +219,8 @@ class Result(Pickled):
         """
         factor = finite("factor", factor)
         closed = self.path.at(factor) if self.segments else self.steps.nearest(factor)
-        step = solve_step(self.arrays, self.links, factor, self.rule, closed)
+        known = self.segments and 0.0 <= factor <= self.segments[-1].stop
+        step = solve_step(self.arrays, self.links, factor, engine.GIVEN if known else self.rule, closed)
         if isinstance(step, Solution) or step is None:
             raise ValueError(f"factor: there is no equilibrium at load factor {factor:g}")
         return step

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, overload
 
 import numpy as np
 
+from .engine import GIVEN
 from .errors import SceneError
 from .lowering import Arrays
 from .memory import LITTLE, refuse_beyond
@@ -253,4 +254,4 @@ class PathSteps(Steps):
         return read_only(self._path.closed(self._path.segments[k]))
 
     def _make(self, k: int) -> Step:
-        return Step(self._arrays, self._links, self.factor(k), self._rule, self.closed(k))
+        return Step(self._arrays, self._links, self.factor(k), GIVEN, self.closed(k))

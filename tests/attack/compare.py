@@ -36,6 +36,10 @@ class Look:
         """Places of the nodes."""
         return self.result.arrays.node_x.tolist()
 
+    def in_scene(self, deflection):
+        """Deflections of the nodes, which the engine has in units of its own."""
+        return np.ldexp(deflection, self.result.arrays.units.deflection).tolist()
+
 
 def compare_state(beam, step, look, verdict, where=""):
     """Compare one state.
@@ -106,7 +110,7 @@ def pairs(beam, step, look, values, loose):
         exact += [beam.state_at(x, inside.get(x, side), values) for x in places]
     if not loose:
         nodes = {float(x): state[0] for x, state in zip(places, exact, strict=False)}
-        yield "deflection", step.bounds[0], step.solution.deflection.tolist(), [nodes[x] for x in look.nodes]
+        yield "deflection", step.bounds[0], look.in_scene(step.solution.deflection), [nodes[x] for x in look.nodes]
     for k, kind in enumerate(("deflection", "rotation", "moment", "shear")):
         if not (loose and k < 2):
             computed = [value for field in fields for value in getattr(field, kind).tolist()]
