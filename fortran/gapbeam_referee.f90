@@ -29,7 +29,7 @@ module gapbeam_referee
     use gapbeam_scheme_quad, only: find_fine_scheme => find_scheme, fine_outcome_type => outcome_type
     implicit none
     private
-    public :: decide_scheme, find_undecided, detail_type, refine_beam, fine_piece, fine_load, reserve_for
+    public :: decide_scheme, rule_given, find_undecided, detail_type, refine_beam, fine_piece, fine_load, reserve_for
 
     !> Beside the rules of gapbeam_search: the scheme is known
     integer, parameter :: rule_given = 2

@@ -7,7 +7,7 @@ module gapbeam_state
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_recover, only: recover_beam
     use gapbeam_scheme, only: outcome_type
-    use gapbeam_referee, only: decide_scheme, detail_type, reserve_for
+    use gapbeam_referee, only: rule_given, decide_scheme, detail_type, reserve_for
     use gapbeam_certificate, only: certificate_type, certify
     use gapbeam_path, only: follow_load, path_type, event_turns
     use gapbeam_axial, only: solve_axial, axial_slides, axial_indeterminate
@@ -229,7 +229,7 @@ contains
                 return
             end if
         end do
-        call solve_state(lowered, factor, rule, state, error)
+        call solve_state(lowered, factor, rule_given, state, error)
         if (.not. allocated(error)) state%solves = state%solves + solves
 
     contains
