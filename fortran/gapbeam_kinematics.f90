@@ -84,7 +84,10 @@ contains
             start = i
         end do
         if (moving) call record(n)
-        longer = motions(1:number)
+        allocate (longer(number))
+        do i = 1, number
+            longer(i) = motions(i)
+        end do
         call move_alloc(longer, motions)
 
     contains

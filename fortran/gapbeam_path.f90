@@ -16,7 +16,7 @@
 !> only, so there are finitely many events, and the path ends.
 module gapbeam_path
     use gapbeam_kinds, only: wp, qp
-    use gapbeam_error, only: error_type, gapbeam_solved
+    use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_not_converged
     use gapbeam_memory, only: for_following_closely
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
@@ -45,6 +45,8 @@ module gapbeam_path
     real(wp), parameter :: agreement = 1e-9_wp
     !> Links up to which doubt is a reason for quadruple precision; in longer beams only if the end of the path is wrong
     integer, parameter :: short_beam = 200
+    !> Stretches shorter than this, relative to the way, may be but a few
+    real(wp), parameter :: shortest = 2.0_wp**(-30)
     !> Rounding errors beyond which a value is not near zero
     real(wp), parameter :: far = 2.0_wp**16
 
@@ -144,8 +146,9 @@ contains
         real(qp) :: exactly, here
         real(wp) :: begin
         logical :: done
-        integer :: k
+        integer :: k, short_cells
 
+        short_cells = 0
         at_zero = pack([(k, k=1, size(closed))], marginal)
         begin = factor
         exactly = factor
@@ -171,6 +174,12 @@ contains
                 call look_closely(beam, detail, here, limit, at_zero, closed, stretch, path, outcome, error)
                 if (allocated(error) .or. outcome%status /= gapbeam_solved) exit
                 call find_next(beam, closed, factor, limit, stretch, at_zero, exactly)
+            end if
+            if (stretch%by_cell .and. exactly - here < shortest*max(abs(factor), limit - begin)) short_cells = short_cells + 1
+            if (short_cells > 100 + 4*size(closed)) then
+                call fatal_error(error, gapbeam_not_converged, "so many supports open and close so near to each other that "// &
+                                 "rounding decides, even in quadruple precision: follow the load by steps")
+                exit
             end if
             if (exactly >= limit) at_zero = [integer ::]
             factor = max(factor, real(min(exactly, real(limit, qp)), wp))

@@ -209,7 +209,7 @@ def schemes(largest: int = 10_000) -> Iterator[Row]:
     --------
     >>> row = next(schemes())
     >>> row.problem, row.block, row.single, row.closed
-    ("P1 paper's beam (+--)", 3, 3, 2)
+    ("P1 paper's beam (+--)", 3, 2, 2)
     """
     for name, scene in _small_problems():
         yield _count(name, scene)
