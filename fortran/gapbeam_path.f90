@@ -146,9 +146,9 @@ contains
         real(qp) :: exactly, here
         real(wp) :: begin
         logical :: done
-        integer :: k, short_cells
+        integer :: k, short_stretches
 
-        short_cells = 0
+        short_stretches = 0
         at_zero = pack([(k, k=1, size(closed))], marginal)
         begin = factor
         exactly = factor
@@ -175,8 +175,9 @@ contains
                 if (allocated(error) .or. outcome%status /= gapbeam_solved) exit
                 call find_next(beam, closed, factor, limit, stretch, at_zero, exactly)
             end if
-            if (stretch%by_cell .and. exactly - here < shortest*max(abs(factor), limit - begin)) short_cells = short_cells + 1
-            if (short_cells > 100 + 4*size(closed)) then
+            if (exactly - here < shortest*max(abs(factor), limit - begin)) short_stretches = short_stretches + 1
+            stretch%in_doubt = stretch%in_doubt .or. short_stretches > 2*size(closed)
+            if (short_stretches > 100 + 4*size(closed)) then
                 call fatal_error(error, gapbeam_not_converged, "so many supports open and close so near to each other that "// &
                                  "rounding decides, even in quadruple precision: follow the load by steps")
                 exit
