@@ -167,7 +167,7 @@ def test_what_cannot_fit_is_refused(monkeypatch):
 def test_json_that_cannot_fit_is_refused(monkeypatch):
     result = gapbeam.solve(lifted(3, 9000))
     monkeypatch.setattr(memory, "available", lambda: 1e6)
-    with pytest.raises(gapbeam.SceneError, match=r"analysis.steps: 9,000 steps as JSON take \d\d MB of memory, and 1 MB can be had"):
+    with pytest.raises(gapbeam.SceneError, match=r"analysis.steps: 9,000 steps as JSON take \d\d MB of memory, and 1 MB"):
         to_json(result)
 
 
