@@ -287,8 +287,7 @@ subroutine gbflds(work, iwork, state, istate, nx, x, left, field, info)
     integer, intent(in) :: left
     ! Deflection, rotation, moment, shear, axial force, axial displacement at every place
     double precision, intent(inout) :: field(6, *)
-    ! -1: no beam; -3: nothing solved, or not of this beam; -5; -6: a place off the beam; 14: a field out of range, those at
-    ! places before it are written; 15
+    ! -1: no beam; -3: nothing solved, or not of this beam; -5; -6: a place off the beam; 14: a field out of range; 15
     integer, intent(out) :: info
     type(prepared_type) :: beam
     type(result_type) :: result

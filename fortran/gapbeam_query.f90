@@ -1,7 +1,7 @@
 !> What a solved state says, in the user's units: values at the supports, fields anywhere, extremes, the free motion
 module gapbeam_query
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, fatal_error, gapbeam_bad_input
+    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input
     use gapbeam_element, only: field_type
     use gapbeam_fields, only: values_at, find_extremes
     use gapbeam_model, only: both
@@ -121,12 +121,13 @@ contains
         !> Where a field jumps: its value left of the place; otherwise right of it
         logical, intent(in) :: from_left
         !> Shape (field_count, n)
-        real(wp), intent(out) :: fields(:, :)
+        real(wp), intent(inout) :: fields(:, :)
         !> A place outside the beam, a field out of range, or no memory
         type(error_type), allocatable, intent(out) :: error
         type(field_type) :: field(1)
-        real(wp) :: distance, end, found(field_count)
-        integer :: i, k, piece
+        real(wp), allocatable :: found(:, :)
+        real(wp) :: distance, end
+        integer :: powers(field_count), i, k, piece, stat
 
         end = lowered%ends(ubound(lowered%ends, 1))
         do i = 1, size(x)
@@ -138,18 +139,27 @@ contains
         end do
         call make_starts(lowered, state, error)
         if (allocated(error)) return
+        ! Nothing is written where one of them is refused
+        allocate (found(field_count, size(x)), stat=stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        powers = field_units(lowered)
         do i = 1, size(x)
             call find_piece(lowered, x(i), from_left, piece, distance)
             call values_at(lowered%pieces, lowered%dead, lowered%live, state%factor, state%starts, [piece], &
                            [scale(distance, -lowered%units%length)], field)
-            found(1:4) = [field(1)%deflection, field(1)%rotation, field(1)%moment, field(1)%shear]
-            call axial_fields(lowered, state, piece, distance, found(5), found(6))
-            fields(:, i) = scale(found, field_units(lowered))
-            k = findloc(abs(fields(:, i)) <= huge(distance), .false., 1)
+            found(1:4, i) = [field(1)%deflection, field(1)%rotation, field(1)%moment, field(1)%shear]
+            call axial_fields(lowered, state, piece, distance, found(5, i), found(6, i))
+            k = findloc(abs(scale(found(:, i), powers)) <= huge(distance), .false., 1)
             if (k == 0) cycle
-            call refuse_field(lowered, k, found(k), x(i), error)
+            call refuse_field(lowered, k, found(k, i), x(i), error)
             error%entry = i
             return
+        end do
+        do i = 1, size(x)
+            fields(:, i) = scale(found(:, i), powers)
         end do
     end subroutine fields_at_places
 

@@ -189,7 +189,7 @@ class CBeam:
     def fields(self, x, left=False, expect=0):
         """Fields at places, 6 by places; the status must be as expected."""
         x = np.array(x, dtype=float)
-        found = np.empty((len(x), 6))
+        found = np.full((len(x), 6), np.nan)
         status = self.c.gapbeam_get_fields(
             self.handle, self.state, len(x), pointer(x), int(left), pointer(found), None, c.c_size_t(0)
         )
@@ -273,7 +273,7 @@ class F77Beam:
 
     def fields(self, x, left=False, expect=0):
         """As CBeam.fields."""
-        found = np.empty((len(x), 6))
+        found = np.full((len(x), 6), np.nan)
         assert self.call("gbflds", *self.both, len(x), np.array(x, dtype=float), int(left), found) == expect
         return found.T
 

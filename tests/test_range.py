@@ -164,7 +164,7 @@ def test_fields_too_great_are_refused_by_name(library, made, name):
             asked()
         assert caught.value.status == NOT_FINITE
     for one in (beam, f77):
-        one.fields([middle], expect=NOT_FINITE)
+        assert np.isnan(one.fields([0.0, middle], expect=NOT_FINITE)).all()  # nothing is written then
         one.extremes(expect=NOT_FINITE)
     assert np.isfinite(result.at(0.0).deflection)
     beam.close()

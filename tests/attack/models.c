@@ -297,13 +297,13 @@ static void ask(const gapbeam_beam *beam, gapbeam_state *state, int solved)
         bad_place = bad_place || !(where[i] >= 0.0 && where[i] < 4.0);
     }
     status = CHECKED("get_fields", gapbeam_get_fields(beam, state, asked, where, from_left, fields, message, sizeof message), message,
-                        ALLOWED(GAPBEAM_SOLVED, GAPBEAM_BAD_INPUT, GAPBEAM_NOT_PREPARED, GAPBEAM_NO_MEMORY));
+                        ALLOWED(GAPBEAM_SOLVED, GAPBEAM_BAD_INPUT, GAPBEAM_NOT_FINITE, GAPBEAM_NOT_PREPARED, GAPBEAM_NO_MEMORY));
     if (status == GAPBEAM_SOLVED)
         all_finite("a field is no number, at place", asked * GAPBEAM_FIELDS, fields);
     else
         untouched("fields are written after an error, at place", asked * GAPBEAM_FIELDS, fields);
     status = CHECKED("get_extremes", gapbeam_get_extremes(beam, state, extreme, place), NULL,
-                        ALLOWED(GAPBEAM_SOLVED, GAPBEAM_NOT_PREPARED, GAPBEAM_NO_MEMORY));
+                        ALLOWED(GAPBEAM_SOLVED, GAPBEAM_NOT_FINITE, GAPBEAM_NOT_PREPARED, GAPBEAM_NO_MEMORY));
     if (status == GAPBEAM_SOLVED)
         all_finite("an extreme is no number, of field", GAPBEAM_FIELDS * 2, &extreme[0][0]);
     status = CHECKED("get_motion", gapbeam_get_motion(beam, state, x, motion), NULL, ALLOWED(GAPBEAM_SOLVED, GAPBEAM_NOT_PREPARED));
@@ -356,7 +356,7 @@ static int attack(gapbeam_model *model)
     gapbeam_state *state = NULL;
     size_t size = likely(0.9) ? sizeof message : (size_t)below(3);
     int status = CHECKED("prepare", gapbeam_prepare(model, &beam, message, size), NULL,
-                            ALLOWED(GAPBEAM_SOLVED, GAPBEAM_BAD_INPUT, GAPBEAM_NO_MEMORY, GAPBEAM_OTHER_VERSION));
+                            ALLOWED(GAPBEAM_SOLVED, GAPBEAM_BAD_INPUT, GAPBEAM_NOT_FINITE, GAPBEAM_NO_MEMORY, GAPBEAM_OTHER_VERSION));
     if ((status == GAPBEAM_SOLVED) != (beam != NULL))
         complain("a handle after an error, or none", status);
     if (status != GAPBEAM_SOLVED)
@@ -372,7 +372,8 @@ static int attack(gapbeam_model *model)
         if (likely(0.3))
             spoil(&spoilt);
         int replaced = CHECKED("replace_loads", gapbeam_replace_loads(beam, &spoilt, message, sizeof message), message,
-                                  ALLOWED(GAPBEAM_SOLVED, GAPBEAM_BAD_INPUT, GAPBEAM_NO_MEMORY, GAPBEAM_OTHER_VERSION));
+                                  ALLOWED(GAPBEAM_SOLVED, GAPBEAM_BAD_INPUT, GAPBEAM_NOT_FINITE, GAPBEAM_NO_MEMORY,
+                                          GAPBEAM_OTHER_VERSION));
         free_model(&loads);
         if (replaced == GAPBEAM_SOLVED || likely(0.5))
             try_state(beam, state);
