@@ -3,6 +3,7 @@
 !> Lengths along the beam, forces and deflections have a unit each: the equations are linear, so deflections need not have the
 !> unit of the lengths. python/gapbeam/units.py does the same for scenes.
 module gapbeam_units
+    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_positive_inf
     use gapbeam_kinds, only: wp
     implicit none
     private
@@ -118,14 +119,16 @@ contains
         if (max(abs(length), abs(units%force), abs(units%deflection)) <= ordinary_exponent) units = units_type()
     end function units_with_loads
 
-    !> A bound of errors in the model's units; where it and what it bounds may have been rounded, the next greater number
+    !> A bound of errors in the model's units; where it and what it bounds may have been rounded, the next greater number; infinite
+    !> where it left the range of double precision
     elemental function bound_outside(bound, power) result(outside)
         !> In the engine's units, and the exponent of its unit
         real(wp), intent(in) :: bound
         integer, intent(in) :: power
         real(wp) :: outside
 
-        outside = scale(bound, power)
+        outside = ieee_value(outside, ieee_positive_inf)
+        if (bound <= huge(bound)) outside = scale(bound, power)
         if (power /= 0 .and. bound > 0.0_wp .and. outside < tiny(outside)) outside = nearest(outside, 1.0_wp)
     end function bound_outside
 

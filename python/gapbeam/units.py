@@ -173,8 +173,11 @@ def bound_in_scene(bound: float, exponent: int) -> float:
     Returns
     -------
     float
-        In the scene's units; where it and what it bounds may have been rounded, the next greater number.
+        In the scene's units; where it and what it bounds may have been rounded, the next greater number; infinite where it
+        left the range of double precision.
     """
+    if not bound <= LARGEST:
+        return math.inf
     found = float(scaled(np.float64(bound), exponent))
     return math.nextafter(found, math.inf) if exponent and bound > 0.0 and found < SMALLEST else found
 
