@@ -3,6 +3,7 @@
 import os
 import random
 import re
+import signal
 import time
 from dataclasses import replace
 from fractions import Fraction
@@ -13,7 +14,7 @@ import gapbeam
 import numpy as np
 import pytest
 from attack import command, compare, draw, events, hinges, memory, models, mutants, signs
-from attack.exact import Exact, NoSolution, Redundant, falls_surely, stands
+from attack.exact import Exact, NoSolution, Redundant, falls_surely, moves_freely, stands
 from attack.family import Family, Verdict
 from attack.workers import Ended, judge_all
 from degenerate import draw as draw_degenerate
@@ -52,7 +53,7 @@ LIFTED = scene([2.0, 2.0], [at(0), at(1, side="below"), at(2, side="below", gap=
 def complaints(**changes):
     """What is said of a state some of whose values are others."""
     beam, right, look = solved(LIFTED)
-    names = ("factor", "state", "reaction", "undecided", "bounds", "error_bounds", "solution")
+    names = ("factor", "state", "reaction", "undecided", "indifferent", "bounds", "error_bounds", "solution")
     step = SimpleNamespace(**{name: getattr(right, name) for name in names} | changes)
     verdict = Verdict()
     compare.compare_state(beam, step, look, verdict)
@@ -73,6 +74,15 @@ def test_a_mechanism_is_seen():
     made = scene([2.0], [at(0), at(1, side="below")], [force(1.0, 1.0)])
     with pytest.raises(NoSolution):
         Exact(made).scheme([False], Fraction(1))
+
+
+def test_freedom_that_is_not_there_is_seen():
+    assert "said to be free to move" in complaints(indifferent=True)
+    beam = Exact(scene([2.0], [at(0), at(1, side="below", gap=0.5)], [force(0.0, 1.0)]))
+    values = beam.scheme([True], Fraction(1)).at(Fraction(1))
+    assert moves_freely(beam, values)
+    beam = Exact(scene([2.0], [at(0), at(1, side="below")], [force(1.0, 1.0)]))
+    assert not moves_freely(beam, beam.scheme([True], Fraction(1)).at(Fraction(1)))
 
 
 def test_wrong_values_and_bounds_are_seen():
@@ -233,7 +243,7 @@ def test_wrong_ends_for_want_of_memory_are_seen(monkeypatch):
     assert end(once) == ("no memory", False)
     assert end(lambda _: 2) == ("wrong", True)
     assert end(lambda _: os._exit(1)) == ("aborted", True)
-    assert end(lambda _: os.abort()) == ("aborted", True)
+    assert end(lambda _: os.kill(os.getpid(), signal.SIGKILL)) == ("aborted", True)
     assert end(lambda _: {}[1]) == ("wrong", True)
     assert end(lambda _: os.write(1, b"x"))[1]
 
@@ -246,7 +256,7 @@ def hang_or_end(task):
     if task == "sleep":
         time.sleep(60)
     if task == "end":
-        os.abort()
+        os.kill(os.getpid(), signal.SIGKILL)
     return task
 
 

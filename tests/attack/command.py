@@ -50,6 +50,7 @@ def judge_again(path, name):
 def command_line(chosen):
     """What was asked, as far as it matters for the page."""
     words = ["python tests/attack", f"--count {chosen.count}", *(f"--family {name}" for name in chosen.family or ())]
+    words += [f"--seconds {chosen.seconds:g}"] if chosen.seconds < float("inf") else []
     return " ".join([*words, f"--markdown {chosen.markdown}"])
 
 

@@ -7,9 +7,10 @@ from math import isfinite
 
 import numpy as np
 
-from .exact import NoSolution, Redundant, falls_surely
+from .exact import NoSolution, Redundant, falls_surely, moves_freely
 
 HALF_UNIT = Fraction(1, 2**53)  # what the last digit of the largest value is worth anyway
+SLIGHT = Fraction(1, 10**11)  # of all loads: as good as none
 SLACK = 1e-9  # of a motion, relative to its largest displacement
 
 
@@ -66,6 +67,9 @@ def compare_state(beam, step, look, verdict, where=""):
     try:
         found = beam.scheme(closed, factor)
         values, loose = found.at(factor), found.loose
+        free = {moves_freely(beam, values, leeway) for leeway in (0, SLIGHT)}
+        if free == {not step.indifferent} and not step.undecided:  # an undecided support may be what holds it
+            complaints.append(f"said to be {'free to move' if step.indifferent else 'held'}, which it is not")
         wrong = beam.wrong(closed, values) if not loose else [
             i for i, c in zip(beam.one_sided, closed, strict=True) if c and beam.push(i, values) < 0
         ]
@@ -88,8 +92,6 @@ def compare_state(beam, step, look, verdict, where=""):
         complaints.append("a mechanism as scheme")
     except Redundant:
         return False
-    if step.indifferent and not (loose or step.undecided):
-        complaints.append("said to be free to move, though every support that holds it carries something")
     complaints += compare_values(beam, step, look, values, loose or step.indifferent, verdict)
     verdict.wrong += [where + text for text in complaints]
     return True
@@ -120,7 +122,7 @@ def pairs(beam, step, look, values, loose):
 def compare_values(beam, step, look, values, loose, verdict):
     """What is wrong with the values of a state: no bound may be below the error."""
     complaints = []
-    for kind, bound, computed, exact in pairs(beam, step, look, values, loose):
+    for kind, bound, computed, exact in pairs(beam, step, look, values, loose or step.indifferent):
         if bound is None or not all(map(isfinite, [bound, *computed])):
             complaints.append(f"{kind}: {computed} with bound {bound}")
             continue

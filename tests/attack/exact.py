@@ -5,6 +5,7 @@ scheme is solved exactly and its signs are read. Whether an equilibrium exists i
 body between the hinges, so beams may have as many hinges and supports as one likes.
 """
 
+import copy
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -254,6 +255,34 @@ def best_work(work, own, rows, s):
     if (low is None or low <= 0) and (high is None or high >= 0):
         found.append(ZERO)
     return max(found) + own if found else None
+
+
+def moves_freely(beam, values, leeway=ZERO):
+    """Whether a beam can move, however little, from a state without any change of the forces.
+
+    Parameters
+    ----------
+    beam : Exact
+    values : list of Fraction
+        The unknowns of a right scheme.
+    leeway : Fraction
+        Share of all loads and of the largest contact level up to which forces and distances count as none.
+
+    Returns
+    -------
+    bool
+    """
+    force, way = leeway * beam.load_size(), leeway * max((abs(beam.acting_level(i)) for i in beam.one_sided), default=ZERO)
+    free = copy.copy(beam)
+    vars(free).pop("bodies", None)
+    free.loads, free.supports, free.one_sided = [], [dict(support) for support in beam.supports], []
+    for i in beam.one_sided:
+        if beam.push(i, values) > force:
+            continue  # it holds both ways
+        free.one_sided.append(i)
+        if beam.distance(i, values) > way:
+            free.supports[i]["stiffness"] = 0  # as good as absent
+    return stands(free, ZERO) == "indifferent"
 
 
 def falls_surely(beam, factor, leeway=Fraction(1, 10**12)):
