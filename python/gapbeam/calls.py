@@ -20,7 +20,7 @@ import numpy as np
 
 from . import _f77
 
-SHORT = 10_000
+SHORT = 2_000
 """Calls with fewer numbers than these take some milliseconds at most."""
 FEW_NODES = 1_000
 """Cases with fewer nodes together take some milliseconds at most."""
