@@ -430,9 +430,11 @@ def values(arrays: Arrays, factor: float, starts: np.ndarray, piece: np.ndarray,
     for part in _f77.parts(len(piece)):
         where = np.asarray(piece[part], dtype=np.int32) + np.int32(1)
         at = scaled(distance[part], -units.length)
-        found[:, part] = _f77.gbvalu(inner.pieces.T, inner.dead.T, inner.live.T, factor, starts, where, at)
-    x = arrays.point_x[piece] + distance
-    return np.stack([_field_in_scene(arrays, k, row, x) for k, row in enumerate(found)])
+        some = _f77.gbvalu(inner.pieces.T, inner.dead.T, inner.live.T, factor, starts, where, at)
+        x = arrays.point_x[piece[part]] + distance[part]
+        for k, row in enumerate(some):
+            found[k, part] = _field_in_scene(arrays, k, row, x)
+    return found
 
 
 def _field_in_scene(arrays: Arrays, field: int, values: np.ndarray, x: np.ndarray) -> np.ndarray:
