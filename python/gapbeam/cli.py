@@ -17,6 +17,7 @@ from typing import NoReturn
 from .characters import visible
 from .cli_outputs import Outputs, source, until_closed
 from .errors import GapbeamError, SceneError, Status
+from .files import remove_unfinished
 
 #: Exit statuses
 SOLVED, NO_SOLUTION, REFUSED, FAILED, INTERRUPTED = 0, 1, 2, 3, 130
@@ -100,25 +101,24 @@ def main(argv: Sequence[str] | None = None) -> int:
     """
     if argv is None:
         warnings.formatwarning = lambda message, *_: f"gapbeam: warning: {message}\n"
+        if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+            with suppress(ValueError):  # only the main thread may
+                signal.signal(signal.SIGINT, _end)
     try:
         arguments = _parser().parse_args(argv)
         return arguments.command(arguments)
     except KeyboardInterrupt:
-        status = _tell(INTERRUPTED, "interrupted")
-        if argv is None:
-            _end(status)
-        return status
+        return _tell(INTERRUPTED, "interrupted")
     except Exception as error:
         return _report(error)
 
 
-def _end(status: int) -> NoReturn:
-    """End the process; neither Ctrl-C once more nor a call of the engine that goes on in its thread may hold it up."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    for stream in (sys.stdout, sys.stderr):
-        with suppress(AttributeError, OSError):
-            stream.flush()
-    os._exit(status)
+def _end(*_: object) -> NoReturn:
+    """End the process at once: Python drops a KeyboardInterrupt that comes while it frees objects, and a call may go on beside."""
+    remove_unfinished()
+    with suppress(OSError):
+        os.write(2, b"gapbeam: interrupted\n")
+    os._exit(INTERRUPTED)
 
 
 def _tell(status: int, message: str) -> int:

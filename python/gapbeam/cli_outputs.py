@@ -10,6 +10,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from .errors import SceneError
+from .files import write_files
 
 PICTURES = (".png", ".pdf", ".svg")
 SUFFIXES = {"--json": (".json",), "--csv": (".csv",), "--markdown": (".md",), "--plot": PICTURES, "--path": PICTURES}
@@ -113,8 +114,6 @@ class Outputs:
         contents : mapping of str to (bytes or iterable of str)
             What the options asked for.
         """
-        from .files import write_files
-
         named = {self._names[option]: content for option, content in contents.items()}
         text = "".join(named.pop("-", ()))
         write_files(named)

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import errno
 import os
-import secrets
 import stat
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
+
+_UNFINISHED: set[str] = set()
+"""Files that are not complete, by the names that they have until then."""
 
 
 def write_files(contents: Mapping[str | os.PathLike, bytes | Iterable[str]]) -> None:
@@ -28,7 +30,8 @@ def write_files(contents: Mapping[str | os.PathLike, bytes | Iterable[str]]) -> 
         Names the file, and why it cannot be written.
     """
     places = {name: os.path.realpath(name) for name in contents if not _is_device(name)}
-    beside = {name: os.path.join(os.path.dirname(place), f".gapbeam-{secrets.token_hex(8)}") for name, place in places.items()}
+    beside = {name: os.path.join(os.path.dirname(place), f".gapbeam-{os.urandom(8).hex()}") for name, place in places.items()}
+    _UNFINISHED.update(beside.values())
     try:
         for name, content in contents.items():
             data = [content] if isinstance(content, bytes) else (text.encode("utf-8") for text in content)
@@ -42,9 +45,21 @@ def write_files(contents: Mapping[str | os.PathLike, bytes | Iterable[str]]) -> 
             with _named(name):
                 os.replace(beside[name], place)
     finally:
-        for path in beside.values():
-            with suppress(FileNotFoundError):
-                os.unlink(path)
+        remove_unfinished(beside.values())
+
+
+def remove_unfinished(paths: Iterable[str] = _UNFINISHED) -> None:
+    """Remove files that are not complete.
+
+    Parameters
+    ----------
+    paths : iterable of str
+        Which ones; default all, as when the process is to end in the middle of its work.
+    """
+    for path in list(paths):
+        with suppress(OSError):  # most are in their places by now
+            os.unlink(path)
+        _UNFINISHED.discard(path)
 
 
 def _is_device(name: str | os.PathLike) -> bool:
