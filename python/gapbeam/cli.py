@@ -219,11 +219,12 @@ def _run(arguments: argparse.Namespace) -> int:
 
     result = solve(read_scene(source(arguments.scene)))
     solved = result.status == "solved"
-    from .report import csv_parts, json_parts, print_report
+    from .report import csv_parts, json_parts, print_report, to_json
 
     contents: dict[str, bytes | Iterable[str]] = {}
     if "--json" in outputs:
-        contents["--json"] = json_parts(result)
+        # A file grows part by part; what goes to standard output is made first, so that no failure cuts it off
+        contents["--json"] = [to_json(result)] if outputs["--json"] == "-" else json_parts(result)
     if "--csv" in outputs and solved:
         contents["--csv"] = csv_parts(result)
     if "--plot" in outputs:
