@@ -17,7 +17,7 @@ module gapbeam_certificate
     use gapbeam_kinematics_quad, only: held_by_ties
     use gapbeam_referee, only: detail_type, refine_beam, find_undecided, fine_piece, fine_load
     use gapbeam_element_quad, only: fine_field_type => field_type
-    use gapbeam_model_quad, only: fine_beam_type => beam_type
+    use gapbeam_model_quad, only: fine_beam_type => beam_type, softest
     use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type, new_workspace, set_loads
     use gapbeam_system_quad, only: check_scheme
     use gapbeam_rules_quad, only: complementarity
@@ -88,7 +88,8 @@ contains
         associate (a => work%answers)
             moment_size = work%shear_size*maxval(fine%links%length)
             certificate%of_nodes = difference(a%deflection, deflection, work%deflection_size) &
-                + epsilon(1.0_wp)*maxval(abs(deflection)) + moves(of_deflections)
+                + epsilon(1.0_wp)*maxval(abs(deflection)) + moves(of_deflections) &
+                + real(fine_error*maxval(work%shear_size)/softest(fine), wp)
             if (size(reaction) > 0) certificate%reaction = difference(work%reaction, reaction, work%shear_size) &
                 + epsilon(1.0_wp)*maxval(abs(reaction)) + moves(of_reactions)
             certificate%deflection = max(certificate%deflection + inside, certificate%of_nodes)

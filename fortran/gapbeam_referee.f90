@@ -23,7 +23,7 @@ module gapbeam_referee
     use gapbeam_model_quad, only: fine_beam_type => beam_type, new_beam
     use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type, new_fine_workspace => new_workspace, &
         set_fine_loads => set_loads
-    use gapbeam_rules_quad, only: margin_of, fine_width => first_width
+    use gapbeam_rules_quad, only: margin_of
     use gapbeam_sensitivity_quad, only: sensitivity_type, prepare_sensitivity, movement_of_support
     use gapbeam_search_quad, only: rule_block
     use gapbeam_scheme_quad, only: find_fine_scheme => find_scheme, fine_outcome_type => outcome_type
@@ -33,6 +33,9 @@ module gapbeam_referee
 
     !> Beside the rules of gapbeam_search: the scheme is known
     integer, parameter :: rule_given = 2
+    !> Rounding errors in quadruple precision beyond which a sign counts: some digits more than in doubles are given away, there
+    !> are enough of them
+    real(qp), parameter :: fine_width = 2.0_qp**17
     !> Of more supports near zero than these all are named
     integer, parameter :: most_examined = 64
     !> Rounding error of a reaction, relative to the largest, from which on quadruple precision is worth its time
@@ -220,7 +223,9 @@ contains
                 if (s%side == both .or. .not. s%stiffness > 0.0_qp) cycle
             end associate
             call margin_of(fine, closed(k), k, work, margin(k), rounding(k))
-            undecided(k) = abs(margin(k)) <= fine_width*rounding(k)*(epsilon(1.0_wp)/epsilon(1.0_qp))
+            ! What is held stiffly beside a soft spring may move it by rounding
+            if (closed(k)) rounding(k) = max(rounding(k), epsilon(1.0_qp)*work%shear_size(fine%supports(k)%node))
+            undecided(k) = abs(margin(k)) <= first_width*rounding(k)*(epsilon(1.0_wp)/epsilon(1.0_qp))
             if (closed(k) .and. abs(margin(k)) <= fine_width*rounding(k)) work%reaction(k) = 0.0_qp
         end do
         if (.not. any(undecided) .or. count(undecided) > most_examined) return

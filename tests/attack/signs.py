@@ -1,6 +1,8 @@
 """The program's own states in rational numbers, over many decades of magnitudes."""
 
+import itertools
 import random
+from functools import partial
 
 import gapbeam
 from gapbeam.errors import Status
@@ -8,7 +10,7 @@ from gapbeam.errors import Status
 from . import draw
 from .compare import Look, compare_state, motion_faults
 from .enumeration import ambiguous
-from .exact import Exact, Fraction, Redundant, falls_surely
+from .exact import Exact, Fraction, NoSolution, Redundant, falls_surely
 from .family import Family, Verdict
 
 PROMISE = (
@@ -99,11 +101,25 @@ def alike(states):
 
 
 def redundant(beam):
-    """Whether other forces would do as well."""
+    """Whether other forces would do as well: in the best scheme, or in every right one."""
     try:
-        return ambiguous(beam, beam.solve())
+        solution = beam.solve()
     except Redundant:
         return True
+    return ambiguous(beam, solution) if solution.values else not any(map(partial(right, beam), schemes(beam)))
+
+
+def schemes(beam):
+    """All schemes of a beam."""
+    return itertools.product((True, False), repeat=len(beam.one_sided))
+
+
+def right(beam, closed):
+    """Whether a scheme is right, and its forces are unique."""
+    try:
+        return not beam.wrong(closed, beam.scheme(closed, Fraction(1)).at(Fraction(1)))
+    except (NoSolution, Redundant):
+        return False
 
 
 FAMILY = Family("signs", PROMISE, draw_scene, judge)
