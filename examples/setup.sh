@@ -78,7 +78,7 @@ make_environment() {
 install_build_tools() {
     python -c 'import tomllib
 print(*tomllib.load(open("pyproject.toml", "rb"))["build-system"]["requires"], sep="\n")' >.venv/build-tools
-    pip install -q "$@" -r .venv/build-tools
+    pip install -q "$@" -r .venv/build-tools || return
     python -c 'import mesonpy
 print(*mesonpy.get_requires_for_build_wheel(), sep="\n")' >.venv/build-tools
     pip install -q "$@" -r .venv/build-tools
@@ -86,7 +86,7 @@ print(*mesonpy.get_requires_for_build_wheel(), sep="\n")' >.venv/build-tools
 
 install_package() {
     # The build tools stay in .venv, so that a later build goes on where the last one stopped.
-    install_build_tools
+    install_build_tools || return
     pip install -q --no-build-isolation --config-settings=build-dir=.venv/build/package ".${1:+[$1]}"
 }
 
@@ -99,7 +99,7 @@ set_up() {
 
     if fingerprint | cmp -s - ".venv/installed-$extras"; then return; fi
     say "building and installing the package${extras:+ and the tools to $extras it}"
-    install_package "$extras"
+    install_package "$extras" || fail "it could not be built: the reason stands above."
     fingerprint >.venv/installed-
     fingerprint >".venv/installed-$extras"
 }

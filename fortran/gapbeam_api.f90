@@ -383,7 +383,8 @@ contains
         type(certificate_type), intent(out) :: certificate
         !> Supports whose reaction or opening is zero, so that they may be closed or open, shape (count_supports(beam))
         logical, intent(out) :: undecided(:)
-        !> gapbeam_not_prepared, gapbeam_no_memory, or gapbeam_bad_input for an array of another size
+        !> gapbeam_not_prepared, gapbeam_no_memory, or gapbeam_bad_input for an array of another size; gapbeam_indeterminate or
+        !> gapbeam_not_converged where the state cannot be checked in quadruple precision
         type(error_type), allocatable, intent(out) :: error
         type(ieee_status_type) :: environment
         type(found_type) :: found

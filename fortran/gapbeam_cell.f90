@@ -23,10 +23,7 @@ module gapbeam_cell
 
     !> The first factor tried is above the given one by this share of the way; none nearer than this is
     real(wp), parameter :: first_share = 2.0_wp**(-40), last_share = 2.0_wp**(-46)
-
-    !> A beam that is free to move is followed over stretches that are longer than this share of the way
-    real(wp), parameter :: indifferent_share = 2.0_wp**(-12)
-    !> Weak springs that hold it there, relative to those of the search
+    !> Weak springs that hold a beam that is free to move, relative to those of the search
     real(wp), parameter :: weaker = 2.0_wp**(-24)
 
     !> A stretch of the path
@@ -55,7 +52,7 @@ contains
         type(cell_type), intent(out) :: cell
         !> No equilibrium above the factor, with the motion
         type(outcome_type), intent(out) :: outcome
-        !> As for find_scheme; or the beam stays free to move, so that no path is the only one
+        !> As for find_scheme
         type(error_type), allocatable, intent(out) :: error
         type(workspace_type) :: work
         real(wp) :: scale_of_factor, trial, from
@@ -90,12 +87,6 @@ contains
                 trial = min(limit, factor + 16*(trial - factor))
             end if
         end do
-        if (.not. outcome%indifferent .or. cell%to >= limit) return
-        ! The position is not unique, so supports may be touched here or there, without end
-        if (cell%to < factor + indifferent_share*scale_of_factor) then
-            call fatal_error(error, gapbeam_not_converged, "above this load factor the beam can move freely without work "// &
-                             "of the loads, so there is no single path of its supports: follow the load by steps")
-        end if
     end subroutine find_cell
 
     !> The factor above which the loads do work along a motion
@@ -119,6 +110,7 @@ contains
         type(error_type), allocatable, intent(out) :: error
         type(beam_type) :: incremental
         type(workspace_type) :: dead, live
+        real(wp) :: springs
         integer :: state, place, k
 
         call without_dead_loads(beam, incremental)
@@ -140,8 +132,13 @@ contains
         call refine_scheme(beam, cell%closed, dead)
         call refine_scheme(incremental, cell%closed, live)
         cell%solves = cell%solves + 2
+        springs = sum(dead%ease*(abs(dead%reference - dead%answers%deflection) + abs(live%answers%deflection)))
         do k = 1, size(cell%closed)
             cell%lines(k) = line_of(beam, incremental, cell%closed(k), k, dead, live)
+            ! What only the weak springs press on carries nothing
+            associate (line => cell%lines(k))
+                if (cell%closed(k) .and. max(abs(line%v0), abs(line%v1)) <= 2*springs) line = line_type()
+            end associate
         end do
     end subroutine find_lines
 

@@ -35,7 +35,7 @@ module gapbeam_error
         "no equilibrium: the loads push the beam along a free motion that no support resists", &
         "bad input: a number or an array makes no sense", &
         "a rigid stretch rests on more rigid supports than statics can tell apart", &
-        "the working scheme could not be settled in double precision", &
+        "the working scheme could not be settled in the precision at hand", &
         "numbers left the range of double precision", &
         "not enough memory", &
         "no beam has been prepared, or no state solved, in what was passed", &

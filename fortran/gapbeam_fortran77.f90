@@ -358,7 +358,7 @@ end subroutine gbmotn
 
 ! How good a state is, and which supports its digits cannot decide
 subroutine gbcert(work, iwork, state, istate, cert, known, iundec, info)
-    use gapbeam_error, only: error_type, gapbeam_no_memory
+    use gapbeam_error, only: error_type, gapbeam_no_memory, gapbeam_not_prepared
     use gapbeam_api, only: prepared_type, result_type, certificate_type, get_certificate, count_supports
     use gapbeam_work, only: take_both
     implicit none
@@ -372,7 +372,7 @@ subroutine gbcert(work, iwork, state, istate, cert, known, iundec, info)
     integer, intent(inout) :: known
     ! 1 for every support whose reaction or opening is zero, so that it may be closed or open
     integer, intent(inout) :: iundec(*)
-    ! -1: no beam; -3: nothing solved, or not of this beam; 15
+    ! -1: no beam; -3: nothing solved, or not of this beam; 12, 13: it cannot be checked in quadruple precision; 15
     integer, intent(out) :: info
     type(prepared_type) :: beam
     type(result_type) :: result
@@ -390,7 +390,7 @@ subroutine gbcert(work, iwork, state, istate, cert, known, iundec, info)
     end if
     call get_certificate(beam, result, certificate, undecided, error)
     if (allocated(error)) then
-        info = merge(error%code, -3, error%code == gapbeam_no_memory)
+        info = merge(-3, error%code, error%code == gapbeam_not_prepared)
         return
     end if
     cert = [certificate%equilibrium, certificate%compatibility, certificate%complementarity, &

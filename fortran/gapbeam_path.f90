@@ -182,6 +182,12 @@ contains
                                  "rounding decides, even in quadruple precision: follow the load by steps")
                 exit
             end if
+            if (stretch%indifferent > 16 + 4*size(closed)) then
+                ! The position is not unique, so supports may be touched here or there, without end
+                call fatal_error(error, gapbeam_not_converged, "above this load factor the beam can move freely without work "// &
+                                 "of the loads, so there is no single path of its supports: follow the load by steps")
+                exit
+            end if
             if (exactly >= limit) at_zero = [integer ::]
             factor = max(factor, real(min(exactly, real(limit, qp)), wp))
             if (exactly >= limit) exit
@@ -306,6 +312,7 @@ contains
             return
         end if
         stretch%by_cell = .true.
+        if (found%indifferent) stretch%indifferent = stretch%indifferent + 1
         associate (line => stretch%cell%lines)
             is_far(:) = fine_value_at(line, factor) > far*fine_width_at(line, factor)
         end associate

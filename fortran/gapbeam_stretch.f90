@@ -38,6 +38,8 @@ module gapbeam_stretch
         !> Was there a support of which doubles cannot tell whether it moves away from zero; are all stretches found in quadruple
         !> precision because of that
         logical :: in_doubt = .false., closely = .false.
+        !> Stretches on which the beam stays free to move
+        integer :: indifferent = 0
     end type stretch_type
 
 contains

@@ -18,15 +18,14 @@ from pathlib import Path
 
 import gapbeam
 from gapbeam.cli import main
-from gapbeam.errors import Status
 from gapbeam.report import to_json
 from gapbeam.study_schemes import gapped_spans, lifted_end, sprung_base
 
 from .family import Family, Verdict, write_scene
 
 PROMISE = (
-    "Under any limit of the address space a call gives the right result or ends in a MemoryError, or in an EngineError that "
-    "says so, the command in one line; the process goes on, nothing is printed, and the next call has its memory again"
+    "Under any limit of the address space a call gives the right result or ends in a MemoryError, the command in one line; the "
+    "process goes on, nothing is printed, and the next call has its memory again"
 )
 RIGHT, REFUSED, WRONG = 40, 41, 42  # exit statuses that nothing else gives
 SECONDS = 20
@@ -186,8 +185,6 @@ def attempt(task, made, expected, room):
         result = task(made)
     except MemoryError:
         pass
-    except gapbeam.EngineError as error:
-        problem = None if error.status == Status.NO_MEMORY else error
     except BaseException as error:
         problem = error
     resource.setrlimit(resource.RLIMIT_AS, (hard, hard))

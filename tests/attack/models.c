@@ -312,7 +312,8 @@ static void ask(const gapbeam_beam *beam, gapbeam_state *state, int solved)
     else
         untouched("a motion is written of a state that has none, at node", nodes, motion);
     status = CHECKED("get_certificate", gapbeam_get_certificate(beam, state, &certificate, undecided), NULL,
-                        ALLOWED(GAPBEAM_SOLVED, GAPBEAM_NOT_PREPARED, GAPBEAM_NO_MEMORY));
+                        ALLOWED(GAPBEAM_SOLVED, GAPBEAM_INDETERMINATE, GAPBEAM_NOT_CONVERGED, GAPBEAM_NOT_PREPARED,
+                                GAPBEAM_NO_MEMORY));
     if (status == GAPBEAM_SOLVED && !(certificate.deflection_bound >= 0.0 && certificate.reaction_bound >= 0.0))
         complain("a bound is no number, or negative", certificate.known);
     free(reaction), free(opening), free(x), free(motion), free(where), free(fields), free(condition), free(undecided);
