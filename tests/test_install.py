@@ -55,11 +55,11 @@ def test_only_the_public_symbols_are_exported(installed, header):
     }
     c = {name for name in symbols if name.startswith("gapbeam_")}
     assert c == functions(header)
-    facade = (TOP / "fortran" / "gapbeam_fortran77.f90").read_text()
+    facade = (TOP / "fortran" / "face" / "fortran77.f90").read_text()
     f77 = {f"{name}_" for name in re.findall(r"^(?:subroutine|function) (\w+)\(", facade, re.MULTILINE)}
     assert {name for name in symbols if name.startswith("gb")} == f77
     fortran = {name.rpartition("_MOD_")[2] for name in symbols - c - f77}
-    umbrella = (TOP / "fortran" / "gapbeam.f90").read_text()
+    umbrella = (TOP / "fortran" / "face" / "gapbeam.f90").read_text()
     for name in fortran - {"status_text"}:
         assert re.search(rf"\b{name}\b", umbrella), name
     assert {"prepare_model", "solve_beam", "follow_load", "get_fields", "point_force"} <= fortran
@@ -169,9 +169,9 @@ def fields_of(header):
 def test_page_names_every_routine(header):
     """The map across the languages is complete."""
     page = (TOP / "docs" / "languages.md").read_text()
-    facade = (TOP / "fortran" / "gapbeam_fortran77.f90").read_text()
+    facade = (TOP / "fortran" / "face" / "fortran77.f90").read_text()
     f77 = {name.upper() for name in re.findall(r"^(?:subroutine|function) (\w+)\(", facade, re.MULTILINE)}
-    api = (TOP / "fortran" / "gapbeam_api.f90").read_text()
+    api = (TOP / "fortran" / "face" / "api.f90").read_text()
     public = set(re.findall(r"^    (?:pure )?(?:subroutine|function) (\w+)\(", api, re.MULTILINE))
     public &= set(re.findall(r"\w+", "".join(re.findall(r"^    public :: .*", api, re.MULTILINE))))
     for name in functions(header) | f77 | public:

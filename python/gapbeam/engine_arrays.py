@@ -24,7 +24,7 @@ TOO_GREAT_LOADS = "are too great together, or beside the levels at which support
 
 @dataclass(frozen=True, slots=True, eq=False)
 class EngineArrays(Record):
-    """The arrays of a scene in the engine's units, as in fortran/gapbeam_f2py.f90.
+    """The arrays of a scene in the engine's units, as in fortran/face/python.f90.
 
     Attributes
     ----------

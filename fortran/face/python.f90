@@ -1,6 +1,6 @@
 ! The engine for Python: plain arrays only, in the manner of Fortran 77. f2py reads this very file, so it holds only
 ! default kinds, explicit shapes and external subroutines, and nothing but marshalling. It is no part of the library, whose
-! Fortran 77 interface (gapbeam_fortran77.f90) takes beams as users describe them and has its own GBSOLV and GBCERT.
+! Fortran 77 interface (face/fortran77.f90) takes beams as users describe them and has its own GBSOLV and GBCERT.
 !
 ! Arrays of records, one column each:
 !   PIECE(3, NP)   length, 1/EI, 1/GA
