@@ -3,6 +3,7 @@
 import os
 import random
 import re
+import resource
 import signal
 import time
 from dataclasses import replace
@@ -24,6 +25,14 @@ from scipy.optimize import linprog
 
 TOP = Path(__file__).resolve().parents[1]
 SMALL = {"events": 60, "signs": 150, "hinges": 60, "mutants": 60, "memory": 25}
+
+
+@pytest.fixture(autouse=True)
+def memory_without_limit():
+    """A judge that is called in this process sets a limit, which later tests are not to have."""
+    limits = resource.getrlimit(resource.RLIMIT_AS)
+    yield
+    resource.setrlimit(resource.RLIMIT_AS, limits)
 
 
 @pytest.mark.parametrize("family", SMALL)

@@ -221,7 +221,7 @@ def test_help_teaches(capsys, command):
 def test_the_scene_in_the_help_is_valid():
     import tomllib
 
-    from gapbeam.cli import SCENE as shown
+    from gapbeam.cli.command import SCENE as shown
 
     assert gapbeam.solve(tomllib.loads(shown.partition("\n")[2])).status == "solved"
 

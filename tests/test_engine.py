@@ -8,7 +8,7 @@ import gapbeam
 import numpy as np
 import pytest
 from gapbeam import _f77
-from gapbeam.study_schemes import gapped_spans, lifted_end
+from gapbeam.studies.schemes import gapped_spans, lifted_end
 
 ROUTINES = [name for name in dir(_f77) if name.startswith("gb")]
 

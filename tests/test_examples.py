@@ -6,7 +6,7 @@ from pathlib import Path
 import gapbeam
 import numpy as np
 import pytest
-from gapbeam.report_scheme import merged
+from gapbeam.report.scheme import merged
 
 EXAMPLES = Path(__file__).resolve().parent.parent / "examples"
 SCENES = sorted(EXAMPLES.glob("*.toml"))

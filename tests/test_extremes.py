@@ -8,9 +8,10 @@ from pathlib import Path
 import gapbeam
 import oracle
 import pytest
-from gapbeam import exact, study
 from gapbeam.cli import main
-from gapbeam.study_extremes import cases, in_units
+from gapbeam.studies import corners as study
+from gapbeam.studies import exact
+from gapbeam.studies.extremes import cases, in_units
 from scenes import INF, at, force, random_scene, scene, uniform
 
 TOLERANCE = 1e-12
@@ -92,7 +93,7 @@ def test_units_are_exact():
 
 def test_command(capsys, monkeypatch, tmp_path):
     chosen = [case for case in CASES if case.corner in ("nearly a mechanism", "load beside load")]
-    monkeypatch.setattr("gapbeam.study_extremes.cases", lambda largest: iter(chosen))
+    monkeypatch.setattr("gapbeam.studies.extremes.cases", lambda largest: iter(chosen))
     assert main(["study", "extremes", "--csv", str(tmp_path / "t.csv")]) == 0
     printed = capsys.readouterr().out
     assert "nearly a mechanism" in printed

@@ -7,8 +7,8 @@ import subprocess
 import sys
 
 import pytest
+from gapbeam.base.errors import EngineError, SceneError, Status
 from gapbeam.cli import main
-from gapbeam.errors import EngineError, SceneError, Status
 
 FAULT = "this is a fault of gapbeam, not of the scene: please send this line, the scene and what gapbeam --version prints"
 
@@ -36,14 +36,14 @@ def ended(capsys, *arguments):
 
 
 PLACES = [
-    ("gapbeam.scene.read_scene", ["check", "scene.json"]),
-    ("gapbeam.stepping.solve", ["run", "scene.json"]),
-    ("gapbeam.report.json_parts", ["run", "scene.json", "--json", "a.json"]),
-    ("gapbeam.plots.figure", ["run", "scene.json", "--plot", "a.png"]),
-    ("gapbeam.report.print_report", ["run", "scene.json"]),
-    ("gapbeam.scene.scene_schema", ["schema"]),
-    ("gapbeam.study_schemes.schemes", ["study", "schemes"]),
-    ("gapbeam.study_kernel.kernels", ["study", "kernel"]),
+    ("gapbeam.scene.structs.read_scene", ["check", "scene.json"]),
+    ("gapbeam.results.stepping.solve", ["run", "scene.json"]),
+    ("gapbeam.report.text.json_parts", ["run", "scene.json", "--json", "a.json"]),
+    ("gapbeam.plots.result.figure", ["run", "scene.json", "--plot", "a.png"]),
+    ("gapbeam.report.text.print_report", ["run", "scene.json"]),
+    ("gapbeam.scene.structs.scene_schema", ["schema"]),
+    ("gapbeam.studies.schemes.schemes", ["study", "schemes"]),
+    ("gapbeam.studies.kernel.kernels", ["study", "kernel"]),
 ]
 
 

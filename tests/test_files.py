@@ -12,8 +12,8 @@ from pathlib import Path
 
 import gapbeam
 import pytest
+from gapbeam.base.files import write_files
 from gapbeam.cli import main
-from gapbeam.files import write_files
 from gapbeam.plots import plot
 
 SCENE = {

@@ -24,7 +24,7 @@ def test_all_of_them_at_once():
     assert (run.returncode, run.stderr) == (0, "")
 
 
-@pytest.mark.parametrize("name", ["engine", "errors", "stepping", "plots", "_f77", "cli"])
+@pytest.mark.parametrize("name", ["engine", "base", "results", "plots", "_f77", "cli"])
 def test_modules(name):
     run = fresh(f"import gapbeam; gapbeam.{name}; import gapbeam.{name}; from gapbeam import {name}")
     assert (run.returncode, run.stderr) == (0, "")
@@ -44,4 +44,4 @@ def test_other_names():
 
 def test_objects_belong_to_their_modules():
     assert pickle.loads(pickle.dumps(gapbeam.Beam([1.0], EI=2.0))) == gapbeam.Beam([1.0], EI=2.0)
-    assert gapbeam.solve.__module__ == "gapbeam.stepping"
+    assert gapbeam.solve.__module__ == "gapbeam.results.stepping"

@@ -12,9 +12,9 @@ import time
 import gapbeam
 import numpy as np
 import pytest
-from gapbeam import calls
 from gapbeam.cli import main
-from gapbeam.study_schemes import gapped_spans
+from gapbeam.engine import calls
+from gapbeam.studies.schemes import gapped_spans
 from scenes import random_scene
 
 SECOND = 1.0
@@ -89,7 +89,7 @@ def test_tables_of_long_beams():
 
 def test_pictures_of_long_beams():
     from gapbeam.plots import figure
-    from gapbeam.plots_save import picture
+    from gapbeam.plots.save import picture
 
     result = gapbeam.solve(gapped_spans(20_000))
     for after in (0.2, 1.2, 2.2):
@@ -98,7 +98,7 @@ def test_pictures_of_long_beams():
 
 def test_events(monkeypatch):
     """Calls for events are interruptible however short the beam is: what they take is not known beforehand."""
-    monkeypatch.setattr(gapbeam.engine._f77, "gbpath", calls.interruptible(lambda *_: time.sleep(60), large=None))
+    monkeypatch.setattr(gapbeam.engine.engine._f77, "gbpath", calls.interruptible(lambda *_: time.sleep(60), large=None))
     interrupt(lambda: gapbeam.solve({**gapped_spans(3), "analysis": {"follow": "events"}}))
 
 
@@ -226,7 +226,7 @@ def test_parts_take_a_fraction_of_a_second(monkeypatch):
 COMMAND = """
 import os, signal, sys, threading, time
 signal.signal(signal.SIGINT, signal.default_int_handler)
-import gapbeam.plots, gapbeam.report, gapbeam.stepping
+import gapbeam.plots, gapbeam.report, gapbeam.results.stepping
 from gapbeam.cli import main
 
 def press():
@@ -263,7 +263,7 @@ def test_the_command_is_interrupted(tmp_path, monkeypatch, spans, analysis, when
 FREEING = """
 import os, signal, sys, time, weakref
 signal.signal(signal.SIGINT, signal.default_int_handler)
-import gapbeam.scene
+import gapbeam.scene.structs
 from gapbeam.cli import main
 
 class Held:
@@ -279,7 +279,7 @@ def read_scene(_):
     del held
     time.sleep(60)
 
-gapbeam.scene.read_scene = read_scene
+gapbeam.scene.structs.read_scene = read_scene
 sys.exit(main())
 """
 
@@ -310,7 +310,7 @@ def test_waiting_for_standard_input_is_interrupted(tmp_path, monkeypatch):
 
 
 def test_main_gives_the_status_to_its_caller(monkeypatch, capsys):
-    monkeypatch.setattr("gapbeam.scene.read_scene", lambda _: signal.raise_signal(signal.SIGINT))
+    monkeypatch.setattr("gapbeam.scene.structs.read_scene", lambda _: signal.raise_signal(signal.SIGINT))
     old = signal.signal(signal.SIGINT, signal.default_int_handler)
     assert main(["check", "scene.json"]) == 130
     signal.signal(signal.SIGINT, old)

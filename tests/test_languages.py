@@ -9,7 +9,7 @@ import gapbeam
 import numpy as np
 import pytest
 from clibrary import F77Beam
-from gapbeam.errors import EngineError, SceneError
+from gapbeam.base.errors import EngineError, SceneError
 from scenes import nodes_of, random_scene
 
 FIELDS = ("deflection", "rotation", "moment", "shear", "axial_force", "axial_displacement")

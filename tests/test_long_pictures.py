@@ -4,9 +4,9 @@ import gapbeam
 import numpy as np
 import pytest
 from gapbeam.plots import figure
-from gapbeam.plots_save import picture
-from gapbeam.plots_thin import APART, MOST_POINTS, MOST_SHAPES, outline, thin
-from gapbeam.study_schemes import gapped_spans
+from gapbeam.plots.save import picture
+from gapbeam.plots.thin import APART, MOST_POINTS, MOST_SHAPES, outline, thin
+from gapbeam.studies.schemes import gapped_spans
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 

@@ -11,8 +11,8 @@ from contextlib import suppress
 import gapbeam
 import numpy as np
 import pytest
-from gapbeam.engine import check_status
-from gapbeam.errors import Status
+from gapbeam.base.errors import Status
+from gapbeam.engine.engine import check_status
 
 resource = pytest.importorskip("resource")
 

@@ -4,7 +4,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from gapbeam.errors import SceneError
+from gapbeam.base.errors import SceneError
 from gapbeam.scene import Beam, Scene, Support, read_scene
 
 BEAM = {"spans": [6.0, 6.0, 6.0], "EI": 1.0e4}

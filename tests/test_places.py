@@ -8,9 +8,9 @@ import gapbeam
 import numpy as np
 import pytest
 from clibrary import F77Beam
-from gapbeam.errors import SceneError
-from gapbeam.places import POSITION_TOLERANCE, find_points
+from gapbeam.base.errors import SceneError
 from gapbeam.scene import read_scene
+from gapbeam.scene.places import POSITION_TOLERANCE, find_points
 from scenes import at, curvature, force, moment, scene, stretch, uniform
 
 

@@ -3,7 +3,7 @@
 import gapbeam
 import numpy as np
 import pytest
-from gapbeam.plots_path import MOST_LINES, path_figure, plot_path
+from gapbeam.plots.path import MOST_LINES, path_figure, plot_path
 from matplotlib.image import imread
 from scenes import at, force, scene, uniform
 

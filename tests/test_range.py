@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from clibrary import F77Beam
 from extreme_scenes import POWERS, extreme_scene, in_units
-from gapbeam.errors import EngineError, SceneError, Status
+from gapbeam.base.errors import EngineError, SceneError, Status
 from gapbeam.report import report_text
 from scenes import at, curvature, force, moment, nodes_of, random_scene, scene, stretch, uniform
 

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 import scenes
 from gapbeam.report import report_text, to_csv, to_json
-from gapbeam.report_scheme import merged, scheme_table
+from gapbeam.report.scheme import merged, scheme_table
 
 
 def rocking(steps=8):

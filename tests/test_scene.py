@@ -12,7 +12,7 @@ from types import MappingProxyType
 import msgspec
 import numpy as np
 import pytest
-from gapbeam.errors import SceneError
+from gapbeam.base.errors import SceneError
 from gapbeam.scene import (
     POSITION_TOLERANCE,
     Analysis,

@@ -10,7 +10,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from gapbeam.errors import GapbeamError, SceneError
+from gapbeam.base.errors import GapbeamError, SceneError
 from gapbeam.scene import (
     Beam,
     ForceLoad,

@@ -6,8 +6,7 @@ import re
 
 import pytest
 from gapbeam.cli import main
-from gapbeam.plots_accuracy import STYLES, plot_accuracy
-from gapbeam.study_accuracy import (
+from gapbeam.studies.accuracy import (
     FAMILIES,
     FIELDS,
     Comparison,
@@ -18,8 +17,9 @@ from gapbeam.study_accuracy import (
     to_csv,
     to_markdown,
 )
-from gapbeam.study_methods import Measured, front, methods
-from gapbeam.study_schemes import paper_beam
+from gapbeam.studies.diagram import STYLES, plot_accuracy
+from gapbeam.studies.methods import Measured, front, methods
+from gapbeam.studies.schemes import paper_beam
 
 
 @pytest.fixture(scope="module")

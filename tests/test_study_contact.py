@@ -7,13 +7,14 @@ import sys
 import gapbeam
 import numpy as np
 import pytest
-from gapbeam import study_contact, study_kernel
 from gapbeam.cli import main
-from gapbeam.study_active_set import active_set
-from gapbeam.study_beam import one_span
-from gapbeam.study_methods import kernel, yardstick
-from gapbeam.study_schemes import gapped_spans, sprung_base
-from gapbeam.study_truth import error, solve_exactly, solve_one_span
+from gapbeam.studies import contact as study_contact
+from gapbeam.studies import kernel as study_kernel
+from gapbeam.studies.active_set import active_set
+from gapbeam.studies.meshes import one_span
+from gapbeam.studies.methods import kernel, yardstick
+from gapbeam.studies.schemes import gapped_spans, sprung_base
+from gapbeam.studies.truth import error, solve_exactly, solve_one_span
 
 WORKS = {"A": (gapped_spans, 4), "B": (sprung_base, 1)}
 

@@ -2,8 +2,8 @@
 
 import pytest
 from gapbeam import solve
-from gapbeam.study_fronts import random_front, scaled
-from gapbeam.study_schemes import gapped_spans, lifted_end, schemes, sprung_base, to_markdown
+from gapbeam.studies.fronts import random_front, scaled
+from gapbeam.studies.schemes import gapped_spans, lifted_end, schemes, sprung_base, to_markdown
 
 
 @pytest.fixture(scope="module")

@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
-from gapbeam.exact import Reference
 from gapbeam.scene import read_scene
-from gapbeam.study_beam import MeshedBeam, Unfit, mesh, one_span
-from gapbeam.study_schemes import gapped_spans, paper_beam, sprung_base
-from gapbeam.study_truth import error, solve_exactly, solve_one_span
+from gapbeam.studies.exact import Reference
+from gapbeam.studies.meshes import MeshedBeam, Unfit, mesh, one_span
+from gapbeam.studies.schemes import gapped_spans, paper_beam, sprung_base
+from gapbeam.studies.truth import error, solve_exactly, solve_one_span
 
 CLAMPED = {
     "beam": {"spans": [2.0, 3.0], "EI": [4.0, 7.0]},

@@ -12,10 +12,10 @@ from html import unescape
 
 import gapbeam
 import pytest
-from gapbeam.characters import visible
+from gapbeam.base.characters import visible
 from gapbeam.cli import main
 from gapbeam.plots import figure, plot
-from gapbeam.plots_path import path_figure, plot_path
+from gapbeam.plots.path import path_figure, plot_path
 from gapbeam.report import report_text, to_csv, to_json
 from matplotlib import rc_context
 

@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from gapbeam.study_beam import MeshedBeam, many_spans, mesh, one_span, soft_and_stiff, stiffness_jumps
-from gapbeam.study_methods import methods, yardstick
-from gapbeam.study_schemes import gapped_spans, paper_beam, sprung_base
-from gapbeam.study_truth import error, solve_exactly
+from gapbeam.studies.meshes import MeshedBeam, many_spans, mesh, one_span, soft_and_stiff, stiffness_jumps
+from gapbeam.studies.methods import methods, yardstick
+from gapbeam.studies.schemes import gapped_spans, paper_beam, sprung_base
+from gapbeam.studies.truth import error, solve_exactly
 
 METHODS = {method.name: method for method in methods() if "solve" not in method.name}
 MIXED = [name for name in METHODS if "displacement" not in name]

@@ -23,6 +23,8 @@ module gapbeam_cell
 
     !> The first factor tried is above the given one by this share of the way; none nearer than this is
     real(wp), parameter :: first_share = 2.0_wp**(-40), last_share = 2.0_wp**(-46)
+    !> What happens within this share of the way is not seen where even this precision cannot tell what falls
+    real(wp), parameter :: unseen_share = 2.0_wp**(-24)
     !> Weak springs that hold a beam that is free to move, relative to those of the search
     real(wp), parameter :: weaker = 2.0_wp**(-24)
 
@@ -77,7 +79,13 @@ contains
                 from = start_of_motion(beam, outcome%motion)
             end if
             if (from > factor + last_share*scale_of_factor) then
-                if (farther) exit
+                if (farther) then
+                    ! The position is not unique, so supports may be touched here or there, without end
+                    if (from > factor + unseen_share*scale_of_factor) call fatal_error(error, gapbeam_not_converged, "above "// &
+                        "this load factor the beam can move freely without work of the loads, so there is no single path "// &
+                        "of its supports: follow the load by steps")
+                    exit
+                end if
                 ! Nearer, before what happens there
                 trial = factor + (min(from, trial) - factor)/2
             else

@@ -16,6 +16,8 @@ module gapbeam_stretch
 
     !> What happens so near to each other, relative to the factor or the way, happens at the same factor
     real(wp), parameter :: same_factor = 1e-12_wp
+    !> Share of its factor by which an event may be off in doubles; if it may be more, it is found in quadruple precision
+    real(wp), parameter :: coarse = 1e-9_wp
 
     !> What is known on a stretch of the path
     type :: stretch_type
@@ -180,7 +182,8 @@ contains
         do j = 1, size(near)
             line = line_in(beam, closed, near(j), stretch)
             there(j) = abs(value_at(line, next)) <= width_at(line, next)
-            if (there(j)) stretch%in_doubt = stretch%in_doubt .or. apart(line, next, limit)
+            if (there(j)) stretch%in_doubt = stretch%in_doubt .or. apart(line, next, limit) &
+                .or. width_at(line, next) > coarse*abs(next*line%v1)
         end do
         at_zero = [at_zero, pack(near, there)]
     end subroutine next_in_queue

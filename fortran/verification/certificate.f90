@@ -88,7 +88,8 @@ contains
         associate (a => work%answers)
             moment_size = work%shear_size*maxval(fine%links%length)
             certificate%of_nodes = difference(a%deflection, deflection, work%deflection_size) &
-                + epsilon(1.0_wp)*maxval(abs(deflection)) + moves(of_deflections) &
+                + epsilon(1.0_wp)*maxval(abs(deflection)) + moves(of_deflections)
+            if (any(abs(deflection) > 0.0_wp)) certificate%of_nodes = certificate%of_nodes &
                 + real(fine_error*maxval(work%shear_size)/softest(fine), wp)
             if (size(reaction) > 0) certificate%reaction = difference(work%reaction, reaction, work%shear_size) &
                 + epsilon(1.0_wp)*maxval(abs(reaction)) + moves(of_reactions)

@@ -1,6 +1,6 @@
 """``python -m gapbeam`` is the command ``gapbeam``."""
 
-from .cli import main
+from .cli.command import main
 
 if __name__ == "__main__":
     raise SystemExit(main())

@@ -2,10 +2,12 @@
 
 from importlib.metadata import version
 
-from .errors import EngineError, GapbeamError, SceneError, Status
-from .prepared import Cases, Prepared, prepare
-from .results import Fields, Result, System
-from .scene import (
+from .base.errors import EngineError, GapbeamError, SceneError, Status
+from .results.cases import Cases, Prepared, prepare
+from .results.result import Fields, Result, System
+from .results.step import Step
+from .results.stepping import solve
+from .scene.structs import (
     Analysis,
     AxialLoad,
     Beam,
@@ -22,8 +24,6 @@ from .scene import (
     read_scene,
     scene_schema,
 )
-from .states import Step
-from .stepping import solve
 
 __version__ = version("gapbeam")
 

@@ -4,7 +4,7 @@ import random
 from itertools import pairwise
 
 import gapbeam
-from gapbeam.errors import Status
+from gapbeam.base.errors import Status
 
 from . import draw
 from .compare import Look, compare_state, motion_faults
@@ -256,7 +256,7 @@ def check_steps(beam, made, count, factors, verdict):
 
 def no_single_path(beam, error):
     """Whether no single answer exists over some of the load: forces or places are not unique."""
-    for factor in (Fraction(k, 13) for k in range(1, 14)):
+    for factor in (*(Fraction(k, 13) for k in range(1, 14)), *(Fraction(1, 4**k) for k in range(2, 16))):
         if stands(beam, factor) == "indifferent":
             return True
         try:

@@ -4,7 +4,7 @@ import random
 from fractions import Fraction
 
 import gapbeam
-from gapbeam.errors import Status
+from gapbeam.base.errors import Status
 from oracle_forms import Reading
 
 from . import draw

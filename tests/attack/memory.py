@@ -19,7 +19,7 @@ from pathlib import Path
 import gapbeam
 from gapbeam.cli import main
 from gapbeam.report import to_json
-from gapbeam.study_schemes import gapped_spans, lifted_end, sprung_base
+from gapbeam.studies.schemes import gapped_spans, lifted_end, sprung_base
 
 from .family import Family, Verdict, write_scene
 

@@ -5,7 +5,7 @@ import random
 from functools import partial
 
 import gapbeam
-from gapbeam.errors import Status
+from gapbeam.base.errors import Status
 
 from . import draw
 from .compare import Look, compare_state, motion_faults

@@ -1,0 +1,5 @@
+"""The command ``gapbeam``."""
+
+from .command import main
+
+__all__ = ["main"]

@@ -1,0 +1,276 @@
+"""The command ``gapbeam``: run a scene, check it, print the schema of scenes.
+
+What a command does not need is not imported: checking a scene loads neither rich nor matplotlib.
+"""
+
+import argparse
+import os
+import signal
+import sys
+import warnings
+from collections.abc import Iterable, Sequence
+from contextlib import suppress
+from textwrap import shorten
+from traceback import extract_tb
+from typing import NoReturn
+
+from ..base.characters import visible
+from ..base.errors import GapbeamError, SceneError, Status
+from ..base.files import remove_unfinished
+from .outputs import Outputs, source, until_closed
+
+#: Exit statuses
+SOLVED, NO_SOLUTION, REFUSED, FAILED, INTERRUPTED = 0, 1, 2, 3, 130
+
+SCENE = """\
+A small scene, beam.toml:
+
+  title = "Two spans, the bearing in the middle can lift off"
+
+  [units]                  # labels for the report only
+  force = "kN"
+  length = "m"
+
+  [beam]
+  spans = [6.0, 6.0]       # their ends are nodes 0, 1, 2
+  EI = 1.0e4
+
+  [[supports]]
+  node = 0                 # or x = 0.0
+
+  [[supports]]
+  node = 1
+  side = "below"           # pushes the beam up only; "above": down only; "both" (default)
+  gap = 0.01               # to be closed before it acts
+
+  [[supports]]
+  node = 2
+
+  [[loads]]
+  type = "uniform"         # force, moment, uniform, linear, curvature, axial
+  q = 20.0                 # from, to: the whole beam unless given
+"""
+
+SIGNS = """\
+Signs:
+  deflection, forces, distributed loads   positive downward
+  support reactions                       positive upward
+  bending moment                          positive sagging; shear is its derivative
+  rotations, couples                      positive clockwise
+  axial forces and displacements          positive to the right
+Units: any consistent set. The scene's labels go into the report and change no number.
+"""
+
+STATUSES = """\
+Exit status:
+  0    solved, or the scene is valid
+  1    the structure cannot stand: the report says how it moves
+  2    refused: bad input, a file that cannot be read or written, or a scene without one single answer;
+       one line on standard error says why, no file is written
+  3    failed: not enough memory, or a fault of gapbeam; one line says what happened and what to do
+  130  ended by Ctrl-C: no file is written in part
+"""
+
+DESCRIPTION = "Beams of many spans on supports that act on one side only, with gaps: a scene file in, a report out."
+
+
+class _Parser(argparse.ArgumentParser):
+    """Refuses in one line, and says so when the help cannot be written."""
+
+    def error(self, message: str) -> NoReturn:
+        raise SceneError(f"{message} (see {self.prog} --help)")
+
+    def print_help(self, file: None = None) -> None:
+        with until_closed():
+            print(self.format_help(), end="", file=file)
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command.
+
+    Parameters
+    ----------
+    argv : sequence of str, optional
+        Arguments without the name of the program; default ``sys.argv[1:]``: then warnings are one line each, and
+        Ctrl-C ends the process.
+
+    Returns
+    -------
+    int
+        Exit status: 0 solved or valid, 1 the structure cannot stand, 2 refused, 3 failed, 130 ended by Ctrl-C.
+    """
+    if argv is None:
+        warnings.formatwarning = lambda message, *_: f"gapbeam: warning: {message}\n"
+        if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+            with suppress(ValueError):  # only the main thread may
+                signal.signal(signal.SIGINT, _end)
+    try:
+        arguments = _parser().parse_args(argv)
+        return arguments.command(arguments)
+    except KeyboardInterrupt:
+        return _tell(INTERRUPTED, "interrupted")
+    except Exception as error:
+        return _report(error)
+
+
+def _end(*_: object) -> NoReturn:
+    """End the process at once: Python drops a KeyboardInterrupt that comes while it frees objects, and a call may go on beside."""
+    remove_unfinished()
+    with suppress(OSError):
+        os.write(2, b"gapbeam: interrupted\n")
+    os._exit(INTERRUPTED)
+
+
+def _tell(status: int, message: str) -> int:
+    """Write one line on standard error; where that is closed, the status has to do."""
+    with suppress(AttributeError, OSError):
+        sys.stderr.write(f"gapbeam: {visible(' '.join(message.split()))}\n")
+    return status
+
+
+def _report(error: Exception) -> int:
+    """Say what went wrong, and whose fault it is."""
+    if isinstance(error, MemoryError) or getattr(error, "status", None) == Status.NO_MEMORY:
+        return _tell(FAILED, f"error: not enough memory{_reason(error)}; ask for fewer load steps or files, or give it more")
+    if isinstance(error, GapbeamError):
+        return _tell(REFUSED, f"error: {error}")
+    if isinstance(error, OSError) and error.filename is not None:
+        return _tell(REFUSED, f"error: {os.fsdecode(error.filename)}: {error.strerror}")
+    if isinstance(error, ImportError):
+        while isinstance(error.__cause__, ImportError):
+            error = error.__cause__
+        return _tell(FAILED, f"error: a part of gapbeam cannot be loaded{_reason(error)}; give it more memory, or install it again")
+    frames = [frame for frame in extract_tb(error.__traceback__) if os.path.dirname(frame.filename) == os.path.dirname(__file__)]
+    place = f"{os.path.basename(frames[-1].filename)}, line {frames[-1].lineno}"
+    return _tell(
+        FAILED,
+        f"internal error: {type(error).__name__}{_reason(error)} in {place}; this is a fault of gapbeam, not of the scene: "
+        "please send this line, the scene and what gapbeam --version prints to those who maintain it",
+    )
+
+
+def _reason(error: Exception) -> str:
+    return f" ({shorten(str(error), 300)})" if str(error) else ""
+
+
+def _parser() -> argparse.ArgumentParser:
+    plain = argparse.RawDescriptionHelpFormatter
+    parser = _Parser("gapbeam", description=DESCRIPTION, formatter_class=plain, epilog=f"{SCENE}\n{STATUSES}")
+    parser.add_argument("--version", action=_Version, nargs=0, help="print the version and stop")
+    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
+
+    run = commands.add_parser(
+        "run", help="solve a scene and report", formatter_class=plain, epilog=f"{SCENE}\n{SIGNS}\n{STATUSES}",
+        description="Solve a scene and print a report: the system, which supports act over the load, reactions and "
+        "openings,\nextremes with their places, residuals against run time.",
+    )  # fmt: skip
+    _add_scene(run)
+    run.add_argument("--json", metavar="FILE", help="write everything as JSON (.json); - is standard output, without report")
+    run.add_argument("--csv", metavar="FILE", help="write the fields along the beam at the last load step as a table "
+                     "(.csv); - is standard output, without report")  # fmt: skip
+    run.add_argument("--plot", metavar="FILE", help="draw beam, deflection, moment and shear (.png, .pdf or .svg)")
+    run.add_argument("--path", metavar="FILE", help="draw reactions and openings over the load factor, every event marked; "
+                     "best with follow = \"events\" (.png, .pdf or .svg)")  # fmt: skip
+    run.add_argument("--quiet", action="store_true", help="print no report")
+    run.set_defaults(command=_run)
+
+    check = commands.add_parser(
+        "check", help="validate a scene and tell what it holds", formatter_class=plain,
+        description="Validate a scene without solving it; print one line on what it holds.",
+        epilog=f"{SCENE}\n{SIGNS}\n{STATUSES}",
+    )  # fmt: skip
+    _add_scene(check)
+    check.set_defaults(command=_check)
+
+    schema = commands.add_parser(
+        "schema", help="print the JSON Schema of scenes", formatter_class=plain,
+        description="Print the JSON Schema of scenes: editors complete and check scenes by it.",
+        epilog="For editors with Taplo (Even Better TOML): gapbeam schema > gapbeam.schema.json, and as the first\n"
+        f"line of a scene\n\n  #:schema ./gapbeam.schema.json\n\n{SCENE}\n{SIGNS}\n{STATUSES}",
+    )  # fmt: skip
+    schema.set_defaults(command=_schema)
+
+    from .studies import add_studies
+
+    add_studies(commands)
+    return parser
+
+
+def _add_scene(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("scene", metavar="SCENE", help="a .toml or .json file; - is standard input")
+
+
+class _Version(argparse.Action):
+    """Looks the version up only when asked."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> NoReturn:
+        from importlib.metadata import version
+
+        with until_closed():
+            print(f"gapbeam {version('gapbeam')}")
+        parser.exit()
+
+
+def _run(arguments: argparse.Namespace) -> int:
+    names = {"--json": arguments.json, "--csv": arguments.csv, "--plot": arguments.plot, "--path": arguments.path}
+    outputs = Outputs(names, arguments.scene)
+    from ..results.stepping import solve
+    from ..scene.structs import read_scene
+
+    result = solve(read_scene(source(arguments.scene)))
+    solved = result.status == "solved"
+    from ..report.text import csv_parts, json_parts, print_report, to_json
+
+    contents: dict[str, bytes | Iterable[str]] = {}
+    if "--json" in outputs:
+        # A file grows part by part; what goes to standard output is made first, so that no failure cuts it off
+        contents["--json"] = [to_json(result)] if outputs["--json"] == "-" else json_parts(result)
+    if "--csv" in outputs and solved:
+        contents["--csv"] = csv_parts(result)
+    if "--plot" in outputs:
+        from ..plots.result import figure
+        from ..plots.save import picture
+
+        contents["--plot"] = picture(figure(result), outputs.suffix("--plot"))
+    if "--path" in outputs and result.steps:
+        from ..plots.path import path_figure
+        from ..plots.save import picture
+
+        contents["--path"] = picture(path_figure(result), outputs.suffix("--path"))
+    outputs.write(contents)
+    if not arguments.quiet and not outputs.on_standard_output:
+        with until_closed():  # after the files: the reader of the report, such as head, may leave early
+            print_report(result)
+    elif not solved:
+        _tell(NO_SOLUTION, result.reason)
+    for option in ("--csv", "--path"):
+        if option in outputs and option not in contents:
+            _tell(NO_SOLUTION, f"{outputs[option]} is not written: there is nothing to show without equilibrium")
+    return SOLVED if solved else NO_SOLUTION
+
+
+def _check(arguments: argparse.Namespace) -> int:
+    from ..results.formatting import count, number, unit
+    from ..scene.structs import read_scene
+
+    scene = read_scene(source(arguments.scene))
+    length = f"{number(float(scene.span_ends()[-1]))} {unit(scene, 'x')}".rstrip()
+    one_sided = sum(support.side != "both" for support in scene.supports)
+    parts = [
+        f"{count(len(scene.beam.spans), 'span')}, {length}",
+        f"{count(len(scene.supports), 'support')}, {one_sided:,} of them one-sided",
+        count(len(scene.loads), "load"),
+    ]
+    with until_closed():
+        print(f"{visible(arguments.scene)}: valid: " + "; ".join(parts))
+    return SOLVED
+
+
+def _schema(_: argparse.Namespace) -> int:
+    import json
+
+    from ..scene.structs import scene_schema
+
+    with until_closed():
+        print(json.dumps(scene_schema(), indent=2, allow_nan=False))
+    return SOLVED

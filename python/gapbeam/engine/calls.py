@@ -1,0 +1,197 @@
+"""Calls of compiled code that Ctrl-C ends at once.
+
+Python hears signals between its own instructions only, and a call of compiled code is one instruction, however long. So what
+may take long is called in a thread beside the main one, which waits where signals are heard. The thread that is left behind by
+Ctrl-C goes on to the end of its one call, with arrays that nobody else has, and is not heard of again.
+"""
+
+from __future__ import annotations
+
+import mmap
+import os
+import threading
+from _thread import allocate_lock, start_new_thread
+from collections.abc import Callable, Iterator
+from queue import SimpleQueue
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+
+from .. import _f77
+
+SHORT = 2_000
+"""Calls with fewer numbers than these take some milliseconds at most."""
+FEW_NODES = 1_000
+"""Cases with fewer nodes together take some milliseconds at most."""
+NODES_AT_A_TIME = 20_000
+"""Nodes of all cases in the first call for many cases; later calls take about `SECONDS`, by what the one before took."""
+SECONDS = 0.1
+"""Time of a call for some of many cases, and between two looks whether a signal has come."""
+THREAD = 2**25
+"""Bytes that must be there for a thread, mostly its stack: Python does not survive one that cannot begin."""
+PART = 200_000
+"""Numbers that Python turns into objects or text in some tenths of a second."""
+
+
+class _Call:
+    """One call: what is called, and what came of it."""
+
+    def __init__(self, routine: Callable, arguments: tuple) -> None:
+        self.routine, self.arguments = routine, arguments
+        self.result: Any = None
+        self.error: BaseException | None = None
+        self.done = allocate_lock()
+        self.done.acquire()
+
+    def make(self) -> None:
+        try:
+            self.result = self.routine(*self.arguments)
+        except BaseException as error:
+            self.error = error
+        self.done.release()
+
+
+class _Beside:
+    """The thread beside the main one; only the main one gives it calls."""
+
+    def __init__(self) -> None:
+        self.calls: SimpleQueue[_Call | None] | None = None
+
+    def reset(self) -> None:
+        """In a forked process: the thread stayed with the parent."""
+        self.calls = None
+
+    def forget(self) -> None:
+        """Let the thread end with the call it has; the next call gets a new one."""
+        calls, self.calls = self.calls, None
+        if calls is not None:
+            calls.put(None)
+
+    def make(self, routine: Callable, arguments: tuple) -> Any:
+        """Make a call there, and wait for it as long as no signal says otherwise."""
+        try:
+            if self.calls is None:
+                mmap.mmap(-1, THREAD).close()
+                calls: SimpleQueue[_Call | None] = SimpleQueue()
+                start_new_thread(_work, (calls,))
+                self.calls = calls
+        except (RuntimeError, OSError, MemoryError):  # no more threads here
+            return routine(*arguments)
+        call = _Call(routine, arguments)
+        try:
+            self.calls.put(call)
+            while not call.done.acquire(timeout=SECONDS):
+                pass  # signals that went to another thread are heard now
+        except BaseException:
+            self.forget()
+            raise
+        if call.error is not None:
+            raise call.error
+        return call.result
+
+
+def _work(calls: SimpleQueue[_Call | None]) -> None:
+    while (call := calls.get()) is not None:
+        call.make()
+        del call  # and with it the arrays, before the next one comes
+
+
+_BESIDE = _Beside()
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_BESIDE.reset)
+
+
+def interruptible(routine: Callable, large: int | None = 0) -> Callable:
+    """Let Ctrl-C end the calls of a compiled routine at once, where they may take long.
+
+    Parameters
+    ----------
+    routine : callable
+        It must let go of Python's lock, and its arrays must not be used after an interrupted call.
+    large : int or None
+        Which argument tells by its size whether a call takes long; None: any call may.
+
+    Returns
+    -------
+    callable
+        Takes and returns what the routine does; KeyboardInterrupt, or what another handler of a signal raises, ends it.
+    """
+
+    def call(*arguments: Any) -> Any:
+        if large is not None and arguments[large].size < SHORT:
+            return routine(*arguments)
+        if threading.current_thread() is not threading.main_thread():
+            return routine(*arguments)
+        return _BESIDE.make(routine, arguments)
+
+    return call
+
+
+def parts(count: int) -> Iterator[slice]:
+    """Cut a long sequence into parts, for what numpy and json do in one instruction.
+
+    Parameters
+    ----------
+    count : int
+        Its length.
+
+    Yields
+    ------
+    slice
+        From the first to the last.
+
+    Examples
+    --------
+    >>> [(part.start, part.stop) for part in parts(500_000)]
+    [(0, 200000), (200000, 400000), (400000, 500000)]
+    """
+    for first in range(0, count, PART):
+        yield slice(first, min(first + PART, count))
+
+
+gbcond = interruptible(_f77.gbcond)
+gbsolv = interruptible(_f77.gbsolv)
+gbcert = interruptible(_f77.gbcert)
+gbpath = interruptible(_f77.gbpath, large=None)
+gbshar = interruptible(_f77.gbshar, large=3)
+gbreco = interruptible(_f77.gbreco)
+gbvalu = interruptible(_f77.gbvalu, large=5)
+gbextr = interruptible(_f77.gbextr)
+gbaxia = interruptible(_f77.gbaxia)
+gbkern = interruptible(_f77.gbkern)
+_long_cases = interruptible(_f77.gbcase, large=None)
+
+
+def gbcase(*arguments: Any) -> tuple[np.ndarray, ...]:
+    """Solve load cases, so many at a time that each call is a short one.
+
+    Parameters
+    ----------
+    *arguments
+        Those of GBCASE; the last three are factors (loads by cases), rule, and schemes (supports by cases).
+
+    Returns
+    -------
+    tuple of numpy.ndarray
+        What GBCASE returns, cases along the last axis.
+    """
+    *beam, factors, rule, closed = arguments
+    cases, nodes = factors.shape[1], beam[0].shape[1] + 1
+    if cases * nodes < FEW_NODES:
+        return _f77.gbcase(*arguments)
+    some = max(NODES_AT_A_TIME // nodes, 1)
+    if cases <= some:
+        return _long_cases(*arguments)
+    results: tuple[np.ndarray, ...] = ()
+    first = 0
+    while first < cases:
+        part = slice(first, first + some)
+        begin = perf_counter()
+        found = _long_cases(*beam, factors[:, part], rule, closed[:, part])
+        some = max(int(some * min(max(SECONDS / (perf_counter() - begin), 0.25), 4.0)), 1)
+        results = results or tuple(np.empty((*row.shape[:-1], cases), row.dtype, order="F") for row in found)
+        for row, values in zip(results, found, strict=True):
+            row[..., part] = values
+        first = part.stop
+    return results

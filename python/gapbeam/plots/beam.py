@@ -1,0 +1,345 @@
+"""The panel of the beam: the beam itself and the symbols of its supports.
+
+The vertical unit of the panel is one point (1/72 inch), measured from the axis of the beam, so symbols keep their
+shape whatever the length of the beam.
+"""
+
+import math
+from collections import defaultdict
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
+from matplotlib.lines import Line2D
+from matplotlib.path import Path
+from matplotlib.transforms import ScaledTranslation, Transform
+
+from ..results.formatting import number, ranges, stretch
+from .labels import LINE, Labels, text_width
+
+if TYPE_CHECKING:
+    from ..scene.structs import Scene, Support
+
+#: State -> fill of its symbol; in this order in the legend
+FACES = {"closed": "black", "open": "white", "bilateral": "0.7", "one-sided": "0.88"}
+
+#: Half the depth of the beam, points
+HALF = 2.5
+#: How far the symbol of a support with a gap stands off, points
+OFF = 4.0
+#: With more places than this, rows of ticks replace the symbols
+MOST_SYMBOLS = 60
+#: Lines that the gaps may take under the numbers of the supports
+MOST_LINES = 6
+
+#: Symbols with their tip in the origin, below the beam; the largest coordinate is 1, one height
+_TRIANGLE = Path([(0, 0), (-0.6, -1), (0.6, -1), (0, 0)], [1, 2, 2, 79])
+_GROUND = Path(
+    [(-1, 0), (1, 0), *(point for x in (-0.7, -0.1, 0.5) for point in ((x + 0.35, 0), (x, -0.45)))],
+    [1, 2, 1, 2, 1, 2, 1, 2],
+)
+_SPRING = Path([(0, 0), (0.5, -0.15), (-0.5, -0.4), (0.5, -0.65), (-0.5, -0.9), (0, -1)], [1, 2, 2, 2, 2, 2])
+_WALL = Path(
+    [(0, -1), (0, 1), *(point for y in np.linspace(-0.8, 1.0, 7) for point in ((0, y), (-0.35, y - 0.2)))],
+    [1, 2] * 8,
+)
+_SPIRAL = Path(np.array([(t * math.cos(7 * t), t * math.sin(7 * t)) for t in np.linspace(0.0, 1.0, 40)]))
+
+
+class SupportLanes:
+    """Where the supports are drawn: sizes and heights in points.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    states : tuple of str
+        State of each support.
+    width : float
+        Width of the panel.
+
+    Attributes
+    ----------
+    size : float
+        Height of a triangle.
+    rows : list of str
+        Rows of ticks by state and side, where there are too many supports for symbols; else empty.
+    labels : list of (float, float, str)
+        Numbers of the supports, and gaps where there is room: place, height of the upper edge, text.
+    bottom, top : float
+        What the supports take up below and above the axis of the beam.
+    """
+
+    def __init__(self, scene: "Scene", states: tuple[str, ...], width: float) -> None:
+        supports = [support for support in scene.supports if support.direction == "normal"]
+        self.x = scene.positions(scene.supports)
+        self.places = np.unique(self.x)
+        self.spacing = (width - 60) / max(1, len(self.places) - 1)
+        self.size = min(8.0, max(2.0, 0.75 * self.spacing))
+        self.rows: list[str] = []
+        below = above = HALF
+        if len(self.places) > MOST_SYMBOLS:
+            self.rows = sorted({_group(support, state) for support, state in zip(scene.supports, states, strict=True)})
+            self.size = 6.0
+            below += 4.0 + 11.0 * len(self.rows)
+        elif supports:
+            elastic = any(math.isfinite(support.stiffness) for support in supports)
+            gap = any(support.gap > 0 for support in supports)
+            depth = self.size * (1.5 + elastic) + OFF * gap
+            below += depth if any(support.side != "above" for support in supports) else 2.0
+            above += depth if any(support.side != "below" and support.rotation != "fixed" for support in supports) else 0
+            if any(support.rotation != "free" for support in supports):
+                below, above = max(below, 13.0), max(above, 12.0)
+        self.labels = _labels(scene, self.x, width, -below - 2.0)
+        self.bottom = min((y - LINE * (1 + text.count("\n")) for _, y, text in self.labels), default=-below - 2.0) - 1.0
+        self.top = above + 2.0
+
+
+def draw_beam(axes: Axes, scene: "Scene", states: tuple[str, ...], lanes: SupportLanes) -> None:
+    """Draw the beam, its hinges and its supports.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+        The panel; its vertical unit is one point.
+    scene : Scene
+        The scene.
+    states : tuple of str
+        State of each support.
+    lanes : SupportLanes
+        Where to draw.
+    """
+    _girder(axes, scene)
+    if scene.beam.hinges:
+        axes.scatter(scene.beam.hinges, [0.0] * len(scene.beam.hinges), s=22, c="white", edgecolors="black",
+                     linewidths=1.0, zorder=6, label="hinges")  # fmt: skip
+    if lanes.rows:
+        _ticks(axes, scene, states, lanes)
+    else:
+        _symbols(axes, scene, states, lanes)
+    for x, y, text in lanes.labels:
+        axes.text(x, y, text, fontsize=6.5, ha="center", va="top", color="0.25", linespacing=1.15)
+
+
+def draw_contacts(axes: Axes, scene: "Scene", states: tuple[str, ...], largest: float) -> list[tuple[float, float]]:
+    """Mark in the panel of the deflection where one-sided supports meet the beam: gap and opening to scale.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+        The panel, positive downward.
+    scene : Scene
+        The scene.
+    states : tuple of str
+        State of each support.
+    largest : float
+        Largest deflection; supports much farther off are left out.
+
+    Returns
+    -------
+    list of (float, float)
+        The marks: x and displacement.
+    """
+    if len(scene.supports) > 2 * MOST_SYMBOLS:
+        return []
+    groups = defaultdict(list)
+    for support, state, x in zip(scene.supports, states, scene.positions(scene.supports), strict=True):
+        if support.side != "both" and support.direction == "normal":
+            sign = 1.0 if support.side == "below" else -1.0
+            y = support.settlement + sign * support.gap
+            if abs(y) <= 1.5 * largest:
+                groups[state, sign].append((float(x), y))
+    for (state, sign), points in groups.items():
+        x, y = np.transpose(points)
+        axes.scatter(x, y, marker=_turned(_TRIANGLE, sign), s=_area(5.0), facecolors=FACES.get(state, "0.5"),
+                     edgecolors="black", linewidths=0.6, zorder=4, label=f"contact {state}")  # fmt: skip
+    return [point for points in groups.values() for point in points]
+
+
+def legend_handles(states: tuple[str, ...]) -> list[Line2D]:
+    """Make the entries of the legend for the states that occur."""
+    return [
+        Line2D([], [], linestyle="none", marker="^", markersize=5.5, markerfacecolor=face, markeredgecolor="black",
+               markeredgewidth=0.8, label=state)
+        for state, face in FACES.items() if state in states
+    ]  # fmt: skip
+
+
+def _group(support: "Support", state: str) -> str:
+    """Name the collection of a support: state and side."""
+    if support.direction == "axial":
+        return "axial"
+    return state if support.side == "both" else f"{state} {support.side}"
+
+
+def _area(height: float) -> float:
+    """Give the size matplotlib wants for a symbol whose largest coordinate of 1 is to be `height` points."""
+    return (2.0 * height) ** 2
+
+
+def _shifted(axes: Axes, points: float) -> Transform:
+    """Make the transform of the panel, moved to the right by some points."""
+    return axes.transData + ScaledTranslation(points / 72, 0.0, axes.figure.dpi_scale_trans)
+
+
+def _turned(path: Path, sign: float) -> Path:
+    """Mirror a symbol upward where `sign` is negative."""
+    return Path(path.vertices * (1.0, sign), path.codes)
+
+
+def _girder(axes: Axes, scene: "Scene") -> None:
+    """Draw the beam, the thicker the stiffer."""
+    ends = scene.span_ends()
+    cuts = np.unique([*ends, *(x for section in scene.sections for x in stretch(scene, section))])
+    middle = (cuts[1:] + cuts[:-1]) / 2
+    spans = np.clip(np.searchsorted(ends, middle) - 1, 0, len(ends) - 2)
+    stiffness = np.broadcast_to(np.asarray(scene.beam.EI, float), len(ends) - 1)[spans].copy()
+    for section in scene.sections:
+        if section.EI is not None:
+            start, stop = stretch(scene, section)
+            stiffness[(middle > start) & (middle < stop)] = section.EI
+    finite = stiffness[np.isfinite(stiffness)]
+    share = np.cbrt(np.minimum(stiffness / (finite.max() if len(finite) else 1.0), 1.0))
+    widths = np.where(np.isfinite(stiffness), 1.2 + 2.3 * share, 2 * HALF)
+    pieces = [[(a, 0.0), (b, 0.0)] for a, b in pairwise(cuts)]
+    axes.add_collection(LineCollection(pieces, linewidths=widths, colors="0.2", capstyle="projecting", zorder=3, label="beam"))
+
+
+def _symbols(axes: Axes, scene: "Scene", states: tuple[str, ...], lanes: SupportLanes) -> None:
+    """Draw every support as a symbol; equal ones are one collection."""
+    symbols, springs, ground = defaultdict(list), defaultdict(list), defaultdict(list)
+    end = float(scene.span_ends()[-1])
+    for support, state, x in zip(scene.supports, states, lanes.x, strict=True):
+        if support.direction == "axial":
+            _axial(axes, scene, x, end, lanes)
+            continue
+        if support.rotation == "fixed":
+            _clamp(axes, x, end)
+            if support.side == "both":
+                continue
+        elif support.rotation != "free" and support.rotation:
+            outward = -8.0 if x <= 1e-9 * end else 8.0 if x >= end * (1.0 - 1e-9) else 0.0
+            axes.scatter([x], [0.0], marker=_SPIRAL, s=_area(7.0), facecolors="none", edgecolors="black", zorder=6,
+                         linewidths=0.9, transform=_shifted(axes, outward), label="rotational spring")  # fmt: skip
+        for sign in (1.0, -1.0):
+            if support.side == ("above" if sign > 0 else "below"):
+                continue
+            y = HALF + (OFF if support.gap > 0 else 0.0)
+            label = f"{state} {'below' if sign > 0 else 'above'}"
+            symbols[label, sign].append((x, -sign * y))
+            y += lanes.size
+            if math.isfinite(support.stiffness):
+                springs[sign].append((x, -sign * y))
+                y += lanes.size
+            ground[sign].append((x, -sign * y))
+    for (label, sign), points in symbols.items():
+        x, y = np.transpose(points)
+        axes.scatter(x, y, marker=_turned(_TRIANGLE, sign), s=_area(lanes.size), facecolors=FACES[label.rpartition(" ")[0]],
+                     edgecolors="black", linewidths=0.8, zorder=5, label=label)  # fmt: skip
+    for name, path, sets in (("springs", _SPRING, springs), ("ground", _GROUND, ground)):
+        for sign, points in sets.items():
+            x, y = np.transpose(points)
+            axes.scatter(x, y, marker=_turned(path, sign), s=_area(lanes.size * (1.0 if name == "springs" else 0.75)),
+                         facecolors="none", edgecolors="black", linewidths=0.7, zorder=4, label=name)  # fmt: skip
+
+
+def _clamp(axes: Axes, x: float, end: float) -> None:
+    """Draw a wall at an end of the beam, a wall on either side inside it."""
+    for sign in (1.0, -1.0):
+        if (sign < 0.0 and x <= 1e-9 * end) or (sign > 0.0 and x >= end * (1.0 - 1e-9)):
+            continue  # nothing of the beam on that side
+        vertices = _WALL.vertices * (sign, 1.0)
+        axes.scatter([x], [0.0], marker=Path(vertices, _WALL.codes), s=_area(11.0), facecolors="none",
+                     edgecolors="black", linewidths=1.0, zorder=5, label="clamp")  # fmt: skip
+
+
+def _axial(axes: Axes, scene: "Scene", x: float, end: float, lanes: SupportLanes) -> None:
+    """Draw a horizontal support: a triangle outside the end of the beam, or under it where it is inside."""
+    outward = -1.0 if x <= end / 2 else 1.0
+    clamped = any(
+        support.rotation == "fixed" and place == x
+        for support, place in zip(scene.supports, lanes.x, strict=True)
+    )
+    path = Path(_TRIANGLE.vertices[:, ::-1] * (-outward, 1.0), _TRIANGLE.codes)
+    beside = _shifted(axes, outward * (6.0 if clamped else 1.0))
+    axes.scatter([x], [0.0], marker=path, s=_area(lanes.size), facecolors=FACES["bilateral"], edgecolors="black",
+                 linewidths=0.8, zorder=5, transform=beside, label="axial")  # fmt: skip
+
+
+def _ticks(axes: Axes, scene: "Scene", states: tuple[str, ...], lanes: SupportLanes) -> None:
+    """Draw one row of ticks for every state and side."""
+    groups = defaultdict(list)
+    for support, state, x in zip(scene.supports, states, lanes.x, strict=True):
+        groups[_group(support, state)].append(x)
+    for row, label in enumerate(lanes.rows):
+        y = -HALF - 9.0 - 11.0 * row
+        x = groups[label]
+        axes.scatter(x, [y] * len(x), marker="|", s=64, c="black", linewidths=min(1.5, max(0.25, 0.6 * lanes.spacing)),
+                     zorder=4, label=label)  # fmt: skip
+        axes.annotate(label, (0.0, y), (-4, 0), xycoords=("data", "data"), textcoords="offset points", fontsize=6.5,
+                      ha="right", va="center", annotation_clip=False)  # fmt: skip
+
+
+def _labels(scene: "Scene", x: np.ndarray, width: float, top: float) -> list[tuple[float, float, str]]:
+    """Lay out the numbers of the supports, as many as fit, and their gaps under them, from a height downward."""
+    scale = (width - 60.0) / float(scene.span_ends()[-1])  # points per length
+    at = defaultdict(list)
+    for index, place in enumerate(x.tolist()):
+        at[place].append(index)
+    every = next(step for step in (1, 2, 5, 10, 20, 50, 10 ** max(2, len(str(len(at))) - 1)) if len(at) / step <= 32)
+    groups: list[list[float]] = []
+    for place in sorted(at)[::every]:
+        if not groups or (place - _middle(groups[-1])) * scale > (_width(at, groups[-1]) + _width(at, [place])) / 2:
+            groups.append([place])
+        elif every == 1:
+            groups[-1].append(place)  # too near for a label of its own
+    numbers = [(_middle(group), top, _numbers(at, group)) for group in groups]
+    if every > 1:
+        return numbers
+    alone = {group[0] for group in groups if len(group) == 1}
+    page = (width - 22.0) / scale
+    return numbers + _gap_labels(scene, at, alone, scale, page, top - LINE)
+
+
+def _middle(places: list[float]) -> float:
+    return (places[0] + places[-1]) / 2
+
+
+def _width(at: dict[float, list[int]], places: list[float]) -> float:
+    return text_width(_numbers(at, places))
+
+
+def _numbers(at: dict[float, list[int]], places: list[float]) -> str:
+    """Write the numbers of the supports at some places."""
+    indices = [index for place in places for index in at[place]]
+    return ", ".join(map(str, indices)) if len(indices) <= 3 else ranges(sorted(indices))
+
+
+def _gap_labels(
+    scene: "Scene", at: dict[float, list[int]], alone: set[float], scale: float, page: float, top: float
+) -> list[tuple[float, float, str]]:
+    """Write the gaps under the numbers, further down where they would cover one another; none where that goes too far.
+
+    Places of which the number stands `alone` need not repeat it. What is written ends before the edge of the `page`.
+    """
+    labels, result = Labels(), []
+    for place, indices in sorted(at.items()):
+        gaps = {index: number(scene.supports[index].gap, 4) for index in indices if scene.supports[index].gap}
+        if not gaps:
+            continue
+        sides = {scene.supports[index].side for index in indices}
+        each = [f"{index}{f' {scene.supports[index].side}' if len(sides) > 1 else ''}: gap {gap}" for index, gap in gaps.items()]
+        texts = ["\n".join(each)] * MOST_LINES
+        if place in alone and len(gaps) == len(indices) and len(set(gaps.values())) == 1:
+            texts[0] = f"gap {gaps[indices[0]]}"  # right under the numbers, and the same for all of them
+        for line, text in enumerate(texts):
+            middle = min(place, page - text_width(text) / 2 / scale)
+            lines = line + 1 + text.count("\n")
+            if lines <= MOST_LINES and labels.take(middle * scale, top - LINE * lines, text):
+                result.append((middle, top - LINE * line, text))
+                break
+        else:
+            return []
+    return result

@@ -1,0 +1,174 @@
+"""The path over the load factor: reactions and openings, straight from one change of the working scheme to the next."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ..results import formatting as fmt
+from .result import LEFT, WIDTH, outcome
+from .save import literal, save
+
+if TYPE_CHECKING:
+    from ..results.result import Result
+
+#: Inches: height of a panel and of what is above it, the space below for the load factor and on the right for names
+PANEL, GAP, FOOT, NAMES = 2.1, 0.25, 0.5, 0.95
+#: Points: height of a name; length of the sample of a line beside it, and how far it is from the axes
+NAME, SAMPLE, OFF = 9.5, 24.0, 8.0
+
+MOST_LINES = 12
+"""Supports in a panel; of more those with the largest values."""
+MOST_DOTS = 40
+"""Load steps that are drawn each; of more those at which the working scheme changes, between which nothing bends."""
+DASHES = ((), (5, 2), (1, 1.5), (7, 2, 1, 2), (10, 3), (6, 2, 1, 2, 1, 2))
+SHADES = ("0.0", "0.35", "0.5", "0.65")
+"""Every line of a picture has a pattern and a shade of its own: twice `MOST_LINES` of them."""
+
+
+def plot_path(result: Result, path: str | os.PathLike) -> None:
+    """Draw the path into a file.
+
+    Parameters
+    ----------
+    result : Result
+        What `gapbeam.solve` returned, best with ``follow = "events"``.
+    path : str or os.PathLike
+        The suffix decides on the format: .png, .pdf or .svg.
+    """
+    save(path_figure(result), path)
+
+
+def path_figure(result: Result) -> Figure:
+    """Draw reactions and openings over the load factor, every event marked.
+
+    Parameters
+    ----------
+    result : Result
+        What `gapbeam.solve` returned; a step stands.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Two panels, each line named at its right end. Following events the lines are exact; by load steps they are
+        straight between the steps, which are dots where they are few.
+
+    Raises
+    ------
+    ValueError
+        No step stands.
+    """
+    if not result.steps:
+        raise ValueError(f"there is no path to draw: {result.reason}")
+    scene = result.scene
+    dots = result.path is None and len(result.steps) <= MOST_DOTS
+    states = [result.steps[k] for k in (range(len(result.steps)) if dots else _bends(result))]
+    if result.segments:
+        states.insert(0, result.state(0.0))
+        # Where the beam turns it is in two places at one load factor
+        turns = {event.factor for event in result.events if event.event == "turns"} - {0.0, states[-1].factor}
+        states = sorted([*states, *map(result.state, turns)], key=lambda step: step.factor)
+    factors = np.array([step.factor for step in states])
+    height = (0.35 if result.status == "solved" else 0.65) + 2 * (GAP + PANEL) + FOOT
+    picture = Figure(figsize=(WIDTH, height), dpi=200)
+    picture.text(0.02, 1 - 0.22 / height, fmt.title(scene), fontsize=11, fontweight="bold", va="center")
+    if result.status != "solved":
+        picture.text(0.02, 1 - 0.36 / height, outcome(result), fontsize=8, va="top", color="0.3", linespacing=1.3)
+    normal = [k for k, support in enumerate(scene.supports) if support.direction == "normal"]
+    tables = {name: np.array([getattr(step, name) for step in states]) for name in ("reaction", "opening")}
+    drawn = {name: _largest(table, normal) for name, table in tables.items()}
+    styles = {k: _style(order) for order, k in enumerate(sorted({k for lines in drawn.values() for k in lines}))}
+    for row, (name, words) in enumerate((("reaction", "reaction, upward positive"), ("opening", "opening"))):
+        bottom, width = FOOT + (1 - row) * (PANEL + GAP), WIDTH - LEFT - NAMES
+        axes = picture.add_axes((LEFT / WIDTH, bottom / height, width / WIDTH, PANEL / height))
+        axes.set_xlim(0.0, factors[-1] or 1.0)
+        table = tables[name]
+        for k in drawn[name]:
+            axes.plot(factors, table[:, k], linewidth=1.3, marker="." if dots else None, markersize=4.5, clip_on=False,
+                      label=f"support {k}", **styles[k])  # fmt: skip
+            _mark_events(axes, result, k, factors, table[:, k])
+        _frame(axes, fmt.with_unit(scene, name, words), last=row == 1)
+        _name_lines(axes, {k: float(table[-1, k]) for k in drawn[name]}, styles)
+        moving = int((np.abs(table[:, normal]).max(axis=0, initial=0.0) > 0.0).sum())
+        if moving > len(drawn[name]):
+            axes.set_title(f"the {len(drawn[name])} largest of {moving}", loc="right", fontsize=8, color="0.3")
+    note = "dots: load steps" if dots else "circles: filled, the support closes; open, it opens" if result.events else ""
+    axes.set_xlabel("load factor" + (f" ({note})" if note else ""), fontsize=9)
+    return literal(picture)
+
+
+def _bends(result: Result) -> list[int]:
+    """Find the steps at which lines may bend: with another working scheme than the one before or after."""
+    schemes = [states for _, states in result.steps.history()]
+    last = len(schemes) - 1
+    return [k for k in range(last + 1) if k in (0, last) or not schemes[k - 1] == schemes[k] == schemes[k + 1]]
+
+
+def _largest(table: np.ndarray, supports: list[int]) -> list[int]:
+    """Choose the supports to draw: those with the largest values that are not zero all along."""
+    size = {k: float(np.abs(table[:, k]).max()) for k in supports}
+    return sorted(sorted((k for k in supports if size[k] > 0.0), key=lambda k: -size[k])[:MOST_LINES])
+
+
+def _style(order: int) -> dict:
+    pattern = DASHES[order % len(DASHES)]
+    return {"color": SHADES[order // len(DASHES)], "linestyle": (0, pattern) if pattern else "-"}
+
+
+def _mark_events(axes: Axes, result: Result, k: int, factors: np.ndarray, values: np.ndarray) -> None:
+    """Mark where a support opens or closes."""
+    for event in result.events:
+        if event.support == k and event.event != "turns":
+            face = "white" if event.event == "opens" else "black"
+            axes.plot(event.factor, np.interp(event.factor, factors, values), "o", color="black", markerfacecolor=face,
+                      markersize=5, clip_on=False)  # fmt: skip
+
+
+def _frame(axes: Axes, words: str, last: bool) -> None:
+    axes.set_ylabel(words, fontsize=9)
+    axes.yaxis.set_label_coords(-0.7 / (WIDTH - LEFT - NAMES), 0.5)
+    axes.tick_params(labelsize=8, labelbottom=last)
+    axes.grid(True, color="0.9", linewidth=0.6)
+    axes.axhline(0.0, color="black", linewidth=0.8)
+    axes.spines[["top", "right"]].set_visible(False)
+
+
+def _name_lines(axes: Axes, ends: dict[int, float], styles: dict[int, dict]) -> None:
+    """Write the name of every line beside its end, with a sample of it, one above another."""
+    if not ends:
+        return
+    low, high = axes.get_ylim()
+    tall, wide = PANEL * 72, (WIDTH - LEFT - NAMES) * 72
+    # Of equal ends the first support is the uppermost
+    order = sorted(ends, key=lambda k: (ends[k], -k))
+    at = [(ends[k] - low) / (high - low) for k in order]
+    names = [place / tall for place in _spread([tall * height for height in at], NAME, tall)]
+    sample = (1.0 + OFF / wide, 1.0 + (OFF + SAMPLE) / wide)
+    beside = {"transform": axes.transAxes, "clip_on": False}
+    for k, end, name in zip(order, at, names, strict=True):
+        axes.plot((1.0, sample[0]), (end, name), color="0.7", linewidth=0.6, **beside)
+        axes.plot(sample, (name, name), linewidth=1.3, **styles[k], **beside)
+        axes.text(sample[1] + 3.0 / wide, name, str(k), fontsize=8, va="center", transform=axes.transAxes)
+    axes.text(sample[0], names[-1] + 0.8 * NAME / tall, "support", fontsize=8, transform=axes.transAxes)
+
+
+def _spread(wanted: list[float], apart: float, top: float) -> list[float]:
+    """Move ascending heights as little as need be for a distance between them, the highest not above `top`.
+
+    Examples
+    --------
+    >>> _spread([0.0, 1.0, 50.0], 10.0, 100.0)
+    [0.0, 10.0, 50.0]
+    >>> _spread([98.0, 99.0], 10.0, 100.0)
+    [90.0, 100.0]
+    """
+    places: list[float] = []
+    for height in wanted:
+        places.append(max(height, places[-1] + apart) if places else height)
+    for k in range(len(places) - 1, -1, -1):
+        places[k] = min(places[k], top - apart * (len(places) - 1 - k))
+    return places

@@ -1,0 +1,245 @@
+"""A result as one picture: the beam with its supports and loads, deflection, moment and shear under one another.
+
+Deflection is drawn downward and the moment on the tension side (sagging downward), as engineers do. matplotlib
+is used through its objects, without pyplot and its state, so that pictures can be made in any thread.
+"""
+
+import os
+import textwrap
+from collections import Counter
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ..results import formatting as fmt
+from .beam import FACES, SupportLanes, draw_beam, draw_contacts, legend_handles
+from .loads import LoadLanes, draw_loads
+from .save import literal, save
+from .thin import outline
+
+if TYPE_CHECKING:
+    from ..results.result import Result
+    from ..scene.structs import Scene
+
+#: Inches. The width is that of an A4 page between its margins.
+WIDTH, LEFT, RIGHT, PANEL, SPACE = 7.4, 0.95, 0.15, 1.5, 0.14
+
+#: Points of a curve at most, about: a span gets fewer points where there are many spans
+MOST_POINTS = 100_000
+
+Point = tuple[float, float]
+
+#: Quantity, words on the axis, whether positive values are drawn downward
+PANELS = (
+    ("deflection", "deflection", True),
+    ("moment", "moment", True),
+    ("shear", "shear", False),
+    ("axial_force", "axial force", False),
+)
+
+
+def plot(result: "Result", path: str | os.PathLike, step: int = -1) -> None:
+    """Draw a result into a file.
+
+    Parameters
+    ----------
+    result : Result
+        What `gapbeam.solve` returned.
+    path : str or os.PathLike
+        The suffix decides on the format: .png, .pdf or .svg.
+    step : int
+        Load step; default the last.
+    """
+    save(figure(result, step), path)
+
+
+def figure(result: "Result", step: int = -1) -> Figure:
+    """Draw a result as a matplotlib figure.
+
+    Parameters
+    ----------
+    result : Result
+        What `gapbeam.solve` returned.
+    step : int
+        Load step; default the last.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The first panel holds the beam; the symbols of all supports in the same state and on the same side are one
+        collection there, labelled for example ``open below``. Without equilibrium the second panel shows the
+        free motion, else the panels are those of the fields.
+    """
+    scene = result.scene
+    stands = result.status != "no-equilibrium"
+    panels = [("motion", "free motion", True)]
+    states = tuple("bilateral" if support.side == "both" else "one-sided" for support in scene.supports)
+    if stands:
+        points = max(2, min(40, MOST_POINTS // len(scene.beam.spans)))
+        fields = result.fields(step, points=points)
+        panels = [panel for panel in PANELS if getattr(fields, panel[0]) is not None]
+        states = result.steps[step].state
+    elif not result.motion:
+        panels = []
+
+    width = (WIDTH - LEFT - RIGHT) * 72
+    supports = SupportLanes(scene, states, width)
+    loads = LoadLanes(scene, supports.top, width)
+    beam = (loads.top - supports.bottom) / 72
+    heading = 0.6 if stands else 0.75
+    height = heading + 0.04 + beam + len(panels) * (PANEL + SPACE) + 0.42
+    picture = Figure(figsize=(WIDTH, height), dpi=200)
+
+    top = height - heading
+    axes = _axes(picture, scene, top - beam, beam)
+    axes.set_axis_off()
+    axes.set_ylim(supports.bottom, loads.top)  # one unit is one point
+    draw_beam(axes, scene, states, supports)
+    draw_loads(axes, loads)
+    _headings(picture, result, step, states, len(supports.rows))
+    bottom = top - beam - SPACE
+    for quantity, words, downward in panels:
+        bottom -= PANEL
+        panel = _axes(picture, scene, bottom, PANEL)
+        _frame(panel, scene, quantity, words, downward)
+        if stands:
+            contacts = ()
+            if quantity == "deflection":
+                contacts = draw_contacts(panel, scene, states, float(np.abs(fields.deflection).max()))
+            _curve(panel, fields.x, getattr(fields, quantity), result.extremes(step)[quantity], contacts)
+        else:
+            _motion(panel, result)
+        bottom -= SPACE
+    if panels:
+        panel.tick_params(labelbottom=True)
+        panel.set_xlabel(fmt.with_unit(scene, "x"), fontsize=8)
+    return literal(picture)
+
+
+def _axes(picture: Figure, scene: "Scene", bottom: float, height: float) -> Axes:
+    """Add a panel at a height in inches; all have the same x."""
+    total = picture.get_figheight()
+    inside = WIDTH - LEFT - RIGHT
+    axes = picture.add_axes((LEFT / WIDTH, bottom / total, inside / WIDTH, height / total))
+    end = float(scene.span_ends()[-1])
+    margin = end * 30 / (inside * 72 - 60)  # 30 points at either end, for symbols and horizontal arrows
+    axes.set_xlim(-margin, end + margin)
+    return axes
+
+
+def _headings(picture: Figure, result: "Result", step: int, states: tuple[str, ...], rows: int) -> None:
+    height = picture.get_figheight()
+    left = LEFT / WIDTH * 0.25
+    title = fmt.title(result.scene, "Beam")
+    picture.text(left, 1 - 0.22 / height, _cut(title, 95), fontsize=10, fontweight="bold", va="center")
+    if result.status == "no-equilibrium":
+        text = outcome(result)
+    else:
+        counts = Counter(states)
+        text = f"load factor {fmt.number(result.steps[step].factor)}"
+        text += "".join(f", {counts[state]:,} {state}" for state in FACES if counts[state])
+    picture.text(left, 1 - 0.34 / height, text, fontsize=8, va="top", color="0.3", linespacing=1.4)
+    if rows == 0:
+        picture.legend(
+            handles=legend_handles(states), loc="center right", bbox_to_anchor=(1 - RIGHT / WIDTH, 1 - 0.42 / height),
+            ncols=4, frameon=False, fontsize=7.5, handletextpad=0.1, columnspacing=1.0, borderpad=0,
+        )  # fmt: skip
+
+
+def outcome(result: "Result") -> str:
+    """Say on two lines at most why there is no equilibrium.
+
+    Parameters
+    ----------
+    result : Result
+        Without equilibrium.
+
+    Returns
+    -------
+    str
+    """
+    return "\n".join(textwrap.wrap(f"No equilibrium. {fmt.sentence(result.reason)}", 85, max_lines=2))
+
+
+def _cut(text: str, most: int) -> str:
+    return text if len(text) <= most else text[: most - 3] + "..."
+
+
+def _frame(axes: Axes, scene: "Scene", quantity: str, words: str, downward: bool) -> None:
+    """Write on the axes, and mark the supports with faint lines."""
+    if downward:
+        axes.invert_yaxis()
+    label = "scale arbitrary" if quantity == "motion" else fmt.with_unit(scene, quantity, words)
+    if quantity == "moment":
+        label += "\ndrawn on the tension side"
+    elif quantity in ("deflection", "motion"):
+        label = f"{words}\n{label}" if quantity == "motion" else label + "\npositive downward"
+    axes.set_ylabel(label, fontsize=8, linespacing=1.3)
+    axes.yaxis.set_label_coords(-0.58 / (WIDTH - LEFT - RIGHT), 0.5)
+    axes.tick_params(labelsize=7, labelbottom=False, direction="in", length=3)
+    axes.spines[["top", "right"]].set_visible(False)
+    axes.axhline(0.0, color="black", linewidth=0.7)
+    if len(scene.supports) <= 60:
+        for x in np.unique(scene.positions(scene.supports)):
+            axes.axvline(x, color="0.75", linewidth=0.5, linestyle=(0, (1, 2)), zorder=0)
+
+
+def _curve(
+    axes: Axes, x: np.ndarray, values: np.ndarray, extreme: dict[str, tuple[float, float]], avoid: Sequence[Point]
+) -> None:
+    """Draw one field with its largest and smallest value, whose labels keep clear of some points."""
+    x, values = outline(x, values, (WIDTH - LEFT - RIGHT) * 72)
+    axes.fill_between(x, 0.0, values, color="0.9", linewidth=0, zorder=1)
+    axes.plot(x, values, color="black", linewidth=1.1 if len(x) < 3000 else 0.6, solid_joinstyle="round", zorder=3, label="curve")
+    shown = {kind: pair for kind, pair in extreme.items() if _counts(pair[0], extreme)}
+    low = min([0.0, *(value for value, _ in shown.values())])
+    high = max([0.0, *(value for value, _ in shown.values())])
+    span = (high - low) or 1.0
+    room = {"max": high > 0.0 and "max" in shown, "min": low < 0.0 and "min" in shown}
+    bounds = (low - span * (0.24 if room["min"] else 0.08), high + span * (0.24 if room["max"] else 0.08))
+    axes.set_ylim(bounds[::-1] if axes.yaxis_inverted() else bounds)
+    for value, place in shown.values():
+        _annotate(axes, value, place, avoid)
+
+
+def _counts(value: float, extreme: dict[str, tuple[float, float]]) -> bool:
+    """Decide whether an extreme is worth words: zero at an end of the beam is not."""
+    return abs(value) > 1e-6 * max(abs(pair[0]) for pair in extreme.values())
+
+
+def _annotate(axes: Axes, value: float, x: float, avoid: Sequence[Point]) -> None:
+    """Write an extreme beside its place, on the side away from the axis, where it covers no point to avoid."""
+    text = f"{fmt.number(value, 4)} at {fmt.number(x, 4)}".replace("-", "\N{MINUS SIGN}")
+    upward = (value > 0.0) != axes.yaxis_inverted()
+    (left, right), (low, high) = axes.get_xlim(), sorted(axes.get_ylim())
+    share, width = (x - left) / (right - left), (4.4 * len(text) + 8.0) / (WIDTH - LEFT - RIGHT) / 72
+    shifts = {"center": -0.5, "left": 0.0, "right": -1.0}  # start of the text in its widths
+    if not width / 2 < share < 1.0 - width / 2:
+        shifts = {"left": 0.0} if share < 0.5 else {"right": -1.0}
+
+    def covered(start: float) -> int:
+        away = 1.0 if value > 0.0 else -1.0
+        return sum(
+            start < (place - left) / (right - left) < start + width
+            and -0.05 < away * (height - value) / (high - low) < 18.0 / (72 * PANEL)
+            for place, height in avoid
+        )
+
+    best = min(shifts, key=lambda name: covered(share + shifts[name] * width))
+    axes.plot([x], [value], "o", color="black", markersize=2.6, zorder=4)
+    axes.annotate(
+        text, (x, value), (0, 4 if upward else -4), textcoords="offset points", fontsize=7.5, zorder=5,
+        ha=best, va="bottom" if upward else "top",
+        bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.8},
+    )  # fmt: skip
+
+
+def _motion(axes: Axes, result: "Result") -> None:
+    x, displacement = np.transpose(result.motion)
+    largest = np.abs(displacement).max() or 1.0
+    axes.plot(x, displacement / largest, "--", color="black", linewidth=1.2, label="curve")
+    axes.set_ylim(1.25, -1.25)
+    axes.set_yticks([])

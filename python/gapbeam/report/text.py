@@ -1,0 +1,387 @@
+"""A result as text: the report for people, JSON and CSV for programs.
+
+rich is imported only when a report is printed.
+"""
+
+import csv
+import io
+import json
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from types import GeneratorType
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..base.memory import refuse_beyond
+from ..engine.calls import parts
+from ..results import formatting as fmt
+from ..results.result import Fields
+from ..results.step import BOUNDED
+from .data import result_data, step_data
+from .scheme import legend, merged, scheme_table, symbol
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from ..results.result import Result
+    from ..scene.structs import Scene
+    from .writer import Writer
+
+LEFT_OUT = {
+    "axial": "axial forces",
+    "shear": "shear flexibility",
+    "foundation": "foundation",
+    "hinges": "hinges",
+    "iteration": "iteration of the working scheme",
+    "deflections": "deflections as unknowns",
+}
+
+
+MOST_EVENTS = 40
+"""Events that the report lists."""
+
+
+def print_report(result: "Result", console: "Console | None" = None) -> None:
+    """Print what a person wants to know of a result.
+
+    Parameters
+    ----------
+    result : Result
+        What `gapbeam.solve` returned.
+    console : rich.console.Console, optional
+        Where to print; default standard output, without colours where that is no terminal.
+    """
+    from rich.console import Console
+
+    from .writer import Writer
+
+    say = Writer(console or Console(highlight=False))
+    _headline(say, result)
+    _system(say, result)
+    if result.status != "solved":
+        _no_solution(say, result)
+    if not result.steps:
+        return
+    at = f"at load factor {fmt.number(result.steps[-1].factor)}"
+    if result.status != "solved":
+        at += ", the last step that stands"
+    _history(say, result)
+    _events(say, result)
+    _supports(say, result, at)
+    _extremes(say, result, at)
+    _steps(say, result)
+
+
+def report_text(result: "Result", width: int = 80) -> str:
+    """Write the report to a string without colours.
+
+    Parameters
+    ----------
+    result : Result
+        What `gapbeam.solve` returned.
+    width : int
+        Characters a line.
+
+    Returns
+    -------
+    str
+    """
+    from rich.console import Console
+
+    class Unicode(io.StringIO):
+        encoding = "utf-8"
+
+    stream = Unicode()
+    print_report(result, Console(file=stream, width=width, highlight=False, color_system=None))
+    return stream.getvalue()
+
+
+def to_json(result: "Result", points: int = 20) -> str:
+    """Write the result as JSON; reading it back gives the very same floats.
+
+    Parameters
+    ----------
+    result : Result
+        What `gapbeam.solve` returned.
+    points : int
+        Divisions of each span in the table of fields.
+
+    Returns
+    -------
+    str
+        One line for each support, certificate and column of numbers: it can be read and compared by eye.
+
+    Raises
+    ------
+    ValueError
+        `points` is no whole number, or too large.
+    SceneError
+        There is not the memory for the text of so many steps.
+    """
+    if result.steps:
+        text = "".join(_layout(next(step_data(result)), "  "))
+        count = len(result.steps)
+        refuse_beyond("analysis.steps", f"{count:,} steps as JSON", 2.0 * count * len(text), "take fewer")
+    return "".join(json_parts(result, points))
+
+
+def json_parts(result: "Result", points: int = 20) -> Iterator[str]:
+    """Write what `to_json` writes, part by part, each step when its turn comes.
+
+    Parameters
+    ----------
+    result, points
+        As for `to_json`.
+
+    Yields
+    ------
+    str
+    """
+    yield from _layout(result_data(result, points, steps=iter, fields=Fields.columns), "")
+    yield "\n"
+
+
+def _layout(value: Any, indent: str) -> Iterator[str]:
+    """Write JSON with every list of numbers, and every object without lists in it, on one line; generators as lists."""
+    if isinstance(value, np.ndarray):
+        for part in parts(len(value)):
+            yield "[" if part.start == 0 else ", "
+            yield json.dumps(value[part].tolist(), allow_nan=False)[1:-1]
+        yield "]"
+        return
+    inner = value.values() if isinstance(value, dict) else value if isinstance(value, list | tuple) else ()
+    lists = (dict, list, tuple, np.ndarray, GeneratorType)
+    if type(value) is not GeneratorType and not any(isinstance(item, lists) for item in inner):
+        yield json.dumps(value, allow_nan=False)
+        return
+    named = isinstance(value, dict)
+    begin, end = "{}" if named else "[]"
+    for key, item in value.items() if named else enumerate(value):
+        yield f"{begin}\n{indent} " + (f"{json.dumps(key)}: " if named else "")
+        yield from _layout(item, indent + " ")
+        begin = ","
+    yield f"\n{indent}{end}" if begin == "," else begin + end
+
+
+def to_csv(result: "Result", points: int = 20) -> str:
+    """Write the fields along the beam at the last step as comma-separated values, units in the header.
+
+    Parameters
+    ----------
+    result : Result
+        What `gapbeam.solve` returned.
+    points : int
+        Divisions of each span; load points, supports and jumps are added.
+
+    Returns
+    -------
+    str
+        Where moment, shear or axial force jump, x appears twice: the left value, then the right one.
+    """
+    return "".join(csv_parts(result, points))
+
+
+def csv_parts(result: "Result", points: int = 20) -> Iterator[str]:
+    """Write what `to_csv` writes, part by part.
+
+    Parameters
+    ----------
+    result, points
+        As for `to_csv`.
+
+    Yields
+    ------
+    str
+    """
+    columns = result.fields(points=points).columns()
+    headings = [fmt.with_unit(result.scene, name, name) for name in columns]
+    yield _csv([headings])
+    for part in parts(len(columns["x"])):
+        yield _csv(zip(*(column[part].tolist() for column in columns.values()), strict=True))
+
+
+def _csv(rows: Iterable[Sequence]) -> str:
+    stream = io.StringIO()
+    csv.writer(stream, lineterminator="\n").writerows(rows)
+    return stream.getvalue()
+
+
+def _headline(say: "Writer", result: "Result") -> None:
+    say.line(fmt.title(result.scene), "bold")
+    if result.status != "solved":
+        return
+    way = fmt.count(len(result.steps), "load step") if result.path is None else fmt.count(len(result.events), "event")
+    solves = fmt.count(result.solves, "linear solve")
+    if result.path is not None and result.path.nodes:
+        solves += f" and {fmt.count(result.path.nodes, 'node')} anew"
+    say.line(f"solved in {way}, {solves}, {fmt.duration(result.seconds)}")
+
+
+def _system(say: "Writer", result: "Result") -> None:
+    scene, system = result.scene, result.system
+    say.heading("System")
+    left_out = [LEFT_OUT.get(name, name) for name in system.left_out]
+    equations = f"{system.method}: {fmt.count(system.nodes, 'node')}, {fmt.count(system.unknowns, 'unknown')}"
+    equations += f", half bandwidth {system.half_bandwidth}"
+    if system.axial_unknowns:
+        equations += f"; apart from it {fmt.count(system.axial_unknowns, 'axial unknown')}"
+    say.pairs(
+        [
+            ("beam", fmt.beam_in_words(scene)),
+            ("supports", fmt.supports_in_words(scene)),
+            ("loads", fmt.loads_in_words(scene)),
+            ("equations", equations),
+            ("left out", ", ".join(left_out) + " (this scene needs none)" if left_out else "nothing"),
+        ]
+    )
+
+
+def _no_solution(say: "Writer", result: "Result") -> None:
+    title = "No equilibrium" if result.status == "no-equilibrium" else result.status.replace("-", " ").capitalize()
+    say.heading(title)
+    say.line(fmt.sentence(result.reason), "red")
+    if result.motion:
+        scene = result.scene
+        say.line()
+        say.line("The beam moves freely along this line (straight between the points, scale arbitrary):")
+        points = [fmt.column(values) for values in zip(*result.motion, strict=True)]
+        say.table([fmt.with_unit(scene, "x"), "displacement, downward"], list(zip(*points, strict=True)))
+
+
+def _history(say: "Writer", result: "Result") -> None:
+    supports = result.scene.supports
+    if all(state == "bilateral" for state in result.steps[-1].state):
+        return
+    # Of steps with the same scheme the first and the last do
+    runs = merged(result.steps.history())
+    history = [(factor, states) for first, last, states in runs for factor in (first, last)]
+    say.heading("Working scheme over the load")
+    headings, rows = scheme_table(history, say.width, say.plain)
+    say.table(headings, rows, left=(0, len(headings) - 1) if len(headings) < len(supports) + 1 else (0,))
+    states = {state for _, states in history for state in states}
+    numbering = "Supports are numbered from 0 as in the scene."
+    say.line(f"{legend(list(states), say.plain)}    {numbering}", "dim")
+
+
+def _supports(say: "Writer", result: "Result", at: str) -> None:
+    scene, step = result.scene, result.steps[-1]
+    if not scene.supports:
+        return
+    say.heading(f"Supports {at}")
+    sides = ["axial" if support.direction == "axial" else support.side for support in scene.supports]
+    states = [f"{symbol(state, say.plain)} {state}" for state in step.state]
+    quantities = {"reaction": step.reaction, "couple": step.couple, "deflection": step.deflection}
+    if not any(step.couple):
+        del quantities["couple"]
+    if any(state != "bilateral" for state in step.state):
+        quantities["opening"] = step.opening
+    for digits in (6, 5, 4, 3):
+        columns = [
+            ("", [str(index) for index in range(len(sides))]),
+            (_stacked(scene, "x"), fmt.column(scene.positions(scene.supports))),
+            ("side", sides),
+            ("state", states),
+            *((_stacked(scene, name), fmt.column(values, digits)) for name, values in quantities.items()),
+        ]
+        if sum(1 + max(map(len, (*name.split("\n"), *texts))) for name, texts in columns) <= say.width:
+            break  # numbers are shortened rather than broken
+    say.table([name for name, _ in columns], list(zip(*(texts for _, texts in columns), strict=True)), left=(2, 3))
+    normal = [index for index, side in enumerate(sides) if side != "axial"]
+    total = sum(float(step.reaction[index]) for index in normal)
+    words = [f"Reactions (upward positive) add up to {fmt.number(total)} {fmt.unit(scene, 'force')}".rstrip()]
+    counts = Counter(step.state)
+    words.append(", ".join(f"{counts[state]:,} {state}" for state in sorted(counts)))
+    say.line("; ".join(words) + ".", "dim")
+    _restraints_of_open_supports(say, result)
+
+
+def _restraints_of_open_supports(say: "Writer", result: "Result") -> None:
+    """Say which open supports still hold the rotation of the beam."""
+    step, x = result.steps[-1], result.scene.positions(result.scene.supports)
+    held = [
+        f"{k} (x = {fmt.number(x[k])}, couple {fmt.number(step.couple[k])} {fmt.unit(result.scene, 'moment')}".rstrip() + ")"
+        for k, (support, state) in enumerate(zip(result.scene.supports, step.state, strict=True))
+        if state == "open" and support.rotation not in ("free", 0.0)
+    ]
+    if held:
+        more = f" and {len(held) - 10} more" if len(held) > 10 else ""
+        say.line(f"Open, but still held in rotation, as by a guide: support {', '.join(held[:10])}{more}.")
+
+
+def _stacked(scene: "Scene", quantity: str) -> str:
+    """Put the unit of a heading on a second line, which keeps columns narrow."""
+    label = fmt.unit(scene, quantity)
+    return quantity + (f"\n{label}" if label else "")
+
+
+def _extremes(say: "Writer", result: "Result", at: str) -> None:
+    scene = result.scene
+    say.heading(f"Extremes {at}")
+    rows = []
+    for quantity, extreme in result.extremes().items():
+        (largest, x_largest), (smallest, x_smallest) = extreme["max"], extreme["min"]
+        texts = [fmt.number(value) for value in (largest, x_largest, smallest, x_smallest)]
+        rows.append([fmt.with_unit(scene, quantity), *texts])
+    x = fmt.with_unit(scene, "x", "at x")
+    say.table(["", "largest", x, "smallest", x], rows, left=(0,))
+    say.line("Deflection downward, sagging moment, clockwise rotation: positive.", "dim")
+
+
+def _steps(say: "Writer", result: "Result") -> None:
+    from .writer import LONGEST
+
+    # Following events, the states between are solved only if asked for
+    steps = result.steps if result.path is None else result.steps[-1:]
+    kinds = list(steps[-1].residuals)
+    say.heading("Residuals against run time")
+    rows, worst, came_back = [], 0.0, False
+    not_shown = range(LONGEST // 2, len(steps) - LONGEST // 2)
+    for k, step in enumerate(steps):
+        if k in not_shown:
+            rows.append(())
+            continue
+        residuals = [step.residuals[kind] for kind in kinds]
+        worst = max(worst, *residuals)
+        came_back = came_back or step.came_back
+        texts = [fmt.number(step.factor, 4), str(step.solves), fmt.duration(step.seconds)]
+        rows.append([*texts, *(f"{residual:.1e}" for residual in residuals)])
+    say.table(["load factor", "solves", "time", *kinds], rows)
+    if len(steps) > 1:
+        solves, seconds = fmt.count(result.solves, "solve"), fmt.duration(result.seconds)
+        of_shown = " of these" if len(not_shown) else ""
+        say.line(f"Together {solves}, {seconds}; largest residual{of_shown} {worst:.1e}.", "dim")
+    if came_back:
+        say.line("The rule single came back to a scheme that it had seen; from there the rule block went on.")
+    _doubts(say, result)
+
+
+def _doubts(say: "Writer", result: "Result") -> None:
+    """How exact the last step is, and what is not decided in it."""
+    step = result.steps[-1]
+    bounds = ((kind, step.certificate[f"error_bound_{kind}"]) for kind in BOUNDED)
+    listed = ", ".join(f"{kind} {bound:.1e}" for kind, bound in bounds if bound is not None)
+    if listed:
+        say.line(f"Error bounds at the last step, relative to the largest of each kind: {listed}.")
+    if step.undecided:
+        x = result.scene.positions(result.scene.supports)
+        names = ", ".join(f"{k} (x = {x[k]:g})" for k in step.undecided[:10])
+        more = f" and {len(step.undecided) - 10} more" if len(step.undecided) > 10 else ""
+        say.line(f"Reaction or opening zero, so neither closed nor open: support {names}{more}.")
+    if step.indifferent:
+        say.line("The beam can move freely without work of the loads: forces are unique, its position is not.")
+
+
+def _events(say: "Writer", result: "Result") -> None:
+    if result.scene.analysis.follow != "events":
+        return
+    say.heading("Events")
+    if not result.events:
+        reach = "at all load factors" if result.status == "solved" else "up to that load factor"
+        say.line(f"The working scheme is the same {reach}.")
+        return
+    shown = result.events[:MOST_EVENTS]
+    rows = [[fmt.number(e.factor, 10), str(e.support), fmt.number(e.x), e.event] for e in shown]
+    say.table(["load factor", "support", fmt.with_unit(result.scene, "x", "x"), "event"], rows, left=(3,))
+    if len(result.events) > len(shown):
+        say.line(f"... and {len(result.events) - len(shown)} more; --json has all.", "dim")

@@ -1,0 +1,261 @@
+"""Numbers, units and places as words: what the report, the pictures and the command line share."""
+
+import math
+import statistics
+from collections import Counter
+from collections.abc import Iterable, Sequence
+
+from ..base.characters import visible
+from ..scene.structs import Scene
+
+
+def number(value: float, digits: int = 6) -> str:
+    """Write one number, short.
+
+    Parameters
+    ----------
+    value : float
+        What to write.
+    digits : int
+        Significant digits; whole numbers up to ten million are written out all the same.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> number(0.07718909), number(-0.0), number(44500.0), number(2.5e-9), number(1234567.8)
+    ('0.0771891', '0', '44500', '2.5e-09', '1234568')
+    """
+    if 10.0**digits <= abs(value) < 1e7:
+        return f"{value:.0f}"
+    return f"{value + 0.0:.{digits}g}" if value else "0"
+
+
+def column(values: Iterable[float], digits: int = 6) -> list[str]:
+    """Write numbers to stand under one another: the same decimals for all.
+
+    Parameters
+    ----------
+    values : iterable of float
+        The column.
+    digits : int
+        Significant digits of the largest value. Where most values are far smaller, all get some more decimals.
+
+    Returns
+    -------
+    list of str
+
+    Examples
+    --------
+    >>> column([3.8507982, -0.53015, 0.0])
+    ['3.85080', '-0.53015', '0.00000']
+    >>> column([6.0, 12.0, 18.0])
+    ['6', '12', '18']
+    """
+    values = [float(value) for value in values]
+    largest = max((abs(value) for value in values if math.isfinite(value)), default=0.0)
+    if largest == 0.0:
+        return [number(value) for value in values]
+    if not 1e-5 <= largest < 1e8:
+        return [f"{value:.{digits - 1}e}" if value else "0" for value in values]
+    if all(value == round(value, 3) for value in values):  # typed by a person, such as lengths
+        decimals = max(len(number(abs(value), 15).partition(".")[2]) for value in values)
+    else:
+        typical = statistics.median(abs(value) for value in values if abs(value) > 1e-9 * largest)
+        decimals = max(digits - 1 - _exponent(largest), min(2 - _exponent(typical), digits + 1 - _exponent(largest)), 0)
+    texts = [f"{value:.{decimals}f}" for value in values]
+    return [text[1:] if text.startswith("-") and not text.strip("-0.") else text for text in texts]
+
+
+def _exponent(value: float) -> int:
+    return math.floor(math.log10(value))
+
+
+def duration(seconds: float) -> str:
+    """Word a run time with a unit that suits it.
+
+    Examples
+    --------
+    >>> duration(1.2e-5), duration(0.0034), duration(12.0)
+    ('12.0 us', '3.40 ms', '12.0 s')
+    """
+    for factor, label in ((1e6, "us"), (1e3, "ms"), (1.0, "s")):
+        value = seconds * factor
+        if value < 999.5 or label == "s":
+            decimals = 2 if value < 9.995 else 1 if value < 99.95 else 0
+            return f"{value:.{decimals}f} {label}"
+    raise AssertionError("unreachable")
+
+
+def count(quantity: int, noun: str) -> str:
+    """Word a number of things, with the plural where it belongs.
+
+    Examples
+    --------
+    >>> count(1, "span"), count(3, "span"), count(12345, "load")
+    ('1 span', '3 spans', '12,345 loads')
+    """
+    return f"{quantity:,} {noun}" + ("" if quantity == 1 else "s")
+
+
+def sentence(reason: str | None) -> str:
+    """Make the reason of an outcome a sentence to stand under a heading that names the outcome.
+
+    Examples
+    --------
+    >>> sentence("no equilibrium at load factor 1: the beam tips")
+    'At load factor 1: the beam tips.'
+    """
+    text = (reason or "no reason was given").removeprefix("no equilibrium ").rstrip(".")
+    return f"{text[0].upper()}{text[1:]}."
+
+
+def ranges(indices: Sequence[int]) -> str:
+    """Write ascending integers with their runs drawn together.
+
+    Examples
+    --------
+    >>> ranges([1, 2, 3, 7, 9, 10])
+    '1-3, 7, 9-10'
+    """
+    runs: list[list[int]] = []
+    for index in indices:
+        if runs and index == runs[-1][1] + 1:
+            runs[-1][1] = index
+        else:
+            runs.append([index, index])
+    return ", ".join(str(first) if first == last else f"{first}-{last}" for first, last in runs)
+
+
+def stretch(scene: Scene, item: object) -> tuple[float, float]:
+    """Give the two ends of a section or a distributed load; what the scene leaves out is the end of the beam."""
+    return item.from_, (float(scene.span_ends()[-1]) if item.to is None else item.to)
+
+
+def title(scene: Scene, without: str = "Beam without a title") -> str:
+    r"""Give the title of a scene for one line of a report or a picture.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    without : str
+        What to call it where it has none.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> from gapbeam import Beam, Scene
+    >>> title(Scene(beam=Beam([4.0], EI=1.0), title="Bridge\n2")), title(Scene(beam=Beam([4.0], EI=1.0)))
+    ('Bridge\\n2', 'Beam without a title')
+    """
+    return visible(scene.title) or without
+
+
+def unit(scene: Scene, quantity: str) -> str:
+    """Give the unit of a quantity by the labels of the scene; empty where it has none.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene with its unit labels.
+    quantity : str
+        ``"x"``, ``"deflection"``, ``"moment"``, ...; the names used in the results.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> from gapbeam import read_scene
+    >>> scene = read_scene({"units": {"force": "kN", "length": "m"}, "beam": {"spans": [4.0], "EI": 1e4},
+    ...                     "supports": [{"node": 0}, {"node": 1}]})
+    >>> unit(scene, "moment"), unit(scene, "uniform"), unit(scene, "rotation"), unit(scene, "EI")
+    ('kN m', 'kN/m', 'rad', 'kN m^2')
+    """
+    force, length = visible(scene.units.force), visible(scene.units.length)
+    if quantity == "rotation":
+        return "rad"
+    if quantity in ("x", "deflection", "opening", "gap", "axial_displacement"):
+        return length
+    if quantity in ("reaction", "force", "shear", "axial_force"):
+        return force
+    if quantity == "curvature":
+        return f"1/{length}" if length else ""
+    if not force or not length:
+        return ""
+    patterns = {"moment": "{f} {l}", "couple": "{f} {l}", "EI": "{f} {l}^2", "uniform": "{f}/{l}"}
+    return patterns[quantity].format(f=force, l=length)
+
+
+def with_unit(scene: Scene, quantity: str, name: str | None = None) -> str:
+    """Word a heading such as ``moment [kN m]``.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene with its unit labels.
+    quantity : str
+        As for `unit`.
+    name : str, optional
+        What to call it; default the quantity itself.
+    """
+    name = name or quantity.replace("_", " ")
+    label = unit(scene, quantity)
+    return f"{name} [{label}]" if label else name
+
+
+def beam_in_words(scene: Scene) -> str:
+    """Tell spans, length and stiffness in one line."""
+    beam = scene.beam
+    stiffness = [beam.EI] if isinstance(beam.EI, int | float) else list(beam.EI)
+    stiffness += [section.EI for section in scene.sections if section.EI is not None]
+    low, high = min(stiffness), max(stiffness)
+    values = number(low) if low == high else f"{number(low)} to {number(high)}"
+    words = [count(len(beam.spans), "span"), _labelled(float(scene.span_ends()[-1]), unit(scene, "x"))]
+    words.append("EI " + f"{values} {unit(scene, 'EI')}".rstrip())
+    if scene.sections:
+        words.append(count(len(scene.sections), "section"))
+    if beam.hinges:
+        words.append(count(len(beam.hinges), "hinge"))
+    return ", ".join(words)
+
+
+def supports_in_words(scene: Scene) -> str:
+    """Tell how many supports there are of which kind, in one line."""
+    normal = [support for support in scene.supports if support.direction == "normal"]
+    kinds = [
+        (sum(support.side == "both" for support in normal), "bilateral"),
+        (sum(support.side == "below" for support in normal), "one-sided from below"),
+        (sum(support.side == "above" for support in normal), "one-sided from above"),
+        (len(scene.supports) - len(normal), "axial"),
+        (sum(support.gap > 0 for support in normal), "with a gap"),
+        (sum(support.gap < 0 for support in normal), "with lack of fit"),
+        (sum(math.isfinite(support.stiffness) for support in normal), "elastic"),
+        (sum(support.settlement != 0 for support in normal), "settling"),
+        (sum(support.rotation == "fixed" for support in normal), "clamped"),
+    ]
+    words = [f"{quantity:,} {kind}" for quantity, kind in kinds if quantity]
+    return f"{len(scene.supports):,}: " + ", ".join(words) if words else "none"
+
+
+def loads_in_words(scene: Scene) -> str:
+    """Tell how many loads there are of which kind, dead and live, in one line."""
+    kinds = Counter(type(load).__struct_config__.tag for load in scene.loads)
+    if not kinds:
+        return "none"
+    dead = sum(load.case == "dead" for load in scene.loads)
+    words = ", ".join(f"{quantity:,} {kind}" for kind, quantity in kinds.items())
+    live = len(scene.loads) - dead
+    cases = f"{dead:,} dead, {live:,} live" if dead and live else "all dead" if dead else "all live"
+    return f"{len(scene.loads):,}: {words} ({cases})"
+
+
+def _labelled(value: float, label: str) -> str:
+    return f"{number(value)} {label}".rstrip()

@@ -1,0 +1,181 @@
+"""The load path: every change of the working scheme at its exact load factor."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from time import perf_counter
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..engine import engine
+
+if TYPE_CHECKING:
+    from .result import Result
+
+EVENTS_AT_A_TIME = 1000
+NAMES = {engine.OPENS: "opens", engine.CLOSES: "closes", engine.TURNS: "turns"}
+
+
+@dataclass(frozen=True, slots=True)
+class Event:
+    """A change of the working scheme, or a turn of the beam.
+
+    Attributes
+    ----------
+    factor : float
+        The load factor at which it happens.
+    support : int
+        Number of the support in the scene.
+    x : float
+        Its place.
+    event : str
+        ``opens``, ``closes``, or ``turns``: the beam has lost its hold and turns, at constant load, until this support
+        holds it. What opens and closes with that is listed beside it, at the same factor.
+    """
+
+    factor: float
+    support: int
+    x: float
+    event: str
+
+
+@dataclass(frozen=True, slots=True)
+class Segment:
+    """A stretch of the path on which one scheme acts and all values are linear in the factor.
+
+    Attributes
+    ----------
+    start, stop : float
+        Load factors.
+    changes : int
+        Events before it.
+    """
+
+    start: float
+    stop: float
+    changes: int
+
+
+class Path:
+    """The schemes along the load, kept as the changes from one to the next.
+
+    Attributes
+    ----------
+    events : list of Event
+        Every change above load factor 0, and every turn of the beam.
+    segments : list of Segment
+        From 0 to 1, or to the factor above which there is no equilibrium; between events.
+    solves : int
+        Linear solves of the whole beam.
+    nodes : int
+        Nodes at which the solution was made anew besides.
+    seconds : float
+        Time of these.
+    """
+
+    def __init__(self, closed: np.ndarray, pieces: list[engine.Path], solves: int, seconds: float):
+        self._closed = closed
+        self._factors = np.concatenate([piece.factors for piece in pieces])
+        self._supports = np.concatenate([piece.supports for piece in pieces])
+        self._events = np.concatenate([piece.events for piece in pieces])
+        self.solves = solves + sum(piece.solves for piece in pieces)
+        self.nodes = sum(piece.nodes for piece in pieces)
+        self.seconds = seconds
+        self.events: list[Event] = []
+        self.segments = self._between(pieces[-1].factor)
+
+    def _between(self, end: float) -> list[Segment]:
+        counts = np.flatnonzero(np.append(np.diff(self._factors) > 0.0, True)) + 1 if len(self._factors) else []
+        starts = {0.0: 0} | {float(self._factors[count - 1]): int(count) for count in counts}
+        stops = [*list(starts)[1:], end]
+        return [
+            Segment(start, stop, changes)
+            for (start, changes), stop in zip(starts.items(), stops, strict=True)
+            if start < stop
+        ]
+
+    def closed(self, segment: Segment) -> np.ndarray:
+        """Give the scheme of a segment.
+
+        Parameters
+        ----------
+        segment : Segment
+            One of the segments.
+
+        Returns
+        -------
+        numpy.ndarray of int
+            1 where a support acts.
+        """
+        before = slice(segment.changes)
+        changed = self._supports[before][self._events[before] != engine.TURNS]
+        times = np.bincount(changed, minlength=len(self._closed))
+        return self._closed ^ (times & 1).astype(np.int32)
+
+    def at(self, factor: float) -> np.ndarray:
+        """Give the scheme at a load factor.
+
+        Parameters
+        ----------
+        factor : float
+            Load factor.
+
+        Returns
+        -------
+        numpy.ndarray of int
+            1 where a support acts; at an event after the change.
+        """
+        return self.closed([segment for segment in self.segments if segment.start <= max(factor, 0.0)][-1])
+
+    def name_events(self, result: Result) -> None:
+        """List the events.
+
+        Parameters
+        ----------
+        result : Result
+            Knows where the supports are.
+        """
+        arrays = result.arrays
+        places, numbers = arrays.node_x[arrays.support_nodes].tolist(), arrays.supports.tolist()
+        columns = (self._factors.tolist(), self._supports.tolist(), self._events.tolist())
+        for factor, k, event in zip(*columns, strict=True):
+            # What changes at factor 0 is no event, unless the beam turns there
+            if factor > 0.0 or event == engine.TURNS:
+                self.events.append(Event(factor, numbers[k], places[k], NAMES[event]))
+
+
+def follow(result: Result, rule: str, closed: np.ndarray) -> Path | None:
+    """Follow the load from factor 0 to 1, from event to event.
+
+    Parameters
+    ----------
+    result : Result
+        Receives the reason where the beam cannot stand.
+    rule : {"block", "single"}
+        How schemes are found.
+    closed : numpy.ndarray of int
+        Where the search at factor 0 starts.
+
+    Returns
+    -------
+    Path or None
+        From 0 to 1, or to the factor above which there is no equilibrium; None if there is none at 0.
+    """
+    begin = perf_counter()
+    arrays, links = result.arrays, result.links
+    solution = engine.solve(arrays, links, 0.0, rule, closed)
+    if solution.status == engine.NO_EQUILIBRIUM:
+        result.refuse("at load factor 0", solution.motion)
+        return None
+    factor, scheme, marginal, pieces = 0.0, solution.closed, solution.undecided, []
+    while factor < 1.0:
+        piece = engine.follow(arrays, links, factor, scheme, marginal, EVENTS_AT_A_TIME)
+        pieces.append(piece)
+        factor, scheme, marginal = piece.factor, piece.closed, piece.marginal
+        if piece.status == engine.NO_EQUILIBRIUM:
+            result.refuse(f"above load factor {factor:.16g}", piece.motion)
+            break
+    path = Path(solution.closed, pieces, solution.solves, perf_counter() - begin)
+    path.name_events(result)
+    return path

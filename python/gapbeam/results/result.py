@@ -1,0 +1,425 @@
+"""Results: everything known about every load step, as numpy arrays; fields are computed when asked for.
+
+Signs: deflections positive downward, reactions upward, moments sagging, V = dM/dx, rotations and couples clockwise,
+axial forces in tension, axial displacements to the right.
+"""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass, fields
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..base.memory import refuse_beyond
+from ..base.records import Pickled, Record
+from ..engine import engine
+from ..engine.arrays import LONGER, STRONGER, to_scene
+from ..engine.engine import METHODS, Solution
+from ..engine.lowering import Arrays
+from ..engine.units import scaled
+from ..scene.places import POSITION_TOLERANCE
+from ..scene.structs import Scene
+from ..scene.wording import shown
+from .arguments import finite, numbers, whole
+from .motion import describe_motion
+from .step import Step, solve_step
+from .steps import LoadSteps, Steps
+
+if TYPE_CHECKING:
+    from .path import Event, Path, Segment
+
+BENDING = ("deflection", "rotation", "moment", "shear")
+BYTES_PER_PLACE = 120
+"""Memory that a row of a table of fields takes while it is made."""
+
+
+@dataclass(frozen=True)
+class System:
+    """What the system of equations consisted of.
+
+    Attributes
+    ----------
+    nodes : int
+        Nodes: beam ends, supports, hinges.
+    unknowns : int
+        Unknowns of the bending system of the last step.
+    half_bandwidth : int
+        Its half bandwidth.
+    method : str
+        How it was solved in the last step.
+    axial_unknowns : int
+        Unknowns of the separate axial system.
+    left_out : tuple of str
+        What the scene did not need.
+    """
+
+    nodes: int
+    unknowns: int
+    half_bandwidth: int
+    method: str
+    axial_unknowns: int
+    left_out: tuple[str, ...]
+
+    def asdict(self) -> dict[str, Any]:
+        """As plain data.
+
+        Returns
+        -------
+        dict
+            By the names of the attributes.
+        """
+        return asdict(self) | {"left_out": list(self.left_out)}
+
+
+@dataclass(frozen=True, eq=False)
+class Fields(Record):
+    """Fields along the beam, read-only arrays of equal length.
+
+    Attributes
+    ----------
+    x, deflection, rotation, moment, shear : numpy.ndarray
+        Place and values; rotation is that of the section.
+    axial_force, axial_displacement : numpy.ndarray or None
+        Only with axial loads.
+    """
+
+    x: np.ndarray
+    deflection: np.ndarray
+    rotation: np.ndarray
+    moment: np.ndarray
+    shear: np.ndarray
+    axial_force: np.ndarray | None = None
+    axial_displacement: np.ndarray | None = None
+
+    def to_dict(self) -> dict[str, list[float]]:
+        """As lists by name, what is not there left out.
+
+        Returns
+        -------
+        dict
+            Lists of floats.
+        """
+        return {name: column.tolist() for name, column in self.columns().items()}
+
+    def columns(self) -> dict[str, np.ndarray]:
+        """As arrays by name, what is not there left out.
+
+        Returns
+        -------
+        dict
+        """
+        return {f.name: getattr(self, f.name) for f in fields(self) if getattr(self, f.name) is not None}
+
+
+class Result(Pickled):
+    """All load steps of a scene.
+
+    It can be pickled, for other processes, and goes on from there with the same digits; all its arrays are read-only. Two
+    results are equal if scene, outcome and events are, and all steps to the last digit; how long it took does not count.
+
+    Attributes
+    ----------
+    scene : Scene
+        What was solved.
+    status : str
+        ``solved`` or ``no-equilibrium``.
+    reason : str or None
+        Why there is no equilibrium.
+    motion : list of (float, float) or None
+        The free motion then: x and displacement (positive downward, largest 1), straight lines between.
+    steps : sequence of Step
+        The load steps up to there; following events, the states at every event and at the end. What is kept of a step is
+        its scheme; its values are solved for when it is looked at.
+    path : Path or None
+        Following events, the schemes along the load.
+    """
+
+    __hash__ = None
+
+    def __init__(self, scene: Scene, arrays: Arrays, links: np.ndarray, rule: str):
+        self.scene = scene
+        self.status = "solved"
+        self.reason: str | None = None
+        self.motion: list[tuple[float, float]] | None = None
+        self.steps: Steps = LoadSteps(arrays, links, rule, np.ones(len(arrays.supports), dtype=np.int32), 0)
+        self.arrays = arrays
+        self.links = links
+        self.rule = rule
+        self.path: Path | None = None
+
+    def __eq__(self, other: object) -> bool:
+        """Whether scene, outcome, events and all steps are equal."""
+        if not isinstance(other, Result):
+            return NotImplemented
+        return self is other or (
+            self.scene == other.scene
+            and self.arrays == other.arrays
+            and (self.status, self.reason, self.motion) == (other.status, other.reason, other.motion)
+            and self.events == other.events
+            and len(self.steps) == len(other.steps)
+            and all(a == b for a, b in zip(self.steps, other.steps, strict=True))
+        )
+
+    @property
+    def events(self) -> list[Event]:
+        """Every change of the working scheme with its exact load factor, following events."""
+        return [] if self.path is None else self.path.events
+
+    @property
+    def segments(self) -> list[Segment]:
+        """The stretches between the events, following events."""
+        return [] if self.path is None else self.path.segments
+
+    @property
+    def solves(self) -> int:
+        """Linear solves of the whole beam until all schemes were found."""
+        return self.steps.solves if self.path is None else self.path.solves
+
+    @property
+    def seconds(self) -> float:
+        """Time of these."""
+        return self.steps.seconds if self.path is None else self.path.seconds
+
+    def refuse(self, where: str, motion: np.ndarray | None) -> None:
+        """Note that there is no equilibrium.
+
+        Parameters
+        ----------
+        where : str
+            At or above which load factor.
+        motion : numpy.ndarray or None
+            Displacements of the nodes in the free motion; None where the beam slides along its axis.
+        """
+        self.status = "no-equilibrium"
+        if motion is None:
+            self.reason = f"no equilibrium {where}: the beam slides along its axis, no axial support holds it"
+            return
+        self.reason = f"no equilibrium {where}: {describe_motion(self.arrays, motion)}"
+        self.motion = list(zip(self.arrays.node_x.tolist(), motion.tolist(), strict=True))
+
+    def state(self, factor: float) -> Step:
+        """Solve the exact state at any load factor.
+
+        Parameters
+        ----------
+        factor : float
+            Load factor; following events, within the path, where the scheme is known beforehand.
+
+        Returns
+        -------
+        Step
+            One linear solve away from what is known.
+
+        Raises
+        ------
+        ValueError
+            Where there is no equilibrium at that factor, or it is no finite number.
+        """
+        factor = finite("factor", factor)
+        closed = self.path.at(factor) if self.segments else self.steps.nearest(factor)
+        known = self.segments and 0.0 <= factor <= self.segments[-1].stop
+        step = solve_step(self.arrays, self.links, factor, engine.GIVEN if known else self.rule, closed)
+        if isinstance(step, Solution) or step is None:
+            raise ValueError(f"factor: there is no equilibrium at load factor {factor:g}")
+        return step
+
+    @cached_property
+    def system(self) -> System:
+        """What the system of equations consisted of."""
+        arrays = self.arrays
+        method = self.steps[-1].solution.method if self.steps else 0
+        nodes = len(arrays.kinds)
+        three_moment = METHODS[method] == "three-moment"
+        needed = {
+            "axial": arrays.axial is not None,
+            "shear": bool(np.isfinite(arrays.pieces[:, 2]).any()),
+            "foundation": False,
+            "hinges": bool(self.scene.beam.hinges),
+            "rotational restraints": bool(arrays.turning.any()),
+            "iteration": bool(np.any(arrays.support_sides != 0)),
+            "deflections": not three_moment,
+        }
+        return System(
+            nodes=nodes,
+            unknowns=nodes if three_moment else 2 * nodes,
+            half_bandwidth=1 if three_moment else 3,
+            method=METHODS[method],
+            axial_unknowns=0 if arrays.axial is None else 2 * len(arrays.axial.points) - 1,
+            left_out=tuple(name for name, used in needed.items() if not used),
+        )
+
+    def _chosen(self, step: int | None, factor: float | None = None) -> Step:
+        """Give a step by its number, or the state at a load factor, whichever the caller asks for."""
+        if factor is not None:
+            if step is not None:
+                raise ValueError(f"step: give a load step or a load factor, not both (got {shown(step)} and {shown(factor)})")
+            return self.state(factor)
+        number = -1 if step is None else whole("step", step)
+        count = len(self.steps)
+        if count == 0:
+            raise IndexError(f"step: no load step stands; {self.reason}")
+        if not -count <= number < count:
+            raise IndexError(f"step: expected a number from 0 to {count - 1}, or from -{count} to -1, got {shown(number)}")
+        return self.steps[number]
+
+    def at(self, x: Any, step: int | None = None, side: str = "right", factor: float | None = None) -> Fields:
+        """Exact values anywhere along the beam.
+
+        Parameters
+        ----------
+        x : float or array_like
+            Places along the beam.
+        step : int, optional
+            Number of the load step; default the last.
+        side : {"right", "left"}
+            Which value is taken where a field jumps.
+        factor : float, optional
+            Any load factor instead of a step; solved for when asked.
+
+        Returns
+        -------
+        Fields
+            Arrays of the shape of `x`.
+
+        Raises
+        ------
+        ValueError
+            A place outside the beam, or something else than numbers; another side; both a step and a factor, or one that
+            is no number; no equilibrium at that factor.
+        IndexError
+            There is no such step.
+        """
+        if not isinstance(side, str) or side not in ("right", "left"):
+            raise ValueError(f'side: expected "right" or "left", got {shown(side)}')
+        arrays = self.arrays
+        x = np.array(numbers("x", x))
+        end = arrays.ends[-1]
+        slack = POSITION_TOLERANCE * end
+        if not np.all((x >= -slack) & (x <= end + slack)):
+            raise ValueError(f"x: the beam goes from 0 to {end:g}, got {x[~((x >= 0) & (x <= end))].flat[0]:g}")
+        piece, distance = arrays.find_pieces(x.ravel(), side == "left")
+        state = self._chosen(step, factor)
+        return self._fields(x.ravel(), piece, distance, state, x.shape)
+
+    def _fields(self, x, piece, distance, state, shape) -> Fields:
+        arrays = self.arrays
+        values = engine.values(arrays, state.factor, state.starts, piece, distance)
+        columns = dict(zip(BENDING, (row.reshape(shape) for row in values), strict=True))
+        if arrays.axial is not None:
+            axial = arrays.axial
+            u, tension, _ = state.axial
+            bar = np.clip(np.searchsorted(axial.points, piece, side="right") - 1, 0, len(tension) - 1)
+            before = np.concatenate(([0.0], np.cumsum(axial.softness)))
+            way = before[piece] - before[axial.points[bar]] + axial.softness[piece] * (distance / arrays.pieces[piece, 0])
+            force = to_scene(tension[bar], axial.units.force, x, "axial force", STRONGER)
+            moved = to_scene(u[bar] + tension[bar] * way, axial.units.deflection, x, "axial displacement", LONGER)
+            columns["axial_force"], columns["axial_displacement"] = force.reshape(shape), moved.reshape(shape)
+        return Fields(x.reshape(shape), **columns)
+
+    def fields(self, step: int | None = None, points: int = 20) -> Fields:
+        """Tabulate all fields, for drawing.
+
+        Parameters
+        ----------
+        step : int, optional
+            Number of the load step; default the last.
+        points : int
+            Equal divisions of every span, beside all places where something changes.
+
+        Returns
+        -------
+        Fields
+            With every place between two pieces twice: the values left of it, then those right of it.
+
+        Raises
+        ------
+        ValueError
+            `step` or `points` is no whole number, or `points` is less than 1 or more than memory holds.
+        IndexError
+            There is no such step.
+        """
+        arrays = self.arrays
+        state = self._chosen(step)
+        points = whole("points", points, least=1)
+        rows = float(min(points, 2**62)) * len(self.scene.beam.spans)
+        refuse_beyond("points", f"fields at {shown(points)} points a span", rows * BYTES_PER_PLACE, "give fewer")
+        size = len(arrays.pieces)
+        spans = np.diff(arrays.ends)[arrays.point_span[:-1]]
+        parts = np.maximum(np.ceil(points * (arrays.pieces[:, 0] / spans)).astype(int), 1)
+        piece = np.repeat(np.arange(size), parts + 1)
+        place = np.arange(len(piece)) - np.repeat(np.cumsum(parts + 1) - (parts + 1), parts + 1)
+        distance = arrays.pieces[piece, 0] * (place / parts[piece])
+        x = np.where(place == parts[piece], arrays.point_x[piece + 1], arrays.point_x[piece] + distance)
+        return self._fields(x, piece, distance, state, x.shape)
+
+    def extremes(self, step: int | None = None) -> dict[str, dict[str, tuple[float, float]]]:
+        """Exact largest and smallest values of every field with their places.
+
+        Parameters
+        ----------
+        step : int, optional
+            Number of the load step; default the last.
+
+        Returns
+        -------
+        dict
+            ``{"moment": {"max": (value, x), "min": (value, x)}, ...}``.
+
+        Raises
+        ------
+        ValueError
+            `step` is no whole number.
+        IndexError
+            There is no such step.
+        """
+        state = self._chosen(step)
+        values, x = engine.extremes(self.arrays, state.factor, state.starts)
+        result = {
+            name: {"max": (float(values[0, k]), float(x[0, k])), "min": (float(values[1, k]), float(x[1, k]))}
+            for k, name in enumerate(BENDING)
+        }
+        if state.axial is not None:
+            u, tension, _ = state.axial
+            axial = self.arrays.axial
+            at = self.arrays.point_x[axial.points]
+            for name, row, power in (
+                ("axial_force", tension, axial.units.force),
+                ("axial_displacement", u, axial.units.deflection),
+            ):
+                places = {"max": int(np.argmax(row)), "min": int(np.argmin(row))}
+                result[name] = {which: (float(scaled(row[k], power)), float(at[k])) for which, k in places.items()}
+        return result
+
+    def history(self) -> list[tuple[float, tuple[str, ...]]]:
+        """Follow the working scheme over the load.
+
+        Returns
+        -------
+        list of (float, tuple of str)
+            Load factor and the state of every support, one row a load step.
+        """
+        return list(self.steps.history())
+
+    def to_dict(self, points: int = 20) -> dict[str, Any]:
+        """Everything as plain data, in the form of the JSON output.
+
+        Parameters
+        ----------
+        points : int
+            As in `fields`.
+
+        Returns
+        -------
+        dict
+            Only numbers, strings, lists and dicts.
+
+        Raises
+        ------
+        ValueError
+            As in `fields`.
+        """
+        from ..report.data import result_data
+
+        return result_data(self, points)

@@ -1,0 +1,119 @@
+"""Solve a scene at factors 1/n, 2/n, ..., 1, each step starting from the last scheme, or from event to event."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from ..base.errors import SceneError
+from ..engine import engine
+from ..engine.axial import solve_axial
+from ..engine.lowering import Arrays, lower
+from ..scene.structs import Scene, read_scene
+from ..scene.wording import shown
+from .arguments import scheme
+from .path import follow
+from .result import Result
+from .steps import LoadSteps, PathSteps
+
+
+def solve(
+    source: Scene | Mapping[str, Any] | str | os.PathLike,
+    *,
+    rule: str | None = None,
+    start: Sequence[bool] | None = None,
+) -> Result:
+    """Solve a scene.
+
+    Parameters
+    ----------
+    source : Scene, mapping, str or path
+        A scene built in Python, its data as dicts and lists, or the path of a ``.toml`` or ``.json`` file.
+    rule : {"block", "single"}, optional
+        How the working scheme is found, instead of the scene's own ``analysis.rule``.
+    start : sequence of bool, optional
+        Starting scheme of the first load step: one entry per one-sided support in the order of the scene, True =
+        closed. Default: all closed. It changes the number of solves, not the answer.
+
+    Returns
+    -------
+    Result
+        With status ``solved`` or ``no-equilibrium``.
+
+    Raises
+    ------
+    SceneError
+        The scene, `rule` or `start` is not valid; or there is not the memory for so many steps.
+    EngineError
+        No unique answer exists, for example where a rigid beam rests on three rigid supports.
+
+    Examples
+    --------
+    >>> import gapbeam
+    >>> result = gapbeam.solve({
+    ...     "beam": {"spans": [2.0, 2.0], "EI": 100.0},
+    ...     "supports": [{"node": 0}, {"node": 1, "side": "below", "gap": 0.001}, {"node": 2}],
+    ...     "loads": [{"type": "uniform", "q": 3.0}],
+    ... })
+    >>> result.steps[-1].reaction.round(4)
+    array([2.2875, 7.425 , 2.2875])
+    """
+    scene = read_scene(source)
+    rule = choose_rule(scene, rule)
+    arrays = lower(scene)
+    closed = _starting_scheme(arrays, start)
+    links = engine.condense(arrays)
+    result = Result(scene, arrays, links, rule)
+    if scene.analysis.follow == "events":
+        if arrays.axial is not None and solve_axial(arrays, 1.0) is None:
+            result.refuse("above load factor 0", None)
+            return result
+        result.path = follow(result, rule, closed)
+        if result.segments:
+            result.steps = PathSteps(arrays, links, rule, result.path)
+        return result
+    result.steps = LoadSteps(arrays, links, rule, closed, scene.analysis.steps)
+    fallen = result.steps.solve_all()
+    if fallen is not None:
+        factor, motion = fallen
+        result.refuse(f"at load factor {factor:g}", motion)
+    return result
+
+
+def choose_rule(scene: Scene, rule: str | None) -> str:
+    """Take the rule that the caller gives, or else that of the scene.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    rule : str or None
+        What the caller gives.
+
+    Returns
+    -------
+    str
+        A key of `engine.RULES`.
+
+    Raises
+    ------
+    SceneError
+        There is no such rule.
+    """
+    rule = scene.analysis.rule if rule is None else rule
+    if not isinstance(rule, str) or rule not in engine.RULES:
+        raise SceneError("rule", f"expected one of {', '.join(engine.RULES)}, got {shown(rule)}")
+    return rule
+
+
+def _starting_scheme(arrays: Arrays, start: Sequence[bool] | None) -> np.ndarray:
+    closed = np.ones(len(arrays.supports), dtype=np.int32)
+    if start is None:
+        return closed
+    one_sided = np.flatnonzero(arrays.sides)
+    of_all = np.ones(len(arrays.sides), dtype=np.int32)
+    of_all[one_sided] = scheme(start, len(one_sided), "one-sided support")
+    return of_all[arrays.supports]

@@ -1,0 +1,132 @@
+"""Scenes written in TOML or JSON, from a file or from standard input: both are read in the same way."""
+
+from __future__ import annotations
+
+import codecs
+import json
+import re
+import sys
+import tomllib
+from pathlib import Path
+from typing import Any, NoReturn
+
+from ..base.errors import SceneError
+from .checks import TOO_DEEP
+from .wording import shown
+
+STANDARD_INPUT = "standard input"
+LONG_KEY = re.compile(r"""(?<![\w.-])(?:(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+){100}""")
+"""A key of more than a hundred parts: no scene has one, and tomllib takes minutes for some ten thousand parts."""
+
+
+def read_file(path: Path) -> dict[str, Any]:
+    """Read a TOML or JSON file.
+
+    Parameters
+    ----------
+    path : pathlib.Path
+        A file that ends in .toml or .json.
+
+    Returns
+    -------
+    dict
+        The data as they stand there; only the syntax is checked.
+
+    Raises
+    ------
+    SceneError
+        Names the file and, for its syntax, line and column.
+    """
+    kind = path.suffix.lower()
+    if kind not in (".toml", ".json"):
+        raise SceneError(str(path), f'a scene file ends in .toml or .json, not in "{path.suffix}"')
+    try:
+        data = path.read_bytes()
+    except FileNotFoundError:
+        raise SceneError(str(path), "there is no such file") from None
+    except (OSError, ValueError) as error:
+        raise _unreadable(str(path), error) from None
+    return _parse(_decoded(data, str(path)), kind, str(path))
+
+
+def read_standard_input() -> dict[str, Any]:
+    """Read TOML, or JSON where the text begins with a brace, from standard input.
+
+    Returns
+    -------
+    dict
+        As from `read_file`.
+
+    Raises
+    ------
+    SceneError
+        As from `read_file`.
+    """
+    if sys.stdin is None:
+        raise SceneError(STANDARD_INPUT, "is closed; give the name of a file")
+    try:
+        data = getattr(sys.stdin, "buffer", sys.stdin).read()
+    except (OSError, ValueError) as error:
+        raise _unreadable(STANDARD_INPUT, error) from None
+    text = data if isinstance(data, str) else _decoded(data, STANDARD_INPUT)
+    return _parse(text, ".json" if text.lstrip().startswith("{") else ".toml", STANDARD_INPUT)
+
+
+def _unreadable(name: str, error: Exception) -> SceneError:
+    return SceneError(name, f"cannot be read ({getattr(error, 'strerror', None) or error})")
+
+
+def _decoded(data: bytes, name: str) -> str:
+    """Text of UTF-8, with or without a mark of byte order; lines end as they do on any system."""
+    mark = len(codecs.BOM_UTF8) if data.startswith(codecs.BOM_UTF8) else 0
+    try:
+        text = data[mark:].decode("utf-8")
+    except UnicodeDecodeError as error:
+        raise SceneError(name, f"not a text in UTF-8 (byte {mark + error.start + 1} is wrong)") from None
+    return text.replace("\r\n", "\n").replace("\r", "\n")
+
+
+def _parse(text: str, kind: str, name: str) -> dict[str, Any]:
+    """Parse a text of the kind .toml or .json that came from a place with a name."""
+    if kind == ".toml" and LONG_KEY.search(text):
+        raise SceneError(name, TOO_DEEP)
+    try:
+        data = tomllib.loads(text) if kind == ".toml" else json.loads(text, object_pairs_hook=_table)
+    except tomllib.TOMLDecodeError as error:
+        found = re.search(r"\(at line (\d+), column (\d+)\)", str(error))
+        end = text.count("\n") + 1, len(text.rpartition("\n")[2]) + 1
+        line, column = map(int, found.groups()) if found else end
+        _syntax(name, text, line, column, str(error).partition(" (at ")[0])
+    except json.JSONDecodeError as error:
+        _syntax(name, text, error.lineno, error.colno, error.msg)
+    except RecursionError:
+        raise SceneError(name, TOO_DEEP) from None
+    except _TwiceError as error:
+        raise SceneError(name, str(error)) from None
+    except ValueError:
+        raise SceneError(name, f"a number has more than {sys.get_int_max_str_digits()} digits") from None
+    if not isinstance(data, dict):
+        raise SceneError("the scene", f"expected a table, got {shown(data)}")
+    return data
+
+
+class _TwiceError(ValueError):
+    """One key stands twice in a table."""
+
+
+def _table(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """Make a JSON table; of two equal keys one would get lost without a word."""
+    table = dict(pairs)
+    if len(table) < len(pairs):
+        seen = set()
+        twice = next(key for key, _ in pairs if key in seen or seen.add(key))
+        raise _TwiceError(f"the key {shown(twice)} stands twice in one table")
+    return table
+
+
+def _syntax(name: str, text: str, line: int, column: int, problem: str) -> NoReturn:
+    source = (text.split("\n")[line - 1 : line] or [""])[0]
+    comma = re.search(r"(?<![\d,\[])\s\d+,\d+\s*(#|$)", source)
+    hint = f'; write numbers with a point: "{comma[0].strip(" #").replace(",", ".")}"' if comma else ""
+    quoted = f", in: {source.strip()[:80]}" if source.strip() else ""
+    raise SceneError(f"{name}, line {line}, column {column}", f"{problem}{quoted}{hint}") from None

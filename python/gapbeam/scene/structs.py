@@ -1,0 +1,467 @@
+"""Scenes: what a user writes, from TOML, from JSON or in Python.
+
+Units: any consistent set, for example kN and m throughout. The labels in `Units` go into the report and
+change no number.
+
+Signs: x runs to the right. Deflections, settlements, forces and distributed loads are positive downward,
+reactions positive upward; bending moments are positive sagging; rotations and couples (moment loads) are
+positive clockwise; axial forces on the beam and axial displacements are positive to the right.
+
+Positions: an `x` is measured from the left end of the beam. Node 0 is the left end, node i the right end of
+the i-th span. Positions that differ by rounding only (`POSITION_TOLERANCE`) count as one.
+
+The docstrings of the classes are also the descriptions in the JSON Schema (`scene_schema`).
+
+>>> scene = read_scene(Scene(
+...     beam=Beam([6.0, 6.0], EI=1e4),
+...     supports=[Support(node=0), Support(x=6.0, side="below", gap=0.01), Support(node=2)],
+...     loads=[UniformLoad(q=5.0)],
+... ))
+>>> scene.span_ends()
+array([ 0.,  6., 12.])
+"""
+
+from __future__ import annotations
+
+import inspect
+import math
+import os
+import re
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Annotated, Any, Literal, get_args
+
+import msgspec
+import numpy as np
+from msgspec import Meta, Struct, field
+
+from ..base.errors import SceneError
+from .checks import check, plain, typed
+from .files import read_file
+from .place_checks import check_places
+from .places import POSITION_TOLERANCE, same_place
+from .wording import shown
+
+__all__ = [
+    "POSITION_TOLERANCE", "Analysis", "AxialLoad", "Beam", "CurvatureLoad", "ForceLoad", "Foundation",
+    "LinearLoad", "Load", "MomentLoad", "Scene", "Section", "Support", "UniformLoad", "Units", "read_scene",
+    "same_place", "scene_schema",
+]  # fmt: skip
+
+inf = math.inf
+
+# The limits are for editors; `check` enforces them, with messages in the user's words.
+Positive = Annotated[float, Meta(extra_json_schema={"exclusiveMinimum": 0})]
+NotNegative = Annotated[float, Meta(extra_json_schema={"minimum": 0})]
+Node = Annotated[int, Meta(le=2**31 - 1, extra_json_schema={"minimum": 0})]
+Count = Annotated[int, Meta(le=2**31 - 1, extra_json_schema={"minimum": 1})]
+Spans = Annotated[list[Positive], Meta(extra_json_schema={"minItems": 1})]
+Side = Literal["both", "below", "above"]
+
+
+class _Table(Struct):
+    """A table of a scene."""
+
+    def __eq__(self, other: object) -> bool:
+        """Whether all keys have equal values, with numpy numbers and arrays for numbers and lists."""
+        if type(other) is not type(self):
+            return NotImplemented
+        try:
+            return bool(super().__eq__(other))
+        except ValueError:  # numpy compares arrays element by element
+            return plain(self) == plain(other)
+
+
+class Units(_Table, forbid_unknown_fields=True):
+    """Labels of the units; they go into the report and change no number.
+
+    Parameters
+    ----------
+    force : str
+        Unit of force, for example kN.
+    length : str
+        Unit of length, for example m.
+    """
+
+    force: str = ""
+    length: str = ""
+
+
+class Beam(_Table, forbid_unknown_fields=True):
+    """The beam: its spans and stiffnesses.
+
+    Parameters
+    ----------
+    spans : list of float
+        Lengths of the spans from left to right; their ends are nodes 0, 1, 2, ...
+    EI : float or list of float
+        Bending stiffness (force*length^2), one number or one per span; inf = rigid.
+    GA : float or list of float
+        Shear stiffness kappa*G*A (force), one number or one per span; default inf (Euler-Bernoulli).
+    EA : float or list of float
+        Axial stiffness (force), one number or one per span; default inf. Needed only with axial loads.
+    hinges : list of float
+        Places of moment hinges inside the beam (length, from the left end).
+    """
+
+    spans: Spans
+    EI: Positive | list[Positive]
+    GA: Positive | list[Positive] = inf
+    EA: Positive | list[Positive] = inf
+    hinges: list[float] = []
+
+
+class _Stretch(_Table, forbid_unknown_fields=True, kw_only=True, gc=False):
+    """What acts from one place to another.
+
+    Parameters
+    ----------
+    from_ : float
+        Left end of the stretch (length, from the left end of the beam); default: the beam's left end.
+        In Python the name is ``from_``.
+    to : float, optional
+        Right end of the stretch (length, from the left end of the beam); default: the beam's right end.
+    """
+
+    from_: float = field(default=0.0, name="from")
+    to: float | None = None
+
+
+class _Point(_Table, forbid_unknown_fields=True, kw_only=True, gc=False):
+    """What acts at one place.
+
+    Parameters
+    ----------
+    node : int, optional
+        Place by node: 0 = left end, i = right end of the i-th span. Give either node or x.
+    x : float, optional
+        Place by distance from the left end (length). Give either node or x.
+    """
+
+    node: Node | None = None
+    x: float | None = None
+
+
+class Section(_Stretch, kw_only=True, gc=False):
+    """Other stiffness between two places; later sections win over earlier ones.
+
+    Parameters
+    ----------
+    EI : float, optional
+        Bending stiffness (force*length^2) here; inf = rigid. Left out: as it was.
+    GA : float, optional
+        Shear stiffness kappa*G*A (force) here. Left out: as it was.
+    EA : float, optional
+        Axial stiffness (force) here. Left out: as it was.
+    """
+
+    EI: Positive | None = None
+    GA: Positive | None = None
+    EA: Positive | None = None
+
+
+class Support(_Point, kw_only=True, gc=False):
+    """A support, at a node or anywhere along the beam.
+
+    It acts where the deflection of the beam is settlement + gap (side below) or settlement - gap (above). For
+    clearance on both sides put one below and one above at the same place.
+
+    Parameters
+    ----------
+    side : {"both", "below", "above"}
+        both (default) holds the beam, below pushes it up only, above pushes it down only.
+    stiffness : float
+        Stiffness (force/length), default inf (rigid). A one-sided support with 0 never carries: it is open, and its
+        opening negative where the beam has gone past it.
+    gap : float
+        Distance to be closed before it acts (length); negative = lack of fit; one-sided supports only.
+    settlement : float
+        Movement of the support itself (length), positive downward; for an axial support to the right.
+    rotation : {"free", "fixed"} or float
+        free (default), fixed, or a rotational stiffness (force*length/rad). It holds the beam at this place whether the
+        support is closed or open, as a guide does.
+    direction : {"normal", "axial"}
+        normal (default) is across the beam; axial holds it horizontally, only with axial loads.
+    law : list of (float, float), optional
+        Points (displacement past the gap, force), instead of stiffness. Not available in this version.
+    """
+
+    side: Side = "both"
+    stiffness: NotNegative = inf
+    gap: float = 0.0
+    settlement: float = 0.0
+    rotation: Literal["free", "fixed"] | NotNegative = "free"
+    direction: Literal["normal", "axial"] = "normal"
+    law: list[tuple[float, float]] | None = None
+
+
+class Foundation(_Stretch, kw_only=True, gc=False):
+    """A continuous elastic foundation. Not available in this version.
+
+    Parameters
+    ----------
+    k : float
+        Stiffness per length of beam (force/length^2).
+    side : {"both", "below", "above"}
+        both (default) holds the beam, below pushes it up only, above pushes it down only.
+    gap : float
+        Distance to be closed before it acts (length); one-sided foundations only.
+    """
+
+    k: NotNegative
+    side: Side = "both"
+    gap: float = 0.0
+
+
+class _PointLoad(_Point, kw_only=True, gc=False, tag_field="type"):
+    """A load at one place.
+
+    Parameters
+    ----------
+    case : {"live", "dead"}
+        live (default) is scaled by the load factor, dead acts in full from the start.
+    """
+
+    case: Literal["live", "dead"] = "live"
+
+
+class _StretchLoad(_Stretch, kw_only=True, gc=False, tag_field="type"):
+    __doc__ = _PointLoad.__doc__
+    case: Literal["live", "dead"] = "live"
+
+
+class ForceLoad(_PointLoad, kw_only=True, gc=False, tag="force"):
+    """A force across the beam, at a node or at x.
+
+    Parameters
+    ----------
+    F : float
+        Force, positive downward.
+    """
+
+    F: float
+
+
+class MomentLoad(_PointLoad, kw_only=True, gc=False, tag="moment"):
+    """A couple at a node or at x; not exactly at a hinge.
+
+    Parameters
+    ----------
+    M : float
+        Couple (force*length), positive clockwise.
+    """
+
+    M: float
+
+
+class AxialLoad(_PointLoad, kw_only=True, gc=False, tag="axial"):
+    """A horizontal force at a node or at x; needs a support with direction axial.
+
+    Parameters
+    ----------
+    F : float
+        Horizontal force, positive to the right.
+    """
+
+    F: float
+
+
+class UniformLoad(_StretchLoad, kw_only=True, gc=False, tag="uniform"):
+    """A constant distributed load from one place to another; default: the whole beam.
+
+    Parameters
+    ----------
+    q : float
+        Force per length, positive downward.
+    """
+
+    q: float
+
+
+class LinearLoad(_StretchLoad, kw_only=True, gc=False, tag="linear"):
+    """A linearly varying distributed load from one place to another; default: the whole beam.
+
+    Parameters
+    ----------
+    q : (float, float)
+        Force per length at the left and at the right end of the stretch, positive downward.
+    """
+
+    q: tuple[float, float]
+
+
+class CurvatureLoad(_StretchLoad, kw_only=True, gc=False, tag="curvature"):
+    """An imposed curvature (temperature, shrinkage, prestress); default: over the whole beam.
+
+    Parameters
+    ----------
+    kappa : float
+        Curvature (1/length), added to w'' = -M/EI; positive where the upper side gets longer (warmer above).
+    """
+
+    kappa: float
+
+
+Load = ForceLoad | MomentLoad | UniformLoad | LinearLoad | CurvatureLoad | AxialLoad
+
+
+class Analysis(_Table, forbid_unknown_fields=True, kw_only=True):
+    """How the load is followed.
+
+    Parameters
+    ----------
+    steps : int
+        Number of equal steps of the load factor up to 1; default 1.
+    follow : {"steps", "events"}
+        steps (default), or events: every change of the acting supports at its exact load factor.
+    rule : {"block", "single"}
+        How the acting supports are found: block (default) changes many at once and always ends, single (the
+        paper's rule) releases the one that pulls most and puts back all that are penetrated.
+    """
+
+    steps: Count = 1
+    follow: Literal["steps", "events"] = "steps"
+    rule: Literal["block", "single"] = "block"
+
+
+class Scene(_Table, forbid_unknown_fields=True, kw_only=True):
+    """A beam with its supports and loads.
+
+    Parameters
+    ----------
+    title : str
+        Heading of the report.
+    units : Units
+        Labels of the units; they change no number.
+    beam : Beam
+        Spans and stiffnesses.
+    sections : list of Section
+        Stretches of other stiffness; later ones win.
+    supports : list of Support
+        Supports; results list them in the same order.
+    foundation : list of Foundation
+        Continuous elastic foundations. Not available in this version.
+    loads : list of ForceLoad, MomentLoad, UniformLoad, LinearLoad, CurvatureLoad, AxialLoad
+        Loads, dead and live.
+    analysis : Analysis
+        Load steps and rule.
+    """
+
+    title: str = ""
+    units: Units = field(default_factory=Units)
+    beam: Beam
+    sections: list[Section] = []
+    supports: list[Support] = []
+    foundation: list[Foundation] = []
+    loads: list[Load] = []
+    analysis: Analysis = field(default_factory=Analysis)
+
+    def span_ends(self) -> np.ndarray:
+        """Place of every node, exact to the last digit.
+
+        Returns
+        -------
+        numpy.ndarray
+            x of nodes 0, 1, ..., n (length from the left end), where n is the number of spans.
+
+        Examples
+        --------
+        >>> Scene(beam=Beam([0.1] * 10, EI=1.0)).span_ends()[[3, 10]]
+        array([0.3, 1. ])
+        """
+        spans = np.asarray(self.beam.spans, dtype=float)
+        ends = np.concatenate(([0.0], np.cumsum(spans)))
+        # What each addition of the running sum lost, exactly; summed up it corrects every end.
+        before, after = ends[:-1], ends[1:]
+        added = after - before
+        ends[1:] += np.cumsum((before - (after - added)) + (spans - added))
+        return ends
+
+    def positions(self, items: Iterable[Support | ForceLoad | MomentLoad | AxialLoad]) -> np.ndarray:
+        """Place of supports or point loads, whether given by node or by x.
+
+        Parameters
+        ----------
+        items : iterable
+            Supports or point loads of this scene, after `read_scene`.
+
+        Returns
+        -------
+        numpy.ndarray
+            x of each (length from the left end), never outside the beam.
+        """
+        ends = self.span_ends()
+        at_nodes = ends.tolist()
+        places = [at_nodes[item.node] if item.x is None else item.x for item in items]
+        return np.clip(np.array(places, dtype=float), 0.0, ends[-1])
+
+
+def read_scene(source: Scene | Mapping[str, Any] | str | os.PathLike) -> Scene:
+    """Read a scene and check it completely: keys, types and meaning.
+
+    Parameters
+    ----------
+    source : Scene, mapping, str or path
+        A scene built in Python, its data as dicts and lists, or the path of a ``.toml`` or ``.json`` file.
+        Numpy numbers and arrays are welcome in place of numbers and lists.
+
+    Returns
+    -------
+    Scene
+        An independent copy; all its numbers are floats.
+
+    Raises
+    ------
+    SceneError
+        Names the place, the value and what was expected.
+
+    Examples
+    --------
+    >>> try:
+    ...     read_scene({"beam": {"spans": [6], "EI": 1e4}, "supports": [{"node": 0, "gap": "0,02"}]})
+    ... except SceneError as error:
+    ...     print(error)
+    supports[0].gap: expected a number, got "0,02"
+    """
+    if isinstance(source, str | os.PathLike):
+        source = read_file(Path(source))
+    if not isinstance(source, Scene | Mapping):
+        raise SceneError(f"expected a Scene, a mapping or the path of a file, got {shown(source)}")
+    scene = typed(source, Scene)
+    check(scene)
+    check_places(scene)
+    return scene
+
+
+def scene_schema() -> dict[str, Any]:
+    """JSON Schema of a scene, for editors that complete and check TOML or JSON files.
+
+    Returns
+    -------
+    dict
+        For `json.dumps`. Defaults of inf stand in the descriptions only: JSON has no such number.
+
+    Examples
+    --------
+    >>> scene_schema()["$defs"]["Support"]["properties"]["gap"]["description"]
+    'Distance to be closed before it acts (length); negative = lack of fit; one-sided supports only.'
+    """
+    schema = msgspec.json.schema(Scene)
+    for struct in (Units, Beam, Section, Support, Foundation, Analysis, Scene, *get_args(Load)):
+        table = schema["$defs"][struct.__name__]
+        table["description"] = inspect.cleandoc(struct.__doc__).partition("\n\n")[0]
+        texts: dict[str, str] = {}
+        for base in reversed(struct.__mro__[:-3]):
+            texts |= _parameters(base.__doc__ or "")
+        for key, entry in table["properties"].items():
+            if key in texts:
+                entry["description"] = texts[key]
+            if isinstance(entry.get("default"), float) and math.isinf(entry["default"]):
+                del entry["default"]
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "gapbeam scene", **schema}
+
+
+def _parameters(docstring: str) -> dict[str, str]:
+    """Descriptions of the parameters in a NumPy docstring, by key."""
+    entries = re.findall(r"^(\w+) : .*\n((?:[ ]{4}.*\n?)+)", inspect.cleandoc(docstring), re.MULTILINE)
+    return {name.rstrip("_"): " ".join(text.split()).replace("`", "") for name, text in entries}

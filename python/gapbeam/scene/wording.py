@@ -1,0 +1,250 @@
+"""The wording of refusals: places, values, and what was expected instead."""
+
+from __future__ import annotations
+
+import difflib
+import json
+import re
+import sys
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import msgspec
+from msgspec import inspect
+
+from ..base.errors import SceneError
+
+
+def shown(value: Any) -> str:
+    """Word a value the way a user wrote it, short enough for one line.
+
+    Parameters
+    ----------
+    value : object
+        Anything that may stand in a scene.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> shown("0,02"), shown(True), shown([1, 2.5]), shown({"x": 1}), shown(None)
+    ('"0,02"', 'true', '[1, 2.5]', 'a table', 'null')
+    """
+    if isinstance(value, list | tuple):
+        if any(isinstance(item, Mapping) for item in value):
+            return "a list of tables"
+        nested = any(isinstance(inner, list | tuple) for item in value if isinstance(item, list | tuple) for inner in item)
+        text = "" if nested else "[" + ", ".join(shown(item) for item in value[:6]) + "]"
+        return text if text and len(value) <= 6 and len(text) <= 60 else f"a list of {len(value)}"
+    if isinstance(value, Mapping | msgspec.Struct):
+        return "a table"
+    if isinstance(value, str):
+        return json.dumps(_short(value), ensure_ascii=False)
+    if isinstance(value, float):
+        return repr(float(value))
+    if value is None or isinstance(value, bool):
+        return json.dumps(value)
+    return _short(as_text(value))
+
+
+def as_text(value: Any) -> str:
+    """Word any object by its own text.
+
+    Parameters
+    ----------
+    value : object
+        Anything.
+
+    Returns
+    -------
+    str
+        Of an integer that Python does not write out, how it is too long.
+
+    Examples
+    --------
+    >>> as_text(10**5000)
+    'an integer of more than 4300 digits'
+    """
+    try:
+        return str(value)
+    except ValueError:
+        return f"an integer of more than {sys.get_int_max_str_digits()} digits"
+
+
+def _short(text: str) -> str:
+    return text if len(text) <= 60 else text[:57] + "..."
+
+
+def number(value: float) -> str:
+    """Word a number without the noise of its last bits.
+
+    Parameters
+    ----------
+    value : float
+        Any number.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> number(6.0), number(0.1 + 0.2), number(float("inf"))
+    ('6', '0.3', 'inf')
+    """
+    return f"{value:.15g}"
+
+
+def choice(words: Iterable[str], last: str = "or") -> str:
+    """Join words to a list in a sentence.
+
+    Parameters
+    ----------
+    words : iterable of str
+        The words; equal ones count once.
+    last : str
+        Conjunction before the last one.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> choice(["a", "b", "c"]), choice(["a", "b"], "and"), choice(["a"])
+    ('a, b or c', 'a and b', 'a')
+    """
+    *head, tail = dict.fromkeys(words)
+    return f"{', '.join(head)} {last} {tail}" if head else tail
+
+
+def explain(error: msgspec.ValidationError, source: Any, struct: type) -> SceneError:
+    """Reword what msgspec says about a wrong key or type.
+
+    Only the place is taken from msgspec's message. What was expected follows from the struct, what was found
+    from the data.
+
+    Parameters
+    ----------
+    error : msgspec.ValidationError
+        Raised on converting `source`.
+    source : object
+        The data as dicts and lists.
+    struct : type
+        The msgspec struct that `source` was to become.
+
+    Returns
+    -------
+    SceneError
+    """
+    text, _, path = str(error).partition(" - at ")
+    kind, value, place = inspect.type_info(struct), source, ""
+    if text == "Expected `str`" and "key" in path:
+        return SceneError(_place(path), "keys are texts, one key here is not")
+    for name, index in re.findall(r"\.(\w+)|\[(\d+)\]", path):
+        if name == "type" and isinstance(kind := _core(kind), inspect.UnionType):
+            tags = (shown(member.tag) for member in kind.types)
+            return SceneError(f"{place}.type", f"expected {choice(tags)}, got {shown(value['type'])}")
+        kind = _inside(kind, value, name, int(index or 0))
+        value = value[name] if name else value[int(index)]
+        place += (f".{name}" if place else name) if name else f"[{index}]"
+    if text.startswith("Object missing"):
+        return _missing(kind, value, place)
+    if text.startswith("Object contains unknown"):
+        return _unknown(kind, value, place)
+    return SceneError(place or "the scene", f"expected {_described(kind)}, got {shown(value)}")
+
+
+def _place(path: str) -> str:
+    """Give the path of msgspec in the words of the user."""
+    return path.rpartition("$")[2].strip("`.") or "the scene"
+
+
+def _key(name: str) -> str:
+    """Write a key as TOML does: in quotes where it is empty or holds more than letters, digits, _ and -."""
+    return name if re.fullmatch(r"[A-Za-z0-9_-]{1,60}", name) else shown(name)
+
+
+def _core(kind: inspect.Type) -> inspect.Type:
+    """Strip a type: without descriptions and without the alternative null."""
+    while isinstance(kind, inspect.Metadata):
+        kind = kind.type
+    if isinstance(kind, inspect.UnionType):
+        members = [member for member in kind.types if not isinstance(member, inspect.NoneType)]
+        return _core(members[0]) if len(members) == 1 else inspect.UnionType(tuple(members))
+    return kind
+
+
+def _struct(kind: inspect.Type, value: Mapping) -> inspect.StructType | None:
+    """Find the struct that a table is to become; None for a load without (valid) type."""
+    kind = _core(kind)
+    if isinstance(kind, inspect.UnionType):
+        return next((member for member in kind.types if member.tag == value.get("type")), None)
+    return kind
+
+
+def _inside(kind: inspect.Type, value: Any, name: str, index: int) -> inspect.Type:
+    """Find the type of one member of a table (by name) or of a list (by index)."""
+    if name:
+        return next(field.type for field in _struct(kind, value).fields if field.encode_name == name)
+    kind = _core(kind)
+    members = kind.types if isinstance(kind, inspect.UnionType) else (kind,)
+    for member in members:
+        if isinstance(member, inspect.TupleType):
+            return member.item_types[index]
+        if isinstance(member, inspect.ListType):
+            return member.item_type
+    return kind
+
+
+def _described(kind: inspect.Type, plural: bool = False) -> str:
+    """Word what a user may write where `kind` is expected."""
+    match _core(kind):
+        case inspect.FloatType():
+            return "numbers" if plural else "a number"
+        case inspect.IntType():
+            return "a whole number"
+        case inspect.StrType():
+            return "a text in quotes"
+        case inspect.LiteralType(values=values):
+            return choice(shown(value) for value in values)
+        case inspect.TupleType(item_types=items):
+            return f"{'pairs' if plural else 'a pair'} of numbers" if len(items) == 2 else "a list"
+        case inspect.ListType(item_type=item):
+            return f"a list of {_described(item, plural=True)}"
+        case inspect.StructType():
+            return "tables" if plural else "a table"
+        case inspect.UnionType(types=types) if not plural:
+            values = [shown(value) for member in types for value in getattr(member, "values", ())]
+            others = [_described(member) for member in types if not hasattr(member, "values")]
+            return choice([*values, *others])
+        case inspect.UnionType():
+            return "tables"
+    return "something else"
+
+
+def _missing(kind: inspect.Type, value: Mapping, place: str) -> SceneError:
+    struct = _struct(kind, value)
+    if struct is None:
+        tags = choice(shown(member.tag) for member in _core(kind).types)
+        return SceneError(f"{place}.type", f"this key is missing; give {tags}")
+    field = next(field for field in struct.fields if field.required and field.encode_name not in value)
+    where = f"{place}.{field.encode_name}" if place else field.encode_name
+    return SceneError(where, f"this key is missing; give {_described(field.type)}")
+
+
+def _unknown(kind: inspect.Type, value: Mapping, place: str) -> SceneError:
+    struct = _struct(kind, value)
+    known = [field.encode_name for field in struct.fields]
+    if struct.tag_field:
+        known.insert(0, struct.tag_field)
+    key = next(key for key in value if key not in known)
+    where = f"{place}.{_key(key)}" if place else _key(key)
+    folded = {name.casefold(): name for name in known}
+    near = difflib.get_close_matches(key.casefold().strip("_ "), folded, n=1, cutoff=0.55)
+    if near:
+        return SceneError(where, f'unknown key; did you mean "{folded[near[0]]}"?')
+    owner = f" of a load of type {shown(struct.tag)}" if struct.tag else ""
+    return SceneError(where, f"unknown key; the keys{owner} are {choice(known, 'and')}")

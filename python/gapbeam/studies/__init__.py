@@ -1,0 +1,1 @@
+"""Studies of the program itself: error against run time, solves, corners."""

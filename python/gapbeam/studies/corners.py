@@ -1,0 +1,313 @@
+"""Studies of the program itself: what it reaches in the corners, against exact solutions."""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from math import inf, isnan, nan
+from time import perf_counter
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..base.errors import GapbeamError
+from ..results import formatting as fmt
+from ..results.stepping import solve
+from ..scene.structs import read_scene
+from .exact import Reference
+from .extremes import Case, cases
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+COLUMNS = ("corner", "value", "scenes", "true error", "error bound", "time", "solves")
+"""Headings of the table."""
+WORDS = (
+    "Every row holds the worst of its scenes. The true error is that against a solution in rational numbers (long beams: in",
+    "decimals of 200 digits, or in closed form), relative to the largest value of its kind: reactions, deflections, moments,",
+    "shears, at all supports, loads and section changes and in the middle of every span. The error bound is the largest one of",
+    'the certificates; "fails" means that it is less than the true error of a reaction or of the deflection at a support.',
+    "inf: not solved, or numbers that are not finite. Loads that cancel are ill conditioned: their answers move about as much as",
+    "the true error when the loads change in their last digits.",
+)
+"""What the table shows."""
+
+
+@dataclass
+class Row:
+    """What was measured in one case: the worst of its scenes.
+
+    Attributes
+    ----------
+    corner, value : str
+        The case.
+    scenes : int
+        How many.
+    error : float
+        Worst true error, relative to the largest value of its kind: reactions, deflections, moments, shears. inf where
+        a scene was not solved or its numbers are not finite, nan where the exact solution failed.
+    bound : float
+        Worst error bound of the certificates; nan where there is none.
+    seconds : float
+        Longest time of one scene, from the scene to the result; the fastest of three runs of each.
+    solves : int
+        Most linear solves for one scene.
+    worst : dict
+        The scene with the worst error.
+    kind : str
+        What was worst there, or why there is no error.
+    ill_conditioned : bool
+        Whether no better than the bound can be asked.
+    covered : bool
+        Whether the error bounds hold for reactions and deflections at supports, in every scene that has one.
+    """
+
+    corner: str
+    value: str
+    scenes: int
+    error: float = -1.0
+    bound: float = nan
+    seconds: float = 0.0
+    solves: int = 0
+    worst: Any = None
+    kind: str = ""
+    ill_conditioned: bool = False
+    covered: bool = True
+
+
+def extremes(chosen: Iterable[Case] | None = None) -> Iterator[Row]:
+    """Measure true errors in the corners.
+
+    Parameters
+    ----------
+    chosen : iterable of Case, optional
+        Default: all.
+
+    Yields
+    ------
+    Row
+        One for every case.
+
+    Examples
+    --------
+    >>> from gapbeam.studies.extremes import cases
+    >>> row = next(extremes(cases()))
+    >>> row.corner, row.value, row.error < 1e-12
+    ('EI beside EI', '1e-12', True)
+    """
+    for case in cases() if chosen is None else chosen:
+        row = Row(case.corner, case.value, len(case.scenes), ill_conditioned=case.ill_conditioned)
+        for scene in case.scenes:
+            error, kind = _measure(row, scene, case.closed_form)
+            if not error <= row.error:
+                row.error, row.kind, row.worst = error, kind, scene
+        yield row
+
+
+def _measure(row: Row, source: dict[str, Any], closed_form) -> tuple[float, str]:
+    """Error of one scene and its kind; time, solves and bound go into the row."""
+    scene = read_scene(source)
+    begin = perf_counter()
+    try:
+        with np.errstate(all="ignore"):
+            result = solve(scene)
+    except GapbeamError as error:
+        return inf, f"refused: {error}"
+    seconds = perf_counter() - begin
+    for _ in range(2 if seconds < 0.1 else 0):  # the fastest of three, where that costs nothing
+        begin = perf_counter()
+        solve(scene)
+        seconds = min(seconds, perf_counter() - begin)
+    row.seconds = max(row.seconds, seconds)
+    if result.status != "solved":
+        return inf, f"{result.status}: {result.reason}"
+    step = result.steps[-1]
+    row.solves = max(row.solves, step.solves)
+    bound = step.certificate.get("error_bound")
+    bound = nan if bound is None else bound
+    row.bound = bound if isnan(row.bound) else max(row.bound, bound)
+    if closed_form is not None:
+        reaction, deflection = closed_form(source)
+        error = float(np.abs(step.reaction - reaction).max() / np.abs(reaction).max())
+        row.covered = row.covered and not error > bound
+        return (error, "reaction") if np.array_equal(step.deflection, deflection) else (inf, "deflection")
+    reference = Reference(scene)
+    try:
+        right = reference.solve(step.state)
+    except ZeroDivisionError as error:
+        return nan, str(error)
+    errors = {"reaction": reference.error("reaction", step.reaction)}
+    errors["deflection at supports"] = reference.error("place_deflection", step.deflection, "deflection")
+    row.covered = row.covered and not max(errors.values()) > bound
+    with np.errstate(all="ignore"):
+        for side in ("left", "right"):
+            fields = result.at(reference.x, side=side)
+            errors["deflection"] = reference.error("deflection", fields.deflection)
+            inner = slice(1, None) if side == "left" else slice(None, -1)
+            for name in ("moment", "shear"):
+                errors[f"{name} {side}"] = reference.error(f"{name}_{side}", getattr(fields, name), inner=inner)
+    kind = max(errors, key=errors.get)
+    return errors[kind], kind if right else f"{kind} (scheme differs from the exact one)"
+
+
+def table(rows: Iterable[Row]) -> list[list[str]]:
+    """Write the rows as text.
+
+    Parameters
+    ----------
+    rows : iterable of Row
+        From `extremes`.
+
+    Returns
+    -------
+    list of list of str
+        As many columns as `COLUMNS`.
+    """
+    return [
+        [
+            row.corner,
+            row.value,
+            str(row.scenes),
+            _small(row.error),
+            _small(row.bound) + ("" if row.covered else " fails"),
+            fmt.duration(row.seconds),
+            str(row.solves),
+        ]
+        for row in rows
+    ]
+
+
+def _small(value: float) -> str:
+    return "-" if isnan(value) else "0" if value == 0.0 else f"{value:.1e}"
+
+
+def to_csv(rows: Iterable[Row]) -> str:
+    """Write the rows as comma-separated values.
+
+    Parameters
+    ----------
+    rows : iterable of Row
+        From `extremes`.
+
+    Returns
+    -------
+    str
+        With all digits; times in seconds.
+    """
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow([*COLUMNS, "worst in"])
+    for row in rows:
+        writer.writerow([row.corner, row.value, row.scenes, row.error, row.bound, row.seconds, row.solves, row.kind])
+    return stream.getvalue()
+
+
+def to_markdown(rows: list[Row]) -> str:
+    """Write the page of the documentation.
+
+    Parameters
+    ----------
+    rows : list of Row
+        From `extremes`.
+
+    Returns
+    -------
+    str
+    """
+    return page("Extremes", "extremes", [*WORDS, "", f"Worst of all: {_worst(rows)}"], COLUMNS, table(rows), texts=2)
+
+
+def page(title: str, study: str, words: Iterable[str], columns: Iterable[str], cells: list[list[str]], texts: int) -> str:
+    """Compose a page of the documentation that holds one table.
+
+    Parameters
+    ----------
+    title, study : str
+        Heading, and the name of the study, which is also that of the page.
+    words : iterable of str
+        What the table shows, line by line.
+    columns : iterable of str
+        Headings of the table.
+    cells : list of list of str
+        Its rows.
+    texts : int
+        How many columns are texts, the others are numbers.
+
+    Returns
+    -------
+    str
+    """
+    made = f"This page is made by `gapbeam study {study} --markdown docs/{study}.md`."
+    return "\n".join([f"# {title}", "", made, "", *words, "", *markdown_table(columns, cells, texts)]) + "\n"
+
+
+def markdown_table(columns: Iterable[str], cells: list[list[str]], texts: int) -> list[str]:
+    """Write one table of a page.
+
+    Parameters
+    ----------
+    columns, cells, texts
+        As for `page`.
+
+    Returns
+    -------
+    list of str
+        Its lines.
+    """
+    rule = "|---" * texts + "|---:" * (len(cells[0]) - texts) + "|"
+    rows = ["| " + " | ".join(row) + " |" for row in (list(columns), *cells)]
+    return [rows[0], rule, *rows[1:]]
+
+
+def literal_markdown(text: str) -> str:
+    r"""Write a text of the user so that Markdown shows it as it is.
+
+    Parameters
+    ----------
+    text : str
+        One line.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> literal_markdown("EI_1 <b> [x](y)")
+    'EI\\_1 \\<b\\> \\[x\\](y)'
+    """
+    return re.sub(r"([\\`*_\[\]<>#|$~])", r"\\\1", text)
+
+
+def print_extremes(rows: list[Row], console: Console | None = None) -> None:
+    """Print the table.
+
+    Parameters
+    ----------
+    rows : list of Row
+        From `extremes`.
+    console : rich.console.Console, optional
+        Where to print; default standard output.
+    """
+    from rich.console import Console
+
+    from ..report.writer import Writer
+
+    say = Writer(console or Console(highlight=False))
+    say.line("Extremes", "bold")
+    say.line(" ".join(WORDS), "dim")
+    say.line()
+    for corner in dict.fromkeys(row.corner for row in rows):
+        say.line()
+        cells = table(row for row in rows if row.corner == corner)
+        say.table((corner, *COLUMNS[2:]), [line[1:] for line in cells], left=(0,))
+    say.line()
+    say.line(f"Worst of all: {_worst(rows)}")
+
+
+def _worst(rows: list[Row]) -> str:
+    worst = max((row for row in rows if not row.ill_conditioned), key=lambda row: inf if isnan(row.error) else row.error)
+    return f"{_small(worst.error)} ({worst.corner}, {worst.value}: {worst.kind})."
