@@ -15,7 +15,8 @@ module gapbeam_api
     use gapbeam_units, only: bound_outside, moment_unit, rotation_unit
     use gapbeam_lower, only: lower_model
     use gapbeam_lower_loads, only: lower_loads
-    use gapbeam_check, only: check_loads, shown
+    use gapbeam_check, only: check_loads
+    use gapbeam_words, only: shown
     use gapbeam_certificate, only: found_type => certificate_type
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_state, only: event_type, solve_state, certify_state, follow_events

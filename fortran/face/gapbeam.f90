@@ -23,9 +23,10 @@ module gapbeam
         gapbeam_status_message => status_text
     use gapbeam_version, only: gapbeam_version_major, gapbeam_version_minor, gapbeam_version_patch, gapbeam_version_string
     use gapbeam_search, only: gapbeam_rule_block => rule_block, gapbeam_rule_single => rule_single
-    use gapbeam_scene, only: span_type, support_type, load_type, model_type, &
+    use gapbeam_scene, only: span_type, section_type, support_type, load_type, model_type, &
         point_force, point_couple, uniform_load, linear_load, imposed_curvature, axial_force, &
-        gapbeam_infinity, gapbeam_by_x, gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_normal, gapbeam_axial, &
+        gapbeam_infinity, gapbeam_by_x, gapbeam_unchanged, gapbeam_right_end, &
+        gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_normal, gapbeam_axial, &
         gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, &
         gapbeam_live, gapbeam_dead
     use gapbeam_state, only: event_type

@@ -7,10 +7,11 @@ module gapbeam_query
     use gapbeam_model, only: both
     use gapbeam_scene, only: gapbeam_axial
     use gapbeam_units, only: moment_unit, rotation_unit
-    use gapbeam_lowered, only: lowered_type, position_tolerance, point_x, piece_length
-    use gapbeam_places, only: locate
+    use gapbeam_lowered, only: lowered_type, point_x, piece_length
+    use gapbeam_places, only: locate, position_tolerance
     use gapbeam_lower_units, only: name_farthest
-    use gapbeam_check, only: shown, refuse_range
+    use gapbeam_words, only: shown
+    use gapbeam_refusal, only: refuse_range
     use gapbeam_path, only: event_opens, event_closes, event_turns
     use gapbeam_memory, only: reserve_memory, for_fields
     use gapbeam_solution, only: state_type, couple_at_node, way_to_contact

@@ -3,7 +3,8 @@ module gapbeam_solution
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_element, only: field_type
-    use gapbeam_check, only: shown, refuse_range
+    use gapbeam_words, only: shown
+    use gapbeam_refusal, only: refuse_range
     use gapbeam_units, only: moment_unit
     use gapbeam_lowered, only: lowered_type, point_x
     use gapbeam_lower_supports, only: contact_level

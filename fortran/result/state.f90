@@ -11,7 +11,7 @@ module gapbeam_state
     use gapbeam_certificate, only: certificate_type, certify
     use gapbeam_path, only: follow_load, path_type, event_turns
     use gapbeam_axial, only: solve_axial, axial_slides, axial_indeterminate
-    use gapbeam_check, only: shown
+    use gapbeam_words, only: shown
     use gapbeam_lowered, only: lowered_type, point_x
     use gapbeam_lower_units, only: name_farthest
     use gapbeam_solution, only: state_type, forget, check_range

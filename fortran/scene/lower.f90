@@ -2,15 +2,16 @@
 !>
 !> The beam is cut into pieces wherever anything changes: at span ends, supports, hinges, point loads and the ends of
 !> distributed loads. Only beam ends, supports across the beam and hinges become nodes of the system; the pieces between two
-!> nodes are condensed into one link. python/gapbeam/lowering.py does the same for scenes.
+!> nodes are condensed into one link.
 module gapbeam_lower
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
-    use gapbeam_scene, only: gapbeam_by_x, gapbeam_axial, gapbeam_couple
+    use gapbeam_scene, only: gapbeam_by_x, gapbeam_axial, gapbeam_couple, gapbeam_right_end, gapbeam_unchanged
     use gapbeam_lowered, only: lowered_type, is_stretch
     use gapbeam_places, only: place_span_ends, locate, merge_places
-    use gapbeam_check, only: check_spans, check_rest, check_loads, refuse, of_hinges, of_loads
+    use gapbeam_check, only: check_spans, check_rest, check_loads
+    use gapbeam_refusal, only: refuse, of_hinges, of_sections, of_loads, twice, no_stretch, at_hinge
     use gapbeam_lower_supports, only: lower_supports
     use gapbeam_lower_loads, only: lower_loads
     implicit none
@@ -43,11 +44,34 @@ contains
             if (allocated(error)) return
         end associate
         call find_points(lowered, error)
+        if (.not. allocated(error)) call assign_sections(lowered, error)
         if (allocated(error)) return
         call lower_supports(lowered, error)
         if (allocated(error)) return
         call lower_loads(lowered, error)
     end subroutine lower_model
+
+    !> Which section gives the stiffness of a piece: the last one that gives it
+    subroutine assign_sections(lowered, error)
+        type(lowered_type), intent(inout) :: lowered
+        type(error_type), allocatable, intent(out) :: error
+        integer :: i, stat
+
+        if (size(lowered%model%sections) == 0) return
+        allocate (lowered%section_of(3, size(lowered%pieces)), stat=stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        lowered%section_of(:, :) = 0
+        do i = 1, size(lowered%model%sections)
+            associate (s => lowered%model%sections(i), first => lowered%section_from(i) + 1, last => lowered%section_to(i))
+                if (s%EI > gapbeam_unchanged) lowered%section_of(1, first:last) = i
+                if (s%GA > gapbeam_unchanged) lowered%section_of(2, first:last) = i
+                if (s%EA > gapbeam_unchanged) lowered%section_of(3, first:last) = i
+            end associate
+        end do
+    end subroutine assign_sections
 
     !> Points between the pieces, and the points of supports, hinges and loads
     subroutine find_points(lowered, error)
@@ -60,11 +84,13 @@ contains
 
         associate (model => lowered%model)
             n = size(model%spans)
-            total = 1_int64 + n + size(model%supports) + size(model%hinges) + 2_int64*size(model%loads)
+            total = 1_int64 + n + size(model%supports) + size(model%hinges) + 2_int64*(size(model%sections) + size(model%loads))
             stat = merge(1, 0, 2*total > huge(0))
             if (stat == 0) allocate (span(total), order(total), chosen(total), point(total), offset(total), stat=stat)
             if (stat == 0) allocate (lowered%end_point(0:n), lowered%support_point(size(model%supports)), &
-                                     lowered%load_from(size(model%loads)), lowered%load_to(size(model%loads)), stat=stat)
+                                     lowered%load_from(size(model%loads)), lowered%load_to(size(model%loads)), &
+                                     lowered%section_from(size(model%sections)), lowered%section_to(size(model%sections)), &
+                                     stat=stat)
             if (stat /= 0) then
                 call no_memory(error)
                 return
@@ -79,10 +105,14 @@ contains
             do i = 1, size(model%hinges)
                 call add(model%hinges(i), gapbeam_by_x)
             end do
+            do i = 1, size(model%sections)
+                call add(model%sections(i)%from, gapbeam_by_x)
+                call add(right_end(model%sections(i)%to), gapbeam_by_x)
+            end do
             do i = 1, size(model%loads)
                 associate (load => model%loads(i))
                     call add(load%x, merge(gapbeam_by_x, load%node, is_stretch(load)))
-                    call add(merge(load%to, load%x, is_stretch(load)), merge(gapbeam_by_x, load%node, is_stretch(load)))
+                    call add(merge(right_end(load%to), load%x, is_stretch(load)), merge(gapbeam_by_x, load%node, is_stretch(load)))
                 end associate
             end do
             at = 1 + n + size(model%supports) + size(model%hinges)
@@ -104,14 +134,25 @@ contains
             call find_hinges(point(at + 1:at + size(model%hinges)))
             if (allocated(error)) return
             at = at + size(model%hinges)
+            do i = 1, size(model%sections)
+                lowered%section_from(i) = point(at + 2*i - 1)
+                lowered%section_to(i) = point(at + 2*i)
+                if (lowered%section_from(i) < lowered%section_to(i)) cycle
+                call refuse(error, of_sections, i, size(model%sections), no_stretch, "", &
+                            "its stretch has no length; from must be less than to")
+                return
+            end do
+            at = at + 2*size(model%sections)
             do i = 1, size(model%loads)
                 lowered%load_from(i) = point(at + 2*i - 1)
                 lowered%load_to(i) = point(at + 2*i)
                 if (is_stretch(model%loads(i)) .and. lowered%load_from(i) >= lowered%load_to(i)) then
-                    call refuse(error, of_loads, i, size(model%loads), "its stretch has no length; from must be less than to")
+                    call refuse(error, of_loads, i, size(model%loads), no_stretch, "", &
+                                "its stretch has no length; from must be less than to")
                 else if (model%loads(i)%kind == gapbeam_couple .and. lowered%hinged(lowered%load_from(i))) then
-                    call refuse(error, of_loads, i, size(model%loads), "the couple acts exactly at a hinge, so it is open "// &
-                                "which side takes it; put it on one side of the hinge")
+                    call refuse(error, of_loads, i, size(model%loads), at_hinge, "", &
+                                "the couple acts exactly at a hinge, so it is open which side takes it; put it on one side "// &
+                                "of the hinge")
                 end if
                 if (allocated(error)) return
             end do
@@ -133,17 +174,28 @@ contains
             end if
         end subroutine add
 
+        !> Where a stretch ends
+        function right_end(to) result(x)
+            real(wp), intent(in) :: to
+            real(wp) :: x
+
+            x = to
+            if (to <= gapbeam_right_end) x = lowered%ends(n)
+        end function right_end
+
         !> Mark the hinges
         subroutine find_hinges(points)
             integer, intent(in) :: points(:)
-            integer :: k
+            integer :: k, other
 
             lowered%hinged(:) = .false.
             do k = 1, size(points)
                 if (lowered%hinged(points(k))) then
-                    call refuse(error, of_hinges, k, size(points), "there is a hinge at this place already; remove one of them")
+                    other = findloc(points, points(k), 1)
+                    call refuse(error, of_hinges, k, size(points), twice, "", &
+                                "there is a hinge at this place already; remove one of them", other)
+                    return
                 end if
-                if (allocated(error)) return
                 lowered%hinged(points(k)) = .true.
             end do
         end subroutine find_hinges

@@ -5,8 +5,9 @@ module gapbeam_lower_axial
     use gapbeam_range, only: is_lost
     use gapbeam_scene, only: gapbeam_axial, gapbeam_axial_force, gapbeam_dead
     use gapbeam_units, only: exponents_type, stiffness_unit, units_with_loads, middle, middle_of, largest, no_exponent
-    use gapbeam_lowered, only: lowered_type, point_x, piece_length
-    use gapbeam_check, only: refuse_range, named, shown, of_supports
+    use gapbeam_lowered, only: lowered_type, point_x, piece_length, axial_stiffness
+    use gapbeam_words, only: shown
+    use gapbeam_refusal, only: refuse_range, named, of_supports
     implicit none
     private
     public :: lower_axial
@@ -27,7 +28,7 @@ contains
         associate (axial => lowered%axial, model => lowered%model)
             do j = 1, size(lowered%pieces)
                 length = piece_length(lowered, j)
-                EA = model%spans(lowered%point_span(j - 1) + 1)%EA
+                EA = axial_stiffness(lowered, j)
                 call lengths%note(length, 0)
                 if (EA <= huge(EA)) call soft%note(length, -exponent(EA))
             end do
@@ -46,7 +47,7 @@ contains
             axial%flexibility(:) = 0.0_wp
             i = 1
             do j = 1, size(lowered%pieces)
-                EA = model%spans(lowered%point_span(j - 1) + 1)%EA
+                EA = axial_stiffness(lowered, j)
                 axial%softness(j) = scale(piece_length(lowered, j), -unit)/scale(EA, -unit - stiffness_unit(axial%units))
                 if (EA <= huge(EA) .and. is_lost(axial%softness(j))) then
                     call refuse_range(error, "EA = "//trim(shown(EA))//" from x = "//trim(shown(point_x(lowered, j - 1)))// &

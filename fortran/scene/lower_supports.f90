@@ -6,8 +6,10 @@ module gapbeam_lower_supports
     use gapbeam_scene, only: support_type, gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_normal, gapbeam_axial, &
         gapbeam_axial_force
     use gapbeam_model, only: node_support_type => support_type, order_supports => place_supports
-    use gapbeam_lowered, only: lowered_type, position_tolerance
-    use gapbeam_check, only: refuse, refuse_range, named, shown, of_supports
+    use gapbeam_words, only: shown, whole
+    use gapbeam_lowered, only: lowered_type
+    use gapbeam_places, only: position_tolerance
+    use gapbeam_refusal, only: refuse, refuse_range, named, of_supports, twice, no_room, at_hinge
     implicit none
     private
     public :: lower_supports, contact_level
@@ -53,14 +55,16 @@ contains
             point = lowered%support_point(k)
             associate (s => lowered%model%supports(k))
                 if (s%rotation > 0.0_wp .and. lowered%hinged(point)) then
-                    call refuse(error, of_supports, k, m, "rotation: there is a hinge here, so it is open which side is "// &
-                                "held; move one aside")
+                    call refuse(error, of_supports, k, m, at_hinge, "rotation", &
+                                "there is a hinge here, so it is open which side is held; move one aside")
                 else if (s%direction == gapbeam_axial) then
-                    call note(2, "hold the beam along its axis")
+                    call note(2, "direction", "hold the beam along its axis")
                 else if (s%stiffness > huge(s%stiffness)) then
-                    call note(s%side, "do the same rigidly")
+                    call note(s%side, "side", "do the same rigidly")
                 end if
-                if (.not. allocated(error) .and. s%rotation > huge(s%rotation)) call note(3, "hold the rotation rigidly")
+                if (.not. allocated(error) .and. s%rotation > huge(s%rotation)) then
+                    call note(3, "rotation", "hold the rotation rigidly")
+                end if
             end associate
             if (allocated(error)) return
         end do
@@ -78,15 +82,14 @@ contains
     contains
 
         !> Note a rigid support; only one of its kind may be there
-        subroutine note(kind, what)
+        subroutine note(kind, key, what)
             integer, intent(in) :: kind
-            character(len=*), intent(in) :: what
-            character(len=20) :: other
+            character(len=*), intent(in) :: key, what
 
             if (rigid(kind, point) /= 0) then
-                write (other, "(i0)") rigid(kind, point)
-                call refuse(error, of_supports, k, m, "this one and support "//trim(other)//" stand at the same place and " &
-                            //what//"; remove one of them")
+                call refuse(error, of_supports, k, m, twice, "", "this one and support "//trim(whole(rigid(kind, point)))// &
+                            " stand at the same place and "//what//"; remove one of them", rigid(kind, point))
+                error%key = key
             else
                 rigid(kind, point) = k
             end if
@@ -97,16 +100,15 @@ contains
             integer, intent(in) :: lower, upper
             logical, intent(in) :: strictly
             real(wp) :: stop_at, start_at, slack
-            character(len=20) :: other
 
             if (lower == 0 .or. upper == 0) return
             stop_at = contact_level(lowered%model%supports(lower))
             start_at = contact_level(lowered%model%supports(upper))
             slack = position_tolerance*max(abs(stop_at), abs(start_at))
             if (stop_at - start_at < -slack .or. (strictly .and. stop_at - start_at <= slack)) then
-                write (other, "(i0)") upper
-                call refuse(error, of_supports, lower, m, "this one acts at a deflection of "//trim(shown(stop_at))// &
-                            " and support "//trim(other)//" at "//trim(shown(start_at))//", so no room is left; give a greater gap")
+                call refuse(error, of_supports, lower, m, no_room, "", "this one acts at a deflection of "//trim(shown(stop_at))// &
+                            " and support "//trim(whole(upper))//" at "//trim(shown(start_at))// &
+                            ", so no room is left; give a greater gap", upper)
             end if
         end subroutine look
 

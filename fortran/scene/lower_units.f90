@@ -7,9 +7,10 @@ module gapbeam_lower_units
     use gapbeam_range, only: is_lost
     use gapbeam_units, only: units_type, exponents_type, rotation_unit, moment_unit, stiffness_unit, turning_unit, &
         units_with_loads, middle, largest, no_exponent, ordinary_exponent
-    use gapbeam_lowered, only: lowered_type, point_x, piece_length
+    use gapbeam_lowered, only: lowered_type, point_x, piece_length, bending_stiffness, shear_stiffness
     use gapbeam_lower_supports, only: contact_level
-    use gapbeam_check, only: refuse_range, named, shown, of_supports
+    use gapbeam_words, only: shown
+    use gapbeam_refusal, only: refuse_range, named, of_supports
     implicit none
     private
     public :: change_units, refuse_link, name_farthest
@@ -61,9 +62,9 @@ contains
         end do
         length = middle(lengths)
         associate (beam => lowered%beam, model => lowered%model)
-            do j = 1, size(model%spans)
-                call stiff(1)%note(model%spans(j)%EI, -3*length)
-                call stiff(2)%note(model%spans(j)%GA, -length)
+            do j = 1, size(lowered%pieces)
+                call stiff(1)%note(bending_stiffness(lowered, j), -3*length)
+                call stiff(2)%note(shear_stiffness(lowered, j), -length)
             end do
             do k = 1, size(lowered%normal)
                 associate (s => model%supports(lowered%normal(k)))
@@ -96,22 +97,24 @@ contains
     subroutine cut_pieces(lowered, error)
         type(lowered_type), intent(inout) :: lowered
         type(error_type), allocatable, intent(out) :: error
+        real(wp) :: EI, GA
         integer :: j
 
         do j = 1, size(lowered%pieces)
-            associate (units => lowered%units, p => lowered%pieces(j), &
-                       span => lowered%model%spans(lowered%point_span(j - 1) + 1))
+            EI = bending_stiffness(lowered, j)
+            GA = shear_stiffness(lowered, j)
+            associate (units => lowered%units, p => lowered%pieces(j))
                 p%length = scale(piece_length(lowered, j), -units%length)
-                p%flexibility = 1/scale(span%EI, -turning_unit(units) - units%length)
-                p%shear_flexibility = 1/scale(span%GA, rotation_unit(units) - units%force)
+                p%flexibility = 1/scale(EI, -turning_unit(units) - units%length)
+                p%shear_flexibility = 1/scale(GA, rotation_unit(units) - units%force)
                 if (is_lost(p%length)) then
                     call refuse_range(error, "the stretch "//trim(from_to(lowered, j - 1, j))//", "// &
                                       trim(shown(piece_length(lowered, j)))//" long, is too far from the other lengths of "// &
                                       "the beam", "bring them nearer together")
-                else if (is_lost(p%flexibility) .and. span%EI <= huge(span%EI)) then
-                    call refuse_stiffness("EI", span%EI)
-                else if (is_lost(p%shear_flexibility) .and. span%GA <= huge(span%GA)) then
-                    call refuse_stiffness("GA", span%GA)
+                else if (is_lost(p%flexibility) .and. EI <= huge(EI)) then
+                    call refuse_stiffness("EI", EI)
+                else if (is_lost(p%shear_flexibility) .and. GA <= huge(GA)) then
+                    call refuse_stiffness("GA", GA)
                 end if
             end associate
             if (allocated(error)) return
@@ -220,14 +223,14 @@ contains
         do k = 1, size(lowered%beam%supports)
             call meet(abs(lowered%beam%supports(k)%contact), 6, lowered%normal(k))
         end do
-        associate (spans => lowered%model%spans, supports => lowered%model%supports)
+        associate (supports => lowered%model%supports)
             select case (kind)
             case (1)
                 call say("the length of the stretch "//trim(from_to(lowered, entry - 1, entry)))
             case (2)
-                call say("EI = "//trim(shown(spans(lowered%point_span(entry - 1) + 1)%EI))//" "//from_to(lowered, entry - 1, entry))
+                call say("EI = "//trim(shown(bending_stiffness(lowered, entry)))//" "//from_to(lowered, entry - 1, entry))
             case (3)
-                call say("GA = "//trim(shown(spans(lowered%point_span(entry - 1) + 1)%GA))//" "//from_to(lowered, entry - 1, entry))
+                call say("GA = "//trim(shown(shear_stiffness(lowered, entry)))//" "//from_to(lowered, entry - 1, entry))
             case (4)
                 call say("rotation = "//trim(shown(lowered%turning(entry)))//" of the supports at x = "// &
                          shown(point_x(lowered, lowered%node_point(entry))))

@@ -8,10 +8,8 @@ module gapbeam_lowered
     use gapbeam_units, only: units_type
     implicit none
     private
-    public :: lowered_type, axial_type, copy_model, fingerprint, position_tolerance, is_stretch, point_x, piece_length
-
-    !> Positions whose difference is at most this share of the larger one are the same place
-    real(wp), parameter :: position_tolerance = 64*epsilon(1.0_wp)
+    public :: bending_stiffness, shear_stiffness, axial_stiffness
+    public :: lowered_type, axial_type, copy_model, fingerprint, is_stretch, point_x, piece_length
 
     !> The axial system: bars between points with an axial load or support, in units of its own; none allocated if it is not
     !> needed
@@ -47,6 +45,9 @@ module gapbeam_lowered
         real(wp), allocatable :: point_offset(:)
         !> Point of every support; first and last point of every load
         integer, allocatable :: support_point(:), load_from(:), load_to(:)
+        !> First and last point of every section; the last section that gives EI, GA and EA of a piece, 0: none, shape (3, npiece), not
+        !> allocated without sections
+        integer, allocatable :: section_from(:), section_to(:), section_of(:, :)
         !> Is there a hinge at a point, shape (0:npiece)
         logical, allocatable :: hinged(:)
         !> Pieces and their loads in the engine's units, shape (npiece)
@@ -102,6 +103,39 @@ contains
         end associate
     end function piece_length
 
+    !> Bending stiffness of a piece in the user's units
+    pure function bending_stiffness(lowered, piece) result(EI)
+        type(lowered_type), intent(in) :: lowered
+        integer, intent(in) :: piece
+        real(wp) :: EI
+
+        EI = lowered%model%spans(lowered%point_span(piece - 1) + 1)%EI
+        if (.not. allocated(lowered%section_of)) return
+        if (lowered%section_of(1, piece) > 0) EI = lowered%model%sections(lowered%section_of(1, piece))%EI
+    end function bending_stiffness
+
+    !> Shear stiffness of a piece in the user's units
+    pure function shear_stiffness(lowered, piece) result(GA)
+        type(lowered_type), intent(in) :: lowered
+        integer, intent(in) :: piece
+        real(wp) :: GA
+
+        GA = lowered%model%spans(lowered%point_span(piece - 1) + 1)%GA
+        if (.not. allocated(lowered%section_of)) return
+        if (lowered%section_of(2, piece) > 0) GA = lowered%model%sections(lowered%section_of(2, piece))%GA
+    end function shear_stiffness
+
+    !> Axial stiffness of a piece in the user's units
+    pure function axial_stiffness(lowered, piece) result(EA)
+        type(lowered_type), intent(in) :: lowered
+        integer, intent(in) :: piece
+        real(wp) :: EA
+
+        EA = lowered%model%spans(lowered%point_span(piece - 1) + 1)%EA
+        if (.not. allocated(lowered%section_of)) return
+        if (lowered%section_of(3, piece) > 0) EA = lowered%model%sections(lowered%section_of(3, piece))%EA
+    end function axial_stiffness
+
     !> Copy a model, what is missing as arrays of size 0
     pure subroutine copy_model(source, copy, stat)
         !> What the user gave
@@ -110,20 +144,24 @@ contains
         type(model_type), intent(out) :: copy
         !> 0, or what allocate says where memory is at an end
         integer, intent(out) :: stat
-        integer :: spans, hinges, supports, loads
+        integer :: spans, hinges, sections, supports, loads
 
         spans = 0
         hinges = 0
+        sections = 0
         supports = 0
         loads = 0
         if (allocated(source%spans)) spans = size(source%spans)
         if (allocated(source%hinges)) hinges = size(source%hinges)
+        if (allocated(source%sections)) sections = size(source%sections)
         if (allocated(source%supports)) supports = size(source%supports)
         if (allocated(source%loads)) loads = size(source%loads)
-        allocate (copy%spans(spans), copy%hinges(hinges), copy%supports(supports), copy%loads(loads), stat=stat)
+        allocate (copy%spans(spans), copy%hinges(hinges), copy%sections(sections), copy%supports(supports), copy%loads(loads), &
+                  stat=stat)
         if (stat /= 0) return
         if (spans > 0) copy%spans(:) = source%spans
         if (hinges > 0) copy%hinges(:) = source%hinges
+        if (sections > 0) copy%sections(:) = source%sections
         if (supports > 0) copy%supports(:) = source%supports
         if (loads > 0) copy%loads(:) = source%loads
     end subroutine copy_model
@@ -142,6 +180,13 @@ contains
             end associate
         end do
         call mix(number, model%hinges)
+        if (allocated(model%sections)) then
+            do i = 1, size(model%sections)
+                associate (s => model%sections(i))
+                    call mix(number, [s%from, s%to, s%EI, s%GA, s%EA])
+                end associate
+            end do
+        end if
         do i = 1, size(model%supports)
             associate (s => model%supports(i))
                 call mix(number, [s%x, s%stiffness, s%gap, s%settlement, s%rotation, real([s%node, s%side, s%direction], wp)])

@@ -8,10 +8,12 @@
 module gapbeam_places
     use gapbeam_kinds, only: wp
     use gapbeam_scene, only: span_type
-    use gapbeam_lowered, only: position_tolerance
     implicit none
     private
-    public :: place_span_ends, locate, merge_places
+    public :: place_span_ends, locate, merge_places, position_tolerance
+
+    !> Positions whose difference is at most this share of the larger one are the same place
+    real(wp), parameter :: position_tolerance = 64*epsilon(1.0_wp)
 
 contains
 

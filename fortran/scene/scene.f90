@@ -7,9 +7,9 @@ module gapbeam_scene
     use gapbeam_kinds, only: wp
     implicit none
     private
-    public :: span_type, support_type, load_type, model_type
+    public :: span_type, section_type, support_type, load_type, model_type
     public :: point_force, point_couple, uniform_load, linear_load, imposed_curvature, axial_force
-    public :: gapbeam_infinity, gapbeam_by_x
+    public :: gapbeam_infinity, gapbeam_by_x, gapbeam_unchanged, gapbeam_right_end
     public :: gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_normal, gapbeam_axial
     public :: gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force
     public :: gapbeam_live, gapbeam_dead
@@ -27,6 +27,8 @@ module gapbeam_scene
                           gapbeam_axial_force = 5
     !> Cases of a load: scaled by the load factor, in full from the start
     integer, parameter :: gapbeam_live = 0, gapbeam_dead = 1
+    !> Instead of a stiffness of a section: it stays as it is. Instead of where a stretch ends: the right end of the beam
+    real(wp), parameter :: gapbeam_unchanged = -huge(1.0_wp), gapbeam_right_end = -huge(1.0_wp)
     !> A place not given
     real(wp), parameter :: nowhere = -huge(1.0_wp)
 
@@ -41,6 +43,14 @@ module gapbeam_scene
         !> Axial stiffness (force); needed only with axial loads
         real(wp) :: EA = gapbeam_infinity
     end type span_type
+
+    !> Other stiffness between two places; later sections win over earlier ones
+    type :: section_type
+        !> Ends of the stretch
+        real(wp) :: from = 0.0_wp, to = gapbeam_right_end
+        !> Stiffnesses there, above 0, as in span_type
+        real(wp) :: EI = gapbeam_unchanged, GA = gapbeam_unchanged, EA = gapbeam_unchanged
+    end type section_type
 
     !> A support: it acts where the deflection reaches settlement + gap (below) or settlement - gap (above)
     type :: support_type
@@ -72,8 +82,8 @@ module gapbeam_scene
         real(wp) :: x = nowhere
         !> Or place by node, of forces and couples; gapbeam_by_x: x counts
         integer :: node = gapbeam_by_x
-        !> Right end of the stretch, of distributed loads and curvatures
-        real(wp) :: to = nowhere
+        !> Right end of the stretch, of distributed loads and curvatures; default that of the beam
+        real(wp) :: to = gapbeam_right_end
         !> Force, couple, curvature, or force per length at the left end of the stretch
         real(wp) :: value = 0.0_wp
         !> Force per length at its right end
@@ -85,6 +95,7 @@ module gapbeam_scene
         type(span_type), allocatable :: spans(:)
         !> Places of moment hinges
         real(wp), allocatable :: hinges(:)
+        type(section_type), allocatable :: sections(:)
         type(support_type), allocatable :: supports(:)
         type(load_type), allocatable :: loads(:)
     end type model_type
