@@ -36,12 +36,12 @@ def ended(capsys, *arguments):
 
 
 PLACES = [
-    ("gapbeam.scene.structs.read_scene", ["check", "scene.json"]),
+    ("gapbeam.scene.reading.read_scene", ["check", "scene.json"]),
     ("gapbeam.results.stepping.solve", ["run", "scene.json"]),
     ("gapbeam.report.text.json_parts", ["run", "scene.json", "--json", "a.json"]),
     ("gapbeam.plots.result.figure", ["run", "scene.json", "--plot", "a.png"]),
     ("gapbeam.report.text.print_report", ["run", "scene.json"]),
-    ("gapbeam.scene.structs.scene_schema", ["schema"]),
+    ("gapbeam.scene.schema.scene_schema", ["schema"]),
     ("gapbeam.studies.schemes.schemes", ["study", "schemes"]),
     ("gapbeam.studies.kernel.kernels", ["study", "kernel"]),
 ]

@@ -206,7 +206,7 @@ def test_valgrind_finds_nothing_in_the_extension(tmp_path, python_digits):
     )  # fmt: skip
     assert done.stdout == python_digits
     assert "f90" not in log.read_text()
-    assert "_f77" not in log.read_text()
+    assert "_engine" not in log.read_text()
 
 
 @pytest.mark.skipif(shutil.which("valgrind") is None, reason="no valgrind on this machine")

@@ -24,14 +24,14 @@ def test_all_of_them_at_once():
     assert (run.returncode, run.stderr) == (0, "")
 
 
-@pytest.mark.parametrize("name", ["engine", "base", "results", "plots", "_f77", "cli"])
+@pytest.mark.parametrize("name", ["engine", "base", "results", "plots", "_engine", "cli"])
 def test_modules(name):
     run = fresh(f"import gapbeam; gapbeam.{name}; import gapbeam.{name}; from gapbeam import {name}")
     assert (run.returncode, run.stderr) == (0, "")
 
 
 def test_nothing_is_imported_before():
-    code = "import sys, gapbeam, gapbeam.cli; sys.exit(bool({'numpy', 'msgspec', 'gapbeam._f77'} & set(sys.modules)))"
+    code = "import sys, gapbeam, gapbeam.cli; sys.exit(bool({'numpy', 'msgspec', 'gapbeam._engine'} & set(sys.modules)))"
     assert fresh(code).returncode == 0
 
 

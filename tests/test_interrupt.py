@@ -12,6 +12,7 @@ import time
 import gapbeam
 import numpy as np
 import pytest
+from gapbeam import _yardsticks
 from gapbeam.cli import main
 from gapbeam.engine import calls
 from gapbeam.studies.schemes import gapped_spans
@@ -57,8 +58,9 @@ def test_one_call_of_the_engine():
     """Some seconds of eliminations in one call."""
     count = 100_000
     each, supports = np.ones(count), np.full(count + 1, np.inf)
-    interrupt(lambda: calls.gbkern(each, each, each, supports, np.zeros(count + 1), 0, 3000))
-    w, _, status = calls.gbkern(each, each, each, supports, np.zeros(count + 1), 0, 1)
+    solve = calls.interruptible(_yardsticks.yskern)
+    interrupt(lambda: solve(each, each, each, supports, np.zeros(count + 1), 0, 3000))
+    w, _, status = solve(each, each, each, supports, np.zeros(count + 1), 0, 1)
     assert status == 0
     assert not w.any()
 
@@ -98,13 +100,13 @@ def test_pictures_of_long_beams():
 
 def test_events(monkeypatch):
     """Calls for events are interruptible however short the beam is: what they take is not known beforehand."""
-    monkeypatch.setattr(gapbeam.engine.engine._f77, "gbpath", calls.interruptible(lambda *_: time.sleep(60), large=None))
+    monkeypatch.setattr(gapbeam.engine.beam._engine, "gbpath", calls.interruptible(lambda *_: time.sleep(60)))
     interrupt(lambda: gapbeam.solve({**gapped_spans(3), "analysis": {"follow": "events"}}))
 
 
 @pytest.mark.parametrize("signals", [_thread.interrupt_main, lambda: signal.raise_signal(signal.SIGINT)])
 def test_signals_that_another_thread_got(signals):
-    interrupt(lambda: calls.interruptible(time.sleep, large=None)(60), signals=signals)
+    interrupt(lambda: calls.interruptible(time.sleep)(60), signals=signals)
 
 
 def test_what_another_handler_raises_ends_a_call_too():
@@ -117,7 +119,7 @@ def test_what_another_handler_raises_ends_a_call_too():
     old = signal.signal(signal.SIGALRM, late)
     signal.setitimer(signal.ITIMER_REAL, 0.1)
     with pytest.raises(Late):
-        calls.interruptible(time.sleep, large=None)(60)
+        calls.interruptible(time.sleep)(60)
     signal.signal(signal.SIGALRM, old)
 
 
@@ -131,17 +133,17 @@ def test_the_thread_that_is_left_ends_with_its_call():
         time.sleep(1.5)
         ended.set()
 
-    interrupt(calls.interruptible(routine, large=None), 0.1)
+    interrupt(calls.interruptible(routine), 0.1)
     assert calls._BESIDE.calls is None
-    assert calls.interruptible(lambda: 7, large=None)() == 7
+    assert calls.interruptible(lambda: 7)() == 7
     assert not ended.is_set()
     assert ended.wait(5)
 
 
 def test_errors_and_results_come_back():
-    assert calls.interruptible(divmod, large=None)(7, 2) == (3, 1)
+    assert calls.interruptible(divmod)(7, 2) == (3, 1)
     with pytest.raises(ZeroDivisionError):
-        calls.interruptible(divmod, large=None)(7, 0)
+        calls.interruptible(divmod)(7, 0)
 
 
 def test_nothing_is_kept():
@@ -154,7 +156,7 @@ def test_nothing_is_kept():
 
     large = Large()
     gone = weakref.ref(large)
-    calls.interruptible(lambda _: None, large=None)(large)
+    calls.interruptible(lambda _: None)(large)
     del large
     for _ in range(100):
         if gone() is None:
@@ -263,7 +265,7 @@ def test_the_command_is_interrupted(tmp_path, monkeypatch, spans, analysis, when
 FREEING = """
 import os, signal, sys, time, weakref
 signal.signal(signal.SIGINT, signal.default_int_handler)
-import gapbeam.scene.structs
+import gapbeam.scene.reading
 from gapbeam.cli import main
 
 class Held:
@@ -279,7 +281,7 @@ def read_scene(_):
     del held
     time.sleep(60)
 
-gapbeam.scene.structs.read_scene = read_scene
+gapbeam.scene.reading.read_scene = read_scene
 sys.exit(main())
 """
 
@@ -310,7 +312,7 @@ def test_waiting_for_standard_input_is_interrupted(tmp_path, monkeypatch):
 
 
 def test_main_gives_the_status_to_its_caller(monkeypatch, capsys):
-    monkeypatch.setattr("gapbeam.scene.structs.read_scene", lambda _: signal.raise_signal(signal.SIGINT))
+    monkeypatch.setattr("gapbeam.scene.reading.read_scene", lambda _: signal.raise_signal(signal.SIGINT))
     old = signal.signal(signal.SIGINT, signal.default_int_handler)
     assert main(["check", "scene.json"]) == 130
     signal.signal(signal.SIGINT, old)

@@ -73,7 +73,7 @@ def assert_same_state(beam, f77, result, scene, rng):
     end = nodes_of(scene)[-1]
     x = [0.0, end, *(rng.uniform(0.0, end) for _ in range(3)), *nodes_of(scene)]
     for left in (False, True):
-        fields = result.at(np.clip(x, 0.0, result.arrays.ends[-1]), side="left" if left else "right")
+        fields = result.at(np.clip(x, 0.0, result.beam.places.end), side="left" if left else "right")
         for one in (beam, f77):
             for row, name in zip(one.fields(x, left), FIELDS, strict=True):
                 values = getattr(fields, name)

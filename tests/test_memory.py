@@ -12,7 +12,7 @@ import gapbeam
 import numpy as np
 import pytest
 from gapbeam.base.errors import Status
-from gapbeam.engine.engine import check_status
+from gapbeam.base.errors import check_status
 
 resource = pytest.importorskip("resource")
 

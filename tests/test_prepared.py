@@ -49,7 +49,7 @@ def test_cases_are_scenes_with_scaled_loads(block):
             assert cases.closed[k].tolist() == step.solution.closed.tolist() or step.undecided
             assert full.steps[-1].reaction == pytest.approx(step.reaction, abs=tolerance, rel=1e-11)
             if not step.indifferent:
-                x = np.linspace(0.0, direct.arrays.ends[-1], 7)
+                x = np.linspace(0.0, direct.beam.places.end, 7)
                 for name in ("deflection", "moment"):
                     a, b = getattr(full.at(x), name), getattr(direct.at(x), name)
                     assert a == pytest.approx(b, rel=1e-9, abs=1e-10 * max(np.abs(b).max(), 1e-6)), (seed, name)

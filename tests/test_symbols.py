@@ -8,7 +8,7 @@ import sys
 import sysconfig
 
 import pytest
-from gapbeam import _f77, _yardsticks
+from gapbeam import _engine, _yardsticks
 from installation import LANGUAGES, TOP
 
 # Python would not make the extension's symbols global; here they are to meet the library's.
@@ -33,7 +33,7 @@ assert found[0] == found[1] == found[2], found
 
 
 @pytest.mark.skipif(shutil.which("nm") is None, reason="no nm on this machine")
-@pytest.mark.parametrize("extension", [_f77, _yardsticks])
+@pytest.mark.parametrize("extension", [_engine, _yardsticks])
 def test_extensions_export_nothing_but_their_init(extension):
     command = ["nm", "-D", "--defined-only", extension.__file__]
     listing = subprocess.run(command, capture_output=True, text=True, check=True).stdout

@@ -25,10 +25,44 @@ contains
         else if (abs(value) < 1e9_wp .and. abs(value - anint(value)) <= 0.0_wp) then
             text = whole(nint(value))
         else
-            write (text, "(g0.9)") value
-            text = adjustl(text)
+            text = fifteen_digits(value)
         end if
     end function shown
+
+    !> A number without the noise of its last bits, as C's format %.15g writes it
+    pure function fifteen_digits(value) result(text)
+        real(wp), intent(in) :: value
+        character(len=length) :: text
+        character(len=length) :: scientific
+        character(len=15) :: digit
+        integer :: power, last
+
+        write (scientific, "(es22.14e3)") abs(value)
+        scientific = adjustl(scientific)
+        digit = scientific(1:1)//scientific(3:16)
+        read (scientific(18:21), "(i4)") power
+        last = max(1, verify(digit, "0", back=.true.))
+        if (power < -4 .or. power >= 15) then
+            text = mantissa(digit, last, 1)//"e"//merge("+", "-", power >= 0)
+            if (abs(power) < 10) text = trim(text)//"0"
+            text = trim(text)//whole(abs(power))
+        else if (power < 0) then
+            text = "0."//repeat("0", -power - 1)//digit(:last)
+        else
+            text = mantissa(digit, last, power + 1)
+        end if
+        if (value < 0.0_wp) text = "-"//text
+    end function fifteen_digits
+
+    !> Digits with a point behind the first so many
+    pure function mantissa(digit, last, before) result(text)
+        character(len=*), intent(in) :: digit
+        integer, intent(in) :: last, before
+        character(len=merge(before, last + 1, last <= before)) :: text
+
+        text = digit(:before)
+        if (last > before) text = digit(:before)//"."//digit(before + 1:last)
+    end function mantissa
 
     !> A whole number as text, blanks behind it
     pure function whole(value) result(text)

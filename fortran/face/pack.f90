@@ -52,6 +52,7 @@ contains
         call exchange_units(tape, lowered%axial%units)
         call exchange(tape, lowered%axial%point, 0)
         call exchange(tape, lowered%axial%softness, 1)
+        call exchange(tape, lowered%axial%before, 1)
         call exchange(tape, lowered%axial%flexibility, 1)
         call exchange(tape, lowered%axial%force)
         call exchange(tape, lowered%axial%stiffness, 0)

@@ -1,249 +1,283 @@
-! The engine for Python: plain arrays only, in the manner of Fortran 77. f2py reads this very file, so it holds only
-! default kinds, explicit shapes and external subroutines, and nothing but marshalling. It is no part of the library, whose
-! Fortran 77 interface (face/fortran77.f90) takes beams as users describe them and has its own GBSOLV and GBCERT.
+! The library for Python: plain arrays only, in the manner of Fortran 77. f2py reads this very file, so it holds only default
+! kinds, explicit shapes and external subroutines, and nothing but marshalling. It is no part of the library for everyone else,
+! whose Fortran 77 interface (face/fortran77.f90) has its own GBSOLV and GBCERT.
 !
-! Arrays of records, one column each:
-!   PIECE(3, NP)   length, 1/EI, 1/GA
-!   DEAD, LIVE(5, NP)  load per length at the left and right end, imposed curvature, force (down) and
-!                  couple (clockwise) at the right end of the piece unless a node is there
-!   LINK(21, NL)   made by GBCOND, opaque
-! Nodes are numbered from 0 to NL; LAST(I) is the last piece of link I. STATUS as in gapbeam_error: 0 solved, 1 no
-! equilibrium, above 10 an error with its MESSAGE and nothing else set.
+! BEAM is the handle of a prepared beam (gapbeam_handle): NP pieces, NL links between nodes 0 to NL, NS supports of the engine,
+! NM supports of the scene, NB axial bars. Arrays over supports and bars have one entry more than there are: f2py takes none
+! that is empty. Units are the engine's where nothing else is said. STATUS as in gapbeam_error: 0 solved, 1 no equilibrium, above
+! 10 an error with its MESSAGE and nothing else set.
 
-! Condense the pieces between nodes into links
-subroutine gbcond(np, nl, piece, dead, live, last, link, lost, status)
-    use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
-    use gapbeam_error, only: gapbeam_solved, gapbeam_no_memory
-    use gapbeam_link, only: link_type, piece_type, load_type, condense_link
-    use gapbeam_range, only: first_lost_link
+! Prepare a beam
+subroutine gbmake(mspan, mhinge, msect, msup, mload, span, hinge, sect, isup, sup, iload, aload, &
+                  beam, status, reason, table, entry, partner, key, message)
+    use gapbeam_error, only: error_type, gapbeam_solved
+    use gapbeam_scene, only: model_type
+    use gapbeam_handle, only: read_columns, new_handle
     implicit none
-    integer, intent(in) :: np, nl
-    double precision, intent(in), target :: piece(3, np), dead(5, np), live(5, np)
-    integer, intent(in) :: last(nl)
-    double precision, intent(out), target :: link(21, nl)
-    ! The first link, from 1, that lost digits; with a minus the first whose loads are no numbers; 0: none
-    integer, intent(out) :: lost, status
+    ! One more than there are
+    integer, intent(in) :: mspan, mhinge, msect, msup, mload
+    ! Columns as for read_columns, in the scene's units
+    double precision, intent(in) :: span(mspan, 4), hinge(mhinge), sect(msect, 5), sup(msup, 5), aload(mload, 4)
+    integer, intent(in) :: isup(msup, 3), iload(mload, 3)
+    ! The handle; 0 where it is refused
+    integer(8), intent(out) :: beam
+    ! Why: as in gapbeam_error and gapbeam_refusal; entries count from 1
+    integer, intent(out) :: status, reason, table, entry, partner
+    character(len=10), intent(out) :: key
+    character(len=240), intent(out) :: message
     !f2py threadsafe
-    !f2py integer, intent(hide), depend(piece) :: np = shape(piece, 1)
-    !f2py integer, intent(hide), depend(last) :: nl = shape(last, 0)
-    type(piece_type), pointer :: pieces(:)
-    type(load_type), pointer :: deads(:), lives(:)
-    type(link_type), pointer :: links(:)
-    double precision, allocatable :: work(:)
-    integer :: i, first, stat
+    !f2py integer, intent(hide), depend(span) :: mspan = shape(span, 0)
+    !f2py integer, intent(hide), depend(hinge) :: mhinge = shape(hinge, 0)
+    !f2py integer, intent(hide), depend(sect) :: msect = shape(sect, 0)
+    !f2py integer, intent(hide), depend(sup) :: msup = shape(sup, 0)
+    !f2py integer, intent(hide), depend(aload) :: mload = shape(aload, 0)
+    type(model_type) :: model
+    type(error_type), allocatable :: error
 
-    lost = 0
-    status = gapbeam_no_memory
-    allocate (work(np), stat=stat)
-    if (stat /= 0) return
+    beam = 0
     status = gapbeam_solved
-    call c_f_pointer(c_loc(piece), pieces, [np])
-    call c_f_pointer(c_loc(dead), deads, [np])
-    call c_f_pointer(c_loc(live), lives, [np])
-    call c_f_pointer(c_loc(link), links, [nl])
-    first = 1
-    do i = 1, nl
-        call condense_link(pieces(first:last(i)), deads(first:last(i)), lives(first:last(i)), work, links(i))
-        first = last(i) + 1
-    end do
-    lost = first_lost_link(pieces, links, last)
-end subroutine gbcond
+    reason = 0
+    table = 0
+    entry = 0
+    partner = 0
+    key = " "
+    message = " "
+    call read_columns(span, hinge, sect, isup, sup, iload, aload, model, error)
+    if (.not. allocated(error)) call new_handle(model, beam, error)
+    if (.not. allocated(error)) return
+    status = error%code
+    reason = error%reason
+    table = error%table
+    entry = error%entry
+    partner = error%partner
+    key = error%key
+    message = error%message
+end subroutine gbmake
+
+! Free a beam
+subroutine gbdrop(beam)
+    use gapbeam_handle, only: drop_handle
+    implicit none
+    integer(8), intent(in) :: beam
+
+    call drop_handle(beam)
+end subroutine gbdrop
+
+! Another beam: the loads of a case, all live, each times its factor, and nothing dead
+subroutine gbcopy(beam, nd, factor, copy, status, message)
+    use gapbeam_error, only: error_type, gapbeam_solved
+    use gapbeam_handle, only: handle_type, handle_of, copy_handle, drop_handle
+    use gapbeam_cases, only: take_case
+    implicit none
+    integer(8), intent(in) :: beam
+    ! One more than there are loads
+    integer, intent(in) :: nd
+    double precision, intent(in) :: factor(nd)
+    integer(8), intent(out) :: copy
+    integer, intent(out) :: status
+    character(len=240), intent(out) :: message
+    !f2py threadsafe
+    !f2py integer, intent(hide), depend(factor) :: nd = shape(factor, 0)
+    type(handle_type), pointer :: handle
+    type(error_type), allocatable :: error
+
+    status = gapbeam_solved
+    message = " "
+    call copy_handle(beam, copy, error)
+    if (.not. allocated(error)) then
+        handle => handle_of(copy)
+        call take_case(factor(:nd - 1), handle%lowered, error)
+        if (allocated(error)) call drop_handle(copy)
+    end if
+    if (.not. allocated(error)) return
+    copy = 0
+    status = error%code
+    message = error%message
+end subroutine gbcopy
+
+! Sizes of a beam, and its units
+subroutine gbsize(beam, sizes, units)
+    use gapbeam_handle, only: handle_type, handle_of
+    implicit none
+    integer(8), intent(in) :: beam
+    ! NP, NL, NS, NM, NB (-1 without an axial system), and whether there are hinges, rotational restraints, shear
+    ! flexibility, one-sided supports that can carry
+    integer, intent(out) :: sizes(9)
+    ! Exponents of two: length, force, deflection; force and displacement along the axis
+    integer, intent(out) :: units(5)
+    type(handle_type), pointer :: handle
+
+    handle => handle_of(beam)
+    associate (lowered => handle%lowered)
+        sizes = [size(lowered%pieces), size(lowered%beam%links), size(lowered%beam%supports), size(lowered%model%supports), -1, &
+                 size(lowered%model%hinges), merge(1, 0, any(lowered%turning > 0.0d0)), &
+                 merge(1, 0, any(lowered%pieces%shear_flexibility > 0.0d0)), merge(1, 0, any(lowered%beam%supports%side /= 0))]
+        units = [lowered%units%length, lowered%units%force, lowered%units%deflection, 0, 0]
+        if (.not. allocated(lowered%axial%point)) return
+        sizes(5) = ubound(lowered%axial%point, 1)
+        units(4:5) = [lowered%axial%units%force, lowered%axial%units%deflection]
+    end associate
+end subroutine gbsize
+
+! What there is along a beam, in the scene's units
+subroutine gbplac(beam, np, nl, ns, nm, xend, xpoint, ispan, piece, dead, live, npoint, kind, turn, force, couple, &
+                  snode, number, place, level)
+    use gapbeam_handle, only: handle_type, handle_of
+    use gapbeam_units, only: rotation_unit, moment_unit
+    use gapbeam_lowered, only: point_x, piece_length, bending_stiffness, shear_stiffness
+    use gapbeam_lower_supports, only: contact_level
+    implicit none
+    integer(8), intent(in) :: beam
+    integer, intent(in) :: np, nl, ns, nm
+    ! The beam's right end; places of the points between pieces, and span of every piece, from 0
+    double precision, intent(out) :: xend, xpoint(0:np)
+    integer, intent(out) :: ispan(np)
+    ! Length, EI, GA of the pieces, and loads on them: per length at both ends, imposed curvature, force and couple at the right
+    ! end unless a node is there
+    double precision, intent(out) :: piece(3, np), dead(5, np), live(5, np)
+    ! Points that are nodes; 0 plain, 1 hinge, 2 rotational restraint of stiffness TURN; dead and live forces and couples
+    integer, intent(out) :: npoint(0:nl), kind(0:nl)
+    double precision, intent(out) :: turn(0:nl), force(2, 0:nl), couple(2, 0:nl)
+    ! Supports of the engine: node, and number in the scene, from 0
+    integer, intent(out) :: snode(ns + 1), number(ns + 1)
+    ! Supports of the scene: node, and deflection at which it begins to act; 0 for axial ones
+    integer, intent(out) :: place(nm + 1)
+    double precision, intent(out) :: level(nm + 1)
+    !f2py threadsafe
+    type(handle_type), pointer :: handle
+    integer :: j, k
+
+    handle => handle_of(beam)
+    associate (lowered => handle%lowered, units => handle%lowered%units)
+        xend = lowered%ends(ubound(lowered%ends, 1))
+        do j = 0, np
+            xpoint(j) = point_x(lowered, j)
+        end do
+        ispan = lowered%point_span(:np - 1)
+        do j = 1, np
+            piece(:, j) = [piece_length(lowered, j), bending_stiffness(lowered, j), shear_stiffness(lowered, j)]
+            associate (a => lowered%dead(j), b => lowered%live(j), q => units%force - units%length, &
+                       bent => rotation_unit(units) - units%length)
+                dead(:, j) = scale([a%qa, a%qb, a%kappa, a%force, a%couple], [q, q, bent, units%force, moment_unit(units)])
+                live(:, j) = scale([b%qa, b%qb, b%kappa, b%force, b%couple], [q, q, bent, units%force, moment_unit(units)])
+            end associate
+        end do
+        npoint = lowered%node_point
+        kind = lowered%beam%kind
+        turn = lowered%turning
+        force = scale(lowered%beam%force, units%force)
+        couple = scale(lowered%beam%couple, moment_unit(units))
+        snode = 0
+        snode(:ns) = lowered%beam%supports%node
+        number = 0
+        number(:ns) = lowered%normal - 1
+        place = 0
+        level = 0.0d0
+        do k = 1, nm
+            if (lowered%model%supports(k)%direction /= 0) cycle
+            place(k) = lowered%node_of_point(lowered%support_point(k))
+            level(k) = contact_level(lowered%model%supports(k))
+        end do
+    end associate
+end subroutine gbplac
 
 ! Find the working scheme at one load factor and solve it
-subroutine gbsolv(np, nl, ns, piece, dead, live, last, link, kind, compli, force, couple, snode, sside, sstiff, scont, &
-                  factor, rule, closed, undec, w, ml, mr, shear, react, motion, solves, method, indiff, back, status, message)
-    use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
-    use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_memory
-    use gapbeam_memory, only: enough_memory, for_solving
-    use gapbeam_link, only: link_type
-    use gapbeam_model, only: beam_type, new_beam
-    use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
-    use gapbeam_scheme, only: outcome_type
-    use gapbeam_referee, only: decide_scheme, detail_type
+subroutine gbsolv(beam, nl, ns, nm, nb, factor, rule, closed, undec, w, ml, mr, shear, react, motion, u, pull, &
+                  values, states, counts, status, message)
+    use gapbeam_error, only: error_type, gapbeam_solved
+    use gapbeam_handle, only: handle_type, handle_of
+    use gapbeam_solution, only: state_type, new_state
+    use gapbeam_state, only: solve_state
+    use gapbeam_query, only: support_values
     implicit none
-    ! NP pieces, NL links, NL + 1 nodes, NS supports
-    integer, intent(in) :: np, nl, ns
-    double precision, intent(in), target :: piece(3, np), dead(5, np), live(5, np), link(21, nl)
-    integer, intent(in), target :: last(nl)
-    ! Nodes: 0 plain, 1 hinge, 2 rotational restraint of compliance COMPLI (0: clamp)
-    integer, intent(in) :: kind(0:nl)
-    double precision, intent(in) :: compli(0:nl)
-    ! Nodal forces (down) and couples (clockwise), dead and live
-    double precision, intent(in) :: force(2, 0:nl), couple(2, 0:nl)
-    ! Supports: node, side (1 below, -1 above, 0 both), stiffness (infinite: rigid), deflection of first contact
-    integer, intent(in) :: snode(ns), sside(ns)
-    double precision, intent(in) :: sstiff(ns), scont(ns)
+    integer(8), intent(in) :: beam
+    integer, intent(in) :: nl, ns, nm, nb
     ! Factor of the live loads; rule 0 block, 1 single, 2 CLOSED is known to be the working scheme (as along a path)
     double precision, intent(in) :: factor
     integer, intent(in) :: rule
     ! Scheme: 1 closed, 0 open; start in, working scheme out
-    integer, intent(inout) :: closed(ns)
+    integer, intent(inout) :: closed(ns + 1)
     ! 1 where the reaction or the opening is zero, so that the support may be closed or open
-    integer, intent(out) :: undec(ns)
+    integer, intent(out) :: undec(ns + 1)
     ! Deflections, moments left and right of the nodes, shears of the links beside those of the simple bar, reactions (up)
-    double precision, intent(out) :: w(0:nl), ml(0:nl), mr(0:nl), shear(nl), react(ns)
+    double precision, intent(out) :: w(0:nl), ml(0:nl), mr(0:nl), shear(nl), react(ns + 1)
     ! Free motion where there is no equilibrium
     double precision, intent(out) :: motion(0:nl)
+    ! Displacements of the axial system's points and forces in its bars
+    double precision, intent(out) :: u(0:nb), pull(nb + 1)
+    ! Of the scene's supports in its units: reaction, deflection, opening, couple; 0 open, 1 closed, 2 holds both ways
+    double precision, intent(out) :: values(nm + 1, 4)
+    integer, intent(out) :: states(nm + 1)
     ! Linear solves; system solved last: 0 mixed, 1 three-moment, 2 with pivoting; 1 where the beam can move freely
-    ! without work of the loads (the forces are unique, the position is not); 1 where the rule single came back to a scheme
-    integer, intent(out) :: solves, method, indiff, back, status
+    ! without work of the loads; 1 where the rule single came back to a scheme; 1 where the beam slides along its axis
+    integer, intent(out) :: counts(5), status
     character(len=240), intent(out) :: message
     !f2py threadsafe
-    !f2py integer, intent(hide), depend(piece) :: np = shape(piece, 1)
-    !f2py integer, intent(hide), depend(link) :: nl = shape(link, 1)
-    !f2py integer, intent(hide), depend(snode) :: ns = shape(snode, 0)
-    type(link_type), pointer :: links(:)
-    type(detail_type) :: detail
-    type(beam_type) :: beam
-    type(workspace_type) :: work
-    type(outcome_type) :: outcome
+    !f2py integer, intent(hide), depend(closed) :: ns = shape(closed, 0) - 1
+    type(handle_type), pointer :: handle
+    type(state_type) :: state
     type(error_type), allocatable :: error
-    logical, allocatable :: acting(:)
 
+    handle => handle_of(beam)
+    undec = 0
     w = 0.0d0
     ml = 0.0d0
     mr = 0.0d0
     shear = 0.0d0
     react = 0.0d0
     motion = 0.0d0
-    undec = 0
-    indiff = 0
-    solves = 0
-    method = 0
-    back = 0
+    u = 0.0d0
+    pull = 0.0d0
+    values = 0.0d0
+    states = 0
+    counts = 0
     message = " "
-    status = gapbeam_no_memory
-    if (.not. enough_memory(for_solving, nl, ns, np)) return
-    call c_f_pointer(c_loc(link), links, [nl])
-    call c_f_pointer(c_loc(piece), detail%pieces, [np])
-    call c_f_pointer(c_loc(dead), detail%dead, [np])
-    call c_f_pointer(c_loc(live), detail%live, [np])
-    detail%last => last
-    call new_beam(links, kind, compli, force, couple, snode, sside, sstiff, scont, beam)
-    call new_workspace(beam, work)
-    call set_loads(beam, factor, work)
-    allocate (acting(ns))
-    acting(:) = closed /= 0
-    call decide_scheme(beam, detail, factor, rule, acting, work, outcome, error)
-    solves = work%solves
-    method = work%method
-    back = merge(1, 0, work%came_back)
+    call new_state(handle%lowered, state, error)
+    if (.not. allocated(error)) then
+        state%closed(:) = closed(:ns) /= 0
+        call solve_state(handle%lowered, factor, rule, state, error)
+    end if
     if (allocated(error)) then
         status = error%code
         message = error%message
         return
     end if
-    status = outcome%status
-    if (allocated(outcome%motion)) motion = outcome%motion
+    status = state%status
+    counts = [state%solves, state%method, merge(1, 0, state%indifferent), merge(1, 0, state%came_back), merge(1, 0, state%slides)]
+    motion = state%motion
     if (status /= gapbeam_solved) return
-    closed = merge(1, 0, acting)
-    indiff = merge(1, 0, outcome%indifferent)
-    undec = merge(1, 0, outcome%undecided)
-    w = work%answers%deflection
-    ml = work%answers%moment_left
-    mr = work%answers%moment_right
-    shear = work%shear
-    react = work%reaction
+    closed(:ns) = merge(1, 0, state%closed)
+    undec(:ns) = merge(1, 0, state%undecided)
+    w = state%deflection
+    ml = state%moment_left
+    mr = state%moment_right
+    shear = state%shear
+    react(:ns) = state%reaction
+    u = state%displacement
+    pull(:nb) = state%tension
+    call support_values(handle%lowered, state, values(:nm, 1), values(:nm, 2), values(:nm, 3), values(:nm, 4), states(:nm))
 end subroutine gbsolv
 
-! Residuals, and bounds for the errors, of a state that GBSOLV found
-subroutine gbcert(np, nl, ns, piece, dead, live, last, link, kind, compli, force, couple, snode, sside, sstiff, scont, &
-                  factor, closed, w, ml, mr, react, start, resid, bound, known, status, message)
-    use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
-    use gapbeam_element, only: field_type
-    use gapbeam_link, only: link_type
-    use gapbeam_model, only: beam_type, new_beam
-    use gapbeam_referee, only: detail_type
-    use gapbeam_certificate, only: certify, certificate_type
-    use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_memory
-    use gapbeam_memory, only: enough_memory, for_certifying
-    implicit none
-    ! As for GBSOLV, START by GBRECO
-    integer, intent(in) :: np, nl, ns
-    double precision, intent(in), target :: piece(3, np), dead(5, np), live(5, np), link(21, nl)
-    integer, intent(in), target :: last(nl)
-    integer, intent(in) :: kind(0:nl)
-    double precision, intent(in) :: compli(0:nl)
-    double precision, intent(in) :: force(2, 0:nl), couple(2, 0:nl)
-    integer, intent(in) :: snode(ns), sside(ns)
-    double precision, intent(in) :: sstiff(ns), scont(ns)
-    double precision, intent(in) :: factor
-    integer, intent(in) :: closed(ns)
-    double precision, intent(in) :: w(0:nl), ml(0:nl), mr(0:nl), react(ns)
-    double precision, intent(in), target :: start(4, np)
-    ! Relative residuals of compatibility, equilibrium, complementarity
-    double precision, intent(out) :: resid(3)
-    ! Largest errors of deflections of the nodes, of reactions; of deflections, rotations, moments, shears along the beam; 1, or 0
-    ! where the position is free: deflections and rotations have none then
-    double precision, intent(out) :: bound(6)
-    integer, intent(out) :: known, status
-    character(len=240), intent(out) :: message
-    !f2py threadsafe
-    !f2py integer, intent(hide), depend(piece) :: np = shape(piece, 1)
-    !f2py integer, intent(hide), depend(link) :: nl = shape(link, 1)
-    !f2py integer, intent(hide), depend(snode) :: ns = shape(snode, 0)
-    type(link_type), pointer :: links(:)
-    type(field_type), pointer :: starts(:)
-    type(detail_type) :: detail
-    type(beam_type) :: beam
-    type(certificate_type) :: found
-    type(error_type), allocatable :: error
-    logical, allocatable :: acting(:)
-
-    resid = 0.0d0
-    bound = 0.0d0
-    known = 0
-    message = " "
-    status = gapbeam_no_memory
-    if (.not. enough_memory(for_certifying, nl, ns, np)) return
-    call c_f_pointer(c_loc(link), links, [nl])
-    call c_f_pointer(c_loc(start), starts, [np])
-    call c_f_pointer(c_loc(piece), detail%pieces, [np])
-    call c_f_pointer(c_loc(dead), detail%dead, [np])
-    call c_f_pointer(c_loc(live), detail%live, [np])
-    detail%last => last
-    call new_beam(links, kind, compli, force, couple, snode, sside, sstiff, scont, beam)
-    allocate (acting(ns))
-    acting(:) = closed /= 0
-    call certify(beam, detail, factor, acting, w, ml, mr, react, starts, found, error)
-    resid = [found%compatibility, found%equilibrium, found%complementarity]
-    bound = [found%of_nodes, found%reaction, found%deflection, found%rotation, found%moment, found%shear]
-    known = merge(1, 0, found%known)
-    status = gapbeam_solved
-    if (allocated(error)) then
-        status = error%code
-        message = error%message
-    end if
-end subroutine gbcert
-
-! Follow the load from one factor to another, from event to event
-subroutine gbpath(np, nl, ns, most, piece, dead, live, last, link, kind, compli, force, couple, snode, sside, sstiff, scont, &
-                  limit, factor, closed, margin, events, at, which, what, motion, solves, nodes, status, message)
-    use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
-    use gapbeam_error, only: error_type, gapbeam_no_memory
-    use gapbeam_memory, only: enough_memory, for_following
-    use gapbeam_link, only: link_type
-    use gapbeam_model, only: beam_type, new_beam
+! Follow the load from a factor to LIMIT, from event to event
+subroutine gbpath(most, beam, nl, ns, limit, factor, closed, margin, events, at, which, what, motion, solves, nodes, status, &
+                  message)
+    use gapbeam_error, only: error_type
+    use gapbeam_handle, only: handle_type, handle_of
+    use gapbeam_memory, only: for_following
     use gapbeam_scheme, only: outcome_type
-    use gapbeam_referee, only: detail_type
+    use gapbeam_referee, only: reserve_for
     use gapbeam_path, only: follow_load, path_type
+    use gapbeam_state, only: detail_of, name_range
     implicit none
-    ! As for GBSOLV; it stops after about MOST events, to be called again
-    integer, intent(in) :: np, nl, ns, most
-    double precision, intent(in), target :: piece(3, np), dead(5, np), live(5, np), link(21, nl)
-    integer, intent(in), target :: last(nl)
-    integer, intent(in) :: kind(0:nl)
-    double precision, intent(in) :: compli(0:nl)
-    double precision, intent(in) :: force(2, 0:nl), couple(2, 0:nl)
-    integer, intent(in) :: snode(ns), sside(ns)
-    double precision, intent(in) :: sstiff(ns), scont(ns)
-    ! Load factor to go to
+    ! Number of events after which it stops
+    integer, intent(in) :: most
+    integer(8), intent(in) :: beam
+    integer, intent(in) :: nl, ns
     double precision, intent(in) :: limit
-    ! Load factor of the state at hand in; how far it went out, or above which there is no equilibrium
+    ! Load factor of the state at hand, its scheme, and 1 for supports at zero there; how far it went out
     double precision, intent(inout) :: factor
-    ! Scheme at FACTOR and supports at zero there
-    integer, intent(inout) :: closed(ns), margin(ns)
-    ! EVENTS events: load factors, supports (from 1), and what happens: 0 opens, 1 closes, 3 the beam turns until this one holds
+    integer, intent(inout) :: closed(ns + 1), margin(ns + 1)
+    ! Events: load factor, support (from 1), 0 opens, 1 closes, 3 turns
     integer, intent(out) :: events
     double precision, intent(out) :: at(most + 6*ns + 8)
     integer, intent(out) :: which(most + 6*ns + 8), what(most + 6*ns + 8)
@@ -253,17 +287,14 @@ subroutine gbpath(np, nl, ns, most, piece, dead, live, last, link, kind, compli,
     integer, intent(out) :: solves, nodes, status
     character(len=240), intent(out) :: message
     !f2py threadsafe
-    !f2py integer, intent(hide), depend(piece) :: np = shape(piece, 1)
-    !f2py integer, intent(hide), depend(link) :: nl = shape(link, 1)
-    !f2py integer, intent(hide), depend(snode) :: ns = shape(snode, 0)
-    type(link_type), pointer :: links(:)
-    type(detail_type) :: detail
-    type(beam_type) :: beam
+    !f2py integer, intent(hide), depend(closed) :: ns = shape(closed, 0) - 1
+    type(handle_type), pointer :: handle
     type(path_type) :: path
     type(outcome_type) :: outcome
     type(error_type), allocatable :: error
     logical, allocatable :: acting(:), zero(:)
 
+    handle => handle_of(beam)
     events = 0
     at = 0.0d0
     which = 0
@@ -272,20 +303,23 @@ subroutine gbpath(np, nl, ns, most, piece, dead, live, last, link, kind, compli,
     message = " "
     solves = 0
     nodes = 0
-    status = gapbeam_no_memory
-    if (.not. enough_memory(for_following, nl, ns, np)) return
-    call c_f_pointer(c_loc(link), links, [nl])
-    call c_f_pointer(c_loc(piece), detail%pieces, [np])
-    call c_f_pointer(c_loc(dead), detail%dead, [np])
-    call c_f_pointer(c_loc(live), detail%live, [np])
-    detail%last => last
-    call new_beam(links, kind, compli, force, couple, snode, sside, sstiff, scont, beam)
-    allocate (acting(ns), zero(ns))
-    acting(:) = closed /= 0
-    zero(:) = margin /= 0
-    call follow_load(beam, detail, limit, most, factor, acting, zero, path, outcome, error)
-    closed = merge(1, 0, acting)
-    margin = merge(1, 0, zero)
+    associate (lowered => handle%lowered)
+        call reserve_for(for_following, lowered%beam, detail_of(lowered), error)
+        if (.not. allocated(error)) then
+            allocate (acting(ns), zero(ns))
+            acting(:) = closed(:ns) /= 0
+            zero(:) = margin(:ns) /= 0
+            call follow_load(lowered%beam, detail_of(lowered), limit, most, factor, acting, zero, path, outcome, error)
+            call name_range(lowered, error)
+        end if
+    end associate
+    if (allocated(error)) then
+        status = error%code
+        message = error%message
+        return
+    end if
+    closed(:ns) = merge(1, 0, acting)
+    margin(:ns) = merge(1, 0, zero)
     events = path%count
     at(:events) = path%factor(:events)
     which(:events) = path%support(:events)
@@ -294,118 +328,305 @@ subroutine gbpath(np, nl, ns, most, piece, dead, live, last, link, kind, compli,
     nodes = path%nodes
     status = outcome%status
     if (allocated(outcome%motion)) motion = outcome%motion
+end subroutine gbpath
+
+! Check a solved state
+subroutine gbcert(beam, nl, ns, factor, closed, w, ml, mr, shear, react, residu, bound, known, status, message)
+    use gapbeam_error, only: error_type, gapbeam_solved
+    use gapbeam_handle, only: handle_type, handle_of, state_of
+    use gapbeam_solution, only: state_type
+    use gapbeam_certificate, only: certificate_type
+    use gapbeam_state, only: certify_state
+    implicit none
+    integer(8), intent(in) :: beam
+    integer, intent(in) :: nl, ns
+    ! The state, as from GBSOLV
+    double precision, intent(in) :: factor
+    integer, intent(in) :: closed(ns + 1)
+    double precision, intent(in) :: w(0:nl), ml(0:nl), mr(0:nl), shear(nl), react(ns + 1)
+    ! Relative residuals of compatibility, equilibrium and complementarity
+    double precision, intent(out) :: residu(3)
+    ! Largest errors of deflections of the nodes, reactions; of deflections, rotations, moments, shears along the beam
+    double precision, intent(out) :: bound(6)
+    ! 0 where deflections and rotations have no bound
+    integer, intent(out) :: known, status
+    character(len=240), intent(out) :: message
+    !f2py threadsafe
+    !f2py integer, intent(hide), depend(closed) :: ns = shape(closed, 0) - 1
+    !f2py integer, intent(hide), depend(shear) :: nl = shape(shear, 0)
+    type(handle_type), pointer :: handle
+    type(state_type) :: state
+    type(certificate_type) :: found
+    type(error_type), allocatable :: error
+
+    handle => handle_of(beam)
+    residu = 0.0d0
+    bound = 0.0d0
+    known = 0
+    status = gapbeam_solved
+    message = " "
+    call state_of(handle%lowered, factor, closed, w, ml, mr, shear, react, state, error)
+    if (.not. allocated(error)) call certify_state(handle%lowered, state, found, error)
     if (allocated(error)) then
         status = error%code
         message = error%message
+        return
     end if
-end subroutine gbpath
+    residu = [found%compatibility, found%equilibrium, found%complementarity]
+    bound = [found%of_nodes, found%reaction, found%deflection, found%rotation, found%moment, found%shear]
+    known = merge(1, 0, found%known)
+end subroutine gbcert
 
-! What each load does to the links, for GBCASE: rows of loads on pieces, sorted by load, then piece (both from 1)
-subroutine gbshar(np, nl, nr, piece, link, last, rload, rpiece, rvalue, nshare, sload, slink, share, status)
-    use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
-    use gapbeam_error, only: gapbeam_solved, gapbeam_no_memory
-    use gapbeam_memory, only: enough_memory, for_fields
-    use gapbeam_link, only: link_type, piece_type, load_type
-    use gapbeam_cases, only: share_type, condense_shares
+! Fields at the left end of every piece
+subroutine gbreco(beam, np, nl, ns, factor, closed, w, ml, mr, shear, react, start, status, message)
+    use gapbeam_error, only: error_type, gapbeam_solved
+    use gapbeam_handle, only: handle_type, handle_of, state_of
+    use gapbeam_solution, only: state_type
+    use gapbeam_query, only: make_starts
     implicit none
-    integer, intent(in) :: np, nl, nr
-    double precision, intent(in), target :: piece(3, np), link(21, nl)
-    integer, intent(in) :: last(nl)
-    integer, intent(in) :: rload(nr), rpiece(nr)
-    double precision, intent(in), target :: rvalue(5, nr)
-    ! NSHARE shares: load, link, values
-    integer, intent(out) :: nshare, sload(nr), slink(nr)
-    double precision, intent(out), target :: share(6, nr)
+    integer(8), intent(in) :: beam
+    integer, intent(in) :: np, nl, ns
+    ! The state, as from GBSOLV
+    double precision, intent(in) :: factor
+    integer, intent(in) :: closed(ns + 1)
+    double precision, intent(in) :: w(0:nl), ml(0:nl), mr(0:nl), shear(nl), react(ns + 1)
+    ! Deflection, rotation, moment, shear just right of the left end of each piece
+    double precision, intent(out) :: start(4, np)
+    integer, intent(out) :: status
+    character(len=240), intent(out) :: message
+    !f2py threadsafe
+    !f2py integer, intent(hide), depend(closed) :: ns = shape(closed, 0) - 1
+    !f2py integer, intent(hide), depend(shear) :: nl = shape(shear, 0)
+    type(handle_type), pointer :: handle
+    type(state_type) :: state
+    type(error_type), allocatable :: error
+    integer :: j
+
+    handle => handle_of(beam)
+    start = 0.0d0
+    status = gapbeam_solved
+    message = " "
+    call state_of(handle%lowered, factor, closed, w, ml, mr, shear, react, state, error)
+    if (.not. allocated(error)) call make_starts(handle%lowered, state, error)
+    if (allocated(error)) then
+        status = error%code
+        message = error%message
+        return
+    end if
+    do j = 1, np
+        associate (s => state%starts(j))
+            start(:, j) = [s%deflection, s%rotation, s%moment, s%shear]
+        end associate
+    end do
+end subroutine gbreco
+
+! Fields at NX places of the scene, in its units; where they jump right (LEFT = 0) or left of the place
+subroutine gbfind(beam, nx, x, left, piece, dist, status, message)
+    use gapbeam_error, only: error_type, gapbeam_solved
+    use gapbeam_handle, only: handle_type, handle_of
+    use gapbeam_query, only: find_pieces
+    implicit none
+    integer(8), intent(in) :: beam
+    integer, intent(in) :: nx
+    double precision, intent(in) :: x(nx)
+    integer, intent(in) :: left
+    ! Piece of every place, from 1, and distance from its left end, in the scene's units
+    integer, intent(out) :: piece(nx)
+    double precision, intent(out) :: dist(nx)
+    integer, intent(out) :: status
+    character(len=240), intent(out) :: message
+    !f2py threadsafe
+    !f2py integer, intent(hide), depend(x) :: nx = shape(x, 0)
+    type(handle_type), pointer :: handle
+    type(error_type), allocatable :: error
+    integer, allocatable :: pieces(:)
+    double precision, allocatable :: distances(:)
+
+    handle => handle_of(beam)
+    piece = 0
+    dist = 0.0d0
+    status = gapbeam_solved
+    message = " "
+    call find_pieces(handle%lowered, x, left /= 0, pieces, distances, error)
+    if (allocated(error)) then
+        status = error%code
+        message = error%message
+        return
+    end if
+    piece = pieces
+    dist = distances
+end subroutine gbfind
+
+! Fields at distances from the left ends of pieces (from 1), in the scene's units
+subroutine gbvalu(beam, np, nb, nx, factor, start, u, pull, piece, dist, value, status, message)
+    use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
+    use gapbeam_error, only: error_type, gapbeam_solved
+    use gapbeam_element, only: field_type
+    use gapbeam_handle, only: handle_type, handle_of
+    use gapbeam_query, only: fields_in_pieces
+    implicit none
+    integer(8), intent(in) :: beam
+    integer, intent(in) :: np, nb, nx
+    ! From GBRECO and GBSOLV
+    double precision, intent(in) :: factor
+    double precision, intent(in), target :: start(4, np)
+    double precision, intent(in) :: u(0:nb), pull(nb + 1)
+    integer, intent(in) :: piece(nx)
+    double precision, intent(in) :: dist(nx)
+    ! Deflection, rotation, moment, shear, axial force, axial displacement
+    double precision, intent(out) :: value(6, nx)
+    integer, intent(out) :: status
+    character(len=240), intent(out) :: message
+    !f2py threadsafe
+    !f2py integer, intent(hide), depend(start) :: np = shape(start, 1)
+    !f2py integer, intent(hide), depend(u) :: nb = shape(u, 0) - 1
+    !f2py integer, intent(hide), depend(piece) :: nx = shape(piece, 0)
+    type(handle_type), pointer :: handle
+    type(field_type), pointer :: starts(:)
+    type(error_type), allocatable :: error
+
+    handle => handle_of(beam)
+    value = 0.0d0
+    status = gapbeam_solved
+    message = " "
+    call c_f_pointer(c_loc(start), starts, [np])
+    call fields_in_pieces(handle%lowered, factor, starts, u, pull(:nb), piece, dist, value, error)
+    if (.not. allocated(error)) return
+    status = error%code
+    message = error%message
+end subroutine gbvalu
+
+! Maximum and minimum of all fields and their places, in the scene's units
+subroutine gbextr(beam, np, nb, factor, start, u, pull, value, x, status, message)
+    use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
+    use gapbeam_error, only: error_type, gapbeam_solved
+    use gapbeam_element, only: field_type
+    use gapbeam_handle, only: handle_type, handle_of
+    use gapbeam_query, only: extremes_of_pieces
+    implicit none
+    integer(8), intent(in) :: beam
+    integer, intent(in) :: np, nb
+    ! As for GBVALU
+    double precision, intent(in) :: factor
+    double precision, intent(in), target :: start(4, np)
+    double precision, intent(in) :: u(0:nb), pull(nb + 1)
+    double precision, intent(out) :: value(2, 6), x(2, 6)
+    integer, intent(out) :: status
+    character(len=240), intent(out) :: message
+    !f2py threadsafe
+    !f2py integer, intent(hide), depend(start) :: np = shape(start, 1)
+    !f2py integer, intent(hide), depend(u) :: nb = shape(u, 0) - 1
+    type(handle_type), pointer :: handle
+    type(field_type), pointer :: starts(:)
+    type(error_type), allocatable :: error
+
+    handle => handle_of(beam)
+    status = gapbeam_solved
+    message = " "
+    call c_f_pointer(c_loc(start), starts, [np])
+    call extremes_of_pieces(handle%lowered, factor, starts, u, pull(:nb), value, x, error)
+    if (.not. allocated(error)) return
+    status = error%code
+    message = error%message
+end subroutine gbextr
+
+! Largest absolute values of deflection, rotation, moment, shear, in the engine's units
+subroutine gblarg(beam, np, factor, start, value)
+    use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
+    use gapbeam_element, only: field_type
+    use gapbeam_fields, only: find_extremes
+    use gapbeam_handle, only: handle_type, handle_of
+    implicit none
+    integer(8), intent(in) :: beam
+    integer, intent(in) :: np
+    double precision, intent(in) :: factor
+    double precision, intent(in), target :: start(4, np)
+    double precision, intent(out) :: value(4)
+    !f2py threadsafe
+    !f2py integer, intent(hide), depend(start) :: np = shape(start, 1)
+    type(handle_type), pointer :: handle
+    type(field_type), pointer :: starts(:)
+    double precision :: found(2, 4), distance(2, 4)
+    integer :: piece(2, 4)
+
+    handle => handle_of(beam)
+    call c_f_pointer(c_loc(start), starts, [np])
+    associate (lowered => handle%lowered)
+        call find_extremes(lowered%pieces, lowered%dead, lowered%live, factor, starts, found, piece, distance)
+    end associate
+    value = maxval(abs(found), 1)
+end subroutine gblarg
+
+! Condense the loads of a beam one by one, for GBCASE
+subroutine gbshar(beam, status)
+    use gapbeam_error, only: error_type, gapbeam_solved
+    use gapbeam_handle, only: handle_type, handle_of
+    use gapbeam_cases, only: split_loads
+    implicit none
+    integer(8), intent(in) :: beam
     integer, intent(out) :: status
     !f2py threadsafe
-    !f2py integer, intent(hide), depend(piece) :: np = shape(piece, 1)
-    !f2py integer, intent(hide), depend(link) :: nl = shape(link, 1)
-    !f2py integer, intent(hide), depend(rload) :: nr = shape(rload, 0)
-    type(piece_type), pointer :: pieces(:)
-    type(link_type), pointer :: links(:)
-    type(load_type), pointer :: values(:)
-    type(share_type), pointer :: shares(:)
+    type(handle_type), pointer :: handle
+    type(error_type), allocatable :: error
 
-    nshare = 0
-    status = gapbeam_no_memory
-    if (.not. enough_memory(for_fields, nl, 0, np)) return
+    handle => handle_of(beam)
     status = gapbeam_solved
-    call c_f_pointer(c_loc(piece), pieces, [np])
-    call c_f_pointer(c_loc(link), links, [nl])
-    call c_f_pointer(c_loc(rvalue), values, [nr])
-    call c_f_pointer(c_loc(share), shares, [nr])
-    call condense_shares(pieces, links, last, rload, rpiece, values, nshare, sload, slink, shares)
+    if (allocated(handle%cases)) return
+    allocate (handle%cases)
+    call split_loads(handle%lowered, handle%cases, error)
+    if (allocated(error)) status = error%code
 end subroutine gbshar
 
 ! Solve NC cases of loads; every load counts with its factor
-subroutine gbcase(nl, ns, nd, nsh, nno, nc, link, kind, compli, snode, sside, sstiff, scont, &
-                  sload, slink, share, pload, pnode, pshare, factor, rule, closed, &
-                  w, ml, mr, shear, react, solves, status)
-    use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
+subroutine gbcase(beam, nl, ns, nd, nc, factor, rule, closed, w, ml, mr, react, solves, status)
     use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-    use gapbeam_link, only: link_type
-    use gapbeam_model, only: beam_type, new_beam
-    use gapbeam_workspace, only: workspace_type, new_workspace
-    use gapbeam_cases, only: share_type, node_share_type, solve_case
-    use gapbeam_error, only: gapbeam_solved, gapbeam_no_memory
+    use gapbeam_error, only: gapbeam_solved, gapbeam_no_memory, gapbeam_not_finite
     use gapbeam_memory, only: enough_memory, for_solving
+    use gapbeam_model, only: beam_type
+    use gapbeam_workspace, only: workspace_type, new_workspace
+    use gapbeam_units, only: moment_unit
+    use gapbeam_handle, only: handle_type, handle_of
+    use gapbeam_cases, only: solve_case
     implicit none
-    ! As for GBSOLV; ND loads, NSH shares of links, NNO shares of nodes, NC cases
-    integer, intent(in) :: nl, ns, nd, nsh, nno, nc
-    double precision, intent(in), target :: link(21, nl)
-    integer, intent(in) :: kind(0:nl)
-    double precision, intent(in) :: compli(0:nl)
-    integer, intent(in) :: snode(ns), sside(ns)
-    double precision, intent(in) :: sstiff(ns), scont(ns)
-    ! Shares by GBSHAR; forces and couples at nodes (load from 1, node from 0, values)
-    integer, intent(in) :: sload(nsh), slink(nsh)
-    double precision, intent(in), target :: share(6, nsh)
-    integer, intent(in) :: pload(nno), pnode(nno)
-    double precision, intent(in), target :: pshare(2, nno)
+    integer(8), intent(in) :: beam
+    integer, intent(in) :: nl, ns
+    ! One more than there are loads; cases
+    integer, intent(in) :: nd, nc
     ! Factor of every load in every case
     double precision, intent(in) :: factor(nd, nc)
     integer, intent(in) :: rule
     ! Schemes: start in, working scheme out; of a case that is not solved all open, and its results are not numbers
-    integer, intent(inout) :: closed(ns, nc)
-    double precision, intent(out) :: w(0:nl, nc), ml(0:nl, nc), mr(0:nl, nc), shear(nl, nc), react(ns, nc)
+    integer, intent(inout) :: closed(ns + 1, nc)
+    ! In the scene's units: deflections and moments left and right of the nodes, reactions
+    double precision, intent(out) :: w(0:nl, nc), ml(0:nl, nc), mr(0:nl, nc), react(ns + 1, nc)
     ! Where memory ends all STATUS say so
     integer, intent(out) :: solves(nc), status(nc)
     !f2py threadsafe
-    !f2py integer, intent(hide), depend(link) :: nl = shape(link, 1)
-    !f2py integer, intent(hide), depend(snode) :: ns = shape(snode, 0)
-    !f2py integer, intent(hide), depend(sload) :: nsh = shape(sload, 0)
-    !f2py integer, intent(hide), depend(pload) :: nno = shape(pload, 0)
+    !f2py integer, intent(hide), depend(closed) :: ns = shape(closed, 0) - 1
     !f2py integer, intent(hide), depend(factor) :: nd = shape(factor, 0)
     !f2py integer, intent(hide), depend(factor) :: nc = shape(factor, 1)
-    type(link_type), pointer :: links(:)
-    type(share_type), pointer :: shares(:)
-    type(node_share_type), pointer :: node_shares(:)
-    type(beam_type) :: beam
+    type(handle_type), pointer :: handle
+    type(beam_type) :: loaded
     type(workspace_type) :: work
     logical, allocatable :: acting(:)
-    double precision, allocatable :: none(:, :)
     double precision :: nan
     integer :: i
 
+    handle => handle_of(beam)
     solves = 0
     status = gapbeam_no_memory
     if (.not. enough_memory(for_solving, nl, ns, 0)) return
-    call c_f_pointer(c_loc(link), links, [nl])
-    call c_f_pointer(c_loc(share), shares, [nsh])
-    call c_f_pointer(c_loc(pshare), node_shares, [nno])
-    allocate (acting(ns), none(2, 0:nl))
-    none(:, :) = 0.0d0
-    call new_beam(links, kind, compli, none, none, snode, sside, sstiff, scont, beam)
-    call new_workspace(beam, work)
+    allocate (acting(ns))
+    loaded = handle%lowered%beam
+    call new_workspace(loaded, work)
     nan = ieee_value(nan, ieee_quiet_nan)
     w = nan
     ml = nan
     mr = nan
-    shear = nan
     react = nan
     do i = 1, nc
-        acting(:) = closed(:, i) /= 0
-        call solve_case(factor(:, i), sload, slink, shares, pload, pnode, node_shares, rule, beam, acting, work, status(i))
+        acting(:) = closed(:ns, i) /= 0
+        call solve_case(handle%cases, factor(:, i), rule, loaded, acting, work, status(i))
         if (status(i) == gapbeam_no_memory) then
             status = gapbeam_no_memory
             return
@@ -413,160 +634,21 @@ subroutine gbcase(nl, ns, nd, nsh, nno, nc, link, kind, compli, snode, sside, ss
         solves(i) = work%solves
         closed(:, i) = 0
         if (status(i) /= gapbeam_solved) cycle
-        closed(:, i) = merge(1, 0, acting)
-        w(:, i) = work%answers%deflection
-        ml(:, i) = work%answers%moment_left
-        mr(:, i) = work%answers%moment_right
-        shear(:, i) = work%shear
-        react(:, i) = work%reaction
+        associate (units => handle%lowered%units, a => work%answers)
+            w(:, i) = scale(a%deflection, units%deflection)
+            ml(:, i) = scale(a%moment_left, moment_unit(units))
+            mr(:, i) = scale(a%moment_right, moment_unit(units))
+            react(:ns, i) = scale(work%reaction, units%force)
+        end associate
+        if (all(abs(w(:, i)) <= huge(nan)) .and. all(abs(ml(:, i)) <= huge(nan)) .and. all(abs(mr(:, i)) <= huge(nan)) &
+            .and. all(abs(react(:ns, i)) <= huge(nan))) then
+            closed(:ns, i) = merge(1, 0, acting)
+        else
+            status(i) = gapbeam_not_finite
+            w(:, i) = nan
+            ml(:, i) = nan
+            mr(:, i) = nan
+            react(:, i) = nan
+        end if
     end do
 end subroutine gbcase
-
-! Fields at the left end of every piece
-subroutine gbreco(np, nl, piece, dead, live, factor, link, last, kind, w, ml, mr, shear, start, status)
-    use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
-    use gapbeam_error, only: gapbeam_solved, gapbeam_no_memory
-    use gapbeam_memory, only: enough_memory, for_fields
-    use gapbeam_element, only: field_type
-    use gapbeam_link, only: link_type, piece_type, load_type
-    use gapbeam_recover, only: recover_beam
-    implicit none
-    integer, intent(in) :: np, nl
-    double precision, intent(in), target :: piece(3, np), dead(5, np), live(5, np), link(21, nl)
-    double precision, intent(in) :: factor
-    integer, intent(in) :: last(nl), kind(0:nl)
-    double precision, intent(in) :: w(0:nl), ml(0:nl), mr(0:nl), shear(nl)
-    ! Deflection, rotation, moment, shear just right of the left end of each piece
-    double precision, intent(out), target :: start(4, np)
-    integer, intent(out) :: status
-    !f2py threadsafe
-    !f2py integer, intent(hide), depend(piece) :: np = shape(piece, 1)
-    !f2py integer, intent(hide), depend(link) :: nl = shape(link, 1)
-    type(piece_type), pointer :: pieces(:)
-    type(load_type), pointer :: deads(:), lives(:)
-    type(link_type), pointer :: links(:)
-    type(field_type), pointer :: starts(:)
-
-    status = gapbeam_no_memory
-    if (.not. enough_memory(for_fields, nl, 0, np)) return
-    status = gapbeam_solved
-    call c_f_pointer(c_loc(piece), pieces, [np])
-    call c_f_pointer(c_loc(dead), deads, [np])
-    call c_f_pointer(c_loc(live), lives, [np])
-    call c_f_pointer(c_loc(link), links, [nl])
-    call c_f_pointer(c_loc(start), starts, [np])
-    call recover_beam(pieces, deads, lives, factor, links, last, kind, w, ml, mr, shear, starts)
-end subroutine gbreco
-
-! Fields at NX places, each a piece (from 1) and the distance from its left end
-subroutine gbvalu(np, nx, piece, dead, live, factor, start, where, dist, value)
-    use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
-    use gapbeam_element, only: field_type
-    use gapbeam_link, only: piece_type, load_type
-    use gapbeam_fields, only: values_at
-    implicit none
-    integer, intent(in) :: np, nx
-    double precision, intent(in), target :: piece(3, np), dead(5, np), live(5, np), start(4, np)
-    double precision, intent(in) :: factor
-    integer, intent(in) :: where(nx)
-    double precision, intent(in) :: dist(nx)
-    double precision, intent(out), target :: value(4, nx)
-    !f2py threadsafe
-    !f2py integer, intent(hide), depend(piece) :: np = shape(piece, 1)
-    !f2py integer, intent(hide), depend(where) :: nx = shape(where, 0)
-    type(piece_type), pointer :: pieces(:)
-    type(load_type), pointer :: deads(:), lives(:)
-    type(field_type), pointer :: starts(:), fields(:)
-
-    call c_f_pointer(c_loc(piece), pieces, [np])
-    call c_f_pointer(c_loc(dead), deads, [np])
-    call c_f_pointer(c_loc(live), lives, [np])
-    call c_f_pointer(c_loc(start), starts, [np])
-    call c_f_pointer(c_loc(value), fields, [nx])
-    call values_at(pieces, deads, lives, factor, starts, where, dist, fields)
-end subroutine gbvalu
-
-! Maximum and minimum of deflection, rotation, moment, shear, with piece and distance from its left end
-subroutine gbextr(np, piece, dead, live, factor, start, value, where, dist)
-    use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
-    use gapbeam_element, only: field_type
-    use gapbeam_link, only: piece_type, load_type
-    use gapbeam_fields, only: find_extremes
-    implicit none
-    integer, intent(in) :: np
-    double precision, intent(in), target :: piece(3, np), dead(5, np), live(5, np), start(4, np)
-    double precision, intent(in) :: factor
-    double precision, intent(out) :: value(2, 4), dist(2, 4)
-    integer, intent(out) :: where(2, 4)
-    !f2py threadsafe
-    !f2py integer, intent(hide), depend(piece) :: np = shape(piece, 1)
-    type(piece_type), pointer :: pieces(:)
-    type(load_type), pointer :: deads(:), lives(:)
-    type(field_type), pointer :: starts(:)
-
-    call c_f_pointer(c_loc(piece), pieces, [np])
-    call c_f_pointer(c_loc(dead), deads, [np])
-    call c_f_pointer(c_loc(live), lives, [np])
-    call c_f_pointer(c_loc(start), starts, [np])
-    call find_extremes(pieces, deads, lives, factor, starts, value, where, dist)
-end subroutine gbextr
-
-! The axial system: N bars between points 0..N
-subroutine gbaxia(n, flex, force, stiff, settle, u, pull, react, state, place)
-    use gapbeam_error, only: gapbeam_no_memory
-    use gapbeam_memory, only: enough_memory, for_fields
-    use gapbeam_axial, only: solve_axial
-    implicit none
-    integer, intent(in) :: n
-    ! Length/EA of each bar; force (to the right), support stiffness (0 none, infinite rigid) and settlement of each point
-    double precision, intent(in) :: flex(n), force(0:n), stiff(0:n), settle(0:n)
-    ! Displacement of each point, normal force of each bar (tension), force of each support on the beam
-    double precision, intent(out) :: u(0:n), pull(n), react(0:n)
-    ! 0 solved, 1 slides, 2 rigid between two rigid supports, at point PLACE; or GAPBEAM_NO_MEMORY
-    integer, intent(out) :: state, place
-    !f2py threadsafe
-    !f2py integer, intent(hide), depend(flex) :: n = shape(flex, 0)
-
-    u = 0.0d0
-    pull = 0.0d0
-    react = 0.0d0
-    place = 0
-    state = gapbeam_no_memory
-    if (.not. enough_memory(for_fields, 0, 0, n)) return
-    call solve_axial(flex, force, stiff, settle, u, pull, react, state, place)
-end subroutine gbaxia
-
-! Deflections and moments of a beam of N elements over two-sided supports, REPEAT times (for measuring)
-subroutine gbkern(n, length, ei, q, stiff, force, refine, repeat, w, m, status)
-    use gapbeam_error, only: gapbeam_no_memory
-    use gapbeam_kernel, only: eliminated_type, last_step
-    use gapbeam_elements, only: solve_elements, refine_elements, elements_solved
-    implicit none
-    integer, intent(in) :: n
-    double precision, intent(in) :: length(n), ei(n), q(n)
-    ! At the nodes: stiffness of the supports (infinite: rigid), forces down
-    double precision, intent(in) :: stiff(0:n), force(0:n)
-    ! Steps of refinement
-    integer, intent(in) :: refine, repeat
-    double precision, intent(out) :: w(0:n), m(0:n)
-    ! 0 solved, 1 an end without support, 2 a length or EI that is not positive; or GAPBEAM_NO_MEMORY
-    integer, intent(out) :: status
-    !f2py threadsafe
-    !f2py integer, intent(hide), depend(length) :: n = shape(length, 0)
-    type(eliminated_type), allocatable :: eliminated(:)
-    double precision, allocatable :: correction(:, :)
-    integer :: k, step, stat
-
-    w = 0.0d0
-    m = 0.0d0
-    status = gapbeam_no_memory
-    allocate (eliminated(0:last_step(n)), correction(0:n, 2), stat=stat)
-    if (stat /= 0) return
-    do k = 1, repeat
-        call solve_elements(length, ei, q, stiff, force, eliminated, w, m, status)
-        if (status /= elements_solved) return
-        do step = 1, refine
-            call refine_elements(length, ei, q, stiff, force, eliminated, correction, w, m)
-        end do
-    end do
-end subroutine gbkern

@@ -30,8 +30,8 @@ contains
         ! No more points than places given, no more nodes than hinges, supports and places of loads beside the two ends
         points = 1_int64 + spans + hinges + supports + 2_int64*loads
         nodes = min(points, 2_int64 + hinges + supports + 2_int64*loads)
-        reals = 5_int64*spans + hinges + 8_int64*supports + 4_int64*loads + 24*points + 27*nodes + 16
-        integers = header + 2_int64*spans + 11_int64*supports + 5_int64*loads + 4*points + 3*nodes + 59
+        reals = 5_int64*spans + hinges + 8_int64*supports + 4_int64*loads + 25*points + 27*nodes + 16
+        integers = header + 2_int64*spans + 11_int64*supports + 5_int64*loads + 4*points + 3*nodes + 60
     end subroutine sizes_of_beam
 
     !> Lengths that a state of a beam takes

@@ -1,92 +1,147 @@
 !> Many load cases of one beam. What each load does alone is condensed once; a case is a sum of that, each load times a factor.
 module gapbeam_cases
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type
-    use gapbeam_link, only: link_type, load_type, piece_type, condense_loads
+    use gapbeam_error, only: error_type, no_memory
+    use gapbeam_link, only: link_type, load_type, condense_loads
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, set_loads
     use gapbeam_scheme, only: outcome_type
     use gapbeam_referee, only: decide_scheme, detail_type
+    use gapbeam_scene, only: gapbeam_force, gapbeam_couple, gapbeam_axial_force, gapbeam_live
+    use gapbeam_units, only: moment_unit
+    use gapbeam_lowered, only: lowered_type, is_stretch
+    use gapbeam_lower_loads, only: spread_load, lower_loads
+    use gapbeam_lower_units, only: load_in_units
     implicit none
     private
-    public :: share_type, node_share_type, condense_shares, solve_case
+    public :: case_loads_type, split_loads, solve_case, take_case
 
     !> What a load does to a link: rotations and shears of the simple bar, sums of absolute values (link_type)
-    type, bind(c) :: share_type
+    type :: share_type
+        integer :: load, link
         real(wp) :: turn_a, turn_b, shear_a, shear_b, load_sum, turn_sum
     end type share_type
 
     !> What a load does to a node: force (down) and couple (clockwise)
-    type, bind(c) :: node_share_type
+    type :: node_share_type
+        integer :: load, node
         real(wp) :: force, couple
     end type node_share_type
 
+    !> The loads of a beam one by one, in the engine's units
+    type :: case_loads_type
+        private
+        type(share_type), allocatable :: of_links(:)
+        type(node_share_type), allocatable :: of_nodes(:)
+    end type case_loads_type
+
+    !> No load on a piece
+    type(load_type), parameter :: nothing = load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
+
 contains
 
-    !> Condense loads one by one
-    pure subroutine condense_shares(pieces, links, last, load, piece, values, number, share_load, share_link, shares)
-        !> Pieces of the beam, its links, and the last piece of every link
-        type(piece_type), intent(in) :: pieces(:)
-        type(link_type), intent(in) :: links(:)
-        integer, intent(in) :: last(:)
-        !> Rows in order of load, then piece: number of the load, piece, and what of the load is on it
-        integer, intent(in) :: load(:), piece(:)
-        type(load_type), intent(in) :: values(:)
-        !> How many shares there are; load and link of each, shape (size(load))
-        integer, intent(out) :: number
-        integer, intent(out) :: share_load(:), share_link(:)
-        type(share_type), intent(out) :: shares(:)
-        type(load_type), allocatable :: loads(:)
+    !> Condense the loads of a beam one by one
+    subroutine split_loads(lowered, loads, error)
+        type(lowered_type), intent(in) :: lowered
+        type(case_loads_type), intent(out) :: loads
+        !> No memory
+        type(error_type), allocatable, intent(out) :: error
+        type(load_type), allocatable :: on_pieces(:)
+        integer, allocatable :: link_of(:)
         real(wp), allocatable :: work(:)
-        integer, allocatable :: link_of(:), first_of(:)
-        type(link_type) :: link
-        integer :: row, end_row, i, first
+        integer :: i, k, shares, at_nodes, stat
 
-        allocate (loads(size(pieces)), work(size(pieces)), link_of(size(pieces)), first_of(size(last)))
-        loads(:) = load_type(0, 0, 0, 0, 0)
-        first = 1
-        do i = 1, size(last)
-            first_of(i) = first
-            link_of(first:last(i)) = i
-            first = last(i) + 1
+        allocate (on_pieces(size(lowered%pieces)), work(size(lowered%pieces)), link_of(size(lowered%pieces)), stat=stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        on_pieces(:) = nothing
+        do i = 1, size(lowered%beam%links)
+            link_of(lowered%node_point(i - 1) + 1:lowered%node_point(i)) = i
         end do
-        number = 0
-        share_load = 0
-        share_link = 0
-        shares = share_type(0, 0, 0, 0, 0, 0)
-        row = 1
-        do while (row <= size(load))
-            i = link_of(piece(row))
-            link = links(i)
-            first = first_of(i)
-            end_row = row
-            loads(piece(row)) = values(row)
-            do while (end_row < size(load))
-                if (load(end_row + 1) /= load(row) .or. link_of(piece(end_row + 1)) /= i) exit
-                end_row = end_row + 1
-                loads(piece(end_row)) = values(end_row)
-            end do
-            call condense_loads(pieces(first:last(i)), loads(first:last(i)), link, 1, work)
-            loads(piece(row:end_row)) = load_type(0, 0, 0, 0, 0)
-            number = number + 1
-            share_load(number) = load(row)
-            share_link(number) = i
-            shares(number) = share_type(link%turn_a(1), link%turn_b(1), link%shear_a(1), link%shear_b(1), link%load_sum(1), &
-                                        link%turn_sum(1))
-            row = end_row + 1
+        shares = 0
+        at_nodes = 0
+        do k = 1, size(lowered%model%loads)
+            associate (a => lowered%load_from(k), b => lowered%load_to(k), load => lowered%model%loads(k))
+                if (load%kind == gapbeam_axial_force) cycle
+                if (is_stretch(load)) then
+                    shares = shares + link_of(b) - link_of(a + 1) + 1
+                else if (lowered%node_of_point(a) >= 0) then
+                    at_nodes = at_nodes + 1
+                else
+                    shares = shares + 1
+                end if
+            end associate
         end do
-    end subroutine condense_shares
+        allocate (loads%of_links(shares), loads%of_nodes(at_nodes), stat=stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        shares = 0
+        at_nodes = 0
+        do k = 1, size(lowered%model%loads)
+            associate (a => lowered%load_from(k), b => lowered%load_to(k), load => lowered%model%loads(k))
+                if (load%kind == gapbeam_axial_force) cycle
+                if (is_stretch(load)) then
+                    call spread_load(lowered, load, a, b, on_pieces)
+                    do i = a + 1, b
+                        call load_in_units(on_pieces(i), lowered%units)
+                    end do
+                    do i = link_of(a + 1), link_of(b)
+                        call condense(i)
+                    end do
+                    on_pieces(a + 1:b) = nothing
+                else if (lowered%node_of_point(a) >= 0) then
+                    at_nodes = at_nodes + 1
+                    loads%of_nodes(at_nodes) = at_node(lowered, k)
+                else
+                    if (load%kind == gapbeam_force) on_pieces(a)%force = load%value
+                    if (load%kind == gapbeam_couple) on_pieces(a)%couple = load%value
+                    call load_in_units(on_pieces(a), lowered%units)
+                    call condense(link_of(a))
+                    on_pieces(a) = nothing
+                end if
+            end associate
+        end do
+
+    contains
+
+        !> What the load at hand does to a link
+        subroutine condense(i)
+            integer, intent(in) :: i
+            type(link_type) :: link
+
+            link = lowered%beam%links(i)
+            associate (first => lowered%node_point(i - 1) + 1, last => lowered%node_point(i))
+                call condense_loads(lowered%pieces(first:last), on_pieces(first:last), link, 1, work)
+            end associate
+            shares = shares + 1
+            loads%of_links(shares) = share_type(k, i, link%turn_a(1), link%turn_b(1), link%shear_a(1), link%shear_b(1), &
+                                                link%load_sum(1), link%turn_sum(1))
+        end subroutine condense
+
+    end subroutine split_loads
+
+    !> What a load does to the node it is at
+    pure function at_node(lowered, load) result(share)
+        type(lowered_type), intent(in) :: lowered
+        integer, intent(in) :: load
+        type(node_share_type) :: share
+
+        share = node_share_type(load, lowered%node_of_point(lowered%load_from(load)), 0.0_wp, 0.0_wp)
+        associate (given => lowered%model%loads(load), units => lowered%units)
+            if (given%kind == gapbeam_force) share%force = scale(given%value, -units%force)
+            if (given%kind == gapbeam_couple) share%couple = scale(given%value, -moment_unit(units))
+        end associate
+    end function at_node
 
     !> Find the working scheme of a case and solve it
-    subroutine solve_case(factors, share_load, share_link, shares, node_load, node, node_shares, rule, beam, closed, work, &
-                          status)
-        !> Factor of every load
+    subroutine solve_case(loads, factors, rule, beam, closed, work, status)
+        !> By split_loads, and the factor of every load
+        type(case_loads_type), intent(in) :: loads
         real(wp), intent(in) :: factors(:)
-        !> Shares of the loads in links, by condense_shares, and in nodes: load, link or node, values
-        integer, intent(in) :: share_load(:), share_link(:)
-        type(share_type), intent(in) :: shares(:)
-        integer, intent(in) :: node_load(:), node(:)
-        type(node_share_type), intent(in) :: node_shares(:)
         !> rule_block or rule_single of gapbeam_search
         integer, intent(in) :: rule
         !> The beam; its loads are replaced
@@ -114,20 +169,22 @@ contains
         end do
         beam%force = 0.0_wp
         beam%couple = 0.0_wp
-        do k = 1, size(shares)
-            associate (link => beam%links(share_link(k)), s => shares(k), factor => factors(share_load(k)))
-                link%turn_a(2) = link%turn_a(2) + factor*s%turn_a
-                link%turn_b(2) = link%turn_b(2) + factor*s%turn_b
-                link%shear_a(2) = link%shear_a(2) + factor*s%shear_a
-                link%shear_b(2) = link%shear_b(2) + factor*s%shear_b
-                link%load_sum(2) = link%load_sum(2) + abs(factor)*s%load_sum
-                link%turn_sum(2) = link%turn_sum(2) + abs(factor)*s%turn_sum
+        do k = 1, size(loads%of_links)
+            associate (s => loads%of_links(k))
+                associate (link => beam%links(s%link), factor => factors(s%load))
+                    link%turn_a(2) = link%turn_a(2) + factor*s%turn_a
+                    link%turn_b(2) = link%turn_b(2) + factor*s%turn_b
+                    link%shear_a(2) = link%shear_a(2) + factor*s%shear_a
+                    link%shear_b(2) = link%shear_b(2) + factor*s%shear_b
+                    link%load_sum(2) = link%load_sum(2) + abs(factor)*s%load_sum
+                    link%turn_sum(2) = link%turn_sum(2) + abs(factor)*s%turn_sum
+                end associate
             end associate
         end do
-        do k = 1, size(node)
-            associate (factor => factors(node_load(k)))
-                beam%force(2, node(k)) = beam%force(2, node(k)) + factor*node_shares(k)%force
-                beam%couple(2, node(k)) = beam%couple(2, node(k)) + factor*node_shares(k)%couple
+        do k = 1, size(loads%of_nodes)
+            associate (s => loads%of_nodes(k))
+                beam%force(2, s%node) = beam%force(2, s%node) + factors(s%load)*s%force
+                beam%couple(2, s%node) = beam%couple(2, s%node) + factors(s%load)*s%couple
             end associate
         end do
         call set_loads(beam, 1.0_wp, work)
@@ -135,5 +192,19 @@ contains
         status = outcome%status
         if (allocated(error)) status = error%code
     end subroutine solve_case
+
+    !> Make the loads of a case those of the beam: all live, each times its factor
+    subroutine take_case(factors, lowered, error)
+        !> Factor of every load
+        real(wp), intent(in) :: factors(:)
+        type(lowered_type), intent(inout) :: lowered
+        !> Numbers out of range, or no memory
+        type(error_type), allocatable, intent(out) :: error
+
+        lowered%model%loads%value = factors*lowered%model%loads%value
+        lowered%model%loads%value_to = factors*lowered%model%loads%value_to
+        lowered%model%loads%case = gapbeam_live
+        call lower_loads(lowered, error)
+    end subroutine take_case
 
 end module gapbeam_cases

@@ -18,6 +18,7 @@ module gapbeam_query
     use gapbeam_state, only: recover_state
     implicit none
     private
+    public :: make_starts, find_pieces, fields_in_pieces, extremes_of_pieces
     public :: support_values, find_undecided, fields_at_places, extremes_of_fields, motion_of_nodes, node_places
     public :: gapbeam_open, gapbeam_closed, gapbeam_bilateral, gapbeam_turns, field_count
 
@@ -112,7 +113,7 @@ contains
         state%has_starts = .true.
     end subroutine make_starts
 
-    !> Fields at given places
+    !> Fields of a state at given places
     subroutine fields_at_places(lowered, state, x, from_left, fields, error)
         !> The beam, and its solved state
         type(lowered_type), intent(in) :: lowered
@@ -121,14 +122,33 @@ contains
         real(wp), intent(in) :: x(:)
         !> Where a field jumps: its value left of the place; otherwise right of it
         logical, intent(in) :: from_left
-        !> Shape (field_count, n)
+        !> Shape (field_count, n); written only where none is out of range
         real(wp), intent(inout) :: fields(:, :)
         !> A place outside the beam, a field out of range, or no memory
         type(error_type), allocatable, intent(out) :: error
-        type(field_type) :: field(1)
-        real(wp), allocatable :: found(:, :)
-        real(wp) :: distance, end
-        integer :: powers(field_count), i, k, piece, stat
+        integer, allocatable :: piece(:)
+        real(wp), allocatable :: distance(:)
+
+        call find_pieces(lowered, x, from_left, piece, distance, error)
+        if (.not. allocated(error)) call make_starts(lowered, state, error)
+        if (allocated(error)) return
+        call fields_in_pieces(lowered, state%factor, state%starts, state%displacement, state%tension, piece, distance, fields, &
+                              error)
+    end subroutine fields_at_places
+
+    !> Pieces of given places
+    subroutine find_pieces(lowered, x, from_left, piece, distance, error)
+        type(lowered_type), intent(in) :: lowered
+        !> The places, shape (n), and on which side of what is between two pieces
+        real(wp), intent(in) :: x(:)
+        logical, intent(in) :: from_left
+        !> Piece of every place, and the distance from its left end in the user's units, shape (n)
+        integer, allocatable, intent(out) :: piece(:)
+        real(wp), allocatable, intent(out) :: distance(:)
+        !> A place outside the beam, or no memory
+        type(error_type), allocatable, intent(out) :: error
+        real(wp) :: end
+        integer :: i, stat
 
         end = lowered%ends(ubound(lowered%ends, 1))
         do i = 1, size(x)
@@ -138,31 +158,55 @@ contains
             error%entry = i
             return
         end do
-        call make_starts(lowered, state, error)
-        if (allocated(error)) return
-        ! Nothing is written where one of them is refused
-        allocate (found(field_count, size(x)), stat=stat)
+        allocate (piece(size(x)), distance(size(x)), stat=stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        do i = 1, size(x)
+            call find_piece(lowered, x(i), from_left, piece(i), distance(i))
+        end do
+    end subroutine find_pieces
+
+    !> Fields at given distances from the left ends of pieces
+    subroutine fields_in_pieces(lowered, factor, starts, displacement, tension, piece, distance, fields, error)
+        type(lowered_type), intent(in) :: lowered
+        !> Factor of the live loads, fields at the left ends of all pieces, and the solution along the axis (state_type)
+        real(wp), intent(in) :: factor
+        type(field_type), intent(in) :: starts(:)
+        real(wp), intent(in) :: displacement(0:), tension(:)
+        !> The pieces, and the distances in the user's units, shape (n)
+        integer, intent(in) :: piece(:)
+        real(wp), intent(in) :: distance(:)
+        !> In the user's units, shape (field_count, n); written only where none is out of range
+        real(wp), intent(inout) :: fields(:, :)
+        !> A field out of range, or no memory
+        type(error_type), allocatable, intent(out) :: error
+        type(field_type), allocatable :: bent(:)
+        real(wp), allocatable :: found(:, :)
+        integer :: powers(field_count), i, k, stat
+
+        allocate (found(field_count, size(piece)), bent(size(piece)), stat=stat)
         if (stat /= 0) then
             call no_memory(error)
             return
         end if
         powers = field_units(lowered)
-        do i = 1, size(x)
-            call find_piece(lowered, x(i), from_left, piece, distance)
-            call values_at(lowered%pieces, lowered%dead, lowered%live, state%factor, state%starts, [piece], &
-                           [scale(distance, -lowered%units%length)], field)
-            found(1:4, i) = [field(1)%deflection, field(1)%rotation, field(1)%moment, field(1)%shear]
-            call axial_fields(lowered, state, piece, distance, found(5, i), found(6, i))
-            k = findloc(abs(scale(found(:, i), powers)) <= huge(distance), .false., 1)
+        found(1, :) = scale(distance, -lowered%units%length)
+        call values_at(lowered%pieces, lowered%dead, lowered%live, factor, starts, piece, found(1, :), bent)
+        do i = 1, size(piece)
+            found(1:4, i) = [bent(i)%deflection, bent(i)%rotation, bent(i)%moment, bent(i)%shear]
+            call axial_fields(lowered, displacement, tension, piece(i), distance(i), found(5, i), found(6, i))
+            k = findloc(abs(scale(found(:, i), powers)) <= huge(factor), .false., 1)
             if (k == 0) cycle
-            call refuse_field(lowered, k, found(k, i), x(i), error)
+            call refuse_field(lowered, k, found(k, i), point_x(lowered, piece(i) - 1) + distance(i), error)
             error%entry = i
             return
         end do
-        do i = 1, size(x)
+        do i = 1, size(piece)
             fields(:, i) = scale(found(:, i), powers)
         end do
-    end subroutine fields_at_places
+    end subroutine fields_in_pieces
 
     !> Exponents of the units of all fields
     pure function field_units(lowered) result(powers)
@@ -239,14 +283,14 @@ contains
     end subroutine find_piece
 
     !> Normal force and displacement along the axis in units of the axial system; zero without one
-    pure subroutine axial_fields(lowered, state, piece, distance, tension, displacement)
+    pure subroutine axial_fields(lowered, displacements, tensions, piece, distance, tension, displacement)
         type(lowered_type), intent(in) :: lowered
-        type(state_type), intent(in) :: state
+        real(wp), intent(in) :: displacements(0:), tensions(:)
         integer, intent(in) :: piece
         real(wp), intent(in) :: distance
         real(wp), intent(out) :: tension, displacement
         real(wp) :: way
-        integer :: bar, j, low, high, middle
+        integer :: bar, low, high, middle
 
         tension = 0.0_wp
         displacement = 0.0_wp
@@ -264,16 +308,13 @@ contains
                 end if
             end do
             bar = high
-            way = lowered%axial%softness(piece)*(distance/piece_length(lowered, piece))
-            do j = point(bar - 1) + 1, piece - 1
-                way = way + lowered%axial%softness(j)
-            end do
+            way = lowered%axial%before(piece) + lowered%axial%softness(piece)*(distance/piece_length(lowered, piece))
         end associate
-        tension = state%tension(bar)
-        displacement = state%displacement(bar - 1) + tension*way
+        tension = tensions(bar)
+        displacement = displacements(bar - 1) + tension*way
     end subroutine axial_fields
 
-    !> Largest and smallest values of all fields, and where they are
+    !> Largest and smallest values of all fields of a state, and where they are
     subroutine extremes_of_fields(lowered, state, value, x, error)
         !> The beam, and its solved state
         type(lowered_type), intent(in) :: lowered
@@ -282,12 +323,26 @@ contains
         real(wp), intent(out) :: value(:, :), x(:, :)
         !> A field out of range, or no memory
         type(error_type), allocatable, intent(out) :: error
-        real(wp) :: found(2, field_count), distance(2, 4)
-        integer :: piece(2, 4), powers(field_count), i, k
 
         call make_starts(lowered, state, error)
         if (allocated(error)) return
-        call find_extremes(lowered%pieces, lowered%dead, lowered%live, state%factor, state%starts, found(:, 1:4), piece, distance)
+        call extremes_of_pieces(lowered, state%factor, state%starts, state%displacement, state%tension, value, x, error)
+    end subroutine extremes_of_fields
+
+    !> The same from the fields at the left ends of all pieces
+    subroutine extremes_of_pieces(lowered, factor, starts, displacement, tension, value, x, error)
+        !> As for fields_in_pieces
+        type(lowered_type), intent(in) :: lowered
+        real(wp), intent(in) :: factor
+        type(field_type), intent(in) :: starts(:)
+        real(wp), intent(in) :: displacement(0:), tension(:)
+        !> As for extremes_of_fields
+        real(wp), intent(out) :: value(:, :), x(:, :)
+        type(error_type), allocatable, intent(out) :: error
+        real(wp) :: found(2, field_count), distance(2, 4)
+        integer :: piece(2, 4), powers(field_count), i, k
+
+        call find_extremes(lowered%pieces, lowered%dead, lowered%live, factor, starts, found(:, 1:4), piece, distance)
         do k = 1, 4
             do i = 1, 2
                 x(i, k) = point_x(lowered, piece(i, k) - 1) + scale(distance(i, k), lowered%units%length)
@@ -296,7 +351,7 @@ contains
         found(:, 5:6) = 0.0_wp
         x(:, 5:6) = 0.0_wp
         if (allocated(lowered%axial%point)) then
-            associate (point => lowered%axial%point, tension => state%tension, displacement => state%displacement)
+            associate (point => lowered%axial%point)
                 found(:, 5) = [maxval(tension), minval(tension)]
                 x(:, 5) = [point_x(lowered, point(maxloc(tension, 1) - 1)), point_x(lowered, point(minloc(tension, 1) - 1))]
                 found(:, 6) = [maxval(displacement), minval(displacement)]
@@ -307,12 +362,12 @@ contains
         powers = field_units(lowered)
         do k = 1, field_count
             value(:, k) = scale(found(:, k), powers(k))
-            i = findloc(abs(value(:, k)) <= huge(value), .false., 1)
+            i = findloc(abs(value(:, k)) <= huge(factor), .false., 1)
             if (i == 0) cycle
             call refuse_field(lowered, k, found(i, k), x(i, k), error)
             return
         end do
-    end subroutine extremes_of_fields
+    end subroutine extremes_of_pieces
 
     !> x of all nodes
     pure subroutine node_places(lowered, x)

@@ -26,6 +26,8 @@ module gapbeam_solution
         integer :: solves = 0, method = 0
         !> Can the beam move freely without work of the loads; does it slide along its axis
         logical :: indifferent = .false., slides = .false.
+        !> Did the rule single come back to a scheme
+        logical :: came_back = .false.
         !> The scheme: which supports act, and whose reaction or opening is zero, so that they may be closed or open
         logical, allocatable :: closed(:), undecided(:)
         !> Deflections and moments left and right of the nodes; the free motion where there is no equilibrium
@@ -80,6 +82,7 @@ contains
         state%method = 0
         state%indifferent = .false.
         state%slides = .false.
+        state%came_back = .false.
         state%has_starts = .false.
         state%undecided(:) = .false.
         state%reaction(:) = 0.0_wp

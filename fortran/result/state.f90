@@ -18,7 +18,7 @@ module gapbeam_state
     use gapbeam_memory, only: for_solving, for_following, for_certifying
     implicit none
     private
-    public :: event_type, solve_state, recover_state, certify_state, follow_events
+    public :: event_type, solve_state, recover_state, certify_state, follow_events, detail_of, name_range
 
     !> Changes of the scheme followed at a time
     integer, parameter :: changes_at_a_time = 1000
@@ -42,7 +42,7 @@ contains
         type(lowered_type), intent(in), target :: lowered
         !> Factor of the live loads
         real(wp), intent(in) :: factor
-        !> rule_block or rule_single
+        !> rule_block, rule_single or rule_given
         integer, intent(in) :: rule
         !> From new_state or an earlier solve
         type(state_type), intent(inout) :: state
@@ -74,6 +74,7 @@ contains
             if (allocated(error)) return
             state%solves = work%solves
             state%method = work%method
+            state%came_back = work%came_back
             if (state%slides) then
                 state%status = gapbeam_no_equilibrium
                 return

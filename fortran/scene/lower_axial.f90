@@ -55,6 +55,7 @@ contains
                                       "stiffnesses", "bring them nearer together")
                     return
                 end if
+                axial%before(j) = axial%flexibility(i)
                 axial%flexibility(i) = axial%flexibility(i) + axial%softness(j)
                 if (axial%point(i) == j) i = i + 1
             end do

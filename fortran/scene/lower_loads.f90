@@ -10,7 +10,7 @@ module gapbeam_lower_loads
     use gapbeam_lower_units, only: change_units, refuse_link
     implicit none
     private
-    public :: lower_loads
+    public :: lower_loads, spread_load
 
 contains
 

@@ -208,7 +208,7 @@ contains
             end do
             call order_supports(supports, beam)
             where (lowered%turning > 0.0_wp) beam%kind = restrained
-            do k = 1, size(given)
+            do k = size(given), 1, -1
                 lowered%couple_share(k) = 0.0_wp
                 associate (turn => given(k)%rotation, node => lowered%node_of_point(lowered%support_point(k)))
                     if (.not. turn > 0.0_wp) cycle
@@ -257,8 +257,8 @@ contains
                 if (model%loads(k)%kind == gapbeam_axial_force) node(lowered%load_from(k)) = 0
             end do
             i = count(node == 0) - 1
-            allocate (axial%point(0:i), axial%softness(n), axial%flexibility(i), axial%force(2, 0:i), axial%stiffness(0:i), &
-                      axial%settlement(0:i), stat=stat)
+            allocate (axial%point(0:i), axial%softness(n), axial%before(n), axial%flexibility(i), axial%force(2, 0:i), &
+                      axial%stiffness(0:i), axial%settlement(0:i), stat=stat)
             if (stat /= 0) then
                 call no_memory(error)
                 return

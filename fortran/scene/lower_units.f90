@@ -13,7 +13,7 @@ module gapbeam_lower_units
     use gapbeam_refusal, only: refuse_range, named, of_supports
     implicit none
     private
-    public :: change_units, refuse_link, name_farthest
+    public :: change_units, refuse_link, name_farthest, load_in_units
 
     character(len=*), parameter :: too_great_loads = " are too great together, or beside the levels at which supports act", &
         smaller_loads = "give smaller ones"
@@ -160,7 +160,7 @@ contains
                                           trim(shown(given%stiffness))//" is too far from the stiffness of the beam", &
                                           "make it infinite (rigid) or 0")
                     else if (.not. abs(s%contact) <= huge(1.0_wp)) then
-                        call refuse_range(error, trim(named(of_supports, lowered%normal(k), m))//": it acts at a deflection of "// &
+                        call refuse_range(error, trim(named(of_supports, lowered%normal(k), m))//" acts at a deflection of "// &
                                           trim(shown(contact_level(given)))//", too far from the deflections that the loads "// &
                                           "make", "give a smaller one")
                     end if
@@ -177,8 +177,8 @@ contains
         integer :: i, j
 
         associate (units => lowered%units, beam => lowered%beam)
-            call rescale(lowered%dead, units)
-            call rescale(lowered%live, units)
+            call load_in_units(lowered%dead, units)
+            call load_in_units(lowered%live, units)
             beam%force(:, :) = scale(beam%force, -units%force)
             beam%couple(:, :) = scale(beam%couple, -moment_unit(units))
             do j = 1, size(lowered%pieces)
@@ -237,8 +237,8 @@ contains
             case (5)
                 call say(trim(named(of_supports, entry, size(supports)))//": stiffness = "//shown(supports(entry)%stiffness))
             case (6)
-                call say(trim(named(of_supports, entry, size(supports)))//": the deflection of "// &
-                         trim(shown(contact_level(supports(entry))))//" at which it acts")
+                call say("the deflection of "//trim(shown(contact_level(supports(entry))))//" at which "// &
+                         trim(named(of_supports, entry, size(supports)))//" acts")
             case default
                 call refuse_range(error, "though no length, stiffness or level is far from the rest", &
                                   "this is an error of gapbeam, please report it")
@@ -277,7 +277,7 @@ contains
     end function is_finite
 
     !> The load of a piece in other units
-    elemental subroutine rescale(load, units)
+    elemental subroutine load_in_units(load, units)
         type(piece_load_type), intent(inout) :: load
         type(units_type), intent(in) :: units
 
@@ -286,7 +286,7 @@ contains
         load%kappa = scale(load%kappa, units%length - rotation_unit(units))
         load%force = scale(load%force, -units%force)
         load%couple = scale(load%couple, -moment_unit(units))
-    end subroutine rescale
+    end subroutine load_in_units
 
     !> "from x = 0 to x = 6": a stretch between two points, blanks behind it
     pure function from_to(lowered, first, last) result(text)

@@ -20,6 +20,8 @@ module gapbeam_lowered
         integer, allocatable :: point(:)
         !> Length/EA of every piece of the beam, shape (npiece)
         real(wp), allocatable :: softness(:)
+        !> Sum of that over the pieces left of every piece in the same bar, shape (npiece)
+        real(wp), allocatable :: before(:)
         !> int 1/EA over each bar, shape (n)
         real(wp), allocatable :: flexibility(:)
         !> Dead and live force at each point, to the right, shape (2, 0:n)

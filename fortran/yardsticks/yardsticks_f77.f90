@@ -99,3 +99,38 @@ subroutine ysbyte(bytes)
 
     bytes = [state_bytes(.false.), state_bytes(.true.), storage_size(pair)/16]
 end subroutine ysbyte
+
+! Deflections and moments of a beam of N elements over two-sided supports, REPEAT times (for measuring)
+subroutine yskern(n, length, ei, q, stiff, force, refine, repeat, w, m, status)
+    use gapbeam_error, only: gapbeam_no_memory
+    use gapbeam_kernel, only: eliminated_type, last_step
+    use gapbeam_elements, only: solve_elements, refine_elements, elements_solved
+    implicit none
+    integer, intent(in) :: n
+    double precision, intent(in) :: length(n), ei(n), q(n)
+    ! At the nodes: stiffness of the supports (infinite: rigid), forces down
+    double precision, intent(in) :: stiff(0:n), force(0:n)
+    ! Steps of refinement
+    integer, intent(in) :: refine, repeat
+    double precision, intent(out) :: w(0:n), m(0:n)
+    ! 0 solved, 1 an end without support, 2 a length or EI that is not positive; or GAPBEAM_NO_MEMORY
+    integer, intent(out) :: status
+    !f2py threadsafe
+    !f2py integer, intent(hide), depend(length) :: n = shape(length, 0)
+    type(eliminated_type), allocatable :: eliminated(:)
+    double precision, allocatable :: correction(:, :)
+    integer :: k, step, stat
+
+    w = 0.0d0
+    m = 0.0d0
+    status = gapbeam_no_memory
+    allocate (eliminated(0:last_step(n)), correction(0:n, 2), stat=stat)
+    if (stat /= 0) return
+    do k = 1, repeat
+        call solve_elements(length, ei, q, stiff, force, eliminated, w, m, status)
+        if (status /= elements_solved) return
+        do step = 1, refine
+            call refine_elements(length, ei, q, stiff, force, eliminated, correction, w, m)
+        end do
+    end do
+end subroutine yskern

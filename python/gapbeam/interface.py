@@ -7,7 +7,7 @@ from .results.cases import Cases, Prepared, prepare
 from .results.result import Fields, Result, System
 from .results.step import Step
 from .results.stepping import solve
-from .scene.structs import (
+from .scene import (
     Analysis,
     AxialLoad,
     Beam,

@@ -9,6 +9,7 @@ supports[2].gap: expected a number, got "0,02"
 
 from __future__ import annotations
 
+import re
 from enum import IntEnum
 
 from .characters import visible
@@ -95,7 +96,7 @@ def check_status(status: int, message: bytes = b"", where: str = "") -> None:
     status : int
         From the engine.
     message : bytes
-        Its words for an error.
+        Its words for an error; supports count from 1 in them, as in Fortran.
     where : str
         What they are about, to be put before them.
 
@@ -112,4 +113,5 @@ def check_status(status: int, message: bytes = b"", where: str = "") -> None:
             "(ulimit -v), or take fewer spans and supports"
         )
     if status not in (Status.SOLVED, Status.NO_EQUILIBRIUM):
-        raise EngineError(where + message.decode().strip(), status)
+        words = re.sub(r"support (\d+) of \d+", lambda found: f"supports[{int(found[1]) - 1}]", message.decode().strip())
+        raise EngineError(where + words.replace("]: stiffness", "].stiffness"), status)

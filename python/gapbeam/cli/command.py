@@ -215,7 +215,7 @@ def _run(arguments: argparse.Namespace) -> int:
     names = {"--json": arguments.json, "--csv": arguments.csv, "--plot": arguments.plot, "--path": arguments.path}
     outputs = Outputs(names, arguments.scene)
     from ..results.stepping import solve
-    from ..scene.structs import read_scene
+    from ..scene.reading import read_scene
 
     result = solve(read_scene(source(arguments.scene)))
     solved = result.status == "solved"
@@ -251,7 +251,7 @@ def _run(arguments: argparse.Namespace) -> int:
 
 def _check(arguments: argparse.Namespace) -> int:
     from ..results.formatting import count, number, unit
-    from ..scene.structs import read_scene
+    from ..scene.reading import read_scene
 
     scene = read_scene(source(arguments.scene))
     length = f"{number(float(scene.span_ends()[-1]))} {unit(scene, 'x')}".rstrip()
@@ -269,7 +269,7 @@ def _check(arguments: argparse.Namespace) -> int:
 def _schema(_: argparse.Namespace) -> int:
     import json
 
-    from ..scene.structs import scene_schema
+    from ..scene.schema import scene_schema
 
     with until_closed():
         print(json.dumps(scene_schema(), indent=2, allow_nan=False))

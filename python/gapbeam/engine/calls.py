@@ -18,10 +18,10 @@ from typing import Any
 
 import numpy as np
 
-from .. import _f77
+from .. import _engine
 
-SHORT = 2_000
-"""Calls with fewer numbers than these take some milliseconds at most."""
+SHORT = 700
+"""Calls for fewer nodes, or places, take some milliseconds at most."""
 FEW_NODES = 1_000
 """Cases with fewer nodes together take some milliseconds at most."""
 NODES_AT_A_TIME = 20_000
@@ -102,15 +102,15 @@ if hasattr(os, "register_at_fork"):
     os.register_at_fork(after_in_child=_BESIDE.reset)
 
 
-def interruptible(routine: Callable, large: int | None = 0) -> Callable:
+def interruptible(routine: Callable, size: Callable[..., int] = lambda *_: SHORT) -> Callable:
     """Let Ctrl-C end the calls of a compiled routine at once, where they may take long.
 
     Parameters
     ----------
     routine : callable
         It must let go of Python's lock, and its arrays must not be used after an interrupted call.
-    large : int or None
-        Which argument tells by its size whether a call takes long; None: any call may.
+    size : callable
+        Tells from the arguments how many nodes or places a call is for; default: any call may take long.
 
     Returns
     -------
@@ -119,13 +119,23 @@ def interruptible(routine: Callable, large: int | None = 0) -> Callable:
     """
 
     def call(*arguments: Any) -> Any:
-        if large is not None and arguments[large].size < SHORT:
-            return routine(*arguments)
-        if threading.current_thread() is not threading.main_thread():
+        if size(*arguments) < SHORT or threading.current_thread() is not threading.main_thread():
             return routine(*arguments)
         return _BESIDE.make(routine, arguments)
 
     return call
+
+
+class Handle(int):
+    """A beam in the compiled layer, which is freed with the last reference to this number.
+
+    Calls that go on after Ctrl-C keep theirs.
+    """
+
+    def __del__(self) -> None:
+        """Free the beam."""
+        if self:
+            _engine.gbdrop(self)
 
 
 def parts(count: int) -> Iterator[slice]:
@@ -150,17 +160,20 @@ def parts(count: int) -> Iterator[slice]:
         yield slice(first, min(first + PART, count))
 
 
-gbcond = interruptible(_f77.gbcond)
-gbsolv = interruptible(_f77.gbsolv)
-gbcert = interruptible(_f77.gbcert)
-gbpath = interruptible(_f77.gbpath, large=None)
-gbshar = interruptible(_f77.gbshar, large=3)
-gbreco = interruptible(_f77.gbreco)
-gbvalu = interruptible(_f77.gbvalu, large=5)
-gbextr = interruptible(_f77.gbextr)
-gbaxia = interruptible(_f77.gbaxia)
-gbkern = interruptible(_f77.gbkern)
-_long_cases = interruptible(_f77.gbcase, large=None)
+gbsize = _engine.gbsize
+gbmake = interruptible(_engine.gbmake, lambda span, hinge, section, codes, support, *_: len(span) + len(support))
+gbcopy = interruptible(_engine.gbcopy)
+gbplac = interruptible(_engine.gbplac, lambda beam, pieces, *_: pieces)
+gbsolv = interruptible(_engine.gbsolv, lambda beam, links, *_: links)
+gbpath = interruptible(_engine.gbpath)
+gbreco = interruptible(_engine.gbreco, lambda beam, pieces, *_: pieces)
+gbcert = interruptible(_engine.gbcert, lambda beam, factor, closed, w, *_: 3 * len(w))
+gbfind = interruptible(_engine.gbfind, lambda beam, x, *_: len(x))
+gbvalu = interruptible(_engine.gbvalu, lambda beam, factor, starts, u, tension, piece, *_: len(piece))
+gbextr = interruptible(_engine.gbextr, lambda beam, factor, starts, *_: starts.shape[1])
+gblarg = interruptible(_engine.gblarg, lambda beam, factor, starts, *_: starts.shape[1])
+gbshar = interruptible(lambda beam, _: _engine.gbshar(beam), lambda beam, count: count)
+_long_cases = interruptible(_engine.gbcase)
 
 
 def gbcase(*arguments: Any) -> tuple[np.ndarray, ...]:
@@ -177,9 +190,9 @@ def gbcase(*arguments: Any) -> tuple[np.ndarray, ...]:
         What GBCASE returns, cases along the last axis.
     """
     *beam, factors, rule, closed = arguments
-    cases, nodes = factors.shape[1], beam[0].shape[1] + 1
+    cases, nodes = factors.shape[1], beam[1] + 1
     if cases * nodes < FEW_NODES:
-        return _f77.gbcase(*arguments)
+        return _engine.gbcase(*arguments)
     some = max(NODES_AT_A_TIME // nodes, 1)
     if cases <= some:
         return _long_cases(*arguments)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from math import isfinite
 from typing import Any
 
@@ -17,10 +17,9 @@ from numpy.typing import ArrayLike
 
 from ..base.errors import Status
 from ..base.records import Pickled, Record, read_only
-from ..engine import engine
-from ..engine.lowering import Arrays, LoadRows, lower_by_load
-from ..engine.units import scaled
-from ..scene.structs import Scene, read_scene
+from ..engine.beam import Beam
+from ..scene.reading import read_beam
+from ..scene.structs import Scene
 from .arguments import numbers, scheme
 from .result import Result
 from .stepping import choose_rule
@@ -72,35 +71,18 @@ class Prepared(Pickled):
         Numbers in the scene of the supports across the beam, the columns of `Cases.reaction`.
     """
 
-    def __init__(self, scene: Scene, rule: str):
+    def __init__(self, scene: Scene, beam: Beam, rule: str):
         self.scene = scene
-        self._arrays, self._rows = lower_by_load(scene)
-        self.node_x = self._arrays.node_x
-        self.supports = read_only(np.flatnonzero(self._arrays.across))
-        self._links = engine.condense(self._arrays)
+        self._beam = beam
         self._rule = rule
-        self._call = engine.prepare_cases(self._arrays, self._links, *self._sorted_rows(self._arrays, self._rows))
+        self.node_x = beam.node_x
+        self.supports = read_only(np.flatnonzero(beam.across))
+        beam.split_loads()
 
-    def _sorted_rows(self, arrays: Arrays, rows: LoadRows) -> tuple[np.ndarray, ...]:
-        """Loads on pieces with those at points inside links, by load and piece; loads at nodes."""
-        node_of_point = np.full(len(arrays.point_span), -1)
-        node_of_point[arrays.node_points] = np.arange(len(arrays.node_points))
-        at_node = node_of_point[rows.point] >= 0
-        inside = ~at_node
-        load = np.concatenate((rows.piece_load, rows.point_load[inside]))
-        piece = np.concatenate((rows.piece, rows.point[inside] - 1))
-        values = np.zeros((len(load), 5))
-        values[: len(rows.piece), :3] = rows.piece_values
-        values[len(rows.piece) :, 3:] = rows.point_values[inside]
-        order = np.lexsort((piece, load))
-        return (
-            load[order],
-            piece[order],
-            values[order],
-            rows.point_load[at_node],
-            node_of_point[rows.point[at_node]],
-            rows.point_values[at_node],
-        )
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Take the attributes back."""
+        super().__setstate__(state)
+        self._beam.split_loads()
 
     def solve(self, factors: ArrayLike | None = None, start: Sequence[bool] | None = None) -> Cases:
         """Solve load cases.
@@ -137,21 +119,11 @@ class Prepared(Pickled):
         """
         factors = self._checked(factors)
         many = factors if factors.ndim == 2 else factors[None]
-        arrays, units = self._arrays, self._arrays.units
-        carries = np.searchsorted(self.supports, arrays.supports)
-        closed = np.ones((len(many), max(len(carries), 1)), dtype=np.int32)
+        carries = np.searchsorted(self.supports, self._beam.carrying)
+        closed: Any = 1
         if start is not None:
-            closed[:, : len(carries)] = scheme(start, len(self.supports), "support across the beam")[carries]
-        w, left, right, _, reaction, solves, status = self._call(many, engine.RULES[self._rule], closed)
-        w, reaction = scaled(w, units.deflection), scaled(reaction, units.force)
-        left, right = scaled(left, units.moment), scaled(right, units.moment)
-        closed, reaction = closed[:, : len(carries)], reaction[:, : len(carries)]
-        lost = status == Status.SOLVED
-        lost &= ~np.all([np.isfinite(values).all(axis=1) for values in (w, left, right, reaction)], axis=0)
-        if lost.any():
-            status[lost], closed[lost] = Status.NOT_FINITE, 0
-            for values in (w, left, right, reaction):
-                values[lost] = np.nan
+            closed = scheme(start, len(self.supports), "support across the beam")[carries]
+        w, left, right, reaction, closed, solves, status = self._beam.solve_cases(many, self._rule, closed)
         if len(carries) < len(self.supports):
             closed = self._with_idle(closed, carries, np.zeros(len(many), dtype=np.int32))
             reaction = self._with_idle(reaction, carries, np.where(status == Status.SOLVED, 0.0, np.nan))
@@ -199,34 +171,13 @@ class Prepared(Pickled):
         factors = self._checked(factors)
         if factors.ndim != 1:
             raise ValueError("factors: expected one case")
-        arrays = self._with_loads(factors)
-        links = engine.condense(arrays)
-        result = Result(self.scene, arrays, links, self._rule)
-        result.steps = LoadSteps(arrays, links, self._rule, np.ones(len(arrays.supports), dtype=np.int32), 1)
+        beam = Beam(self._beam.columns, factors)
+        result = Result(self.scene, beam, self._rule)
+        result.steps = LoadSteps(beam, self._rule, np.ones(beam.supports, dtype=np.int32), 1)
         fallen = result.steps.solve_all()
         if fallen is not None:
             result.refuse("in this load case", fallen[1])
         return result
-
-    def _with_loads(self, factors: np.ndarray) -> Arrays:
-        """Arrays in which the loads of a case are live, and nothing is dead."""
-        arrays = self._arrays
-        is_node = np.zeros(len(arrays.point_span), dtype=bool)
-        is_node[arrays.node_points] = True
-        live, at_nodes = self._rows.spread(factors, is_node)
-        nothing = np.zeros(len(at_nodes))
-        axial = arrays.axial
-        if axial is not None:
-            pulls = axial.with_factors(factors)
-            axial = replace(axial, force=np.stack((np.zeros_like(pulls), pulls)))
-        return replace(
-            arrays,
-            dead=np.zeros_like(arrays.dead),
-            live=live,
-            force=np.stack((nothing, at_nodes[:, 0]), axis=1),
-            couple=np.stack((nothing, at_nodes[:, 1]), axis=1),
-            axial=axial,
-        )
 
 
 def prepare(source: Scene | Mapping[str, Any] | str | os.PathLike, *, rule: str | None = None) -> Prepared:
@@ -249,5 +200,5 @@ def prepare(source: Scene | Mapping[str, Any] | str | os.PathLike, *, rule: str 
     SceneError
         The scene is not valid.
     """
-    scene = read_scene(source)
-    return Prepared(scene, choose_rule(scene, rule))
+    scene, beam = read_beam(source)
+    return Prepared(scene, beam, choose_rule(scene, rule))

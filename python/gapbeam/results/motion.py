@@ -6,16 +6,16 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..engine.lowering import HINGE, Arrays
+from ..engine.beam import HINGE, Beam
 
 
-def describe_motion(arrays: Arrays, motion: np.ndarray) -> str:
+def describe_motion(beam: Beam, motion: np.ndarray) -> str:
     """Say how a beam moves where nothing resists.
 
     Parameters
     ----------
-    arrays : Arrays
-        The lowered scene.
+    beam : Beam
+        The beam.
     motion : numpy.ndarray
         Displacements of the nodes, positive downward, straight between hinges.
 
@@ -24,10 +24,10 @@ def describe_motion(arrays: Arrays, motion: np.ndarray) -> str:
     str
         For example "the beam tips about the support at x = 6: its left end goes up, its right end goes down; ...".
     """
-    x = arrays.node_x
-    cuts = np.unique(np.concatenate(([0], np.flatnonzero(arrays.kinds == HINGE), [len(x) - 1])))
+    x = beam.node_x
+    cuts = np.unique(np.concatenate(([0], np.flatnonzero(beam.places.kinds == HINGE), [len(x) - 1])))
     parts = [
-        _describe_body(arrays, motion, a, b)
+        _describe_body(beam, motion, a, b)
         for a, b in pairwise(cuts)
         if max(abs(motion[a]), abs(motion[b])) > 0.0
     ]
@@ -35,9 +35,9 @@ def describe_motion(arrays: Arrays, motion: np.ndarray) -> str:
     return "; ".join(shown) + "; the loads push it that way and no support resists"
 
 
-def _describe_body(arrays: Arrays, motion: np.ndarray, a: int, b: int) -> str:
+def _describe_body(beam: Beam, motion: np.ndarray, a: int, b: int) -> str:
     """One body between two hinges or ends, nodes a to b."""
-    x = arrays.node_x
+    x = beam.node_x
     last = len(x) - 1
     if (a, b) == (0, last):
         name = "the beam"
@@ -51,7 +51,7 @@ def _describe_body(arrays: Arrays, motion: np.ndarray, a: int, b: int) -> str:
     if motion[a] * motion[b] > 0.0:
         return f"{name} moves {'down' if motion[a] > 0 else 'up'} and turns"
     pivot = x[a] + (x[b] - x[a]) * motion[a] / (motion[a] - motion[b])
-    supports = x[arrays.support_nodes]
+    supports = x[beam.places.support_nodes]
     near = np.abs(supports - pivot) <= 1e-9 * (x[-1] - x[0])
     hinge_there = (a > 0 and pivot == x[a]) or (b < last and pivot == x[b])
     if near.any():

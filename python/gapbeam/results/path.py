@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..engine import engine
+from ..engine.beam import CLOSES, NO_EQUILIBRIUM, OPENS, TURNS, Stretch
 
 if TYPE_CHECKING:
     from .result import Result
 
 EVENTS_AT_A_TIME = 1000
-NAMES = {engine.OPENS: "opens", engine.CLOSES: "closes", engine.TURNS: "turns"}
+NAMES = {OPENS: "opens", CLOSES: "closes", TURNS: "turns"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,7 +74,7 @@ class Path:
         Time of these.
     """
 
-    def __init__(self, closed: np.ndarray, pieces: list[engine.Path], solves: int, seconds: float):
+    def __init__(self, closed: np.ndarray, pieces: list[Stretch], solves: int, seconds: float):
         self._closed = closed
         self._factors = np.concatenate([piece.factors for piece in pieces])
         self._supports = np.concatenate([piece.supports for piece in pieces])
@@ -109,7 +109,7 @@ class Path:
             1 where a support acts.
         """
         before = slice(segment.changes)
-        changed = self._supports[before][self._events[before] != engine.TURNS]
+        changed = self._supports[before][self._events[before] != TURNS]
         times = np.bincount(changed, minlength=len(self._closed))
         return self._closed ^ (times & 1).astype(np.int32)
 
@@ -136,12 +136,12 @@ class Path:
         result : Result
             Knows where the supports are.
         """
-        arrays = result.arrays
-        places, numbers = arrays.node_x[arrays.support_nodes].tolist(), arrays.supports.tolist()
+        beam = result.beam
+        places, numbers = beam.node_x[beam.places.support_nodes].tolist(), beam.carrying.tolist()
         columns = (self._factors.tolist(), self._supports.tolist(), self._events.tolist())
         for factor, k, event in zip(*columns, strict=True):
             # What changes at factor 0 is no event, unless the beam turns there
-            if factor > 0.0 or event == engine.TURNS:
+            if factor > 0.0 or event == TURNS:
                 self.events.append(Event(factor, numbers[k], places[k], NAMES[event]))
 
 
@@ -163,17 +163,20 @@ def follow(result: Result, rule: str, closed: np.ndarray) -> Path | None:
         From 0 to 1, or to the factor above which there is no equilibrium; None if there is none at 0.
     """
     begin = perf_counter()
-    arrays, links = result.arrays, result.links
-    solution = engine.solve(arrays, links, 0.0, rule, closed)
-    if solution.status == engine.NO_EQUILIBRIUM:
+    beam = result.beam
+    if beam.bars >= 0 and beam.solve(1.0, rule, closed).slides:
+        result.refuse("above load factor 0", None)
+        return None
+    solution = beam.solve(0.0, rule, closed)
+    if solution.status == NO_EQUILIBRIUM:
         result.refuse("at load factor 0", solution.motion)
         return None
     factor, scheme, marginal, pieces = 0.0, solution.closed, solution.undecided, []
     while factor < 1.0:
-        piece = engine.follow(arrays, links, factor, scheme, marginal, EVENTS_AT_A_TIME)
+        piece = beam.follow(factor, scheme, marginal, EVENTS_AT_A_TIME)
         pieces.append(piece)
         factor, scheme, marginal = piece.factor, piece.closed, piece.marginal
-        if piece.status == engine.NO_EQUILIBRIUM:
+        if piece.status == NO_EQUILIBRIUM:
             result.refuse(f"above load factor {factor:.16g}", piece.motion)
             break
     path = Path(solution.closed, pieces, solution.solves, perf_counter() - begin)

@@ -12,14 +12,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..base.errors import EngineError, Status
 from ..base.memory import refuse_beyond
 from ..base.records import Pickled, Record
-from ..engine import engine
-from ..engine.arrays import LONGER, STRONGER, to_scene
-from ..engine.engine import METHODS, Solution
-from ..engine.lowering import Arrays
-from ..engine.units import scaled
-from ..scene.places import POSITION_TOLERANCE
+from ..engine.beam import FIELDS, GIVEN, METHODS, Beam, Solution
 from ..scene.structs import Scene
 from ..scene.wording import shown
 from .arguments import finite, numbers, whole
@@ -30,7 +26,6 @@ from .steps import LoadSteps, Steps
 if TYPE_CHECKING:
     from .path import Event, Path, Segment
 
-BENDING = ("deflection", "rotation", "moment", "shear")
 BYTES_PER_PLACE = 120
 """Memory that a row of a table of fields takes while it is made."""
 
@@ -138,14 +133,13 @@ class Result(Pickled):
 
     __hash__ = None
 
-    def __init__(self, scene: Scene, arrays: Arrays, links: np.ndarray, rule: str):
+    def __init__(self, scene: Scene, beam: Beam, rule: str):
         self.scene = scene
         self.status = "solved"
         self.reason: str | None = None
         self.motion: list[tuple[float, float]] | None = None
-        self.steps: Steps = LoadSteps(arrays, links, rule, np.ones(len(arrays.supports), dtype=np.int32), 0)
-        self.arrays = arrays
-        self.links = links
+        self.steps: Steps = LoadSteps(beam, rule, np.ones(beam.supports, dtype=np.int32), 0)
+        self.beam = beam
         self.rule = rule
         self.path: Path | None = None
 
@@ -155,7 +149,7 @@ class Result(Pickled):
             return NotImplemented
         return self is other or (
             self.scene == other.scene
-            and self.arrays == other.arrays
+            and self.beam == other.beam
             and (self.status, self.reason, self.motion) == (other.status, other.reason, other.motion)
             and self.events == other.events
             and len(self.steps) == len(other.steps)
@@ -196,8 +190,8 @@ class Result(Pickled):
         if motion is None:
             self.reason = f"no equilibrium {where}: the beam slides along its axis, no axial support holds it"
             return
-        self.reason = f"no equilibrium {where}: {describe_motion(self.arrays, motion)}"
-        self.motion = list(zip(self.arrays.node_x.tolist(), motion.tolist(), strict=True))
+        self.reason = f"no equilibrium {where}: {describe_motion(self.beam, motion)}"
+        self.motion = list(zip(self.beam.node_x.tolist(), motion.tolist(), strict=True))
 
     def state(self, factor: float) -> Step:
         """Solve the exact state at any load factor.
@@ -220,25 +214,25 @@ class Result(Pickled):
         factor = finite("factor", factor)
         closed = self.path.at(factor) if self.segments else self.steps.nearest(factor)
         known = self.segments and 0.0 <= factor <= self.segments[-1].stop
-        step = solve_step(self.arrays, self.links, factor, engine.GIVEN if known else self.rule, closed)
-        if isinstance(step, Solution) or step is None:
+        step = solve_step(self.beam, factor, GIVEN if known else self.rule, closed)
+        if isinstance(step, Solution):
             raise ValueError(f"factor: there is no equilibrium at load factor {factor:g}")
         return step
 
     @cached_property
     def system(self) -> System:
         """What the system of equations consisted of."""
-        arrays = self.arrays
+        beam = self.beam
         method = self.steps[-1].solution.method if self.steps else 0
-        nodes = len(arrays.kinds)
+        nodes = beam.links + 1
         three_moment = METHODS[method] == "three-moment"
         needed = {
-            "axial": arrays.axial is not None,
-            "shear": bool(np.isfinite(arrays.pieces[:, 2]).any()),
+            "axial": beam.bars >= 0,
+            "shear": beam.has_shear,
             "foundation": False,
-            "hinges": bool(self.scene.beam.hinges),
-            "rotational restraints": bool(arrays.turning.any()),
-            "iteration": bool(np.any(arrays.support_sides != 0)),
+            "hinges": beam.has_hinges,
+            "rotational restraints": beam.has_restraints,
+            "iteration": beam.is_one_sided,
             "deflections": not three_moment,
         }
         return System(
@@ -246,7 +240,7 @@ class Result(Pickled):
             unknowns=nodes if three_moment else 2 * nodes,
             half_bandwidth=1 if three_moment else 3,
             method=METHODS[method],
-            axial_unknowns=0 if arrays.axial is None else 2 * len(arrays.axial.points) - 1,
+            axial_unknowns=2 * beam.bars + 1 if beam.bars >= 0 else 0,
             left_out=tuple(name for name, used in needed.items() if not used),
         )
 
@@ -293,30 +287,21 @@ class Result(Pickled):
         """
         if not isinstance(side, str) or side not in ("right", "left"):
             raise ValueError(f'side: expected "right" or "left", got {shown(side)}')
-        arrays = self.arrays
         x = np.array(numbers("x", x))
-        end = arrays.ends[-1]
-        slack = POSITION_TOLERANCE * end
-        if not np.all((x >= -slack) & (x <= end + slack)):
-            raise ValueError(f"x: the beam goes from 0 to {end:g}, got {x[~((x >= 0) & (x <= end))].flat[0]:g}")
-        piece, distance = arrays.find_pieces(x.ravel(), side == "left")
-        state = self._chosen(step, factor)
-        return self._fields(x.ravel(), piece, distance, state, x.shape)
+        try:
+            piece, distance = self.beam.find(x.ravel(), side == "left")
+        except EngineError as error:
+            if error.status != Status.BAD_INPUT:
+                raise
+            end = self.beam.places.end
+            off = x[~((x >= 0) & (x <= end))].flat[0]
+            raise ValueError(f"x: the beam goes from 0 to {end:g}, got {off:g}") from None
+        return self._fields(x, piece, distance, self._chosen(step, factor))
 
-    def _fields(self, x, piece, distance, state, shape) -> Fields:
-        arrays = self.arrays
-        values = engine.values(arrays, state.factor, state.starts, piece, distance)
-        columns = dict(zip(BENDING, (row.reshape(shape) for row in values), strict=True))
-        if arrays.axial is not None:
-            axial = arrays.axial
-            u, tension, _ = state.axial
-            bar = np.clip(np.searchsorted(axial.points, piece, side="right") - 1, 0, len(tension) - 1)
-            before = np.concatenate(([0.0], np.cumsum(axial.softness)))
-            way = before[piece] - before[axial.points[bar]] + axial.softness[piece] * (distance / arrays.pieces[piece, 0])
-            force = to_scene(tension[bar], axial.units.force, x, "axial force", STRONGER)
-            moved = to_scene(u[bar] + tension[bar] * way, axial.units.deflection, x, "axial displacement", LONGER)
-            columns["axial_force"], columns["axial_displacement"] = force.reshape(shape), moved.reshape(shape)
-        return Fields(x.reshape(shape), **columns)
+    def _fields(self, x: np.ndarray, piece: np.ndarray, distance: np.ndarray, state: Step) -> Fields:
+        values = self.beam.values(state.factor, state.starts, state.solution, piece, distance)
+        columns = zip(FIELDS[: 4 if self.beam.bars < 0 else 6], (row.reshape(x.shape) for row in values), strict=False)
+        return Fields(x, **dict(columns))
 
     def fields(self, step: int | None = None, points: int = 20) -> Fields:
         """Tabulate all fields, for drawing.
@@ -340,19 +325,18 @@ class Result(Pickled):
         IndexError
             There is no such step.
         """
-        arrays = self.arrays
         state = self._chosen(step)
         points = whole("points", points, least=1)
         rows = float(min(points, 2**62)) * len(self.scene.beam.spans)
         refuse_beyond("points", f"fields at {shown(points)} points a span", rows * BYTES_PER_PLACE, "give fewer")
-        size = len(arrays.pieces)
-        spans = np.diff(arrays.ends)[arrays.point_span[:-1]]
-        parts = np.maximum(np.ceil(points * (arrays.pieces[:, 0] / spans)).astype(int), 1)
-        piece = np.repeat(np.arange(size), parts + 1)
+        places, lengths = self.beam.places, self.beam.places.pieces[:, 0]
+        spans = np.asarray(self.scene.beam.spans, dtype=float)[places.span]
+        parts = np.maximum(np.ceil(points * (lengths / spans)).astype(int), 1)
+        piece = np.repeat(np.arange(len(lengths), dtype=np.int32), parts + 1)
         place = np.arange(len(piece)) - np.repeat(np.cumsum(parts + 1) - (parts + 1), parts + 1)
-        distance = arrays.pieces[piece, 0] * (place / parts[piece])
-        x = np.where(place == parts[piece], arrays.point_x[piece + 1], arrays.point_x[piece] + distance)
-        return self._fields(x, piece, distance, state, x.shape)
+        distance = lengths[piece] * (place / parts[piece])
+        x = np.where(place == parts[piece], places.point_x[piece + 1], places.point_x[piece] + distance)
+        return self._fields(x, piece + np.int32(1), distance, state)
 
     def extremes(self, step: int | None = None) -> dict[str, dict[str, tuple[float, float]]]:
         """Exact largest and smallest values of every field with their places.
@@ -375,22 +359,11 @@ class Result(Pickled):
             There is no such step.
         """
         state = self._chosen(step)
-        values, x = engine.extremes(self.arrays, state.factor, state.starts)
-        result = {
+        values, x = self.beam.extremes(state.factor, state.starts, state.solution)
+        return {
             name: {"max": (float(values[0, k]), float(x[0, k])), "min": (float(values[1, k]), float(x[1, k]))}
-            for k, name in enumerate(BENDING)
+            for k, name in enumerate(FIELDS[: 4 if self.beam.bars < 0 else 6])
         }
-        if state.axial is not None:
-            u, tension, _ = state.axial
-            axial = self.arrays.axial
-            at = self.arrays.point_x[axial.points]
-            for name, row, power in (
-                ("axial_force", tension, axial.units.force),
-                ("axial_displacement", u, axial.units.deflection),
-            ):
-                places = {"max": int(np.argmax(row)), "min": int(np.argmin(row))}
-                result[name] = {which: (float(scaled(row[k], power)), float(at[k])) for which, k in places.items()}
-        return result
 
     def history(self) -> list[tuple[float, tuple[str, ...]]]:
         """Follow the working scheme over the load.

@@ -9,10 +9,9 @@ from typing import Any
 import numpy as np
 
 from ..base.errors import SceneError
-from ..engine import engine
-from ..engine.axial import solve_axial
-from ..engine.lowering import Arrays, lower
-from ..scene.structs import Scene, read_scene
+from ..engine.beam import GIVEN, RULES, Beam
+from ..scene.reading import read_beam
+from ..scene.structs import Scene
 from ..scene.wording import shown
 from .arguments import scheme
 from .path import follow
@@ -61,21 +60,16 @@ def solve(
     >>> result.steps[-1].reaction.round(4)
     array([2.2875, 7.425 , 2.2875])
     """
-    scene = read_scene(source)
+    scene, beam = read_beam(source)
     rule = choose_rule(scene, rule)
-    arrays = lower(scene)
-    closed = _starting_scheme(arrays, start)
-    links = engine.condense(arrays)
-    result = Result(scene, arrays, links, rule)
+    closed = _starting_scheme(beam, start)
+    result = Result(scene, beam, rule)
     if scene.analysis.follow == "events":
-        if arrays.axial is not None and solve_axial(arrays, 1.0) is None:
-            result.refuse("above load factor 0", None)
-            return result
         result.path = follow(result, rule, closed)
         if result.segments:
-            result.steps = PathSteps(arrays, links, rule, result.path)
+            result.steps = PathSteps(beam, rule, result.path)
         return result
-    result.steps = LoadSteps(arrays, links, rule, closed, scene.analysis.steps)
+    result.steps = LoadSteps(beam, rule, closed, scene.analysis.steps)
     fallen = result.steps.solve_all()
     if fallen is not None:
         factor, motion = fallen
@@ -96,7 +90,7 @@ def choose_rule(scene: Scene, rule: str | None) -> str:
     Returns
     -------
     str
-        A key of `engine.RULES`.
+        ``block`` or ``single``.
 
     Raises
     ------
@@ -104,16 +98,16 @@ def choose_rule(scene: Scene, rule: str | None) -> str:
         There is no such rule.
     """
     rule = scene.analysis.rule if rule is None else rule
-    if not isinstance(rule, str) or rule not in engine.RULES:
-        raise SceneError("rule", f"expected one of {', '.join(engine.RULES)}, got {shown(rule)}")
+    if not isinstance(rule, str) or rule not in RULES or rule == GIVEN:
+        raise SceneError("rule", f"expected one of {', '.join(one for one in RULES if one != GIVEN)}, got {shown(rule)}")
     return rule
 
 
-def _starting_scheme(arrays: Arrays, start: Sequence[bool] | None) -> np.ndarray:
-    closed = np.ones(len(arrays.supports), dtype=np.int32)
+def _starting_scheme(beam: Beam, start: Sequence[bool] | None) -> np.ndarray:
+    closed = np.ones(beam.supports, dtype=np.int32)
     if start is None:
         return closed
-    one_sided = np.flatnonzero(arrays.sides)
-    of_all = np.ones(len(arrays.sides), dtype=np.int32)
+    one_sided = np.flatnonzero(beam.sides)
+    of_all = np.ones(beam.scene_supports, dtype=np.int32)
     of_all[one_sided] = scheme(start, len(one_sided), "one-sided support")
-    return of_all[arrays.supports]
+    return of_all[beam.carrying]

@@ -11,8 +11,7 @@ import numpy as np
 from ..base.errors import SceneError
 from ..base.memory import LITTLE, refuse_beyond
 from ..base.records import Pickled, read_only
-from ..engine.engine import GIVEN
-from ..engine.lowering import Arrays
+from ..engine.beam import GIVEN, Beam
 from .step import Known, Step, name_states, solve_step
 
 if TYPE_CHECKING:
@@ -26,17 +25,14 @@ class Steps(Pickled, Sequence[Step]):
 
     Parameters
     ----------
-    arrays : Arrays
-        The lowered scene.
-    links : numpy.ndarray
-        Its condensed links.
+    beam : Beam
+        The beam.
     rule : {"block", "single"}
         How working schemes are found.
     """
 
-    def __init__(self, arrays: Arrays, links: np.ndarray, rule: str):
-        self._arrays = arrays
-        self._links = links
+    def __init__(self, beam: Beam, rule: str):
+        self._beam = beam
         self._rule = rule
         self._kept: dict[str, tuple[int, Step]] = {}
 
@@ -109,7 +105,7 @@ class Steps(Pickled, Sequence[Step]):
         for k in range(len(self)):
             closed = self.closed(k)
             if before is None or not np.array_equal(closed, before):
-                before, states = closed, name_states(self._arrays, closed)
+                before, states = closed, name_states(self._beam, closed)
             yield self.factor(k), states
 
 
@@ -121,7 +117,7 @@ class LoadSteps(Steps):
 
     Parameters
     ----------
-    arrays, links, rule
+    beam, rule
         As for `Steps`.
     start : numpy.ndarray of int
         Where the search of the first step starts.
@@ -134,8 +130,8 @@ class LoadSteps(Steps):
         There is not the memory for so many.
     """
 
-    def __init__(self, arrays: Arrays, links: np.ndarray, rule: str, start: np.ndarray, count: int):
-        super().__init__(arrays, links, rule)
+    def __init__(self, beam: Beam, rule: str, start: np.ndarray, count: int):
+        super().__init__(beam, rule)
         self._start = start
         self._count = count
         self._solved = 0
@@ -169,7 +165,7 @@ class LoadSteps(Steps):
 
     def _make(self, k: int) -> Step:
         known = Known(self.closed(k), int(self._solves[k]), float(self._seconds[k]))
-        return Step(self._arrays, self._links, self.factor(k), self._rule, self._before(k), known)
+        return Step(self._beam, self.factor(k), self._rule, self._before(k), known)
 
     def solve_all(self) -> tuple[float, np.ndarray | None] | None:
         """Solve one step after the other, as long as they stand.
@@ -183,15 +179,15 @@ class LoadSteps(Steps):
         Raises
         ------
         EngineError
-            As `engine.solve`.
+            As `Beam.solve`.
         """
         for k in range(self._count):
-            step = solve_step(self._arrays, self._links, self.factor(k), self._rule, self._before(k))
+            step = solve_step(self._beam, self.factor(k), self._rule, self._before(k))
             if not isinstance(step, Step):
                 self._schemes, self._solves, self._seconds = (
                     part[:k].copy() for part in (self._schemes, self._solves, self._seconds)
                 )
-                return self.factor(k), None if step is None else step.motion
+                return self.factor(k), None if step.slides else step.motion
             self._schemes[k] = np.packbits(step.closed)
             self._solves[k] = step.solves
             self._seconds[k] = step.seconds
@@ -231,14 +227,14 @@ class PathSteps(Steps):
 
     Parameters
     ----------
-    arrays, links, rule
+    beam, rule
         As for `Steps`.
     path : Path
         Knows the schemes.
     """
 
-    def __init__(self, arrays: Arrays, links: np.ndarray, rule: str, path: Path):
-        super().__init__(arrays, links, rule)
+    def __init__(self, beam: Beam, rule: str, path: Path):
+        super().__init__(beam, rule)
         self._path = path
 
     def __len__(self) -> int:
@@ -254,4 +250,4 @@ class PathSteps(Steps):
         return read_only(self._path.closed(self._path.segments[k]))
 
     def _make(self, k: int) -> Step:
-        return Step(self._arrays, self._links, self.factor(k), GIVEN, self.closed(k))
+        return Step(self._beam, self.factor(k), GIVEN, self.closed(k))

@@ -1,4 +1,27 @@
 """What a user writes: scenes in TOML, JSON or Python, read and checked."""
 
-from .structs import *  # noqa: F403
-from .structs import __all__ as __all__
+from .places import POSITION_TOLERANCE, same_place
+from .reading import read_scene
+from .schema import scene_schema
+from .structs import (
+    Analysis,
+    AxialLoad,
+    Beam,
+    CurvatureLoad,
+    ForceLoad,
+    Foundation,
+    LinearLoad,
+    Load,
+    MomentLoad,
+    Scene,
+    Section,
+    Support,
+    UniformLoad,
+    Units,
+)
+
+__all__ = [
+    "POSITION_TOLERANCE", "Analysis", "AxialLoad", "Beam", "CurvatureLoad", "ForceLoad", "Foundation",
+    "LinearLoad", "Load", "MomentLoad", "Scene", "Section", "Support", "UniformLoad", "Units", "read_scene",
+    "same_place", "scene_schema",
+]  # fmt: skip

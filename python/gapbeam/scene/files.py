@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from ..base.errors import SceneError
-from .checks import TOO_DEEP
+from .typed import TOO_DEEP
 from .wording import shown
 
 STANDARD_INPUT = "standard input"

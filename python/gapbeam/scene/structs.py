@@ -23,34 +23,18 @@ array([ 0.,  6., 12.])
 
 from __future__ import annotations
 
-import inspect
 import math
-import os
-import re
-from collections.abc import Iterable, Mapping
-from pathlib import Path
-from typing import Annotated, Any, Literal, get_args
+from collections.abc import Iterable
+from typing import Annotated, Literal
 
-import msgspec
 import numpy as np
 from msgspec import Meta, Struct, field
 
-from ..base.errors import SceneError
-from .checks import check, plain, typed
-from .files import read_file
-from .place_checks import check_places
-from .places import POSITION_TOLERANCE, same_place
-from .wording import shown
-
-__all__ = [
-    "POSITION_TOLERANCE", "Analysis", "AxialLoad", "Beam", "CurvatureLoad", "ForceLoad", "Foundation",
-    "LinearLoad", "Load", "MomentLoad", "Scene", "Section", "Support", "UniformLoad", "Units", "read_scene",
-    "same_place", "scene_schema",
-]  # fmt: skip
+from .typed import plain
 
 inf = math.inf
 
-# The limits are for editors; `check` enforces them, with messages in the user's words.
+# The limits are for editors; the Fortran layer enforces them.
 Positive = Annotated[float, Meta(extra_json_schema={"exclusiveMinimum": 0})]
 NotNegative = Annotated[float, Meta(extra_json_schema={"minimum": 0})]
 Node = Annotated[int, Meta(le=2**31 - 1, extra_json_schema={"minimum": 0})]
@@ -374,7 +358,8 @@ class Scene(_Table, forbid_unknown_fields=True, kw_only=True):
         # What each addition of the running sum lost, exactly; summed up it corrects every end.
         before, after = ends[:-1], ends[1:]
         added = after - before
-        ends[1:] += np.cumsum((before - (after - added)) + (spans - added))
+        with np.errstate(invalid="ignore"):
+            ends[1:] += np.cumsum((before - (after - added)) + (spans - added))
         return ends
 
     def positions(self, items: Iterable[Support | ForceLoad | MomentLoad | AxialLoad]) -> np.ndarray:
@@ -394,74 +379,3 @@ class Scene(_Table, forbid_unknown_fields=True, kw_only=True):
         at_nodes = ends.tolist()
         places = [at_nodes[item.node] if item.x is None else item.x for item in items]
         return np.clip(np.array(places, dtype=float), 0.0, ends[-1])
-
-
-def read_scene(source: Scene | Mapping[str, Any] | str | os.PathLike) -> Scene:
-    """Read a scene and check it completely: keys, types and meaning.
-
-    Parameters
-    ----------
-    source : Scene, mapping, str or path
-        A scene built in Python, its data as dicts and lists, or the path of a ``.toml`` or ``.json`` file.
-        Numpy numbers and arrays are welcome in place of numbers and lists.
-
-    Returns
-    -------
-    Scene
-        An independent copy; all its numbers are floats.
-
-    Raises
-    ------
-    SceneError
-        Names the place, the value and what was expected.
-
-    Examples
-    --------
-    >>> try:
-    ...     read_scene({"beam": {"spans": [6], "EI": 1e4}, "supports": [{"node": 0, "gap": "0,02"}]})
-    ... except SceneError as error:
-    ...     print(error)
-    supports[0].gap: expected a number, got "0,02"
-    """
-    if isinstance(source, str | os.PathLike):
-        source = read_file(Path(source))
-    if not isinstance(source, Scene | Mapping):
-        raise SceneError(f"expected a Scene, a mapping or the path of a file, got {shown(source)}")
-    scene = typed(source, Scene)
-    check(scene)
-    check_places(scene)
-    return scene
-
-
-def scene_schema() -> dict[str, Any]:
-    """JSON Schema of a scene, for editors that complete and check TOML or JSON files.
-
-    Returns
-    -------
-    dict
-        For `json.dumps`. Defaults of inf stand in the descriptions only: JSON has no such number.
-
-    Examples
-    --------
-    >>> scene_schema()["$defs"]["Support"]["properties"]["gap"]["description"]
-    'Distance to be closed before it acts (length); negative = lack of fit; one-sided supports only.'
-    """
-    schema = msgspec.json.schema(Scene)
-    for struct in (Units, Beam, Section, Support, Foundation, Analysis, Scene, *get_args(Load)):
-        table = schema["$defs"][struct.__name__]
-        table["description"] = inspect.cleandoc(struct.__doc__).partition("\n\n")[0]
-        texts: dict[str, str] = {}
-        for base in reversed(struct.__mro__[:-3]):
-            texts |= _parameters(base.__doc__ or "")
-        for key, entry in table["properties"].items():
-            if key in texts:
-                entry["description"] = texts[key]
-            if isinstance(entry.get("default"), float) and math.isinf(entry["default"]):
-                del entry["default"]
-    return {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "gapbeam scene", **schema}
-
-
-def _parameters(docstring: str) -> dict[str, str]:
-    """Descriptions of the parameters in a NumPy docstring, by key."""
-    entries = re.findall(r"^(\w+) : .*\n((?:[ ]{4}.*\n?)+)", inspect.cleandoc(docstring), re.MULTILINE)
-    return {name.rstrip("_"): " ".join(text.split()).replace("`", "") for name, text in entries}

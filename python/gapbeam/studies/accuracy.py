@@ -14,7 +14,8 @@ from msgspec import structs
 from ..base.errors import SceneError
 from ..results import formatting as fmt
 from ..results.stepping import solve
-from ..scene.structs import Analysis, Scene, read_scene
+from ..scene.reading import read_scene
+from ..scene.structs import Analysis, Scene
 from .corners import literal_markdown, markdown_table
 from .exact import Reference
 from .meshes import MeshedBeam, Unfit, many_spans, mesh, one_span, soft_and_stiff, stiffness_jumps

@@ -16,7 +16,7 @@ import numpy as np
 from ..base.errors import GapbeamError
 from ..results import formatting as fmt
 from ..results.stepping import solve
-from ..scene.structs import read_scene
+from ..scene.reading import read_scene
 from .exact import Reference
 from .extremes import Case, cases
 

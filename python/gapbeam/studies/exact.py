@@ -19,7 +19,7 @@ from math import inf, isinf
 
 import numpy as np
 
-from ..scene.checks import SIDES
+from ..scene.columns import SIDES
 from ..scene.places import locate
 from ..scene.structs import CurvatureLoad, ForceLoad, MomentLoad, Scene, UniformLoad
 

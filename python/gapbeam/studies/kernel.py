@@ -116,7 +116,7 @@ def stream_bandwidth(elements: int = 10**7) -> float:
     float
         Bytes a second, 24 an element counted.
     """
-    triad = interruptible(_yardsticks.ystria, large=None)
+    triad = interruptible(_yardsticks.ystria)
 
     def fastest(repeat: int) -> float:
         found = np.inf

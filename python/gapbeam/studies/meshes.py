@@ -11,9 +11,10 @@ from typing import Any
 
 import numpy as np
 
-from ..engine.lowering import HINGE, RESTRAINED, lower
+from ..engine.beam import HINGE, RESTRAINED
 from ..results.formatting import title
-from ..scene.structs import CurvatureLoad, LinearLoad, MomentLoad, Scene, read_scene
+from ..scene.reading import read_beam
+from ..scene.structs import CurvatureLoad, LinearLoad, MomentLoad, Scene
 
 SEED = 2021
 """Of all families with random numbers."""
@@ -187,8 +188,8 @@ def mesh(source: Mapping[str, Any] | Scene | str, parts: int, name: str = "") ->
     >>> beam.length.tolist(), beam.force.tolist()
     ([0.5, 0.5, 0.5, 0.5, 1.5, 1.5], [0.0, 0.0, 4.0, 0.0, 0.0, 0.0, 0.0])
     """
-    scene = read_scene(source)
-    arrays = lower(scene)
+    scene, beam = read_beam(source)
+    arrays = beam.places
     ends = (0, len(arrays.pieces))
     clamps = arrays.kinds == RESTRAINED
     others = any(isinstance(load, CurvatureLoad | LinearLoad | MomentLoad) for load in scene.loads)
@@ -211,7 +212,8 @@ def mesh(source: Mapping[str, Any] | Scene | str, parts: int, name: str = "") ->
     force[parts::parts] = loads[:, 3]
     force[parts * arrays.node_points] = arrays.force.sum(axis=1)
     at, order = parts * places, np.argsort(places)
-    stiffness[at], level[at], side[at] = arrays.support_stiffness, arrays.support_contact, arrays.support_sides
+    stiffness[at], level[at] = beam.columns.support[1, arrays.supports], arrays.levels[arrays.supports]
+    side[at] = beam.sides[arrays.supports]
     length = np.repeat(arrays.pieces[:, 0] / parts, parts)
     x = np.append(np.repeat(arrays.point_x[:-1], parts), arrays.point_x[-1])
     x[:-1] += np.tile(np.arange(parts), len(EI)) * length
@@ -227,5 +229,5 @@ def mesh(source: Mapping[str, Any] | Scene | str, parts: int, name: str = "") ->
         (bool(clamps[0]), bool(clamps[-1])),
         scene,
         x,
-        arrays.supports[order[arrays.support_stiffness[order] > 0.0]],
+        arrays.supports[order[stiffness[at[order]] > 0.0]],
     )

@@ -16,7 +16,7 @@ from msgspec import structs
 
 from .. import _yardsticks
 from ..base.errors import GapbeamError, Status, check_status
-from ..engine.calls import gbkern, interruptible
+from ..engine.calls import interruptible
 from ..results.stepping import solve
 from ..scene.structs import Analysis
 from .meshes import MeshedBeam
@@ -124,7 +124,7 @@ def yardstick(name: str, number: int, refinements: int = 0, precise: bool = Fals
     -------
     Method
     """
-    solve = interruptible(_yardsticks.ysbeam, large=4)
+    solve = interruptible(_yardsticks.ysbeam, lambda method, refine, precise, reactions, length, *_: len(length))
 
     def run(beam: MeshedBeam, repeat: int) -> Answer:
         w, m, r, closed, solves, status = solve(
@@ -148,9 +148,10 @@ def kernel(refinements: int = 0) -> Method:
     -------
     Method
     """
+    solve = interruptible(_yardsticks.yskern, lambda length, *_: len(length))
 
     def run(beam: MeshedBeam, repeat: int) -> Answer:
-        w, m, status = gbkern(beam.length, beam.EI, beam.q, beam.stiffness, beam.force, refinements, repeat)
+        w, m, status = solve(beam.length, beam.EI, beam.q, beam.stiffness, beam.force, refinements, repeat)
         if status == Status.NO_MEMORY:
             check_status(status)
         return Answer(w, m, None, beam.stiffness > 0.0, 1, WHY[1] if status else "")

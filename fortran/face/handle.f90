@@ -1,0 +1,177 @@
+!> Prepared beams as numbers that Python keeps: the address of what gapbeam_lower made of a scene
+module gapbeam_handle
+    use, intrinsic :: iso_fortran_env, only: int64
+    use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer, c_null_ptr
+    use gapbeam_kinds, only: wp
+    use gapbeam_error, only: error_type, no_memory
+    use gapbeam_scene, only: model_type
+    use gapbeam_lowered, only: lowered_type
+    use gapbeam_lower, only: lower_model
+    use gapbeam_solution, only: state_type, new_state
+    use gapbeam_cases, only: case_loads_type
+    implicit none
+    private
+    public :: handle_type, new_handle, copy_handle, handle_of, drop_handle, read_columns, state_of
+
+    !> What a handle stands for
+    type :: handle_type
+        type(lowered_type) :: lowered
+        !> Its loads one by one, where they have been asked for
+        type(case_loads_type), allocatable :: cases
+    end type handle_type
+
+contains
+
+    !> Lower a model and keep it
+    subroutine new_handle(model, address, error)
+        type(model_type), intent(in) :: model
+        !> The handle; 0 where an error is found
+        integer(int64), intent(out) :: address
+        !> As for lower_model
+        type(error_type), allocatable, intent(out) :: error
+        type(handle_type), pointer :: handle
+        integer :: stat
+
+        address = 0
+        allocate (handle, stat=stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        handle%lowered%model = model
+        call lower_model(handle%lowered, error)
+        if (allocated(error)) then
+            deallocate (handle)
+        else
+            address = transfer(c_loc(handle), address)
+        end if
+    end subroutine new_handle
+
+    !> Keep another beam like one at hand
+    subroutine copy_handle(address, copy, error)
+        integer(int64), intent(in) :: address
+        integer(int64), intent(out) :: copy
+        !> No memory
+        type(error_type), allocatable, intent(out) :: error
+        type(handle_type), pointer :: from, to
+        integer :: stat
+
+        copy = 0
+        from => handle_of(address)
+        allocate (to, stat=stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        to%lowered = from%lowered
+        copy = transfer(c_loc(to), copy)
+    end subroutine copy_handle
+
+    !> What a handle stands for
+    function handle_of(address) result(handle)
+        integer(int64), intent(in) :: address
+        type(handle_type), pointer :: handle
+
+        call c_f_pointer(transfer(address, c_null_ptr), handle)
+    end function handle_of
+
+    !> Free it; the handle is worth nothing from then on
+    subroutine drop_handle(address)
+        integer(int64), intent(in) :: address
+        type(handle_type), pointer :: handle
+
+        handle => handle_of(address)
+        if (associated(handle)) deallocate (handle)
+    end subroutine drop_handle
+
+    !> A model from columns, each with one entry more than it has numbers, so that none is empty
+    subroutine read_columns(span, hinge, sect, isup, sup, iload, aload, model, error)
+        !> Length, EI, GA, EA
+        real(wp), intent(in) :: span(:, :)
+        !> Places
+        real(wp), intent(in) :: hinge(:)
+        !> From, to, EI, GA, EA
+        real(wp), intent(in) :: sect(:, :)
+        !> Node, side, direction; x, stiffness, gap, settlement, rotation
+        integer, intent(in) :: isup(:, :)
+        real(wp), intent(in) :: sup(:, :)
+        !> Kind, case, node; x or from, to, value, value at the right end
+        integer, intent(in) :: iload(:, :)
+        real(wp), intent(in) :: aload(:, :)
+        type(model_type), intent(out) :: model
+        !> No memory
+        type(error_type), allocatable, intent(out) :: error
+        integer :: i, stat
+
+        allocate (model%spans(size(span, 1) - 1), model%hinges(size(hinge) - 1), model%sections(size(sect, 1) - 1), &
+                  model%supports(size(sup, 1) - 1), model%loads(size(aload, 1) - 1), stat=stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        do i = 1, size(model%spans)
+            associate (s => model%spans(i))
+                s%length = span(i, 1)
+                s%EI = span(i, 2)
+                s%GA = span(i, 3)
+                s%EA = span(i, 4)
+            end associate
+        end do
+        model%hinges(:) = hinge(:size(model%hinges))
+        do i = 1, size(model%sections)
+            associate (s => model%sections(i))
+                s%from = sect(i, 1)
+                s%to = sect(i, 2)
+                s%EI = sect(i, 3)
+                s%GA = sect(i, 4)
+                s%EA = sect(i, 5)
+            end associate
+        end do
+        do i = 1, size(model%supports)
+            associate (s => model%supports(i))
+                s%node = isup(i, 1)
+                s%side = isup(i, 2)
+                s%direction = isup(i, 3)
+                s%x = sup(i, 1)
+                s%stiffness = sup(i, 2)
+                s%gap = sup(i, 3)
+                s%settlement = sup(i, 4)
+                s%rotation = sup(i, 5)
+            end associate
+        end do
+        do i = 1, size(model%loads)
+            associate (load => model%loads(i))
+                load%kind = iload(i, 1)
+                load%case = iload(i, 2)
+                load%node = iload(i, 3)
+                load%x = aload(i, 1)
+                load%to = aload(i, 2)
+                load%value = aload(i, 3)
+                load%value_to = aload(i, 4)
+            end associate
+        end do
+    end subroutine read_columns
+
+    !> A state from the numbers that were taken out of it
+    subroutine state_of(lowered, factor, closed, w, ml, mr, shear, react, state, error)
+        type(lowered_type), intent(in) :: lowered
+        !> As in state_type; closed 1, open 0
+        real(wp), intent(in) :: factor
+        integer, intent(in) :: closed(:)
+        real(wp), intent(in) :: w(0:), ml(0:), mr(0:), shear(:), react(:)
+        type(state_type), intent(out) :: state
+        !> No memory
+        type(error_type), allocatable, intent(out) :: error
+
+        call new_state(lowered, state, error)
+        if (allocated(error)) return
+        state%factor = factor
+        state%closed(:) = closed(:size(state%closed)) /= 0
+        state%deflection(:) = w
+        state%moment_left(:) = ml
+        state%moment_right(:) = mr
+        state%shear(:) = shear
+        state%reaction(:) = react(:size(state%reaction))
+    end subroutine state_of
+
+end module gapbeam_handle

@@ -1,0 +1,567 @@
+"""A prepared beam: a handle of what the Fortran layer made of a scene, and typed calls with it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from ..base.errors import Status, check_status
+from ..base.records import Record, read_only
+from . import calls as _engine  # the compiled layer itself, but for Ctrl-C
+from .units import Units, scaled
+
+SOLVED, NO_EQUILIBRIUM = Status.SOLVED, Status.NO_EQUILIBRIUM
+"""Outcomes, as in gapbeam_error; codes above 10 are errors."""
+RULES = {"block": 0, "single": 1, "given": 2}
+GIVEN = "given"
+"""Instead of a rule: the scheme is known, as along a path."""
+OPENS, CLOSES, TURNS = 0, 1, 3
+"""Events, as in gapbeam_path."""
+METHODS = ("block tridiagonal mixed", "three-moment", "mixed with pivoting")
+"""What was solved, as in gapbeam_system."""
+PLAIN, HINGE, RESTRAINED = 0, 1, 2
+"""Kinds of node, as in gapbeam_band."""
+FIELDS = ("deflection", "rotation", "moment", "shear", "axial_force", "axial_displacement")
+
+
+class RefusalError(Exception):
+    """A number makes no sense: codes of the Fortran layer, for which `gapbeam.scene.refusals` has the words."""
+
+    def __init__(self, reason: int, table: int, entry: int, partner: int, key: str):
+        super().__init__(reason, table, entry, partner, key)
+        self.codes = (reason, table, entry, partner, key)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Columns(Record):
+    """What a beam is made of, as columns with one entry more than there are numbers: f2py takes none that is empty.
+
+    Attributes
+    ----------
+    span : numpy.ndarray
+        Length, EI, GA, EA of the spans, 4 rows.
+    hinge : numpy.ndarray
+        Places of the hinges.
+    section : numpy.ndarray
+        Left and right end, EI, GA, EA of the sections, 5 rows.
+    support_codes, support : numpy.ndarray
+        Node, side and direction of the supports, 3 rows of int; x, stiffness, gap, settlement, rotation, 5 rows.
+    load_codes, load : numpy.ndarray
+        Kind, case and node of the loads, 3 rows of int; x or left end, right end, value, value at the right end, 4 rows.
+    """
+
+    span: np.ndarray
+    hinge: np.ndarray
+    section: np.ndarray
+    support_codes: np.ndarray
+    support: np.ndarray
+    load_codes: np.ndarray
+    load: np.ndarray
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Solution(Record):
+    """What the engine found at one load factor, in its own units (`Beam.units`).
+
+    Attributes
+    ----------
+    status : int
+        SOLVED or NO_EQUILIBRIUM; in the second case only `motion` and `slides` have a meaning.
+    closed : numpy.ndarray of int
+        1 where a support acts, 0 where it is open.
+    undecided : numpy.ndarray of int
+        1 where its reaction or opening is zero, so that it may be closed or open.
+    deflection, moment_left, moment_right : numpy.ndarray
+        At the nodes.
+    shear : numpy.ndarray
+        Of the links, beside that of the simple bar.
+    reaction : numpy.ndarray
+        Of every support, positive upward.
+    motion : numpy.ndarray
+        Displacements of the nodes in the free motion, positive downward, largest 1.
+    displacement, tension : numpy.ndarray
+        Of the points and bars of the axial system.
+    at_supports : numpy.ndarray
+        Reaction, deflection, opening and couple of the scene's supports in its units, 4 rows.
+    states : numpy.ndarray of int
+        0 where a support of the scene is open, 1 where it is closed, 2 where it holds both ways.
+    solves : int
+        Linear solves; they do not count when solutions are compared.
+    method : int
+        Index into METHODS.
+    indifferent : bool
+        Whether the beam can move freely without work of the loads: forces are unique, the position is not.
+    came_back : bool
+        Whether the rule ``single`` came back to a scheme, so that ``block`` went on.
+    slides : bool
+        Whether nothing holds the beam along its axis.
+    """
+
+    status: int
+    closed: np.ndarray
+    undecided: np.ndarray
+    deflection: np.ndarray
+    moment_left: np.ndarray
+    moment_right: np.ndarray
+    shear: np.ndarray
+    reaction: np.ndarray
+    motion: np.ndarray
+    displacement: np.ndarray
+    tension: np.ndarray
+    at_supports: np.ndarray
+    states: np.ndarray
+    solves: int = field(compare=False)
+    method: int
+    indifferent: bool
+    came_back: bool
+    slides: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Stretch:
+    """A piece of the load path.
+
+    Attributes
+    ----------
+    status : int
+        SOLVED, or NO_EQUILIBRIUM if the beam begins to move above `factor`.
+    factor : float
+        How far it goes.
+    closed : numpy.ndarray of int
+        The scheme there, before what changes there.
+    marginal : numpy.ndarray of int
+        1 for the supports at zero there.
+    factors : numpy.ndarray
+        Load factors of the events, those at its beginning included.
+    supports : numpy.ndarray of int
+        Their supports, from 0.
+    events : numpy.ndarray of int
+        What happens to them: OPENS, CLOSES or TURNS.
+    motion : numpy.ndarray
+        As in `Solution`.
+    solves : int
+        Linear solves of the whole beam.
+    nodes : int
+        Nodes at which the solution was made anew besides.
+    """
+
+    status: int
+    factor: float
+    closed: np.ndarray
+    marginal: np.ndarray
+    factors: np.ndarray
+    supports: np.ndarray
+    events: np.ndarray
+    motion: np.ndarray
+    solves: int
+    nodes: int
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Places(Record):
+    """What there is along a beam, in the scene's units.
+
+    Attributes
+    ----------
+    end : float
+        The beam's right end.
+    point_x : numpy.ndarray
+        Places of the points between pieces.
+    span : numpy.ndarray of int
+        Span of every piece.
+    pieces : numpy.ndarray
+        Length, EI, GA of every piece, n by 3.
+    dead, live : numpy.ndarray
+        Load per length at the left and right end of every piece, imposed curvature, force and couple at its right end
+        unless a node is there, n by 5.
+    node_points : numpy.ndarray of int
+        The points that are nodes.
+    kinds : numpy.ndarray of int
+        PLAIN, HINGE or RESTRAINED for every node.
+    turning : numpy.ndarray
+        Stiffness of the rotational restraint of every node, 0 where there is none.
+    force, couple : numpy.ndarray
+        Dead and live force and couple at every node, nodes by 2.
+    support_nodes, supports : numpy.ndarray of int
+        Node of every support that can carry across the beam, and its number in the scene.
+    nodes_of_supports : numpy.ndarray of int
+        Node of every support of the scene; 0 for axial ones.
+    levels : numpy.ndarray
+        Deflection at which every support of the scene begins to act; 0 for axial ones.
+    """
+
+    end: float
+    point_x: np.ndarray
+    span: np.ndarray
+    pieces: np.ndarray
+    dead: np.ndarray
+    live: np.ndarray
+    node_points: np.ndarray
+    kinds: np.ndarray
+    turning: np.ndarray
+    force: np.ndarray
+    couple: np.ndarray
+    support_nodes: np.ndarray
+    supports: np.ndarray
+    nodes_of_supports: np.ndarray
+    levels: np.ndarray
+
+
+class Beam:
+    """A beam made ready for solving; it can be pickled, for other processes.
+
+    Parameters
+    ----------
+    columns : Columns
+        What it is made of.
+    factors : numpy.ndarray, optional
+        Take each load times its factor, all of them live.
+
+    Attributes
+    ----------
+    pieces, links, supports, scene_supports : int
+        Prismatic pieces; links between nodes; supports that can carry across it; supports of the scene.
+    bars : int
+        Bars of the axial system; -1 if there is none.
+    units : Units
+        The engine's.
+    has_hinges, has_restraints, has_shear, is_one_sided : bool
+        What of that there is; a one-sided support that can carry.
+
+    Raises
+    ------
+    RefusalError
+        A number makes no sense.
+    EngineError
+        Numbers are beyond the range of doubles: which ones.
+    MemoryError
+        The system gives no more memory.
+    """
+
+    __hash__ = None
+
+    def __init__(self, columns: Columns, factors: np.ndarray | None = None):
+        self.columns, self._factors = columns, factors
+        if factors is None:
+            parts = (columns.span.T, columns.hinge, columns.section.T, columns.support_codes.T, columns.support.T)
+            handle, status, reason, table, entry, partner, key, message = _engine.gbmake(
+                *parts, columns.load_codes.T, columns.load.T
+            )
+            if status == Status.BAD_INPUT:
+                raise RefusalError(reason, table, entry, partner, key.decode().strip())
+        else:
+            handle, status, message = _engine.gbcopy(Beam(columns).handle, np.append(factors, 0.0))
+        check_status(status, message)
+        self.handle = _engine.Handle(handle)
+        sizes, units = _engine.gbsize(handle)
+        self.pieces, self.links, self.supports, self.scene_supports, self.bars, *has = sizes.tolist()
+        self.has_hinges, self.has_restraints, self.has_shear, self.is_one_sided = map(bool, has)
+        self.units = Units(*units.tolist())
+
+    def __reduce__(self) -> tuple:
+        """Pickle by what it is made of."""
+        return type(self), (self.columns, self._factors)
+
+    def __eq__(self, other: object) -> bool:
+        """Whether they are made of the same numbers."""
+        if not isinstance(other, Beam):
+            return NotImplemented
+        same = self.columns == other.columns and (self._factors is None) == (other._factors is None)
+        return self is other or (same and (self._factors is None or np.array_equal(self._factors, other._factors)))
+
+    @cached_property
+    def places(self) -> Places:
+        """What there is along it."""
+        end, x, span, pieces, dead, live, points, kinds, turning, force, couple, at, number, nodes, levels = _engine.gbplac(
+            self.handle, self.pieces, self.links, self.supports, self.scene_supports
+        )
+        at, number, nodes, levels = at[:-1], number[:-1], nodes[:-1], levels[:-1]
+        return Places(
+            end, x, span, pieces.T, dead.T, live.T, points, kinds, turning, force.T, couple.T, at, number, nodes, levels
+        )
+
+    @cached_property
+    def node_x(self) -> np.ndarray:
+        """X of every node."""
+        return read_only(self.places.point_x[self.places.node_points])
+
+    @cached_property
+    def carrying(self) -> np.ndarray:
+        """Number in the scene of every support across the beam that can carry."""
+        codes, stiffness = self.columns.support_codes[:, :-1], self.columns.support[1, :-1]
+        return read_only(np.flatnonzero((codes[2] == 0) & ((stiffness > 0.0) | (codes[1] == 0))))
+
+    @cached_property
+    def across(self) -> np.ndarray:
+        """Which supports of the scene are across the beam, not axial."""
+        return read_only(self.columns.support_codes[2, :-1] == 0)
+
+    @cached_property
+    def sides(self) -> np.ndarray:
+        """Side of every support of the scene."""
+        return self.columns.support_codes[1, :-1]
+
+    def solve(self, factor: float, rule: str, closed: np.ndarray) -> Solution:
+        """Find the working scheme at one load factor.
+
+        Parameters
+        ----------
+        factor : float
+            Factor of the live loads.
+        rule : {"block", "single", "given"}
+            How the working scheme is found; GIVEN where it is known.
+        closed : numpy.ndarray of int
+            Starting scheme, one entry per support; left as it is.
+
+        Returns
+        -------
+        Solution
+            The solution, or the free motion where there is no equilibrium.
+
+        Raises
+        ------
+        EngineError
+            Where no unique solution exists for another reason, with the engine's message.
+        """
+        m, n = self.supports, max(self.bars, 0)
+        scheme = _scheme(closed)
+        undecided, w, left, right, shear, reaction, motion, u, tension, values, states, counts, status, message = _engine.gbsolv(
+            self.handle, self.links, self.scene_supports, n, factor, RULES[rule], scheme
+        )
+        check_status(status, message)
+        solves, method, indifferent, came_back, slides = counts.tolist()
+        return Solution(
+            status, scheme[:m], undecided[:m], w, left, right, shear, reaction[:m], motion, u, tension[:n], values.T[:, :-1],
+            states[:-1], solves, method, bool(indifferent), bool(came_back), bool(slides),
+        )  # fmt: skip
+
+    def follow(self, factor: float, closed: np.ndarray, marginal: np.ndarray, most: int) -> Stretch:
+        """Follow the load from a factor to 1, from event to event.
+
+        Parameters
+        ----------
+        factor, closed
+            As for `solve`; `closed` is the scheme at the factor.
+        marginal : numpy.ndarray of int
+            1 for the supports at zero there.
+        most : int
+            Number of events after which it stops short of 1.
+
+        Returns
+        -------
+        Stretch
+            The events on the way.
+
+        Raises
+        ------
+        EngineError
+            Where no unique solution exists on the way, with the engine's message.
+        """
+        m = self.supports
+        closed, marginal, at = _scheme(closed), _scheme(marginal), np.array(factor)
+        count, factors, which, what, motion, solves, nodes, status, message = _engine.gbpath(
+            most, self.handle, self.links, 1.0, at, closed, marginal
+        )
+        factor = float(at)
+        check_status(status, message, f"at load factor {factor:g}: ")
+        events = factors[:count], which[:count] - 1, what[:count]
+        return Stretch(status, factor, closed[:m], marginal[:m], *events, motion, solves, nodes)
+
+    def recover(self, factor: float, solution: Solution) -> np.ndarray:
+        """Fields at the left end of every piece.
+
+        Parameters
+        ----------
+        factor : float
+            Factor of the live loads.
+        solution : Solution
+            Solved at that factor.
+
+        Returns
+        -------
+        numpy.ndarray
+            Deflection, rotation, moment, shear by piece, in the engine's units, for the calls below.
+
+        Raises
+        ------
+        EngineError
+            A field left the range of doubles.
+        """
+        starts, status, message = _engine.gbreco(self.handle, self.pieces, *_state(factor, solution))
+        check_status(status, message)
+        return read_only(starts)
+
+    def certify(self, factor: float, solution: Solution) -> tuple[np.ndarray, np.ndarray, bool]:
+        """Check a solved state, and bound its errors by comparison with a solution in quadruple precision.
+
+        Parameters
+        ----------
+        factor, solution
+            As for `recover`.
+
+        Returns
+        -------
+        residuals : numpy.ndarray
+            Relative residuals of compatibility, equilibrium and complementarity.
+        bounds : numpy.ndarray
+            Largest errors of deflections of the nodes and of reactions; of deflections, rotations, moments, shears along the
+            beam, in the engine's units.
+        known : bool
+            False where the beam is free to move: deflections and rotations have no bound then.
+
+        Raises
+        ------
+        EngineError
+            The state cannot be checked.
+        """
+        residuals, bounds, known, status, message = _engine.gbcert(self.handle, *_state(factor, solution))
+        check_status(status, message, "the state could not be checked in quadruple precision: ")
+        return residuals, bounds, bool(known)
+
+    def find(self, x: np.ndarray, left: bool) -> tuple[np.ndarray, np.ndarray]:
+        """Find the pieces of given places.
+
+        Parameters
+        ----------
+        x : numpy.ndarray
+            Places on the beam.
+        left : bool
+            Whether the piece left of a point is meant, or that on its right.
+
+        Returns
+        -------
+        piece : numpy.ndarray of int
+            The pieces, from 1.
+        distance : numpy.ndarray
+            Distances from their left ends.
+
+        Raises
+        ------
+        EngineError
+            A place is off the beam.
+        """
+        if not len(x):
+            return np.zeros(0, np.int32), np.zeros(0)
+        piece, distance, status, message = _engine.gbfind(self.handle, x, left)
+        check_status(status, message)
+        return piece, distance
+
+    def values(
+        self, factor: float, starts: np.ndarray, solution: Solution, piece: np.ndarray, distance: np.ndarray
+    ) -> np.ndarray:
+        """Fields at given distances from the left ends of pieces.
+
+        Parameters
+        ----------
+        factor, solution
+            As for `recover`.
+        starts : numpy.ndarray
+            From `recover`.
+        piece : numpy.ndarray of int
+            The pieces, from 1.
+        distance : numpy.ndarray
+            The distances, in the scene's units.
+
+        Returns
+        -------
+        numpy.ndarray
+            6 by places, in the scene's units, in the order of FIELDS.
+
+        Raises
+        ------
+        EngineError
+            A field left the range of doubles.
+        """
+        found = np.empty((6, len(piece)))
+        tension = np.append(solution.tension, 0.0)
+        for part in _engine.parts(len(piece)):
+            found[:, part], status, message = _engine.gbvalu(
+                self.handle, factor, starts, solution.displacement, tension, piece[part], distance[part]
+            )
+            check_status(status, message)
+        return found
+
+    def extremes(self, factor: float, starts: np.ndarray, solution: Solution) -> tuple[np.ndarray, np.ndarray]:
+        """Exact extremes of all fields.
+
+        Parameters
+        ----------
+        factor, starts, solution
+            As for `values`.
+
+        Returns
+        -------
+        values, x : numpy.ndarray
+            Maximum and minimum (rows) of every field in the order of FIELDS (columns), and where they are.
+
+        Raises
+        ------
+        EngineError
+            A field left the range of doubles.
+        """
+        tension = np.append(solution.tension, 0.0)
+        values, x, status, message = _engine.gbextr(self.handle, factor, starts, solution.displacement, tension)
+        check_status(status, message)
+        return values, x
+
+    def largest_fields(self, factor: float, starts: np.ndarray) -> np.ndarray:
+        """Largest absolute values of deflection, rotation, moment, shear, in the engine's units.
+
+        Parameters
+        ----------
+        factor, starts
+            As for `values`.
+
+        Returns
+        -------
+        numpy.ndarray
+        """
+        return _engine.gblarg(self.handle, factor, starts)
+
+    def split_loads(self) -> None:
+        """Condense the loads one by one, for `solve_cases`."""
+        check_status(_engine.gbshar(self.handle, self.pieces + self.columns.load.shape[1]))
+
+    def solve_cases(self, factors: np.ndarray, rule: str, closed: np.ndarray) -> tuple[np.ndarray, ...]:
+        """Solve load cases.
+
+        Parameters
+        ----------
+        factors : numpy.ndarray
+            Factor of every load, cases by loads.
+        rule : {"block", "single"}
+            How working schemes are found.
+        closed : numpy.ndarray of int
+            Starting scheme of all cases.
+
+        Returns
+        -------
+        tuple of numpy.ndarray
+            Deflection, moments left and right of the nodes, reactions in the scene's units (not-a-number where a case is not
+            solved), schemes (all open where there is none), solves and status, one row a case.
+        """
+        cases, m = len(factors), self.supports
+        shares = np.zeros((max(cases, 1), factors.shape[1] + 1))
+        shares[:cases, :-1] = factors
+        schemes = np.zeros((len(shares), m + 1), dtype=np.int32)
+        schemes[:, :m] = closed
+        w, left, right, reaction, solves, status = _engine.gbcase(self.handle, self.links, shares.T, RULES[rule], schemes.T)
+        check_status(status[0] if status[0] == Status.NO_MEMORY else SOLVED)  # then all are
+        found = w.T, left.T, right.T, reaction.T[:, :m], schemes[:, :m]
+        return (*(values[:cases] for values in found), solves[:cases], status[:cases])
+
+
+def _state(factor: float, solution: Solution) -> tuple[Any, ...]:
+    """Collect what the layer needs of a solved state."""
+    s = solution
+    reaction = np.append(s.reaction, 0.0)
+    return factor, _scheme(s.closed), s.deflection, s.moment_left, s.moment_right, s.shear, reaction
+
+
+def _scheme(closed: np.ndarray) -> np.ndarray:
+    """Copy a scheme, with one entry more."""
+    return np.append(closed, 0).astype(np.int32)
+

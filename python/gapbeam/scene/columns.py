@@ -1,0 +1,184 @@
+"""A scene as columns of numbers, as the Fortran layer takes it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from operator import attrgetter
+from typing import Any
+
+import numpy as np
+
+from ..base.errors import SceneError
+from ..engine.beam import Columns
+from .structs import AxialLoad, CurvatureLoad, ForceLoad, LinearLoad, MomentLoad, Scene, UniformLoad
+from .tables import Table
+from .wording import number, shown
+
+BY_X = -1
+"""Instead of a node: the place is given by x."""
+NOT_GIVEN = -np.finfo(float).max
+"""Instead of a place, the right end of a stretch, or a stiffness of a section."""
+SIDES = {"both": 0, "below": 1, "above": -1}
+DIRECTIONS = {"normal": 0, "axial": 1}
+ROTATIONS = {"free": 0.0, "fixed": np.inf}
+CASES = {"live": 0, "dead": 1}
+FORCE, COUPLE, DISTRIBUTED, CURVATURE, AXIAL_FORCE = 1, 2, 3, 4, 5
+KINDS = {
+    ForceLoad: (FORCE, "F"),
+    MomentLoad: (COUPLE, "M"),
+    AxialLoad: (AXIAL_FORCE, "F"),
+    UniformLoad: (DISTRIBUTED, "q"),
+    LinearLoad: (DISTRIBUTED, "q"),
+    CurvatureLoad: (CURVATURE, "kappa"),
+}
+"""Kinds of load, as in gapbeam_scene, and the key of their value."""
+
+
+def columns(scene: Scene) -> Columns:
+    """Take the numbers of a scene.
+
+    Parameters
+    ----------
+    scene : Scene
+        Keys and types are right.
+
+    Returns
+    -------
+    Columns
+
+    Raises
+    ------
+    SceneError
+        Numbers of the beam that do not belong together, two places for one thing, or none that double precision holds.
+    """
+    beam = scene.beam
+    spans = len(beam.spans)
+    span = np.empty((4, spans + 1))
+    span[0, :spans] = beam.spans
+    for row, key in enumerate(("EI", "GA", "EA"), 1):
+        values = np.asarray(getattr(beam, key), dtype=float)
+        if values.ndim and len(values) != spans and spans:
+            count = f"has {len(values)} values for {spans} spans"
+            raise SceneError(f"beam.{key}", f"{count}; give one number, or one per span")
+        span[row, :spans] = values if spans else np.inf
+    hinge = np.empty(len(beam.hinges) + 1)
+    hinge[:-1] = beam.hinges
+    span[:, spans:] = hinge[-1] = 0.0
+    codes, values = _supports(scene.supports)
+    load_codes, load_values = _loads(scene.loads)
+    return Columns(span, hinge, _sections(scene.sections), codes, values, load_codes, load_values)
+
+
+def _empty(rows: int, count: int, kind: type = float) -> np.ndarray:
+    found = np.empty((rows, count + 1), dtype=kind)
+    found[:, count] = 0
+    return found
+
+
+def _sections(items: Sequence[Any]) -> np.ndarray:
+    found = _empty(5, len(items))
+    found[0, :-1] = _numbers(items, "from_")
+    for row, key in enumerate(("to", "EI", "GA", "EA"), 1):
+        found[row, :-1] = _optional(items, key)
+    return found
+
+
+def _supports(items: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
+    codes, found = _empty(3, len(items), np.int32), _empty(5, len(items))
+    codes[0, :-1], found[0, :-1] = _places("supports", items, range(len(items)))
+    codes[1, :-1] = _words(items, "side", SIDES)
+    codes[2, :-1] = _words(items, "direction", DIRECTIONS)
+    for row, key in enumerate(("stiffness", "gap", "settlement"), 1):
+        found[row, :-1] = _numbers(items, key)
+    found[4, :-1] = _rotations(items)
+    return codes, found
+
+
+def _loads(items: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
+    codes, found = _empty(3, len(items), np.int32), _empty(4, len(items))
+    if isinstance(items, Table):
+        groups = {items.struct: np.arange(len(items))}
+    else:
+        types = list(map(type, items))
+        groups = {one: np.arange(len(items)) for one in types[:1]}
+        if any(one is not types[0] for one in types):
+            numbers = {one: k for k, one in enumerate(KINDS)}
+            of = np.fromiter(map(numbers.__getitem__, types), np.int8, len(types))
+            groups = {one: some for one, k in numbers.items() if len(some := np.flatnonzero(of == k))}
+    codes[1, :-1] = _words(items, "case", CASES)
+    for one, some in groups.items():
+        group = items if len(some) == len(items) else [items[k] for k in some.tolist()]
+        kind, key = KINDS[one]
+        codes[0, some] = kind
+        if kind in (DISTRIBUTED, CURVATURE):
+            codes[2, some] = BY_X
+            found[0, some] = _numbers(group, "from_")
+            found[1, some] = _optional(group, "to")
+        else:
+            codes[2, some], found[0, some] = _places("loads", group, some)
+            found[1, some] = 0.0
+        values = _numbers(group, key)
+        found[2, some], found[3, some] = values.T if values.ndim == 2 else (values, values)
+    return codes, found
+
+
+def _column(items: Sequence[Any], key: str) -> Any:
+    return items.column(key) if isinstance(items, Table) else list(map(attrgetter(key), items))
+
+
+def _numbers(items: Sequence[Any], key: str) -> np.ndarray:
+    found = np.asarray(_column(items, key), dtype=float)
+    return found.reshape(len(items), *found.shape[1:])
+
+
+def _words(items: Sequence[Any], key: str, codes: dict[str, int]) -> Any:
+    values = _column(items, key)
+    if isinstance(values, str):
+        return codes[values]
+    return np.fromiter(map(codes.__getitem__, values), np.int32, len(items))
+
+
+def _rotations(items: Sequence[Any]) -> Any:
+    values = _column(items, "rotation")
+    if isinstance(values, str):
+        return ROTATIONS[values]
+    if isinstance(values, np.ndarray) and values.dtype == float:
+        return values
+    return np.fromiter((ROTATIONS[value] if isinstance(value, str) else value for value in values), float, len(items))
+
+
+def _optional(items: Sequence[Any], key: str) -> Any:
+    """Numbers, NOT_GIVEN where there is none."""
+    values = _column(items, key)
+    if values is None:
+        return NOT_GIVEN
+    found = np.asarray(values, dtype=float)
+    if isinstance(values, list) and np.isnan(found).any():
+        found[[value is None for value in values]] = NOT_GIVEN
+    return found
+
+
+def _places(name: str, items: Sequence[Any], index: Sequence[int]) -> tuple[Any, Any]:
+    """Nodes, BY_X where there is none, and x, NOT_GIVEN where there is none."""
+    x, node = _optional(items, "x"), _nodes(name, _column(items, "node"), index)
+    both = np.broadcast_to((node != BY_X) & (x != NOT_GIVEN), len(items))
+    for row in np.flatnonzero(both)[:1]:
+        item = items[row]
+        there = f"node = {number(item.node)} and x = {number(item.x)}"
+        raise SceneError(f"{name}[{index[row]}]", f"has both {there}; give one of the two")
+    return node, x
+
+
+def _nodes(name: str, values: Any, index: Sequence[int]) -> Any:
+    if values is None:
+        return BY_X
+    if isinstance(values, list) and None in values:
+        values = [-0.5 if value is None else value for value in values]
+    if isinstance(values, list) and min(values, default=0) < -(2**31):  # msgspec minds only integers that are too large
+        row = next(row for row, value in enumerate(values) if value < -(2**31))
+        raise SceneError(f"{name}[{index[row]}].node", f"expected a whole number, got {shown(values[row])}")
+    found = np.asarray(values, dtype=float)
+    # One less than a node below 0, so that it is not taken for BY_X
+    return np.where(found == -0.5, BY_X, np.where(found < 0, np.maximum(found - 1, -(2**31)), found)).astype(np.int32)
+
+

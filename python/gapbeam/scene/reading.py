@@ -1,0 +1,112 @@
+"""Scenes from wherever they come, checked completely."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+from ..base.errors import EngineError, SceneError
+from ..engine.beam import Beam, RefusalError
+from .columns import columns
+from .files import read_file
+from .refusals import refusal
+from .structs import Scene
+from .tables import Table, take_tables
+from .typed import typed
+from .wording import shown
+
+
+def read_scene(source: Scene | Mapping[str, Any] | str | os.PathLike) -> Scene:
+    """Read a scene and check it completely: keys, types and meaning.
+
+    Parameters
+    ----------
+    source : Scene, mapping, str or path
+        A scene built in Python, its data as dicts and lists, or the path of a ``.toml`` or ``.json`` file.
+        Numpy numbers and arrays are welcome in place of numbers and lists.
+
+    Returns
+    -------
+    Scene
+        An independent copy; all its numbers are floats.
+
+    Raises
+    ------
+    SceneError
+        Names the place, the value and what was expected.
+
+    Examples
+    --------
+    >>> try:
+    ...     read_scene({"beam": {"spans": [6], "EI": 1e4}, "supports": [{"node": 0, "gap": "0,02"}]})
+    ... except SceneError as error:
+    ...     print(error)
+    supports[0].gap: expected a number, got "0,02"
+    """
+    scene = _structured(source)
+    with suppress(EngineError):  # it makes sense, though it cannot be solved in double precision
+        _prepared(scene)
+    return scene
+
+
+def read_beam(source: Scene | Mapping[str, Any] | str | os.PathLike) -> tuple[Scene, Beam]:
+    """Read a scene and make its beam ready for solving.
+
+    Parameters
+    ----------
+    source : Scene, mapping, str or path
+        As for `read_scene`.
+
+    Returns
+    -------
+    scene : Scene
+        As from `read_scene`.
+    beam : Beam
+        Its beam.
+
+    Raises
+    ------
+    SceneError
+        As for `read_scene`.
+    EngineError
+        Numbers are beyond the range of doubles.
+    """
+    scene = _structured(source)
+    return scene, _prepared(scene)
+
+
+def _prepared(scene: Scene) -> Beam:
+    try:
+        return Beam(columns(scene))
+    except RefusalError as refused:
+        raise refusal(scene, *refused.codes) from None
+
+
+def _structured(source: Scene | Mapping[str, Any] | str | os.PathLike) -> Scene:
+    """A scene whose keys and types are right, and which asks for nothing that this version has not."""
+    if isinstance(source, str | os.PathLike):
+        source = read_file(Path(source))
+    if not isinstance(source, Scene | Mapping):
+        raise SceneError(f"expected a Scene, a mapping or the path of a file, got {shown(source)}")
+    source, tables = take_tables(source)
+    scene = typed(source, Scene)
+    for key, table in tables.items():
+        setattr(scene, key, table)
+    _refuse_laws(scene)
+    if scene.foundation:
+        raise SceneError("foundation[0]", "foundations are not available in this version; use elastic supports")
+    if scene.analysis.steps < 1:
+        raise SceneError("analysis.steps", f"expected a whole number, 1 or more, got {shown(scene.analysis.steps)}")
+    return scene
+
+
+def _refuse_laws(scene: Scene) -> None:
+    for i, support in enumerate(() if isinstance(scene.supports, Table) else scene.supports):
+        if support.law is not None:
+            if support.stiffness != float("inf"):
+                raise SceneError(f"supports[{i}]", "has both stiffness and law; give one of the two")
+            problem = "piecewise linear laws are not available in this version; give stiffness instead"
+            raise SceneError(f"supports[{i}].law", problem)

@@ -1,0 +1,147 @@
+"""The words for what the Fortran layer refuses, in a scene's own terms."""
+
+from __future__ import annotations
+
+from math import isfinite, isnan
+from typing import Any
+
+from ..base.errors import SceneError
+from .structs import Scene
+from .wording import number, shown
+
+(NO_SPAN, NOT_EXPECTED, TOO_LONG, LOST_LENGTH, AT_END, OFF_BEAM, NO_PLACE, NO_NODE, NO_STRETCH, NOT_AXIAL, NO_GAP, NOT_HELD, TWICE,
+ NO_ROOM, AT_HINGE, IDLE) = range(1, 17)  # fmt: skip
+"""Reasons, as in gapbeam_refusal."""
+SPANS, HINGES, SUPPORTS, LOADS, SECTIONS = range(1, 6)
+"""Tables, as in gapbeam_refusal."""
+NAMES = {HINGES: "beam.hinges", SUPPORTS: "supports", LOADS: "loads", SECTIONS: "sections"}
+EXPECTED = {
+    "stiffness": "a number, 0 or more (inf = rigid)",
+    "gap": "a finite number",
+    "settlement": "a finite number",
+    "rotation": '"free", "fixed" or a number, 0 or more',
+}
+AXIAL = {
+    "side": 'an axial support holds on both sides; use side = "both"',
+    "gap": "an axial support has no gap; remove it",
+    "rotation": "an axial support holds no rotation; a normal one here can do that",
+}
+VALUE = {"force": "F", "moment": "M", "axial": "F", "uniform": "q", "linear": "q", "curvature": "kappa"}
+
+
+def refusal(scene: Scene, reason: int, table: int, entry: int, partner: int, key: str) -> SceneError:
+    """Word a refusal of the Fortran layer.
+
+    Parameters
+    ----------
+    scene : Scene
+        What is refused.
+    reason, table, entry, partner : int
+        As in the layer's error_type; entries count from 1.
+    key : str
+        What of the entry it is about.
+
+    Returns
+    -------
+    SceneError
+    """
+    if table == SPANS:
+        return _beam_refusal(scene, reason, entry - 1, key)
+    i, items = entry - 1, {HINGES: scene.beam.hinges, SUPPORTS: scene.supports, LOADS: scene.loads, SECTIONS: scene.sections}[table]
+    item, path = items[i], f"{NAMES[table]}[{i}]"
+    end = scene.span_ends()[-1]
+    if reason == NOT_EXPECTED:
+        return _wrong_number(item, table, path, key)
+    if reason == OFF_BEAM:
+        x = item if table == HINGES else getattr(item, "from_" if key == "from" else key)
+        problem = f"{number(x)} is outside the beam, which runs from x = 0 to x = {number(end)}"
+        return SceneError(path if table == HINGES else f"{path}.{key}", problem)
+    if reason == NO_NODE:
+        nodes = f"the nodes of the beam are 0 to {len(scene.beam.spans)}"
+        return SceneError(f"{path}.node", f"there is no node {number(item.node)}; {nodes}")
+    if reason == NO_PLACE:
+        return SceneError(path, "its place is missing; give node or x")
+    if reason == NO_STRETCH:
+        stretch = f"from = {number(item.from_)} to = {number(end if item.to is None else item.to)}"
+        return SceneError(path, f"the stretch {stretch} has no length; from must be less than to")
+    if table == SUPPORTS:
+        return _support_refusal(scene, reason, i, partner - 1, key)
+    words = {
+        AT_END: lambda: f"x = {number(item)} is an end of the beam, where no hinge can be; remove it",
+        TWICE: lambda: f"at x = {number(item)} there is a hinge already (beam.hinges[{partner - 1}]); remove one of them",
+        IDLE: lambda: "changes nothing; give EI, GA or EA",
+        NOT_HELD: lambda: 'nothing holds the beam horizontally; give a support direction = "axial"',
+        AT_HINGE: lambda: f"the moment acts exactly at the hinge at x = {number(scene.positions([item])[0])}, so it is open which "
+        "side takes it; put it on one side of the hinge",
+    }
+    return SceneError(path, words[reason]())
+
+
+def _beam_refusal(scene: Scene, reason: int, i: int, key: str) -> SceneError:
+    if reason == NO_SPAN:
+        return SceneError("beam.spans", "the beam has no span; give at least one length, for example [6.0]")
+    if reason == TOO_LONG:
+        return SceneError("beam.spans", "the beam is too long for the range of numbers")
+    ends, length = scene.span_ends(), float(scene.beam.spans[i])
+    if reason == LOST_LENGTH:
+        lost = f"a length of {number(length)} is lost in rounding at x = {number(ends[i])}"
+        return SceneError(f"beam.spans[{i}]", f"{lost}; give a greater length or remove it")
+    if key != "length":
+        value = getattr(scene.beam, key)
+        place, got = (f"beam.{key}[{i}]", value[i]) if hasattr(value, "__len__") else (f"beam.{key}", value)
+        return SceneError(place, f"expected a number above 0 (inf = rigid), got {number(got)}")
+    if not isfinite(length):
+        return SceneError(f"beam.spans[{i}]", f"expected a finite length above 0, got {number(length)}")
+    stretch = f"the span from x = {number(ends[i])} to x = {number(ends[i] + length)} has length {number(length)}"
+    return SceneError(f"beam.spans[{i}]", f"{stretch}; give a length above 0 or remove it")
+
+
+def _wrong_number(item: Any, table: int, path: str, key: str) -> SceneError:
+    if table == HINGES:
+        return SceneError(path, "expected a number, got nan")
+    if table == LOADS and key in ("value", "value_to"):
+        key = VALUE[item.__struct_config__.tag]
+    value = getattr(item, "from_" if key == "from" else key)
+    expected = EXPECTED.get(key, "a finite number")
+    if table == SECTIONS:
+        expected = "a number above 0 (inf = rigid)"
+    if isinstance(value, tuple | list):
+        expected = "finite numbers"
+    elif key in ("x", "from", "to") or (isnan(value) and (table == SECTIONS or key == "stiffness")):
+        expected = "a number"
+    return SceneError(f"{path}.{key}", f"expected {expected}, got {shown(value)}")
+
+
+def _support_refusal(scene: Scene, reason: int, i: int, other: int, key: str) -> SceneError:
+    path, item = f"supports[{i}]", scene.supports[i]
+    if reason == NOT_AXIAL:
+        return SceneError(f"{path}.{key}", AXIAL[key])
+    if reason == NO_GAP:
+        return SceneError(f"{path}.gap", 'only a support with side = "below" or "above" has a gap')
+    if reason == AT_HINGE:
+        problem = "there is a hinge here, so it is open which side is held; move one aside"
+        return SceneError(f"{path}.rotation", problem)
+    x = number(scene.positions([item])[0])
+    if reason == TWICE:
+        what = {"direction": "hold the beam horizontally", "rotation": "hold the rotation of the beam rigidly"}
+        does = what.get(key, f'are rigid with side = "{item.side}"')
+        return SceneError(path, f"this one and supports[{other}] both stand at x = {x} and {does}; remove one of them")
+    partner = scene.supports[other]
+    here = f"this one ({item.side}, acts at a deflection of {number(contact_level(item))})"
+    there = f"supports[{other}] ({partner.side}, acts at {number(contact_level(partner))})"
+    return SceneError(path, f"{here} and {there} leave no room at x = {x}; give a greater gap")
+
+
+def contact_level(support: Any) -> float:
+    """Deflection at which a support begins to act.
+
+    Parameters
+    ----------
+    support : Support
+
+    Returns
+    -------
+    float
+        Length, positive downward: settlement + gap (below), settlement - gap (above), settlement (both).
+    """
+    return support.settlement + {"both": 0.0, "below": 1.0, "above": -1.0}[support.side] * support.gap

@@ -1,0 +1,193 @@
+"""Lists of tables given as columns: arrays by key, where a single value holds for all."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, get_args, get_type_hints, overload
+
+import msgspec
+import numpy as np
+
+from ..base.errors import SceneError
+from ..base.records import read_only
+from .structs import Load, Scene, Section, Support
+from .wording import choice
+
+LOADS = {load.__struct_config__.tag: load for load in get_args(Load)}
+"""Structs of loads by their type."""
+
+
+class Table(Sequence):
+    """Supports, loads or sections as columns; a struct is made of a row when it is looked at.
+
+    Parameters
+    ----------
+    struct : type
+        What a row is.
+    columns : mapping
+        By attribute: an array with an entry a row, or one value for all.
+    count : int
+        Number of rows.
+    """
+
+    def __init__(self, struct: type[msgspec.Struct], columns: Mapping[str, Any], count: int):
+        self.struct = struct
+        self._columns = {key: read_only(value) for key, value in columns.items()}
+        self._count = count
+        self._defaults = dict(zip(reversed(struct.__struct_fields__), reversed(struct.__struct_defaults__), strict=False))
+
+    def __len__(self) -> int:
+        """Count the rows."""
+        return self._count
+
+    @overload
+    def __getitem__(self, index: int) -> Any: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> list[Any]: ...
+
+    def __getitem__(self, index: int | slice) -> Any:
+        """Make the struct of a row, or those of some rows."""
+        if isinstance(index, slice):
+            return [self[k] for k in range(self._count)[index]]
+        k = range(self._count)[index]
+        return self.struct(**{key: _plain(value[k]) if _is_array(value) else value for key, value in self._columns.items()})
+
+    def __iter__(self) -> Iterator[Any]:
+        """Go through the rows."""
+        return (self[k] for k in range(self._count))
+
+    def __eq__(self, other: object) -> bool:
+        """Whether all rows are equal, with those of a list too."""
+        if isinstance(other, Table) and self.struct is other.struct and self._columns.keys() == other._columns.keys():
+            return len(self) == len(other) and all(
+                np.array_equal(value, other._columns[key]) for key, value in self._columns.items()
+            )
+        return isinstance(other, Sequence) and list(self) == list(other)
+
+    __hash__ = None
+
+    def column(self, key: str) -> Any:
+        """Give the values of one attribute.
+
+        Parameters
+        ----------
+        key : str
+            Its name.
+
+        Returns
+        -------
+        numpy.ndarray or object
+            One for every row, or one for all; the struct's default where it is not given.
+        """
+        value = self._columns.get(key, self._defaults.get(key))
+        if value is None or isinstance(value, str) or _is_array(value):
+            return value
+        return np.broadcast_to(np.asarray(value), (self._count, *np.shape(value)))
+
+
+def _is_array(value: Any) -> bool:
+    return isinstance(value, np.ndarray)
+
+
+def _plain(value: Any) -> Any:
+    return tuple(value.tolist()) if _is_array(value) else value.item() if isinstance(value, np.generic) else value
+
+
+def take_tables(source: Scene | Mapping[str, Any]) -> tuple[Scene | Mapping[str, Any], dict[str, Table]]:
+    """Take out of a scene what is given as columns: a mapping of arrays, a pandas DataFrame, a structured array.
+
+    Parameters
+    ----------
+    source : Scene or mapping
+        As a user wrote it; left as it is.
+
+    Returns
+    -------
+    source : Scene or mapping
+        The same with empty lists instead, or with lists where columns hold something else than numbers and words.
+    tables : dict
+        What was taken out, by key.
+
+    Raises
+    ------
+    SceneError
+        Columns of unequal length.
+    """
+    tables: dict[str, Table] = {}
+    others: dict[str, list[Any]] = {}
+    for key in ("supports", "sections", "loads"):
+        value = source.get(key) if isinstance(source, Mapping) else getattr(source, key)
+        if isinstance(value, Table):
+            tables[key] = value
+        elif (found := _columns(key, value)) is not None:
+            columns, count = found
+            table = _table(key, columns, count)
+            if table is None:
+                others[key] = [_row(columns, k) for k in range(count)]
+            else:
+                tables[key] = table
+    if not tables and not others:
+        return source, {}
+    others |= {key: [] for key in tables}
+    if isinstance(source, Mapping):
+        return {**source, **others}, tables
+    return msgspec.structs.replace(source, **others), tables
+
+
+def _columns(key: str, value: Any) -> tuple[dict[str, Any], int] | None:
+    """Columns by name, and their length; None where something else is given."""
+    if hasattr(value, "to_numpy") and hasattr(value, "columns"):
+        value = {name: value[name].to_numpy() for name in value.columns}
+    elif isinstance(value, np.ndarray) and value.dtype.names:
+        value = {name: value[name] for name in value.dtype.names}
+    if not isinstance(value, Mapping):
+        return None
+    columns = {name: np.asarray(one) if isinstance(one, list | np.ndarray) else one for name, one in value.items()}
+    columns = {name: one.to_numpy() if hasattr(one, "to_numpy") else one for name, one in columns.items()}
+    lengths = {name: len(one) for name, one in columns.items() if isinstance(one, np.ndarray) and one.ndim}
+    if not lengths:
+        return None
+    if len(set(lengths.values())) > 1:
+        counts = choice((f"{name} has {count}" for name, count in lengths.items()), "and")
+        raise SceneError(key, f"its columns are of unequal length: {counts}; give each one number, or one for every row")
+    return columns, next(iter(lengths.values()))
+
+
+def _table(key: str, columns: dict[str, Any], count: int) -> Table | None:
+    """A table of columns that hold what they should; None where they do not, or loads are of several types."""
+    struct = {"supports": Support, "sections": Section}.get(key)
+    rest = dict(columns)
+    if key == "loads":
+        tag = rest.pop("type", None)
+        struct = LOADS.get(tag) if isinstance(tag, str) else None
+    if struct is None:
+        return None
+    names = dict(zip(struct.__struct_encode_fields__, struct.__struct_fields__, strict=True))
+    required = set(struct.__struct_fields__[: len(struct.__struct_fields__) - len(struct.__struct_defaults__)])
+    required |= {name for name, default in zip(reversed(struct.__struct_fields__), reversed(struct.__struct_defaults__), strict=False)
+                 if default is msgspec.NODEFAULT}  # fmt: skip
+    if not rest.keys() <= names.keys() or not required <= {names[name] for name in rest} or "law" in rest:
+        return None
+    hints = get_type_hints(struct)
+    found = {names[name]: _clean(hints[names[name]], name, value) for name, value in rest.items()}
+    return None if any(value is None for value in found.values()) else Table(struct, found, count)
+
+
+def _clean(kind: Any, name: str, value: Any) -> Any:
+    """A column of numbers, whole numbers or words of a choice; None for anything else."""
+    array = np.asarray(value)
+    words = {word for part in (kind, *get_args(kind)) for word in get_args(part) if isinstance(word, str)}
+    if array.dtype.kind == "U" and words:
+        return value if set(np.unique(array).tolist()) <= words else None
+    if name == "node":
+        return value if array.dtype.kind in "iu" else None
+    if array.dtype.kind not in "iuf" or array.dtype.itemsize > 8 or np.ma.isMaskedArray(value) or name in ("side", "direction", "case"):
+        return None
+    return array.astype(float) if array.ndim else float(array)
+
+
+def _row(columns: dict[str, Any], k: int) -> dict[str, Any]:
+    """One row, without what is not given there."""
+    row = {name: value[k] if _is_array(value) else value for name, value in columns.items()}
+    return {name: value for name, value in row.items() if value is not None}

@@ -1,0 +1,106 @@
+"""Are the keys and types of a scene right: whatever is not raises a `SceneError` that names place, value and what was expected."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from contextlib import suppress
+from numbers import Real
+from typing import Any, TypeVar
+
+import msgspec
+import numpy as np
+
+from ..base.characters import visible
+from ..base.errors import SceneError
+from .wording import as_text, explain
+
+S = TypeVar("S", bound=msgspec.Struct)
+
+TOO_DEEP = "tables or lists are nested too deeply"
+
+
+def typed(source: S | Mapping[str, Any], struct: type[S]) -> S:
+    """Turn data into a struct whose keys and types are right, all through.
+
+    Parameters
+    ----------
+    source : struct or mapping
+        Structs built in Python hold whatever they were given, so they are checked like any other data. Numpy
+        numbers and arrays may stand for numbers and lists.
+    struct : type
+        The struct to make.
+
+    Returns
+    -------
+    struct
+        Independent of `source`.
+    """
+    try:
+        if isinstance(source, struct):
+            return msgspec.msgpack.decode(msgspec.msgpack.encode(source, enc_hook=_simple), type=struct)
+        if not _has_structs(source):
+            return msgspec.convert(source, struct)
+    except (msgspec.ValidationError, OverflowError, RecursionError, TypeError, UnicodeEncodeError):
+        pass  # once more, slowly: to word the message, or to take numpy numbers and what UTF-8 does not know
+    try:
+        data = msgspec.to_builtins(source, enc_hook=_simple, str_keys=False)
+        try:
+            return msgspec.convert(data, struct)
+        except UnicodeEncodeError:  # titles and labels may hold halves of characters; this is a key or a choice
+            data = _written_out(data)
+            return msgspec.convert(data, struct)
+    except msgspec.ValidationError as error:
+        raise explain(error, data, struct) from None
+    except RecursionError:
+        raise SceneError("the scene", TOO_DEEP) from None
+
+
+def plain(struct: msgspec.Struct) -> dict[str, Any]:
+    """Give a struct, whatever it holds, as dicts, lists and numbers.
+
+    Parameters
+    ----------
+    struct : Struct
+        As built in Python.
+
+    Returns
+    -------
+    dict
+        By its keys.
+    """
+    return msgspec.msgpack.decode(msgspec.msgpack.encode(struct, enc_hook=_simple), strict=False)
+
+
+def _simple(value: Any) -> Any:
+    """Numbers and lists for what stands for them; anything else as its text, to be refused as such."""
+    if isinstance(value, np.ma.MaskedArray):
+        value = value.astype(object).filled("masked")  # numpy's null would mean that the key is left out
+    if hasattr(value, "tolist"):
+        listed = value.tolist()
+        if type(listed) is not type(value):
+            return listed
+        return f"{value} ({type(value).__name__}; take float() of it)"  # more digits than a double holds
+    if isinstance(value, Mapping):
+        return dict(value)
+    with suppress(OverflowError):
+        if isinstance(value, Real):
+            return float(value)
+    return as_text(value)
+
+
+def _written_out(data: Any) -> Any:
+    """All texts of plain data without halves of characters."""
+    if isinstance(data, dict):
+        return {_written_out(key): _written_out(value) for key, value in data.items()}
+    if isinstance(data, list):
+        return [_written_out(item) for item in data]
+    return visible(data) if isinstance(data, str) else data
+
+
+def _has_structs(data: Mapping[str, Any]) -> bool:
+    """Whether structs stand among the data; msgspec would take them unchecked."""
+    kinds = set(map(type, data.values()))
+    for value in data.values():
+        if isinstance(value, list | tuple):
+            kinds.update(map(type, value))
+    return any(issubclass(kind, msgspec.Struct) for kind in kinds)
