@@ -51,7 +51,7 @@ contains
         else
             text = mantissa(digit, last, power + 1)
         end if
-        if (value < 0.0_wp) text = "-"//text
+        if (value < 0.0_wp) text = "-"//text(:length - 1)
     end function fifteen_digits
 
     !> Digits with a point behind the first so many

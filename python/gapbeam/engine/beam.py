@@ -366,7 +366,7 @@ class Beam:
             most, self.handle, self.links, 1.0, at, closed, marginal
         )
         factor = float(at)
-        check_status(status, message, f"at load factor {factor:g}: ")
+        check_status(status, message, f"at load factor {factor:.15g}: ")
         events = factors[:count], which[:count] - 1, what[:count]
         return Stretch(status, factor, closed[:m], marginal[:m], *events, motion, solves, nodes)
 
