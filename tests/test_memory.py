@@ -11,8 +11,7 @@ from contextlib import suppress
 import gapbeam
 import numpy as np
 import pytest
-from gapbeam.base.errors import Status
-from gapbeam.base.errors import check_status
+from gapbeam.base.errors import Status, check_status
 
 resource = pytest.importorskip("resource")
 

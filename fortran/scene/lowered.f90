@@ -173,49 +173,47 @@ contains
         !> With all its arrays allocated
         type(model_type), intent(in) :: model
         integer :: number
+        integer(int64) :: all_bits
         integer :: i
 
-        number = 0
+        all_bits = 0
         do i = 1, size(model%spans)
             associate (s => model%spans(i))
-                call mix(number, [s%length, s%EI, s%GA, s%EA])
+                call mix(all_bits, [s%length, s%EI, s%GA, s%EA])
             end associate
         end do
-        call mix(number, model%hinges)
+        call mix(all_bits, model%hinges)
         if (allocated(model%sections)) then
             do i = 1, size(model%sections)
                 associate (s => model%sections(i))
-                    call mix(number, [s%from, s%to, s%EI, s%GA, s%EA])
+                    call mix(all_bits, [s%from, s%to, s%EI, s%GA, s%EA])
                 end associate
             end do
         end if
         do i = 1, size(model%supports)
             associate (s => model%supports(i))
-                call mix(number, [s%x, s%stiffness, s%gap, s%settlement, s%rotation, real([s%node, s%side, s%direction], wp)])
+                call mix(all_bits, [s%x, s%stiffness, s%gap, s%settlement, s%rotation, real([s%node, s%side, s%direction], wp)])
             end associate
         end do
         do i = 1, size(model%loads)
             associate (load => model%loads(i))
-                call mix(number, [load%x, load%to, load%value, load%value_to, real([load%kind, load%case, load%node], wp)])
+                call mix(all_bits, [load%x, load%to, load%value, load%value_to, real([load%kind, load%case, load%node], wp)])
             end associate
         end do
+        number = int(ibits(ieor(all_bits, ishft(all_bits, -32)), 0, 31))
     end function fingerprint
 
-    !> Mix the bits of numbers into a fingerprint: a polynomial in them, modulo the prime 2**31 - 1
+    !> Mix the bits of numbers into a fingerprint: a linear map of all bits so far, plus the new ones, modulo 2
     pure subroutine mix(number, values)
-        integer, intent(inout) :: number
+        integer(int64), intent(inout) :: number
         real(wp), intent(in) :: values(:)
-        integer(int64), parameter :: prime = 2147483647_int64, base = 48271_int64
-        integer(int64) :: bits, rest
+        integer(int64) :: bits
         integer :: i
 
-        rest = number
         do i = 1, size(values)
             bits = transfer(values(i), bits)
-            rest = modulo(rest*base + ibits(bits, 0, 32), prime)
-            rest = modulo(rest*base + ibits(bits, 32, 32), prime)
+            number = ieor(ieor(ishftc(number, 7), ishft(number, -9)), bits)
         end do
-        number = int(rest)
     end subroutine mix
 
 end module gapbeam_lowered

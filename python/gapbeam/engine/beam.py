@@ -11,7 +11,7 @@ import numpy as np
 from ..base.errors import Status, check_status
 from ..base.records import Record, read_only
 from . import calls as _engine  # the compiled layer itself, but for Ctrl-C
-from .units import Units, scaled
+from .units import Units
 
 SOLVED, NO_EQUILIBRIUM = Status.SOLVED, Status.NO_EQUILIBRIUM
 """Outcomes, as in gapbeam_error; codes above 10 are errors."""

@@ -135,7 +135,7 @@ def _words(items: Sequence[Any], key: str, codes: dict[str, int]) -> Any:
     values = _column(items, key)
     if isinstance(values, str):
         return codes[values]
-    return np.fromiter(map(codes.__getitem__, values), np.int32, len(items))
+    return list(map(codes.__getitem__, values))
 
 
 def _rotations(items: Sequence[Any]) -> Any:
@@ -144,7 +144,7 @@ def _rotations(items: Sequence[Any]) -> Any:
         return ROTATIONS[values]
     if isinstance(values, np.ndarray) and values.dtype == float:
         return values
-    return np.fromiter((ROTATIONS[value] if isinstance(value, str) else value for value in values), float, len(items))
+    return np.array(list(map(ROTATIONS.get, values, values)), dtype=float)
 
 
 def _optional(items: Sequence[Any], key: str) -> Any:
@@ -152,8 +152,13 @@ def _optional(items: Sequence[Any], key: str) -> Any:
     values = _column(items, key)
     if values is None:
         return NOT_GIVEN
-    found = np.asarray(values, dtype=float)
-    if isinstance(values, list) and np.isnan(found).any():
+    if not isinstance(values, list):
+        return values
+    missing = values.count(None)
+    if missing == len(values):
+        return NOT_GIVEN
+    found = np.array(values, dtype=float)
+    if missing:
         found[[value is None for value in values]] = NOT_GIVEN
     return found
 
@@ -161,8 +166,8 @@ def _optional(items: Sequence[Any], key: str) -> Any:
 def _places(name: str, items: Sequence[Any], index: Sequence[int]) -> tuple[Any, Any]:
     """Nodes, BY_X where there is none, and x, NOT_GIVEN where there is none."""
     x, node = _optional(items, "x"), _nodes(name, _column(items, "node"), index)
-    both = np.broadcast_to((node != BY_X) & (x != NOT_GIVEN), len(items))
-    for row in np.flatnonzero(both)[:1]:
+    both = np.logical_and(node != BY_X, x != NOT_GIVEN)
+    for row in np.flatnonzero(np.broadcast_to(both, len(items)))[:1] if np.any(both) else ():
         item = items[row]
         there = f"node = {number(item.node)} and x = {number(item.x)}"
         raise SceneError(f"{name}[{index[row]}]", f"has both {there}; give one of the two")
@@ -170,15 +175,19 @@ def _places(name: str, items: Sequence[Any], index: Sequence[int]) -> tuple[Any,
 
 
 def _nodes(name: str, values: Any, index: Sequence[int]) -> Any:
+    if isinstance(values, list):
+        missing = values.count(None)
+        if missing == len(values):
+            return BY_X
+        if missing:
+            values = [-0.5 if value is None else value for value in values]
+        if min(values) < -(2**31):  # msgspec minds only integers that are too large
+            row = next(row for row, value in enumerate(values) if value < -(2**31))
+            raise SceneError(f"{name}[{index[row]}].node", f"expected a whole number, got {shown(values[row])}")
+        if not missing and min(values) >= 0:
+            return np.array(values)
     if values is None:
         return BY_X
-    if isinstance(values, list) and None in values:
-        values = [-0.5 if value is None else value for value in values]
-    if isinstance(values, list) and min(values, default=0) < -(2**31):  # msgspec minds only integers that are too large
-        row = next(row for row, value in enumerate(values) if value < -(2**31))
-        raise SceneError(f"{name}[{index[row]}].node", f"expected a whole number, got {shown(values[row])}")
     found = np.asarray(values, dtype=float)
     # One less than a node below 0, so that it is not taken for BY_X
     return np.where(found == -0.5, BY_X, np.where(found < 0, np.maximum(found - 1, -(2**31)), found)).astype(np.int32)
-
-

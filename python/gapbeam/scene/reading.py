@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from contextlib import suppress
+from operator import attrgetter
 from pathlib import Path
 from typing import Any
 
@@ -104,9 +105,11 @@ def _structured(source: Scene | Mapping[str, Any] | str | os.PathLike) -> Scene:
 
 
 def _refuse_laws(scene: Scene) -> None:
-    for i, support in enumerate(() if isinstance(scene.supports, Table) else scene.supports):
-        if support.law is not None:
-            if support.stiffness != float("inf"):
-                raise SceneError(f"supports[{i}]", "has both stiffness and law; give one of the two")
-            problem = "piecewise linear laws are not available in this version; give stiffness instead"
-            raise SceneError(f"supports[{i}].law", problem)
+    if isinstance(scene.supports, Table):
+        return
+    laws = list(map(attrgetter("law"), scene.supports))
+    for i in [i for i, law in enumerate(laws) if law is not None][:1] if laws.count(None) < len(laws) else ():
+        if scene.supports[i].stiffness != float("inf"):
+            raise SceneError(f"supports[{i}]", "has both stiffness and law; give one of the two")
+        problem = "piecewise linear laws are not available in this version; give stiffness instead"
+        raise SceneError(f"supports[{i}].law", problem)

@@ -39,7 +39,7 @@ def typed(source: S | Mapping[str, Any], struct: type[S]) -> S:
         if isinstance(source, struct):
             return msgspec.msgpack.decode(msgspec.msgpack.encode(source, enc_hook=_simple), type=struct)
         if not _has_structs(source):
-            return msgspec.convert(source, struct)
+            return msgspec.convert(_with_lists(source), struct)
     except (msgspec.ValidationError, OverflowError, RecursionError, TypeError, UnicodeEncodeError):
         pass  # once more, slowly: to word the message, or to take numpy numbers and what UTF-8 does not know
     try:
@@ -95,6 +95,16 @@ def _written_out(data: Any) -> Any:
     if isinstance(data, list):
         return [_written_out(item) for item in data]
     return visible(data) if isinstance(data, str) else data
+
+
+def _with_lists(source: Mapping[str, Any]) -> Mapping[str, Any]:
+    """The same data with lists for arrays of numbers in its tables: quicker than to look at all of it."""
+    arrays = {
+        key: {name: one.tolist() if type(one) is np.ndarray else one for name, one in value.items()}
+        for key, value in source.items()
+        if isinstance(value, dict) and any(type(one) is np.ndarray for one in value.values())
+    }
+    return {**source, **arrays} if arrays else source
 
 
 def _has_structs(data: Mapping[str, Any]) -> bool:
