@@ -3,7 +3,7 @@ module gapbeam_recover
     use gapbeam_kinds, only: wp
     use gapbeam_element, only: field_type
     use gapbeam_link, only: link_type, piece_type, load_type, combine_loads, recover_link
-    use gapbeam_band, only: hinge
+    use gapbeam_nodes, only: hinge
     implicit none
     private
     public :: recover_beam

@@ -1,6 +1,6 @@
 !> The mixed system, 2x2-block tridiagonal in (M, w) node by node: factor and solve.
 !>
-!> Rows of node i (method.md 3), V the shear, psi the rotation of the section:
+!> Rows of node i (docs/method.md 2), V the shear, psi the rotation of the section:
 !>
 !>     compatibility   psi_left - psi_right = 0        column M_i, diagonal -(f_bb + f_aa) <= 0
 !>     equilibrium     V_left - V_right + R = P        column w_i, diagonal c_i >= 0
@@ -21,6 +21,7 @@
 module gapbeam_band
     use gapbeam_kinds, only: wp
     use gapbeam_link, only: link_type
+    use gapbeam_nodes, only: plain, hinge, restrained
     implicit none
     private
     public :: node_type, rhs_type, pivot_type, answer_type, factor_chain, solve_chain, correct_chain
@@ -29,8 +30,6 @@ module gapbeam_band
 
     !> What factor_chain found
     integer, parameter :: band_ok = 0, band_mechanism = 1, band_needs_pivoting = 2
-    !> Kinds of node: moment and rotation continuous; a hinge; a rotational spring or clamp
-    integer, parameter :: plain = 0, hinge = 1, restrained = 2
 
     !> A node as the working scheme at hand sees it
     type :: node_type

@@ -131,7 +131,7 @@ contains
 
     contains
 
-        !> Links and rows of some steps (method.md 2)
+        !> Links and rows of some steps (docs/method.md 1)
         pure subroutine assemble(first, count, cells, rows, outward, good)
             !> First step, and how many
             integer, intent(in) :: first, count

@@ -47,8 +47,8 @@ module gapbeam_lowered
         real(wp), allocatable :: point_offset(:)
         !> Point of every support; first and last point of every load
         integer, allocatable :: support_point(:), load_from(:), load_to(:)
-        !> First and last point of every section; the last section that gives EI, GA and EA of a piece, 0: none, shape (3, npiece), not
-        !> allocated without sections
+        !> First and last point of every section; the last section that gives EI, GA and EA of a piece, 0: none, shape (3, npiece),
+        !> not allocated without sections
         integer, allocatable :: section_from(:), section_to(:), section_of(:, :)
         !> Is there a hinge at a point, shape (0:npiece)
         logical, allocatable :: hinged(:)

@@ -16,9 +16,9 @@ import numpy as np
 from ..base.memory import refuse_beyond
 from ..engine.calls import parts
 from ..results import formatting as fmt
+from ..results.data import result_data, step_data
 from ..results.result import Fields
 from ..results.step import BOUNDED
-from .data import result_data, step_data
 from .scheme import legend, merged, scheme_table, symbol
 
 if TYPE_CHECKING:

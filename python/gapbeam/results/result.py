@@ -393,6 +393,6 @@ class Result(Pickled):
         ValueError
             As in `fields`.
         """
-        from ..report.data import result_data
+        from .data import result_data
 
         return result_data(self, points)

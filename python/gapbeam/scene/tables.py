@@ -164,9 +164,7 @@ def _table(key: str, columns: dict[str, Any], count: int) -> Table | None:
     if struct is None:
         return None
     names = dict(zip(struct.__struct_encode_fields__, struct.__struct_fields__, strict=True))
-    required = set(struct.__struct_fields__[: len(struct.__struct_fields__) - len(struct.__struct_defaults__)])
-    required |= {name for name, default in zip(reversed(struct.__struct_fields__), reversed(struct.__struct_defaults__), strict=False)
-                 if default is msgspec.NODEFAULT}  # fmt: skip
+    required = {field.name for field in msgspec.structs.fields(struct) if field.required}
     if not rest.keys() <= names.keys() or not required <= {names[name] for name in rest} or "law" in rest:
         return None
     hints = get_type_hints(struct)
@@ -182,7 +180,7 @@ def _clean(kind: Any, name: str, value: Any) -> Any:
         return value if set(np.unique(array).tolist()) <= words else None
     if name == "node":
         return value if array.dtype.kind in "iu" else None
-    if array.dtype.kind not in "iuf" or array.dtype.itemsize > 8 or np.ma.isMaskedArray(value) or name in ("side", "direction", "case"):
+    if array.dtype.kind not in "iuf" or array.dtype.itemsize > 8 or np.ma.isMaskedArray(value) or (words and name != "rotation"):
         return None
     return array.astype(float) if array.ndim else float(array)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import Any
 
-from ..results.result import Fields, Result
+from .result import Fields, Result
 
 
 def result_data(

@@ -1,0 +1,82 @@
+"""The house as docs/house.md draws it: a folder uses only folders above it, in both languages."""
+
+import ast
+import re
+from pathlib import Path
+
+import gapbeam
+import pytest
+
+TOP = Path(__file__).resolve().parents[1]
+FORTRAN = ("base", "beam", "chain", "contact", "verification", "path", "scene", "result", "face")
+PYTHON = ("base", "engine", "scene", "results", "report", "plots", "studies", "cli")
+
+
+def fortran_sources():
+    """Every module's file by its name."""
+    return {f"gapbeam_{path.stem}": path for folder in FORTRAN for path in (TOP / "fortran" / folder).glob("*.[fF]90")}
+
+
+def test_fortran_folders_use_only_those_above():
+    sources = fortran_sources()
+    wrong = []
+    for path in sources.values():
+        for name in re.findall(r"^ *use +(gapbeam_\w+)", path.read_text(), re.MULTILINE):
+            if name == "gapbeam_version":
+                continue
+            used = sources[name if name in sources else name.removesuffix("_quad")]
+            if FORTRAN.index(used.parent.name) > FORTRAN.index(path.parent.name):
+                wrong.append(f"{path.parent.name}/{path.name} uses {used.parent.name}/{used.name}")
+    assert wrong == []
+
+
+def test_fortran_modules_use_no_other_in_a_circle():
+    sources = fortran_sources()
+    uses = {
+        name: {used.removesuffix("_quad") for used in re.findall(r"^ *use +(gapbeam_\w+)", path.read_text(), re.MULTILINE)}
+        for name, path in sources.items()
+    }
+    left = {name.removesuffix("_quad") for name in uses}
+    while left:
+        free = {name for name in left if not (uses.get(name, set()) & left) - {name}}
+        assert free, f"these use each other: {sorted(left)}"
+        left -= free
+
+
+def imports(path):
+    """Folders of the package that a module imports from."""
+    depth = len(path.relative_to(TOP / "python" / "gapbeam").parts)
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.ImportFrom) and node.level == depth:
+            yield from [node.module.split(".")[0]] if node.module else [name.name for name in node.names]
+
+
+def test_python_folders_use_only_those_above():
+    wrong = []
+    for folder in PYTHON:
+        for path in (TOP / "python" / "gapbeam" / folder).glob("*.py"):
+            for used in imports(path):
+                if used not in ("_engine", "_yardsticks") and PYTHON.index(used) > PYTHON.index(folder):
+                    wrong.append(f"{folder}/{path.name} imports from {used}")
+    assert wrong == []
+
+
+@pytest.mark.parametrize("language", ["fortran", "python/gapbeam"])
+def test_there_are_no_other_folders(language):
+    folders = {path.name for path in (TOP / language).iterdir() if path.is_dir()} - {"__pycache__"}
+    assert folders == (set(FORTRAN) | {"build", "modules", "yardsticks"} if language == "fortran" else set(PYTHON))
+
+
+def test_the_map_names_every_file():
+    house = (TOP / "docs" / "house.md").read_text()
+    for language in ("fortran", "python/gapbeam"):
+        for path in (TOP / language).glob("*/*"):
+            if path.parent.name in ("build", "yardsticks"):
+                continue
+            if path.suffix in (".f90", ".F90", ".py") and not path.stem.startswith("__"):
+                assert re.search(rf"\b{path.stem}\b", house), path
+
+
+def test_dir_shows_what_users_use():
+    assert gapbeam.solve
+    assert dir(gapbeam) == sorted(gapbeam.__all__)
