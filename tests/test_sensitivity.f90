@@ -9,7 +9,7 @@ program test_sensitivity
     use gapbeam_model_quad, only: fine_beam_type => beam_type, is_rigid
     use gapbeam_workspace_quad, only: workspace_type, new_workspace, set_loads
     use gapbeam_system_quad, only: solve_scheme
-    use gapbeam_rules_quad, only: margin_of
+    use gapbeam_law_quad, only: find_margins
     use gapbeam_sensitivity_quad, only: sensitivity_type, prepare_sensitivity, movement_of_support, largest_movement, &
         of_deflections, of_reactions
     implicit none
@@ -121,8 +121,8 @@ contains
         type(workspace_type) :: work, other
         type(sensitivity_type) :: sensitivity
         logical, allocatable :: closed(:)
-        real(qp), allocatable :: movement(:), margin(:), farthest(:)
-        real(qp) :: moved, rounding, nearest, worst
+        real(qp), allocatable :: movement(:), margin(:), farthest(:), moved(:), rounding(:)
+        real(qp) :: nearest, worst
         integer :: seed, trial, change, k, state
 
         seed = 8
@@ -133,9 +133,9 @@ contains
             call solve(beam, closed, work, state)
             call check(state == band_ok, "a drawn beam is held")
             allocate (movement(size(closed)), margin(size(closed)), farthest(size(closed)))
-            do k = 1, size(closed)
-                call margin_of(beam, closed(k), k, work, margin(k), rounding)
-            end do
+            allocate (moved(size(closed)), rounding(size(closed)))
+            call find_margins(beam%supports, closed, work%answers, work%deflection_size, work%reaction, work%reaction_error, &
+                              margin, rounding)
             call prepare_sensitivity(beam, 1.0_qp, work, sensitivity)
             call check(sensitivity%known, "a movement is known")
             do k = 1, size(closed)
@@ -145,17 +145,16 @@ contains
             do change = 1, 60
                 call change_data(seed, beam, changed)
                 call solve(changed, closed, other, state)
-                do k = 1, size(closed)
-                    call margin_of(changed, closed(k), k, other, moved, rounding)
-                    farthest(k) = max(farthest(k), abs(moved - margin(k)))
-                end do
+                call find_margins(changed%supports, closed, other%answers, other%deflection_size, other%reaction, &
+                                  other%reaction_error, moved, rounding)
+                farthest(:) = max(farthest, abs(moved - margin))
             end do
             do k = 1, size(closed)
                 if (beam%supports(k)%side == both) cycle
                 worst = max(worst, farthest(k)/movement(k))
                 nearest = min(nearest, farthest(k)/movement(k))
             end do
-            deallocate (movement, margin, farthest)
+            deallocate (movement, margin, farthest, moved, rounding)
         end do
         call check(worst <= 1, "nothing moves farther than is said")
         call check(nearest > 1e-3_qp, "nor is what is said far beyond what moves")

@@ -7,7 +7,8 @@
 module gapbeam_fronts
     use gapbeam_kinds, only: wp
     use gapbeam_band, only: plain
-    use gapbeam_model, only: beam_type, both
+    use gapbeam_law, only: find_single
+    use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type
     implicit none
     private
@@ -17,6 +18,8 @@ module gapbeam_fronts
     type :: base_type
         !> The one-sided support of every node at which a front can be, else 0; shape (-1:n + 1)
         integer, allocatable :: support(:)
+        !> Its side, 1 or -1, shape (0:n)
+        integer, allocatable :: side(:)
         !> Moment of a beam that follows the contact levels, shape (0:n)
         real(wp), allocatable :: moment(:)
     end type base_type
@@ -37,31 +40,22 @@ contains
         type(beam_type), intent(in) :: beam
         !> Its supports by nodes
         type(base_type), intent(out) :: base
-        integer, allocatable :: many(:)
+        real(wp), allocatable :: contact(:)
         real(wp) :: left, right, bending
-        integer :: i, k, n
+        integer :: i, n
 
         n = size(beam%links)
-        allocate (base%support(-1:n + 1), base%moment(0:n), many(0:n))
+        allocate (base%support(-1:n + 1), base%side(0:n), base%moment(0:n), contact(0:n))
         base%support(:) = 0
         base%moment(:) = 0.0_wp
-        many(:) = 0
-        do k = 1, size(beam%supports)
-            associate (s => beam%supports(k))
-                if (.not. s%stiffness > 0.0_wp) cycle
-                many(s%node) = many(s%node) + 1
-                if (s%side /= both) base%support(s%node) = k
-            end associate
-        end do
-        where (many > 1 .or. beam%kind /= plain) base%support(0:n) = 0
+        call find_single(beam%supports, base%support(0:n), base%side, contact)
+        where (beam%kind /= plain) base%support(0:n) = 0
         do i = 1, n - 1
             bending = beam%links(i)%bending + beam%links(i + 1)%bending
             if (any(base%support(i - 1:i + 1) == 0) .or. .not. bending > 0.0_wp) cycle
-            associate (s => beam%supports(base%support(i - 1:i + 1)))
-                left = (s(2)%contact - s(1)%contact)*beam%links(i)%inverse
-                right = (s(3)%contact - s(2)%contact)*beam%links(i + 1)%inverse
-                base%moment(i) = -2*(right - left)/bending
-            end associate
+            left = (contact(i) - contact(i - 1))*beam%links(i)%inverse
+            right = (contact(i + 1) - contact(i))*beam%links(i + 1)%inverse
+            base%moment(i) = -2*(right - left)/bending
         end do
     end subroutine find_base
 
@@ -124,7 +118,7 @@ contains
             do i = 0, size(beam%links)
                 associate (k => base%support(i), before => base%support(i - 1))
                     if (k == 0) cycle
-                    if (.not. neighbours(beam, before, k)) then
+                    if (.not. neighbours(base, i - 1, i)) then
                         r = r + 2
                     else if (closed(before) .neqv. closed(k)) then
                         r = r + 1
@@ -140,14 +134,14 @@ contains
         end do
     end subroutine find_runs
 
-    !> Do two supports, 0 for none, belong to the same base
-    pure function neighbours(beam, one, other) result(same)
-        type(beam_type), intent(in) :: beam
+    !> Have two nodes supports of the same base
+    pure function neighbours(base, one, other) result(same)
+        type(base_type), intent(in) :: base
         integer, intent(in) :: one, other
         logical :: same
 
-        same = one > 0 .and. other > 0
-        if (same) same = beam%supports(one)%side == beam%supports(other)%side
+        same = base%support(one) > 0 .and. base%support(other) > 0
+        if (same) same = base%side(one) == base%side(other)
     end function neighbours
 
     !> How many supports from node j on would have to go until the moment vanishes, if shear and moment outside stayed
@@ -167,16 +161,16 @@ contains
         if (way == 1 .and. j > 0) shear = work%shear(j)
         if (way == -1 .and. j < size(beam%links)) shear = work%shear(j + 1)
         moment = merge(work%answers(j)%moment_right, work%answers(j)%moment_left, way == 1)
-        associate (s => beam%supports(base%support(j)))
-            if (.not. (wrong(base%support(j)) .or. s%side*(moment - base%moment(j)) > 0.0_wp)) return
+        associate (side => base%side(j))
+            if (.not. (wrong(base%support(j)) .or. side*(moment - base%moment(j)) > 0.0_wp)) return
             k = j
             do
                 distance = distance + 1
-                if (.not. neighbours(beam, base%support(j), base%support(k + way))) return
+                if (.not. neighbours(base, j, k + way)) return
                 shear = shear - way*work%loads(k)%shear
                 k = k + way
                 moment = moment + way*shear*beam%links(max(k, k - way))%length
-                if (s%side*(moment - base%moment(k)) <= 0.0_wp) return
+                if (side*(moment - base%moment(k)) <= 0.0_wp) return
                 moment = moment + way*work%loads(k)%couple
             end do
         end associate

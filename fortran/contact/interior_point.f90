@@ -9,7 +9,8 @@
 module gapbeam_interior_point
     use gapbeam_kinds, only: wp
     use gapbeam_band, only: band_ok
-    use gapbeam_model, only: beam_type, both, is_rigid, softest
+    use gapbeam_law, only: find_pairs
+    use gapbeam_model, only: beam_type, softest
     use gapbeam_workspace, only: workspace_type
     use gapbeam_system, only: solve_deflections
     implicit none
@@ -25,8 +26,10 @@ module gapbeam_interior_point
     type :: interior_type
         !> Supports taking part, by number
         integer, allocatable :: support(:)
-        !> Reactions and openings, both positive; deflections; 1/stiffness
-        real(wp), allocatable :: reaction(:), opening(:), deflection(:), compliance(:)
+        !> Reactions and openings, both positive; deflections
+        real(wp), allocatable :: reaction(:), opening(:), deflection(:)
+        !> 1 or -1, contact levels, 1/stiffness
+        real(wp), allocatable :: side(:), contact(:), compliance(:)
     end type interior_type
 
 contains
@@ -44,26 +47,22 @@ contains
         !> band_ok, or why the beam on springs cannot be solved, and where
         integer, intent(out) :: state, place
         real(wp) :: stiffness, largest
-        integer :: k
 
-        iterate%support = pack([(k, k=1, size(closed))], beam%supports%side /= both .and. beam%supports%stiffness > 0.0_wp)
+        call find_pairs(beam%supports, iterate%support, iterate%side, iterate%contact, iterate%compliance)
         allocate (work%spring(size(closed)), work%spring_contact(size(closed)))
         work%spring = 0.0_wp
         work%spring_contact = 0.0_wp
-        associate (s => beam%supports(iterate%support), i => iterate%support)
-            allocate (iterate%compliance(size(i)))
-            iterate%compliance(:) = 0.0_wp
-            where (.not. is_rigid(s)) iterate%compliance(:) = 1/s%stiffness
+        associate (i => iterate%support, side => iterate%side, contact => iterate%contact)
             stiffness = first_spring*softest(beam)*size(beam%links)
             work%spring(i) = stiffness
-            work%spring_contact(i) = s%contact
+            work%spring_contact(i) = contact
             call solve_springs(beam, closed, work, iterate%support, iterate%deflection, state, place)
             if (state /= band_ok) return
             allocate (iterate%reaction(size(i)), iterate%opening(size(i)))
-            iterate%reaction(:) = s%side*stiffness*(iterate%deflection - s%contact)
+            iterate%reaction(:) = side*stiffness*(iterate%deflection - contact)
             largest = max(maxval(abs(iterate%reaction)), tiny(largest))
             iterate%reaction(:) = max(iterate%reaction, 0.0_wp) + first_share*largest
-            iterate%opening(:) = max(s%side*(s%contact - iterate%deflection) + iterate%reaction*iterate%compliance, 0.0_wp) &
+            iterate%opening(:) = max(side*(contact - iterate%deflection) + iterate%reaction*iterate%compliance, 0.0_wp) &
                 + first_share*largest/stiffness
         end associate
     end subroutine start_interior
@@ -78,16 +77,15 @@ contains
         logical, intent(out) :: guess(:)
         !> band_ok, or why the system cannot be solved, and where
         integer, intent(out) :: state, place
-        real(wp), allocatable :: change_w(:), change_r(:), change_s(:), target(:), gap_error(:), side(:)
+        real(wp), allocatable :: change_w(:), change_r(:), change_s(:), target(:), gap_error(:)
         real(wp) :: mean, mean_ahead, way
 
         guess = closed
-        allocate (side(size(iterate%support)), target(size(iterate%support)), gap_error(size(iterate%support)))
+        allocate (target(size(iterate%support)), gap_error(size(iterate%support)))
         allocate (change_r(size(iterate%support)), change_s(size(iterate%support)))
-        side(:) = beam%supports(iterate%support)%side
         associate (r => iterate%reaction, s => iterate%opening, w => iterate%deflection, n => size(iterate%support))
             mean = dot_product(r, s)/n
-            gap_error(:) = s - (side*(beam%supports(iterate%support)%contact - w) + r*iterate%compliance)
+            gap_error(:) = s - (iterate%side*(iterate%contact - w) + r*iterate%compliance)
             target(:) = 0.0_wp
             call newton(target)
             if (state /= band_ok) return
@@ -111,7 +109,8 @@ contains
             real(wp), allocatable :: spring(:), fixed(:)
 
             allocate (spring(size(target)), fixed(size(target)))
-            associate (r => iterate%reaction, s => iterate%opening, w => iterate%deflection, i => iterate%support)
+            associate (r => iterate%reaction, s => iterate%opening, w => iterate%deflection, i => iterate%support, &
+                       side => iterate%side)
                 spring(:) = r/(s + r*iterate%compliance)
                 fixed(:) = (target - s*r + r*gap_error)/(s + r*iterate%compliance)
                 work%spring(i) = spring

@@ -7,6 +7,7 @@
 module gapbeam_kinematics
     use gapbeam_kinds, only: wp
     use gapbeam_band, only: hinge, restrained
+    use gapbeam_law, only: mark_held, leaves_all
     use gapbeam_model, only: beam_type
     implicit none
     private
@@ -45,9 +46,7 @@ contains
             x(i) = x(i - 1) + beam%links(i)%length
         end do
         fixed = .false.
-        do i = 1, size(beam%supports)
-            if (acting(i) .and. beam%supports(i)%stiffness > 0.0_wp) fixed(beam%supports(i)%node) = .true.
-        end do
+        call mark_held(beam%supports, acting, fixed)
         ! moving: the left end of the body at hand moves by y(start) in the motion being followed
         y = 0.0_wp
         y(0) = 1.0_wp
@@ -178,28 +177,11 @@ contains
         call free_motions(beam, closed .and. .not. undecided, motions)
         do m = 1, size(motions)
             do way = -1, 1, 2
-                free = free .or. leaves_ties(motions(m), way)
-            end do
-        end do
-
-    contains
-
-        !> Does a motion go away from every support at zero that it moves
-        function leaves_ties(motion, way) result(leaves)
-            type(motion_type), intent(in) :: motion
-            integer, intent(in) :: way
-            logical :: leaves
-            integer :: k
-
-            leaves = .true.
-            do k = 1, size(undecided)
-                associate (s => beam%supports(k))
-                    if (.not. undecided(k) .or. s%node < motion%first .or. s%node > motion%last) cycle
-                    leaves = leaves .and. way*s%side*motion%displacement(s%node) <= 0.0_wp
+                associate (motion => motions(m))
+                    free = free .or. leaves_all(beam%supports, undecided, motion%first, motion%last, motion%displacement, way)
                 end associate
             end do
-        end function leaves_ties
-
+        end do
     end function held_by_ties
 
     !> Work of the loads along a motion, and the sum of the absolute values of its parts

@@ -2,24 +2,12 @@
 module gapbeam_model
     use gapbeam_kinds, only: wp
     use gapbeam_link, only: link_type
+    use gapbeam_law, only: support_type, below, above, both, is_rigid, least_stiffness
     implicit none
     private
-    public :: beam_type, support_type, new_beam, place_supports, below, above, both, is_rigid, softest
-
-    !> Sides of a support: pushes up only, pushes down only, both
-    integer, parameter :: below = 1, above = -1, both = 0
-
-    !> A support at a node
-    type :: support_type
-        !> Node, 0..n
-        integer :: node
-        !> below, above or both
-        integer :: side
-        !> Force per length; infinite for a rigid one
-        real(wp) :: stiffness
-        !> Deflection at which it begins to act: settlement + gap (below), settlement - gap (above)
-        real(wp) :: contact
-    end type support_type
+    public :: beam_type, new_beam, place_supports, softest
+    ! Of gapbeam_law, for those who make beams
+    public :: support_type, below, above, both, is_rigid
 
     !> A beam; load index 1 dead, 2 live
     type :: beam_type
@@ -101,27 +89,15 @@ contains
         beam%first(0) = 1
     end subroutine place_supports
 
-    !> Is a support rigid
-    elemental function is_rigid(support) result(rigid)
-        type(support_type), intent(in) :: support
-        logical :: rigid
-
-        rigid = support%stiffness > huge(support%stiffness)
-    end function is_rigid
-
     !> A stiffness far below all others: that of the whole beam in bending, or of its softest support
     pure function softest(beam) result(stiffness)
         type(beam_type), intent(in) :: beam
         real(wp) :: stiffness
-        integer :: i
 
-        stiffness = huge(stiffness)
-        if (any(beam%links%bending > 0.0_wp)) stiffness = 1/(sum(beam%links%bending)*sum(beam%links%length)**2)
-        do i = 1, size(beam%supports)
-            associate (s => beam%supports(i))
-                if (s%stiffness > 0.0_wp) stiffness = min(stiffness, s%stiffness)
-            end associate
-        end do
+        stiffness = least_stiffness(beam%supports)
+        if (any(beam%links%bending > 0.0_wp)) then
+            stiffness = min(stiffness, 1/(sum(beam%links%bending)*sum(beam%links%length)**2))
+        end if
         if (.not. stiffness < huge(stiffness)) stiffness = 1.0_wp
         stiffness = stiffness/(size(beam%links) + 1)
     end function softest

@@ -2,7 +2,8 @@
 module gapbeam_part
     use gapbeam_kinds, only: wp, dp
     use gapbeam_band, only: plain
-    use gapbeam_model, only: beam_type, support_type, place_supports, both, is_rigid
+    use gapbeam_law, only: support_type, stiffness_of_changing, hold_both_ways
+    use gapbeam_model, only: beam_type, place_supports
     use gapbeam_workspace, only: workspace_type, new_workspace
     implicit none
     private
@@ -20,6 +21,7 @@ contains
     pure function least_margin(beam) result(margin)
         type(beam_type), intent(in) :: beam
         integer :: margin
+        real(wp), allocatable :: stiffness(:)
         real(wp) :: felt, bending
         integer :: k, count
         ! Roots are taken in double precision, which needs no library for quadruple
@@ -27,17 +29,16 @@ contains
 
         felt = 0.0_wp
         count = 0
-        do k = 1, size(beam%supports)
-            associate (s => beam%supports(k))
-                if (s%side == both .or. .not. s%stiffness > 0.0_wp) cycle
-                count = count + 1
-                associate (link => beam%links(max(1, s%node)))
-                    bending = link%bending*link%length**2
-                    ! (4 EI/k)**(1/4), k = stiffness/length, in lengths of the link (Hetenyi 1946)
-                    if (.not. bending > 0.0_wp .or. is_rigid(s)) cycle
-                    felt = felt + min(real(size(beam%links), dp), &
-                                      sqrt(sqrt(real(min(4/(bending*s%stiffness), largest), dp))))
-                end associate
+        allocate (stiffness(size(beam%supports)))
+        stiffness(:) = stiffness_of_changing(beam%supports)
+        do k = 1, size(stiffness)
+            if (.not. stiffness(k) > 0.0_wp) cycle
+            count = count + 1
+            associate (link => beam%links(max(1, beam%supports(k)%node)))
+                bending = link%bending*link%length**2
+                ! (4 EI/k)**(1/4), k = stiffness/length, in lengths of the link (Hetenyi 1946)
+                if (.not. bending > 0.0_wp .or. stiffness(k) > huge(bending)) cycle
+                felt = felt + min(real(size(beam%links), dp), sqrt(sqrt(real(min(4/(bending*stiffness(k)), largest), dp))))
             end associate
         end do
         margin = max(few, int(sqrt(real(size(beam%links), dp))))
@@ -112,7 +113,7 @@ contains
                 first%couple = work%answers(from)%moment_right
                 first%shear = first%shear - work%shear(from)
             end associate
-            where (closed(number) .and. part%supports%node <= 1) part%supports%side = both
+            call hold_closed_ones(part, closed(number), 0, 1)
         end if
         if (to < size(beam%links)) then
             part%kind(m) = plain
@@ -121,8 +122,21 @@ contains
                 last%couple = -work%answers(to)%moment_left
                 last%shear = last%shear + work%shear(to + 1)
             end associate
-            where (closed(number) .and. part%supports%node >= m - 1) part%supports%side = both
+            call hold_closed_ones(part, closed(number), m - 1, m)
         end if
     end subroutine cut_out
+
+    !> Let the closed supports of some nodes hold both ways
+    pure subroutine hold_closed_ones(part, closed, first, last)
+        type(beam_type), intent(inout) :: part
+        !> The scheme of the part
+        logical, intent(in) :: closed(:)
+        integer, intent(in) :: first, last
+        integer :: j
+
+        do j = part%first(first), part%first(last + 1) - 1
+            if (closed(part%order(j))) call hold_both_ways(part%supports(part%order(j)))
+        end do
+    end subroutine hold_closed_ones
 
 end module gapbeam_part

@@ -1,7 +1,8 @@
 !> What follows from a solution: shears, reactions, and how far rounding errors reach
 module gapbeam_reactions
     use gapbeam_kinds, only: wp
-    use gapbeam_model, only: beam_type, is_rigid
+    use gapbeam_law, only: share_forces
+    use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, reach_type
     implicit none
     private
@@ -133,64 +134,23 @@ contains
         same = .not. (abs(a%shear - b%shear) > 0.0_wp .or. abs(a%deflection - b%deflection) > 0.0_wp)
     end function same
 
-    !> Reactions from the equilibrium of the nodes, or from the spring where that is more exact
+    !> Reactions from the equilibrium of the nodes, or from springs
     pure subroutine find_reactions(beam, acting, range, work)
         type(beam_type), intent(in) :: beam
         logical, intent(in) :: acting(:)
         !> First and last node
         integer, intent(in) :: range(2)
         type(workspace_type), intent(inout) :: work
-        real(wp) :: by_spring, by_node, spring_error, node_error, elastic, elastic_error, worst_error
-        integer :: i, j, k, company, worst
+        integer :: i
 
         do i = range(1), range(2)
-            company = 0
-            elastic = 0.0_wp
-            elastic_error = 0.0_wp
-            worst_error = 0.0_wp
-            worst = 0
-            do j = beam%first(i), beam%first(i + 1) - 1
-                k = beam%order(j)
-                work%reaction(k) = 0.0_wp
-                work%reaction_error(k) = 0.0_wp
-                if (.not. acting(k)) cycle
-                company = company + 1
-                associate (s => beam%supports(k))
-                    if (is_rigid(s)) cycle
-                    elastic = elastic + s%stiffness*(work%answers(i)%deflection - s%contact)
-                    spring_error = epsilon(1.0_wp)*s%stiffness*max(work%deflection_size(i), abs(s%contact))
-                    elastic_error = elastic_error + spring_error
-                    if (spring_error > worst_error) worst = k
-                    worst_error = max(worst_error, spring_error)
-                end associate
-            end do
-            if (company == 0) cycle
-            call force_at_node(work, i, size(beam%links), by_node, node_error)
+            if (beam%first(i + 1) == beam%first(i)) cycle
+            call force_at_node(work, i, size(beam%links), work%force(i), work%force_error(i))
             ! For signs, rounding that comes from farther away counts as well
-            node_error = max(node_error, epsilon(1.0_wp)*work%shear_size(i))
-            do j = beam%first(i), beam%first(i + 1) - 1
-                k = beam%order(j)
-                if (.not. acting(k)) cycle
-                associate (s => beam%supports(k))
-                    if (is_rigid(s)) then
-                        work%reaction(k) = by_node - elastic
-                        work%reaction_error(k) = node_error + epsilon(1.0_wp)*abs(elastic)
-                        cycle
-                    end if
-                    by_spring = s%stiffness*(work%answers(i)%deflection - s%contact)
-                    spring_error = epsilon(1.0_wp)*s%stiffness*max(work%deflection_size(i), abs(s%contact))
-                    if (k == worst .and. node_error + (elastic_error - spring_error) < spring_error &
-                        .and. .not. work%nodes(i)%held) then
-                        ! What the others leave of the force at the node
-                        work%reaction(k) = by_node - (elastic - by_spring)
-                        work%reaction_error(k) = node_error + (elastic_error - spring_error)
-                    else
-                        work%reaction(k) = by_spring
-                        work%reaction_error(k) = spring_error
-                    end if
-                end associate
-            end do
+            work%force_error(i) = max(work%force_error(i), epsilon(1.0_wp)*work%shear_size(i))
         end do
+        call share_forces(beam%supports, beam%order, beam%first, acting, range, work%nodes, work%answers, work%deflection_size, &
+                          work%force, work%force_error, work%reaction, work%reaction_error)
     end subroutine find_reactions
 
     !> Force of all supports together at a node, from the shears beside it

@@ -1,13 +1,14 @@
 !> Which supports are wrong in a scheme, and which of them a rule changes
 module gapbeam_rules
     use gapbeam_kinds, only: wp
-    use gapbeam_model, only: beam_type, both, is_rigid
+    use gapbeam_law, only: find_margins, find_wrong_states, find_clearly_wrong_states, find_doubtful_states, largest_violations
+    use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type
     use gapbeam_reactions, only: find_own_sizes
     implicit none
     private
-    public :: find_wrong, find_clearly_wrong, find_doubtful, margin_of, complementarity
-    public :: keep_worst_pull, keep_local_worst, keep_least_index, separate_rigid_pairs, first_width
+    public :: find_wrong, find_clearly_wrong, find_doubtful, complementarity
+    public :: keep_worst_pull, keep_local_worst, keep_least_index, first_width
 
     !> Rounding errors beyond which a sign counts
     real(wp), parameter :: first_width = 32.0_wp
@@ -24,13 +25,9 @@ contains
         real(wp), intent(in) :: width
         type(workspace_type), intent(in) :: work
         logical, intent(out) :: wrong(:)
-        real(wp) :: margin, rounding
-        integer :: k
 
-        do k = 1, size(closed)
-            call margin_of(beam, closed(k), k, work, margin, rounding)
-            wrong(k) = margin < -width*rounding
-        end do
+        call find_wrong_states(beam%supports, closed, work%answers, work%deflection_size, work%reaction, work%reaction_error, &
+                               width, wrong)
     end subroutine find_wrong
 
     !> Of which supports the sign cannot be told from zero, so that their state may be either
@@ -43,47 +40,14 @@ contains
         logical, intent(out) :: doubtful(:)
         !> Is any of them not exactly zero
         logical, intent(out), optional :: in_doubt
-        real(wp) :: margin, rounding
-        integer :: k
+        logical :: not_zero
 
-        if (present(in_doubt)) in_doubt = .false.
-        do k = 1, size(closed)
-            associate (s => beam%supports(k))
-                doubtful(k) = .false.
-                if (s%side == both .or. .not. s%stiffness > 0.0_wp) cycle
-                call margin_of(beam, closed(k), k, work, margin, rounding)
-                doubtful(k) = abs(margin) <= first_width*rounding
-                if (present(in_doubt)) in_doubt = in_doubt .or. (doubtful(k) .and. rounding > 0.0_wp)
-            end associate
-        end do
+        call find_doubtful_states(beam%supports, closed, work%answers, work%deflection_size, work%reaction, &
+                                  work%reaction_error, first_width, doubtful, not_zero)
+        if (present(in_doubt)) in_doubt = not_zero
     end subroutine find_doubtful
 
-    !> By how much the state of a support is right, and the rounding error of that: the one measure of all signs
-    pure subroutine margin_of(beam, closed, k, work, margin, rounding)
-        type(beam_type), intent(in) :: beam
-        !> Does the support act, and its number
-        logical, intent(in) :: closed
-        integer, intent(in) :: k
-        type(workspace_type), intent(in) :: work
-        !> Force with which it pushes, or distance to contact; 0 for supports whose state does not change
-        real(wp), intent(out) :: margin
-        real(wp), intent(out) :: rounding
-
-        margin = 0.0_wp
-        rounding = 0.0_wp
-        associate (s => beam%supports(k), w => work%answers(beam%supports(k)%node)%deflection)
-            if (s%side == both .or. .not. s%stiffness > 0.0_wp) return
-            if (closed) then
-                margin = s%side*work%reaction(k)
-                rounding = work%reaction_error(k)
-            else
-                margin = s%side*(s%contact - w)
-                rounding = epsilon(w)*max(work%deflection_size(s%node), abs(s%contact))
-            end if
-        end associate
-    end subroutine margin_of
-
-    !> The same from deflections and moments alone, as long as nothing is near zero
+    !> The wrong ones from deflections and moments alone, as long as nothing is near zero
     pure subroutine find_clearly_wrong(beam, closed, work, wrong, doubtful)
         type(beam_type), intent(in) :: beam
         logical, intent(in) :: closed(:)
@@ -92,36 +56,22 @@ contains
         logical, intent(out) :: wrong(:)
         !> Something is so near zero that only find_wrong can tell
         logical, intent(out) :: doubtful
-        real(wp) :: largest_shear, largest_deflection, pressing, force
-        integer :: i, k, n
+        integer :: i, n
 
         n = size(beam%links)
-        doubtful = .false.
-        ! No rounding error that find_wrong allows for can be larger than these times some epsilon
         call find_own_sizes(beam, [0, n], work)
-        largest_shear = near_zero*maxval(work%reach_own%shear)
-        largest_deflection = near_zero*maxval(work%reach_own%deflection)
-        do k = 1, size(closed)
-            associate (s => beam%supports(k))
-                wrong(k) = .false.
-                if (s%side == both .or. .not. s%stiffness > 0.0_wp) cycle
-                i = s%node
-                if (closed(k) .and. is_rigid(s)) then
-                    force = work%loads(i)%shear + work%ease(i)*(work%reference(i) - work%answers(i)%deflection)
-                    if (i > 0) force = force - (work%answers(i)%moment_left - work%answers(i - 1)%moment_right) &
-                        *beam%links(i)%inverse
-                    if (i < n) force = force + (work%answers(i + 1)%moment_left - work%answers(i)%moment_right) &
-                        *beam%links(i + 1)%inverse
-                    if (abs(force) <= largest_shear .or. beam%first(i + 1) - beam%first(i) > 1) doubtful = .true.
-                    wrong(k) = s%side*force < 0.0_wp
-                else
-                    pressing = s%side*(work%answers(i)%deflection - s%contact)
-                    if (abs(pressing) <= largest_deflection + near_zero*abs(s%contact)) doubtful = .true.
-                    wrong(k) = closed(k) .neqv. pressing > 0.0_wp
-                end if
-                if (doubtful) return
+        do i = 0, n
+            if (.not. work%nodes(i)%held) cycle
+            associate (force => work%force(i), a => work%answers)
+                force = work%loads(i)%shear + work%ease(i)*(work%reference(i) - a(i)%deflection)
+                if (i > 0) force = force - (a(i)%moment_left - a(i - 1)%moment_right)*beam%links(i)%inverse
+                if (i < n) force = force + (a(i + 1)%moment_left - a(i)%moment_right)*beam%links(i + 1)%inverse
             end associate
         end do
+        ! No rounding error that find_wrong allows for can be larger than these sizes times some epsilon
+        call find_clearly_wrong_states(beam%supports, beam%first, closed, work%answers, work%force, &
+                                       near_zero*maxval(work%reach_own%shear), near_zero*maxval(work%reach_own%deflection), &
+                                       near_zero, wrong, doubtful)
     end subroutine find_clearly_wrong
 
     !> Largest wrong-signed reaction relative to the largest reaction, or penetration relative to the largest deflection
@@ -129,23 +79,13 @@ contains
         type(beam_type), intent(in) :: beam
         logical, intent(in) :: closed(:)
         type(workspace_type), intent(in) :: work
-        real(wp) :: violation, largest_reaction, largest_deflection
-        integer :: k
+        real(wp) :: violation, pull, penetration
 
         violation = 0.0_wp
         if (size(closed) == 0) return
-        largest_reaction = max(maxval(abs(work%reaction)), tiny(violation))
-        largest_deflection = max(maxval(abs(work%answers%deflection)), tiny(violation))
-        do k = 1, size(closed)
-            associate (s => beam%supports(k))
-                if (s%side == both) cycle
-                if (closed(k)) then
-                    violation = max(violation, -s%side*work%reaction(k)/largest_reaction)
-                else if (s%stiffness > 0.0_wp) then
-                    violation = max(violation, s%side*(work%answers(s%node)%deflection - s%contact)/largest_deflection)
-                end if
-            end associate
-        end do
+        call largest_violations(beam%supports, closed, work%answers, work%reaction, pull, penetration)
+        violation = max(pull/max(maxval(abs(work%reaction)), tiny(violation)), &
+                        penetration/max(maxval(abs(work%answers%deflection)), tiny(violation)))
     end function complementarity
 
     !> The paper's rule (section 3): of the closed supports that pull release the one that pulls most, and put back every
@@ -173,17 +113,15 @@ contains
         !> All wrong supports in, those to be changed out
         logical, intent(inout) :: wrong(:)
         logical, allocatable :: waits(:)
-        real(wp), allocatable :: badness(:)
-        integer :: n, first, last, k
+        real(wp), allocatable :: badness(:), rounding(:)
+        integer :: n, first, last
 
         n = size(closed)
-        allocate (waits(0:n + 1), badness(size(closed)))
+        allocate (waits(0:n + 1), badness(n), rounding(n))
         waits = .false.
-        do k = 1, n
-            associate (s => beam%supports(k))
-                badness(k) = abs(merge(work%reaction(k), work%answers(s%node)%deflection - s%contact, closed(k)))
-            end associate
-        end do
+        call find_margins(beam%supports, closed, work%answers, work%deflection_size, work%reaction, work%reaction_error, &
+                          badness, rounding)
+        badness(:) = abs(badness)
         last = 0
         do while (last < n)
             first = last + 1
@@ -258,28 +196,5 @@ contains
         first = findloc(wrong, .true., 1)
         wrong(first + 1:) = .false.
     end subroutine keep_least_index
-
-    !> Two rigid supports at one node cannot both act: begin with the one that holds both ways, or with the first
-    pure subroutine separate_rigid_pairs(beam, closed)
-        type(beam_type), intent(in) :: beam
-        logical, intent(inout) :: closed(:)
-        logical, allocatable :: taken(:)
-        integer :: k
-
-        allocate (taken(0:size(beam%links)))
-        taken = .false.
-        do k = 1, size(closed)
-            associate (s => beam%supports(k))
-                if (s%side == both .and. is_rigid(s)) taken(s%node) = .true.
-            end associate
-        end do
-        do k = 1, size(closed)
-            associate (s => beam%supports(k))
-                if (s%side == both .or. .not. closed(k) .or. .not. is_rigid(s)) cycle
-                closed(k) = .not. taken(s%node)
-                taken(s%node) = .true.
-            end associate
-        end do
-    end subroutine separate_rigid_pairs
 
 end module gapbeam_rules

@@ -10,11 +10,13 @@ module gapbeam_scheme
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_no_equilibrium, &
         gapbeam_indeterminate, gapbeam_not_converged, gapbeam_not_finite
     use gapbeam_band, only: band_ok, band_needs_pivoting, hinge, restrained
-    use gapbeam_model, only: beam_type, both, softest
+    use gapbeam_law, only: below, above, always_closed, separate_rigid_pairs, limit_stiffness, outermost, is_blocked, &
+        distance_to_contact
+    use gapbeam_model, only: beam_type, softest
     use gapbeam_kinematics, only: free_motions, motion_type, work_of_loads
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_system, only: solve_scheme, refine_scheme
-    use gapbeam_rules, only: find_wrong, separate_rigid_pairs, first_width
+    use gapbeam_rules, only: find_wrong, first_width
     use gapbeam_search, only: settle, refuse
     implicit none
     private
@@ -75,12 +77,12 @@ contains
         logical, allocatable :: start(:)
         logical :: settled
 
-        closed = closed .or. beam%supports%side == both
-        call separate_rigid_pairs(beam, closed)
+        closed = closed .or. always_closed(beam%supports)
+        call separate_rigid_pairs(beam%supports, size(beam%links), closed)
         work%solves = 0
         work%came_back = .false.
         work%ease = 0.0_wp
-        call free_motions(beam, beam%supports%side == both, motions)
+        call free_motions(beam, always_closed(beam%supports), motions)
         allocate (start(size(closed)))
         start = closed
         call settle(beam, rule, size(motions) > 0, closed, work, settled, error)
@@ -120,7 +122,7 @@ contains
         closed(:) = start
         soft = beam
         stiffness = softest(beam)
-        where (soft%supports%stiffness > stiffness) soft%supports%stiffness = stiffness
+        call limit_stiffness(soft%supports, stiffness)
         call new_workspace(soft, work)
         call set_loads(soft, factor, work)
         call iterate_floating(soft, factor, rule, closed, work, outcome, another)
@@ -179,13 +181,13 @@ contains
             else
                 do r = 1, size(runaways)
                     associate (from => runaways(r)%first, to => runaways(r)%last)
-                        way = distance_to_contact(beam, closed, from, to, direction, eased)
+                        way = distance_to_contact(beam%supports, beam%order(beam%first(from):beam%first(to + 1) - 1), closed, &
+                                                  direction, eased, no_speed)
                         if (.not. way < huge(way)) then
                             outcome%status = gapbeam_no_equilibrium
                             direction(:from - 1) = 0.0_wp
                             direction(to + 1:) = 0.0_wp
-                            outcome%in_doubt = in_doubt .or. any(beam%supports%side*direction(beam%supports%node) > 0.0_wp &
-                                                                 .and. beam%supports%stiffness > 0.0_wp)
+                            outcome%in_doubt = in_doubt .or. is_blocked(beam%supports, direction)
                             call prefer_tipping(beam, factor, direction)
                             allocate (outcome%motion(0:size(beam%links)))
                             outcome%motion(:) = direction
@@ -328,13 +330,12 @@ contains
         real(wp), intent(in) :: factor
         real(wp), intent(inout) :: direction(0:)
         real(wp), allocatable :: x(:), y(:), best(:)
-        logical, allocatable :: member(:)
         real(wp) :: most
-        integer :: i, n, side
+        integer :: i, n, side, tips(2)
 
         n = size(beam%links)
         if (any(beam%kind == hinge)) return
-        allocate (x(0:n), y(0:n), best(0:n), member(size(beam%supports)))
+        allocate (x(0:n), y(0:n), best(0:n))
         x(0) = 0.0_wp
         do i = 1, n
             x(i) = x(i - 1) + beam%links(i)%length
@@ -343,14 +344,14 @@ contains
         best(:) = direction
         y(:) = 1.0_wp
         call consider()
-        do side = -1, 1
+        do side = above, below
             if (any(beam%kind == restrained)) exit
-            member(:) = beam%supports%side == side .and. beam%supports%stiffness > 0.0_wp
-            if (.not. any(member)) cycle
-            y(:) = x - x(minval(beam%supports%node, member))
-            call consider()
-            y(:) = x - x(maxval(beam%supports%node, member))
-            call consider()
+            tips = outermost(beam%supports, side)
+            if (tips(1) > tips(2)) cycle
+            do i = 1, 2
+                y(:) = x - x(tips(i))
+                call consider()
+            end do
         end do
         direction(:) = best
 
@@ -364,10 +365,7 @@ contains
             y(:) = y/maxval(abs(y))
             do way = 1, 2
                 y(:) = -y
-                associate (s => beam%supports)
-                    if (any(s%stiffness > 0.0_wp .and. (s%side*y(s%node) > 0.0_wp &
-                                                        .or. (s%side == both .and. abs(y(s%node)) > 0.0_wp)))) cycle
-                end associate
+                if (is_blocked(beam%supports, y)) cycle
                 call work_of_loads(beam, factor, y, [0, n], done, parts)
                 if (done <= max(most, no_work*parts)) cycle
                 most = done
@@ -376,26 +374,5 @@ contains
         end subroutine consider
 
     end subroutine prefer_tipping
-
-    !> How far a part of the beam can go along a motion until an open support is met
-    pure function distance_to_contact(beam, closed, from, to, direction, deflection) result(way)
-        type(beam_type), intent(in) :: beam
-        logical, intent(in) :: closed(:)
-        !> First and last node of the part
-        integer, intent(in) :: from, to
-        real(wp), intent(in) :: direction(0:), deflection(0:)
-        real(wp) :: way, speed
-        integer :: j, k
-
-        way = huge(way)
-        do j = beam%first(from), beam%first(to + 1) - 1
-            k = beam%order(j)
-            associate (s => beam%supports(k))
-                speed = s%side*direction(s%node)
-                if (closed(k) .or. .not. speed > no_speed .or. .not. s%stiffness > 0.0_wp) cycle
-                way = min(way, max(0.0_wp, s%side*(s%contact - deflection(s%node))/speed))
-            end associate
-        end do
-    end function distance_to_contact
 
 end module gapbeam_scheme

@@ -18,12 +18,13 @@ module gapbeam_search
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, fatal_error, gapbeam_indeterminate, gapbeam_not_converged
     use gapbeam_band, only: band_ok, band_mechanism, band_needs_pivoting
+    use gapbeam_law, only: separate_rigid_pairs
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type
     use gapbeam_system, only: solve_deflections, complete_scheme, refine_scheme
     use gapbeam_update, only: keep_factor, update_scheme, find_groups
     use gapbeam_rules, only: find_wrong, find_clearly_wrong, keep_worst_pull, keep_local_worst, keep_least_index, &
-        separate_rigid_pairs, first_width
+        first_width
     use gapbeam_reactions, only: find_shears
     use gapbeam_fronts, only: base_type, find_base, move_fronts
     use gapbeam_part, only: next_stretch, cut_out, least_margin
@@ -388,7 +389,7 @@ contains
             wait = wait - 1
             if (wait <= 0 .and. changes <= few_changes) then
                 closed(:) = guess
-                call separate_rigid_pairs(beam, closed)
+                call separate_rigid_pairs(beam%supports, size(beam%links), closed)
                 search%fewest = huge(0)
                 call change_all(beam, polish_patience, closed, work, search, settled)
                 if (settled) exit
@@ -399,7 +400,7 @@ contains
         end do
         if (.not. settled .and. search%state == band_ok) then
             closed(:) = last_guess
-            call separate_rigid_pairs(beam, closed)
+            call separate_rigid_pairs(beam%supports, size(beam%links), closed)
             search%fewest = huge(0)
             call change_all(beam, final_patience, closed, work, search, settled)
         end if

@@ -4,7 +4,8 @@ module gapbeam_workspace
     use gapbeam_band, only: node_type, rhs_type, pivot_type, answer_type
     use gapbeam_residual, only: size_type
     use gapbeam_plain, only: plain_type, is_plain, prepare_plain
-    use gapbeam_model, only: beam_type, both, is_rigid
+    use gapbeam_law, only: add_supports
+    use gapbeam_model, only: beam_type
     implicit none
     private
     public :: workspace_type, reach_type, new_workspace, set_loads, apply_scheme
@@ -12,6 +13,9 @@ module gapbeam_workspace
 
     !> Which system was solved last
     integer, parameter :: method_mixed = 0, method_three_moment = 1, method_pivoting = 2
+
+    !> Nodes to which supports are added at a time, while they are in the cache
+    integer, parameter :: block_size = 64
 
     !> Sizes of a shear and of a deflection
     type :: reach_type
@@ -39,6 +43,8 @@ module gapbeam_workspace
         real(wp), allocatable :: reaction(:), reaction_error(:)
         !> Shear of every link beside that of the simple bar, (M_b - M_a)/L, and its rounding error
         real(wp), allocatable :: shear(:), shear_error(:)
+        !> Force of all supports together at a node, where it was found last, and its rounding error
+        real(wp), allocatable :: force(:), force_error(:)
         !> Moment per rotation of every link held at both ends, 1/int 1/EI; 0 for a rigid one
         real(wp), allocatable :: fixity(:)
         !> Largest contact level of the supports that act at a node
@@ -77,7 +83,7 @@ contains
         allocate (work%answers(0:n), work%correction(0:n), work%moment_work(2, 0:n), work%sizes(0:n))
         allocate (work%load_size(0:n), work%turn_size(n))
         allocate (work%shear(n), work%shear_error(n))
-        allocate (work%level(0:n))
+        allocate (work%level(0:n), work%force(0:n), work%force_error(0:n))
         allocate (work%reach_own(0:n), work%reach_left(0:n), work%reach_right(0:n))
         allocate (work%shear_size(0:n), work%deflection_size(0:n))
         allocate (work%reaction(m), work%reaction_error(m))
@@ -130,35 +136,28 @@ contains
         !> First and last node
         integer, intent(in) :: range(2)
         type(workspace_type), intent(inout) :: work
-        integer :: i, j, k
+        integer :: i, from, to
 
-        do i = range(1), range(2)
-            associate (node => work%nodes(i), r => work%rhs(i))
-                node%kind = beam%kind(i)
-                node%compliance = beam%compliance(i)
-                node%held = .false.
-                node%stiffness = work%ease(i)
-                r = work%loads(i)
-                r%shear = r%shear + work%ease(i)*work%reference(i)
-                work%level(i) = 0.0_wp
-                do j = beam%first(i), beam%first(i + 1) - 1
-                    k = beam%order(j)
-                    associate (s => beam%supports(k))
-                        if (work%sprung .and. s%side /= both) then
-                            node%stiffness = node%stiffness + work%spring(k)
-                            r%shear = r%shear + work%spring(k)*work%spring_contact(k)
-                        else if (acting(k)) then
-                            work%level(i) = max(work%level(i), abs(s%contact))
-                            if (is_rigid(s)) then
-                                node%held = .true.
-                                r%deflection = s%contact
-                            else
-                                node%stiffness = node%stiffness + s%stiffness
-                                r%shear = r%shear + s%stiffness*s%contact
-                            end if
-                        end if
-                    end associate
-                end do
+        do from = range(1), range(2), block_size
+            to = min(from + block_size - 1, range(2))
+            do i = from, to
+                associate (node => work%nodes(i), r => work%rhs(i))
+                    node%kind = beam%kind(i)
+                    node%compliance = beam%compliance(i)
+                    node%held = .false.
+                    node%stiffness = work%ease(i)
+                    r = work%loads(i)
+                    r%shear = r%shear + work%ease(i)*work%reference(i)
+                    work%level(i) = 0.0_wp
+                end associate
+            end do
+            associate (there => beam%order(beam%first(from):beam%first(to + 1) - 1))
+                if (work%sprung) then
+                    call add_supports(beam%supports, there, acting, work%nodes, work%rhs, work%level, work%spring, &
+                                      work%spring_contact)
+                else
+                    call add_supports(beam%supports, there, acting, work%nodes, work%rhs, work%level)
+                end if
             end associate
         end do
     end subroutine apply_scheme

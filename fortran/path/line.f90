@@ -2,9 +2,10 @@
 !> the contact levels, v1 from the live loads alone
 module gapbeam_line
     use gapbeam_kinds, only: wp
+    use gapbeam_law, only: margin_of, drop_level
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type
-    use gapbeam_rules, only: margin_of, first_width
+    use gapbeam_rules, only: first_width
     implicit none
     private
     public :: line_type, line_of, without_dead_loads, value_at, width_at, zero_of, falls, rises, stays_at_zero
@@ -25,7 +26,7 @@ contains
         integer :: i
 
         incremental = beam
-        incremental%supports%contact = 0.0_wp
+        call drop_level(incremental%supports)
         incremental%force(1, :) = 0.0_wp
         incremental%couple(1, :) = 0.0_wp
         do i = 1, size(beam%links)
@@ -51,8 +52,12 @@ contains
         type(workspace_type), intent(in) :: dead, live
         type(line_type) :: line
 
-        call margin_of(beam, closed, k, dead, line%v0, line%error_of_v0)
-        call margin_of(incremental, closed, k, live, line%v1, line%error_of_v1)
+        associate (i => beam%supports(k)%node)
+            call margin_of(beam%supports(k), closed, dead%answers(i)%deflection, dead%deflection_size(i), dead%reaction(k), &
+                           dead%reaction_error(k), line%v0, line%error_of_v0)
+            call margin_of(incremental%supports(k), closed, live%answers(i)%deflection, live%deflection_size(i), &
+                           live%reaction(k), live%reaction_error(k), line%v1, line%error_of_v1)
+        end associate
         line%error_of_v0 = first_width*line%error_of_v0
         line%error_of_v1 = first_width*line%error_of_v1
     end function line_of

@@ -3,7 +3,8 @@
 module gapbeam_stretch
     use gapbeam_kinds, only: wp
     use gapbeam_band, only: band_ok
-    use gapbeam_model, only: beam_type, both
+    use gapbeam_law, only: may_change
+    use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_update, only: start_updates, update_scheme, find_groups
     use gapbeam_line, only: line_type, line_of, without_dead_loads, value_at, width_at, zero_of, falls, stays_at_zero
@@ -142,7 +143,7 @@ contains
         there(:) = .false.
         there(at_zero) = .true.
         do k = 1, size(closed)
-            if (beam%supports(k)%side == both .or. .not. beam%supports(k)%stiffness > 0.0_wp) cycle
+            if (.not. may_change(beam%supports(k))) cycle
             line = line_in(beam, closed, k, stretch)
             if (abs(value_at(line, factor)) > width_at(line, factor)) cycle
             there(k) = .true.

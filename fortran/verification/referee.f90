@@ -10,7 +10,8 @@ module gapbeam_referee
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_memory, gapbeam_indeterminate
     use gapbeam_memory, only: reserve_memory, for_refining
     use gapbeam_link, only: piece_type, load_type
-    use gapbeam_model, only: beam_type, both
+    use gapbeam_law, only: always_closed
+    use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, set_loads
     use gapbeam_rules, only: find_doubtful, find_wrong, first_width
     use gapbeam_system, only: solve_scheme, refine_scheme
@@ -23,7 +24,7 @@ module gapbeam_referee
     use gapbeam_model_quad, only: fine_beam_type => beam_type, new_beam
     use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type, new_fine_workspace => new_workspace, &
         set_fine_loads => set_loads
-    use gapbeam_rules_quad, only: margin_of
+    use gapbeam_law_quad, only: may_change, find_margins
     use gapbeam_sensitivity_quad, only: sensitivity_type, prepare_sensitivity, movement_of_support
     use gapbeam_search_quad, only: rule_block
     use gapbeam_scheme_quad, only: find_fine_scheme => find_scheme, fine_outcome_type => outcome_type
@@ -172,7 +173,7 @@ contains
             ! Rigid stretches may touch more supports than they need: whether there is an answer must not depend on the start
             if (.not. statics_cannot_tell(error)) exit
             deallocate (error)
-            closed(:) = try == 1 .or. beam%supports%side == both
+            closed(:) = try == 1 .or. always_closed(beam%supports)
             call find_fine_scheme(fine, real(factor, qp), rule_block, closed, fine_work, found, error)
             work%solves = work%solves + fine_work%solves
         end do
@@ -217,12 +218,11 @@ contains
         integer :: k
 
         allocate (margin(size(closed)), rounding(size(closed)))
+        call find_margins(fine%supports, closed, work%answers, work%deflection_size, work%reaction, work%reaction_error, &
+                          margin, rounding)
         do k = 1, size(closed)
             undecided(k) = .false.
-            associate (s => fine%supports(k))
-                if (s%side == both .or. .not. s%stiffness > 0.0_qp) cycle
-            end associate
-            call margin_of(fine, closed(k), k, work, margin(k), rounding(k))
+            if (.not. may_change(fine%supports(k))) cycle
             ! What is held stiffly beside a soft spring may move it by rounding
             if (closed(k)) rounding(k) = max(rounding(k), epsilon(1.0_qp)*work%shear_size(fine%supports(k)%node))
             undecided(k) = abs(margin(k)) <= first_width*rounding(k)*(epsilon(1.0_wp)/epsilon(1.0_qp))

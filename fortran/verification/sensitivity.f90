@@ -12,6 +12,7 @@ module gapbeam_sensitivity
         band_mechanism, band_needs_pivoting
     use gapbeam_residual, only: size_type, residual_chain
     use gapbeam_pivoting, only: solve_pivoting
+    use gapbeam_law, only: margin_rates
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type
     implicit none
@@ -197,32 +198,27 @@ contains
         type(workspace_type), intent(inout) :: work
         real(wp), intent(out) :: movement
         type(rhs_type), allocatable :: rhs(:)
-        real(wp) :: stiffness
+        real(wp) :: rate, level
         logical :: regular
         integer :: i
 
         allocate (rhs(0:size(beam%links)))
-        associate (s => beam%supports(k))
-            i = s%node
-            stiffness = 1.0_wp
-            if (closed .and. work%nodes(i)%held) then
-                call add_functional(beam, work%nodes, of_reactions, i, [1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp], rhs)
-            else
-                if (closed) stiffness = s%stiffness
-                call add_functional(beam, work%nodes, of_deflections, i, [1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp], rhs)
-            end if
+        i = beam%supports(k)%node
+        call margin_rates(beam%supports(k), closed, rate, level)
+        associate (by_force => closed .and. work%nodes(i)%held)
+            call add_functional(beam, work%nodes, merge(of_reactions, of_deflections, by_force), i, &
+                                [1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp], rhs)
             call solve_again(beam%links, sensitivity, work, rhs, regular)
             associate (c => work%correction, w => sensitivity%weight)
                 movement = sum(w(1, :)*abs(c%moment_left) + w(2, :)*abs(c%moment_right) + w(3, :)*abs(c%deflection))
             end associate
-            movement = stiffness*movement
-            if (closed .and. work%nodes(i)%held) then
+            if (by_force) then
                 movement = movement + epsilon(1.0_dp)*work%sizes(i)%shear
             else
-                movement = movement + stiffness*epsilon(1.0_dp)*abs(s%contact)
+                movement = rate*movement + rate*epsilon(1.0_dp)*level
             end if
-            if (.not. regular) movement = huge(movement)
         end associate
+        if (.not. regular) movement = huge(movement)
     end subroutine movement_of_support
 
     !> K^-1 times a right-hand side, into the correction

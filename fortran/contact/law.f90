@@ -1,0 +1,557 @@
+!> What a support does: the one module that knows its law.
+!>
+!> The law of a support is a polyline of its reaction (positive up) over the deflection of its node, and its state is the piece on
+!> which it is:
+!>
+!>     open      no reaction, on the free side of the contact level
+!>     closed    stiffness times the deflection beyond the contact level; if rigid, whatever reaction it takes at that level
+!>
+!> A support that holds both ways has the second piece only, one of stiffness 0 the first only: their states never change. A
+!> scheme is the states of all supports, kept as a logical array: `closed(k)` is true on the second piece. How far a support is
+!> from the end of its piece is its margin; below zero its state is wrong, and the right one lies beyond that end: with two
+!> pieces the other one. A law with more pieces takes an integer in place of the logical, and a margin for either end.
+!>
+!> Loops over supports stand here as well, since procedures of other files are not inlined.
+module gapbeam_law
+    use gapbeam_kinds, only: wp
+    use gapbeam_band, only: node_type, rhs_type, answer_type
+    implicit none
+    private
+    public :: support_type, below, above, both
+    public :: is_rigid, may_change, always_closed, separate_rigid_pairs
+    public :: add_supports, share_forces
+    public :: margin_of, margin_rates, find_margins, find_wrong_states, find_clearly_wrong_states, find_doubtful_states, &
+        largest_violations
+    public :: mark_held, outermost, is_blocked, leaves_all, distance_to_contact
+    public :: least_stiffness, stiffness_of_changing, find_pairs, find_single
+    public :: hold_both_ways, limit_stiffness, drop_level
+
+    !> Sides of a support: pushes up only, pushes down only, both
+    integer, parameter :: below = 1, above = -1, both = 0
+
+    !> A support at a node
+    type :: support_type
+        !> Node, 0..n
+        integer :: node
+        !> below, above or both
+        integer :: side
+        !> Force per length; infinite for a rigid one
+        real(wp) :: stiffness
+        !> Deflection at which it begins to act: settlement + gap (below), settlement - gap (above)
+        real(wp) :: contact
+    end type support_type
+
+contains
+
+    ! States
+
+    !> Is a support rigid
+    elemental function is_rigid(support) result(rigid)
+        type(support_type), intent(in) :: support
+        logical :: rigid
+
+        rigid = support%stiffness > huge(support%stiffness)
+    end function is_rigid
+
+    !> Has a support more than one state
+    elemental function may_change(support) result(may)
+        type(support_type), intent(in) :: support
+        logical :: may
+
+        may = support%side /= both .and. support%stiffness > 0.0_wp
+    end function may_change
+
+    !> Which supports are closed in every scheme
+    pure function always_closed(supports) result(always)
+        type(support_type), intent(in) :: supports(:)
+        logical :: always(size(supports))
+
+        always(:) = supports%side == both
+    end function always_closed
+
+    !> Two rigid supports at one node cannot both act: begin with the one that holds both ways, or with the first
+    pure subroutine separate_rigid_pairs(supports, last, closed)
+        type(support_type), intent(in) :: supports(:)
+        !> Last node
+        integer, intent(in) :: last
+        logical, intent(inout) :: closed(:)
+        logical, allocatable :: taken(:)
+        integer :: k
+
+        allocate (taken(0:last))
+        taken = .false.
+        do k = 1, size(closed)
+            associate (s => supports(k))
+                if (s%side == both .and. is_rigid(s)) taken(s%node) = .true.
+            end associate
+        end do
+        do k = 1, size(closed)
+            associate (s => supports(k))
+                if (s%side == both .or. .not. closed(k) .or. .not. is_rigid(s)) cycle
+                closed(k) = .not. taken(s%node)
+                taken(s%node) = .true.
+            end associate
+        end do
+    end subroutine separate_rigid_pairs
+
+    ! Forces
+
+    !> Add stiffness and load of the acting supports to their nodes; a rigid one holds its node at the contact level
+    pure subroutine add_supports(supports, order, acting, nodes, rhs, level, spring, spring_contact)
+        !> All supports, the numbers of those at the nodes at hand, and which act
+        type(support_type), intent(in) :: supports(:)
+        integer, intent(in) :: order(:)
+        logical, intent(in) :: acting(:)
+        !> All nodes and their right-hand sides, shape (0:n)
+        type(node_type), intent(inout) :: nodes(0:)
+        type(rhs_type), intent(inout) :: rhs(0:)
+        !> Raised to the largest absolute contact level of the acting supports of a node, shape (0:n)
+        real(wp), intent(inout) :: level(0:)
+        !> Springs, and where they are without force, in place of the one-sided supports, acting or not, shape (size(supports))
+        real(wp), intent(in), optional :: spring(:), spring_contact(:)
+        logical :: sprung
+        integer :: j, k
+
+        sprung = present(spring)
+        do j = 1, size(order)
+            k = order(j)
+            associate (s => supports(k), node => nodes(supports(k)%node), r => rhs(supports(k)%node))
+                if (sprung .and. s%side /= both) then
+                    node%stiffness = node%stiffness + spring(k)
+                    r%shear = r%shear + spring(k)*spring_contact(k)
+                else if (acting(k)) then
+                    level(s%node) = max(level(s%node), abs(s%contact))
+                    if (is_rigid(s)) then
+                        node%held = .true.
+                        r%deflection = s%contact
+                    else
+                        node%stiffness = node%stiffness + s%stiffness
+                        r%shear = r%shear + s%stiffness*s%contact
+                    end if
+                end if
+            end associate
+        end do
+    end subroutine add_supports
+
+    !> Reactions: what the supports of a node have of the force that it takes, or from the spring where that is more exact
+    pure subroutine share_forces(supports, order, first, acting, range, nodes, answers, deflection_size, force, force_error, &
+                                 reaction, reaction_error)
+        !> All supports; those at node i are order(first(i)) to order(first(i + 1) - 1); which act
+        type(support_type), intent(in) :: supports(:)
+        integer, intent(in) :: order(:), first(0:)
+        logical, intent(in) :: acting(:)
+        !> First and last node
+        integer, intent(in) :: range(2)
+        !> Nodes and their deflections, the sizes of these for rounding errors, and the force of all supports together at a
+        !> node with its rounding error, shape (0:n)
+        type(node_type), intent(in) :: nodes(0:)
+        type(answer_type), intent(in) :: answers(0:)
+        real(wp), intent(in) :: deflection_size(0:), force(0:), force_error(0:)
+        !> Reactions and the rounding errors that they may have, shape (size(supports)); those at other nodes stay
+        real(wp), intent(inout) :: reaction(:), reaction_error(:)
+        real(wp) :: by_spring, spring_error, elastic, elastic_error, worst_error
+        integer :: i, j, k, company, worst
+
+        do i = range(1), range(2)
+            company = 0
+            elastic = 0.0_wp
+            elastic_error = 0.0_wp
+            worst_error = 0.0_wp
+            worst = 0
+            do j = first(i), first(i + 1) - 1
+                k = order(j)
+                reaction(k) = 0.0_wp
+                reaction_error(k) = 0.0_wp
+                if (.not. acting(k)) cycle
+                company = company + 1
+                associate (s => supports(k))
+                    if (is_rigid(s)) cycle
+                    elastic = elastic + s%stiffness*(answers(i)%deflection - s%contact)
+                    spring_error = epsilon(1.0_wp)*s%stiffness*max(deflection_size(i), abs(s%contact))
+                    elastic_error = elastic_error + spring_error
+                    if (spring_error > worst_error) worst = k
+                    worst_error = max(worst_error, spring_error)
+                end associate
+            end do
+            if (company == 0) cycle
+            do j = first(i), first(i + 1) - 1
+                k = order(j)
+                if (.not. acting(k)) cycle
+                associate (s => supports(k))
+                    if (is_rigid(s)) then
+                        reaction(k) = force(i) - elastic
+                        reaction_error(k) = force_error(i) + epsilon(1.0_wp)*abs(elastic)
+                        cycle
+                    end if
+                    by_spring = s%stiffness*(answers(i)%deflection - s%contact)
+                    spring_error = epsilon(1.0_wp)*s%stiffness*max(deflection_size(i), abs(s%contact))
+                    if (k == worst .and. force_error(i) + (elastic_error - spring_error) < spring_error &
+                        .and. .not. nodes(i)%held) then
+                        ! What the others leave of the force at the node
+                        reaction(k) = force(i) - (elastic - by_spring)
+                        reaction_error(k) = force_error(i) + (elastic_error - spring_error)
+                    else
+                        reaction(k) = by_spring
+                        reaction_error(k) = spring_error
+                    end if
+                end associate
+            end do
+        end do
+    end subroutine share_forces
+
+    ! Margins
+
+    !> By how much the state of a support is right, and the rounding error of that: the one measure of all signs
+    elemental subroutine margin_of(support, closed, deflection, deflection_size, reaction, reaction_error, margin, rounding)
+        type(support_type), intent(in) :: support
+        logical, intent(in) :: closed
+        !> Of its node, and the size of that for rounding errors
+        real(wp), intent(in) :: deflection, deflection_size
+        !> Its reaction and the rounding error of that
+        real(wp), intent(in) :: reaction, reaction_error
+        !> Force with which it pushes, or distance to contact; 0 for supports whose state does not change
+        real(wp), intent(out) :: margin
+        real(wp), intent(out) :: rounding
+
+        margin = 0.0_wp
+        rounding = 0.0_wp
+        if (.not. may_change(support)) return
+        if (closed) then
+            margin = support%side*reaction
+            rounding = reaction_error
+        else
+            margin = support%side*(support%contact - deflection)
+            rounding = epsilon(deflection)*max(deflection_size, abs(support%contact))
+        end if
+    end subroutine margin_of
+
+    !> By how much the margin of a support that is not held rigidly changes with the deflection of its node, and its contact level
+    elemental subroutine margin_rates(support, closed, rate, level)
+        type(support_type), intent(in) :: support
+        logical, intent(in) :: closed
+        !> Absolute values: its stiffness where it is closed, else 1; its contact level
+        real(wp), intent(out) :: rate, level
+
+        rate = 1.0_wp
+        if (closed) rate = support%stiffness
+        level = abs(support%contact)
+    end subroutine margin_rates
+
+    !> The margins of all supports
+    pure subroutine find_margins(supports, closed, answers, deflection_size, reaction, reaction_error, margin, rounding)
+        !> The supports and the scheme, shape (m)
+        type(support_type), intent(in) :: supports(:)
+        logical, intent(in) :: closed(:)
+        !> At the nodes, shape (0:n)
+        type(answer_type), intent(in) :: answers(0:)
+        real(wp), intent(in) :: deflection_size(0:)
+        !> Of the supports, shape (m)
+        real(wp), intent(in) :: reaction(:), reaction_error(:)
+        !> As margin_of, shape (m)
+        real(wp), intent(out) :: margin(:), rounding(:)
+        integer :: k
+
+        do k = 1, size(closed)
+            associate (i => supports(k)%node)
+                call margin_of(supports(k), closed(k), answers(i)%deflection, deflection_size(i), reaction(k), &
+                               reaction_error(k), margin(k), rounding(k))
+            end associate
+        end do
+    end subroutine find_margins
+
+    !> Which states are wrong: margins below zero by more than so many rounding errors
+    pure subroutine find_wrong_states(supports, closed, answers, deflection_size, reaction, reaction_error, width, wrong)
+        !> As for find_margins
+        type(support_type), intent(in) :: supports(:)
+        logical, intent(in) :: closed(:)
+        type(answer_type), intent(in) :: answers(0:)
+        real(wp), intent(in) :: deflection_size(0:), reaction(:), reaction_error(:)
+        !> Rounding errors beyond which a sign counts
+        real(wp), intent(in) :: width
+        !> Shape (m)
+        logical, intent(out) :: wrong(:)
+        real(wp) :: margin, rounding
+        integer :: k
+
+        do k = 1, size(closed)
+            associate (i => supports(k)%node)
+                call margin_of(supports(k), closed(k), answers(i)%deflection, deflection_size(i), reaction(k), &
+                               reaction_error(k), margin, rounding)
+            end associate
+            wrong(k) = margin < -width*rounding
+        end do
+    end subroutine find_wrong_states
+
+    !> Of which supports the margin cannot be told from zero, so that their state may be either
+    pure subroutine find_doubtful_states(supports, closed, answers, deflection_size, reaction, reaction_error, width, doubtful, &
+                                         in_doubt)
+        !> As for find_wrong_states
+        type(support_type), intent(in) :: supports(:)
+        logical, intent(in) :: closed(:)
+        type(answer_type), intent(in) :: answers(0:)
+        real(wp), intent(in) :: deflection_size(0:), reaction(:), reaction_error(:), width
+        !> Shape (m)
+        logical, intent(out) :: doubtful(:)
+        !> Is any of them not exactly zero
+        logical, intent(out) :: in_doubt
+        real(wp) :: margin, rounding
+        integer :: k
+
+        in_doubt = .false.
+        do k = 1, size(closed)
+            doubtful(k) = .false.
+            if (.not. may_change(supports(k))) cycle
+            associate (i => supports(k)%node)
+                call margin_of(supports(k), closed(k), answers(i)%deflection, deflection_size(i), reaction(k), &
+                               reaction_error(k), margin, rounding)
+            end associate
+            doubtful(k) = abs(margin) <= width*rounding
+            in_doubt = in_doubt .or. (doubtful(k) .and. rounding > 0.0_wp)
+        end do
+    end subroutine find_doubtful_states
+
+    !> Which states are wrong, from deflections and the forces at held nodes, as long as nothing is near zero
+    pure subroutine find_clearly_wrong_states(supports, first, closed, answers, force, least_force, least_deflection, near_zero, &
+                                              wrong, doubtful)
+        !> The supports; node i has first(i + 1) - first(i) of them; the scheme
+        type(support_type), intent(in) :: supports(:)
+        integer, intent(in) :: first(0:)
+        logical, intent(in) :: closed(:)
+        !> Deflections of the nodes; force of the supports at those that a rigid one holds, shape (0:n)
+        type(answer_type), intent(in) :: answers(0:)
+        real(wp), intent(in) :: force(0:)
+        !> What counts as zero; for deflections this share of the contact level besides
+        real(wp), intent(in) :: least_force, least_deflection, near_zero
+        !> Not all are found where something is doubtful
+        logical, intent(out) :: wrong(:)
+        !> Something counts as zero
+        logical, intent(out) :: doubtful
+        real(wp) :: pressing
+        integer :: k
+
+        doubtful = .false.
+        do k = 1, size(closed)
+            wrong(k) = .false.
+            associate (s => supports(k), i => supports(k)%node)
+                if (.not. may_change(s)) cycle
+                if (closed(k) .and. is_rigid(s)) then
+                    ! Forces of several supports at one node are for share_forces
+                    doubtful = abs(force(i)) <= least_force .or. first(i + 1) - first(i) > 1
+                    wrong(k) = s%side*force(i) < 0.0_wp
+                else
+                    pressing = s%side*(answers(i)%deflection - s%contact)
+                    doubtful = abs(pressing) <= least_deflection + near_zero*abs(s%contact)
+                    wrong(k) = closed(k) .neqv. pressing > 0.0_wp
+                end if
+                if (doubtful) return
+            end associate
+        end do
+    end subroutine find_clearly_wrong_states
+
+    !> The largest force with which a closed one-sided support pulls, and the largest penetration of an open one
+    pure subroutine largest_violations(supports, closed, answers, reaction, pull, penetration)
+        !> As for find_margins
+        type(support_type), intent(in) :: supports(:)
+        logical, intent(in) :: closed(:)
+        type(answer_type), intent(in) :: answers(0:)
+        real(wp), intent(in) :: reaction(:)
+        !> 0 if none does
+        real(wp), intent(out) :: pull, penetration
+        integer :: k
+
+        pull = 0.0_wp
+        penetration = 0.0_wp
+        do k = 1, size(closed)
+            associate (s => supports(k))
+                if (s%side == both) cycle
+                if (closed(k)) then
+                    pull = max(pull, -s%side*reaction(k))
+                else if (s%stiffness > 0.0_wp) then
+                    penetration = max(penetration, s%side*(answers(s%node)%deflection - s%contact))
+                end if
+            end associate
+        end do
+    end subroutine largest_violations
+
+    ! Motions
+
+    !> Mark the nodes that acting supports hold, rigidly or not
+    pure subroutine mark_held(supports, acting, held)
+        type(support_type), intent(in) :: supports(:)
+        logical, intent(in) :: acting(:)
+        !> Shape (0:n)
+        logical, intent(inout) :: held(0:)
+        integer :: k
+
+        do k = 1, size(supports)
+            if (acting(k) .and. supports(k)%stiffness > 0.0_wp) held(supports(k)%node) = .true.
+        end do
+    end subroutine mark_held
+
+    !> First and last node at which supports of a side can carry; the first is beyond the last if there are none
+    pure function outermost(supports, side) result(nodes)
+        type(support_type), intent(in) :: supports(:)
+        !> below, above or both
+        integer, intent(in) :: side
+        integer :: nodes(2)
+        integer :: k
+
+        nodes = [huge(0), -1]
+        do k = 1, size(supports)
+            associate (s => supports(k))
+                if (s%side == side .and. s%stiffness > 0.0_wp) nodes = [min(nodes(1), s%node), max(nodes(2), s%node)]
+            end associate
+        end do
+    end function outermost
+
+    !> Is a motion towards any support, closed or open
+    pure function is_blocked(supports, displacement) result(blocked)
+        type(support_type), intent(in) :: supports(:)
+        !> Of the nodes, shape (0:n)
+        real(wp), intent(in) :: displacement(0:)
+        logical :: blocked
+        integer :: k
+
+        blocked = .false.
+        do k = 1, size(supports)
+            associate (s => supports(k), y => displacement(supports(k)%node))
+                blocked = s%stiffness > 0.0_wp .and. (s%side*y > 0.0_wp .or. (s%side == both .and. abs(y) > 0.0_wp))
+            end associate
+            if (blocked) return
+        end do
+    end function is_blocked
+
+    !> Is a motion towards none of some supports
+    pure function leaves_all(supports, chosen, first, last, displacement, way) result(leaves)
+        type(support_type), intent(in) :: supports(:)
+        logical, intent(in) :: chosen(:)
+        !> First and last node that move, their displacements, and 1 or -1 for the motion or its opposite
+        integer, intent(in) :: first, last
+        real(wp), intent(in) :: displacement(first:)
+        integer, intent(in) :: way
+        logical :: leaves
+        integer :: k
+
+        leaves = .true.
+        do k = 1, size(chosen)
+            associate (s => supports(k))
+                if (.not. chosen(k) .or. s%node < first .or. s%node > last) cycle
+                leaves = leaves .and. way*s%side*displacement(s%node) <= 0.0_wp
+            end associate
+        end do
+    end function leaves_all
+
+    !> How far a motion can go until one of some supports closes; huge if none does
+    pure function distance_to_contact(supports, numbers, closed, direction, deflection, least_speed) result(way)
+        !> All supports, the numbers of those in question, and the scheme
+        type(support_type), intent(in) :: supports(:)
+        integer, intent(in) :: numbers(:)
+        logical, intent(in) :: closed(:)
+        !> The motion and where it starts, shape (0:n)
+        real(wp), intent(in) :: direction(0:), deflection(0:)
+        !> What is not faster stands still
+        real(wp), intent(in) :: least_speed
+        real(wp) :: way, speed
+        integer :: j
+
+        way = huge(way)
+        do j = 1, size(numbers)
+            associate (s => supports(numbers(j)))
+                speed = s%side*direction(s%node)
+                if (closed(numbers(j)) .or. .not. speed > least_speed .or. .not. s%stiffness > 0.0_wp) cycle
+                way = min(way, max(0.0_wp, s%side*(s%contact - deflection(s%node))/speed))
+            end associate
+        end do
+    end function distance_to_contact
+
+    ! What other methods make of supports
+
+    !> The least stiffness that is not 0; huge if there is no finite one
+    pure function least_stiffness(supports) result(least)
+        type(support_type), intent(in) :: supports(:)
+        real(wp) :: least
+        integer :: k
+
+        least = huge(least)
+        do k = 1, size(supports)
+            if (supports(k)%stiffness > 0.0_wp) least = min(least, supports(k)%stiffness)
+        end do
+    end function least_stiffness
+
+    !> Stiffnesses of the supports whose state may change when they are closed, infinite for rigid ones; 0 for the others
+    pure function stiffness_of_changing(supports) result(stiffness)
+        type(support_type), intent(in) :: supports(:)
+        real(wp) :: stiffness(size(supports))
+        integer :: k
+
+        do k = 1, size(supports)
+            stiffness(k) = merge(supports(k)%stiffness, 0.0_wp, supports(k)%side /= both)
+        end do
+    end function stiffness_of_changing
+
+    !> The supports whose state may change as complementary pairs: R >= 0, side (contact - w) + R compliance >= 0, their product 0
+    pure subroutine find_pairs(supports, numbers, side, contact, compliance)
+        type(support_type), intent(in) :: supports(:)
+        !> Their numbers, sides (1 or -1), contact levels, and 1/stiffness
+        integer, allocatable, intent(out) :: numbers(:)
+        real(wp), allocatable, intent(out) :: side(:), contact(:), compliance(:)
+        integer :: k
+
+        numbers = pack([(k, k=1, size(supports))], may_change(supports))
+        allocate (side(size(numbers)), contact(size(numbers)), compliance(size(numbers)))
+        do k = 1, size(numbers)
+            associate (s => supports(numbers(k)))
+                side(k) = s%side
+                contact(k) = s%contact
+                compliance(k) = 0.0_wp
+                if (.not. is_rigid(s)) compliance(k) = 1/s%stiffness
+            end associate
+        end do
+    end subroutine find_pairs
+
+    !> The nodes at which one support alone can carry, and that to one side only
+    pure subroutine find_single(supports, number, side, contact)
+        type(support_type), intent(in) :: supports(:)
+        !> Its number, 0 at other nodes; its side and contact level; shape (0:n)
+        integer, intent(out) :: number(0:), side(0:)
+        real(wp), intent(out) :: contact(0:)
+        integer :: k
+
+        number(:) = 0
+        side(:) = both
+        contact(:) = 0.0_wp
+        do k = 1, size(supports)
+            associate (s => supports(k))
+                if (.not. s%stiffness > 0.0_wp) cycle
+                ! One support beside others of its node is none
+                number(s%node) = merge(k, -1, number(s%node) == 0)
+                side(s%node) = s%side
+                contact(s%node) = s%contact
+            end associate
+        end do
+        where (number < 0 .or. side == both) number = 0
+    end subroutine find_single
+
+    !> Make a support one that holds both ways
+    elemental subroutine hold_both_ways(support)
+        type(support_type), intent(inout) :: support
+
+        support%side = both
+    end subroutine hold_both_ways
+
+    !> Make a support no stiffer than this
+    elemental subroutine limit_stiffness(support, stiffness)
+        type(support_type), intent(inout) :: support
+        real(wp), intent(in) :: stiffness
+
+        if (support%stiffness > stiffness) support%stiffness = stiffness
+    end subroutine limit_stiffness
+
+    !> Take the contact level for the origin: what is left of the law when deflections are changes
+    elemental subroutine drop_level(support)
+        type(support_type), intent(inout) :: support
+
+        support%contact = 0.0_wp
+    end subroutine drop_level
+
+end module gapbeam_law
