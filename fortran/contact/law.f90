@@ -17,7 +17,7 @@ module gapbeam_law
     use gapbeam_band, only: node_type, rhs_type, answer_type
     implicit none
     private
-    public :: support_type, below, above, both
+    public :: support_type, below, above, both, nodes_at_a_time
     public :: is_rigid, may_change, always_closed, separate_rigid_pairs
     public :: add_supports, share_forces
     public :: margin_of, margin_rates, find_margins, find_wrong_states, find_clearly_wrong_states, find_doubtful_states, &
@@ -28,6 +28,9 @@ module gapbeam_law
 
     !> Sides of a support: pushes up only, pushes down only, both
     integer, parameter :: below = 1, above = -1, both = 0
+
+    !> For so many nodes supports are best asked at a time, while what they need is in the cache
+    integer, parameter :: nodes_at_a_time = 128
 
     !> A support at a node
     type :: support_type
@@ -142,11 +145,12 @@ contains
         logical, intent(in) :: acting(:)
         !> First and last node
         integer, intent(in) :: range(2)
-        !> Nodes and their deflections, the sizes of these for rounding errors, and the force of all supports together at a
-        !> node with its rounding error, shape (0:n)
+        !> All nodes, their deflections, and the sizes of these for rounding errors, shape (0:n)
         type(node_type), intent(in) :: nodes(0:)
         type(answer_type), intent(in) :: answers(0:)
-        real(wp), intent(in) :: deflection_size(0:), force(0:), force_error(0:)
+        real(wp), intent(in) :: deflection_size(0:)
+        !> Force of all supports together at the nodes of the range, and its rounding error
+        real(wp), intent(in) :: force(range(1):), force_error(range(1):)
         !> Reactions and the rounding errors that they may have, shape (size(supports)); those at other nodes stay
         real(wp), intent(inout) :: reaction(:), reaction_error(:)
         real(wp) :: by_spring, spring_error, elastic, elastic_error, worst_error
@@ -311,26 +315,29 @@ contains
     end subroutine find_doubtful_states
 
     !> Which states are wrong, from deflections and the forces at held nodes, as long as nothing is near zero
-    pure subroutine find_clearly_wrong_states(supports, first, closed, answers, force, least_force, least_deflection, near_zero, &
-                                              wrong, doubtful)
-        !> The supports; node i has first(i + 1) - first(i) of them; the scheme
+    pure subroutine find_clearly_wrong_states(supports, order, first, closed, range, answers, force, least_force, &
+                                              least_deflection, near_zero, wrong, doubtful)
+        !> As for share_forces, and the scheme
         type(support_type), intent(in) :: supports(:)
-        integer, intent(in) :: first(0:)
+        integer, intent(in) :: order(:), first(0:)
         logical, intent(in) :: closed(:)
-        !> Deflections of the nodes; force of the supports at those that a rigid one holds, shape (0:n)
+        !> First and last node
+        integer, intent(in) :: range(2)
+        !> Deflections of all nodes, shape (0:n); force of the supports at those nodes of the range that a rigid one holds
         type(answer_type), intent(in) :: answers(0:)
-        real(wp), intent(in) :: force(0:)
+        real(wp), intent(in) :: force(range(1):)
         !> What counts as zero; for deflections this share of the contact level besides
         real(wp), intent(in) :: least_force, least_deflection, near_zero
-        !> Not all are found where something is doubtful
-        logical, intent(out) :: wrong(:)
+        !> Set for the supports of the range; for some of them only where something is doubtful
+        logical, intent(inout) :: wrong(:)
         !> Something counts as zero
         logical, intent(out) :: doubtful
         real(wp) :: pressing
-        integer :: k
+        integer :: j, k
 
         doubtful = .false.
-        do k = 1, size(closed)
+        do j = first(range(1)), first(range(2) + 1) - 1
+            k = order(j)
             wrong(k) = .false.
             associate (s => supports(k), i => supports(k)%node)
                 if (.not. may_change(s)) cycle

@@ -1,7 +1,7 @@
 !> What follows from a solution: shears, reactions, and how far rounding errors reach
 module gapbeam_reactions
     use gapbeam_kinds, only: wp
-    use gapbeam_law, only: share_forces
+    use gapbeam_law, only: share_forces, nodes_at_a_time
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, reach_type
     implicit none
@@ -141,16 +141,20 @@ contains
         !> First and last node
         integer, intent(in) :: range(2)
         type(workspace_type), intent(inout) :: work
-        integer :: i
+        real(wp) :: force(nodes_at_a_time), error(nodes_at_a_time)
+        integer :: i, j, from, to
 
-        do i = range(1), range(2)
-            if (beam%first(i + 1) == beam%first(i)) cycle
-            call force_at_node(work, i, size(beam%links), work%force(i), work%force_error(i))
-            ! For signs, rounding that comes from farther away counts as well
-            work%force_error(i) = max(work%force_error(i), epsilon(1.0_wp)*work%shear_size(i))
+        do from = range(1), range(2), nodes_at_a_time
+            to = min(from + nodes_at_a_time - 1, range(2))
+            do i = from, to
+                j = i - from + 1
+                call force_at_node(work, i, size(beam%links), force(j), error(j))
+                ! For signs, rounding that comes from farther away counts as well
+                error(j) = max(error(j), epsilon(1.0_wp)*work%shear_size(i))
+            end do
+            call share_forces(beam%supports, beam%order, beam%first, acting, [from, to], work%nodes, work%answers, &
+                              work%deflection_size, force, error, work%reaction, work%reaction_error)
         end do
-        call share_forces(beam%supports, beam%order, beam%first, acting, range, work%nodes, work%answers, work%deflection_size, &
-                          work%force, work%force_error, work%reaction, work%reaction_error)
     end subroutine find_reactions
 
     !> Force of all supports together at a node, from the shears beside it

@@ -1,7 +1,8 @@
 !> Which supports are wrong in a scheme, and which of them a rule changes
 module gapbeam_rules
     use gapbeam_kinds, only: wp
-    use gapbeam_law, only: find_margins, find_wrong_states, find_clearly_wrong_states, find_doubtful_states, largest_violations
+    use gapbeam_law, only: find_margins, find_wrong_states, find_clearly_wrong_states, find_doubtful_states, &
+        largest_violations, nodes_at_a_time
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type
     use gapbeam_reactions, only: find_own_sizes
@@ -53,25 +54,32 @@ contains
         logical, intent(in) :: closed(:)
         !> Solved by solve_deflections
         type(workspace_type), intent(inout) :: work
-        logical, intent(out) :: wrong(:)
+        logical, intent(inout) :: wrong(:)
         !> Something is so near zero that only find_wrong can tell
         logical, intent(out) :: doubtful
-        integer :: i, n
+        real(wp) :: force(nodes_at_a_time), least_force, least_deflection
+        integer :: i, n, from, to
 
         n = size(beam%links)
         call find_own_sizes(beam, [0, n], work)
-        do i = 0, n
-            if (.not. work%nodes(i)%held) cycle
-            associate (force => work%force(i), a => work%answers)
-                force = work%loads(i)%shear + work%ease(i)*(work%reference(i) - a(i)%deflection)
-                if (i > 0) force = force - (a(i)%moment_left - a(i - 1)%moment_right)*beam%links(i)%inverse
-                if (i < n) force = force + (a(i + 1)%moment_left - a(i)%moment_right)*beam%links(i + 1)%inverse
-            end associate
+        ! No rounding error that find_wrong allows for can be larger than these times some epsilon
+        least_force = near_zero*maxval(work%reach_own%shear)
+        least_deflection = near_zero*maxval(work%reach_own%deflection)
+        doubtful = .false.
+        do from = 0, n, nodes_at_a_time
+            to = min(from + nodes_at_a_time - 1, n)
+            do i = from, to
+                if (.not. work%nodes(i)%held) cycle
+                associate (force => force(i - from + 1), a => work%answers)
+                    force = work%loads(i)%shear + work%ease(i)*(work%reference(i) - a(i)%deflection)
+                    if (i > 0) force = force - (a(i)%moment_left - a(i - 1)%moment_right)*beam%links(i)%inverse
+                    if (i < n) force = force + (a(i + 1)%moment_left - a(i)%moment_right)*beam%links(i + 1)%inverse
+                end associate
+            end do
+            call find_clearly_wrong_states(beam%supports, beam%order, beam%first, closed, [from, to], work%answers, force, &
+                                           least_force, least_deflection, near_zero, wrong, doubtful)
+            if (doubtful) return
         end do
-        ! No rounding error that find_wrong allows for can be larger than these sizes times some epsilon
-        call find_clearly_wrong_states(beam%supports, beam%first, closed, work%answers, work%force, &
-                                       near_zero*maxval(work%reach_own%shear), near_zero*maxval(work%reach_own%deflection), &
-                                       near_zero, wrong, doubtful)
     end subroutine find_clearly_wrong
 
     !> Largest wrong-signed reaction relative to the largest reaction, or penetration relative to the largest deflection

@@ -4,7 +4,7 @@ module gapbeam_workspace
     use gapbeam_band, only: node_type, rhs_type, pivot_type, answer_type
     use gapbeam_residual, only: size_type
     use gapbeam_plain, only: plain_type, is_plain, prepare_plain
-    use gapbeam_law, only: add_supports
+    use gapbeam_law, only: add_supports, nodes_at_a_time
     use gapbeam_model, only: beam_type
     implicit none
     private
@@ -13,9 +13,6 @@ module gapbeam_workspace
 
     !> Which system was solved last
     integer, parameter :: method_mixed = 0, method_three_moment = 1, method_pivoting = 2
-
-    !> Nodes to which supports are added at a time, while they are in the cache
-    integer, parameter :: block_size = 64
 
     !> Sizes of a shear and of a deflection
     type :: reach_type
@@ -43,8 +40,6 @@ module gapbeam_workspace
         real(wp), allocatable :: reaction(:), reaction_error(:)
         !> Shear of every link beside that of the simple bar, (M_b - M_a)/L, and its rounding error
         real(wp), allocatable :: shear(:), shear_error(:)
-        !> Force of all supports together at a node, where it was found last, and its rounding error
-        real(wp), allocatable :: force(:), force_error(:)
         !> Moment per rotation of every link held at both ends, 1/int 1/EI; 0 for a rigid one
         real(wp), allocatable :: fixity(:)
         !> Largest contact level of the supports that act at a node
@@ -83,7 +78,7 @@ contains
         allocate (work%answers(0:n), work%correction(0:n), work%moment_work(2, 0:n), work%sizes(0:n))
         allocate (work%load_size(0:n), work%turn_size(n))
         allocate (work%shear(n), work%shear_error(n))
-        allocate (work%level(0:n), work%force(0:n), work%force_error(0:n))
+        allocate (work%level(0:n))
         allocate (work%reach_own(0:n), work%reach_left(0:n), work%reach_right(0:n))
         allocate (work%shear_size(0:n), work%deflection_size(0:n))
         allocate (work%reaction(m), work%reaction_error(m))
@@ -138,8 +133,8 @@ contains
         type(workspace_type), intent(inout) :: work
         integer :: i, from, to
 
-        do from = range(1), range(2), block_size
-            to = min(from + block_size - 1, range(2))
+        do from = range(1), range(2), nodes_at_a_time
+            to = min(from + nodes_at_a_time - 1, range(2))
             do i = from, to
                 associate (node => work%nodes(i), r => work%rhs(i))
                     node%kind = beam%kind(i)
