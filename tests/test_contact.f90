@@ -1,4 +1,4 @@
-!> Parts of the search for the working scheme, each by itself: reactions, rules, free motions, fronts, stretches cut out, interior points
+!> Parts of the search for the working scheme, each by itself
 program test_contact
     use testing, only: check, check_close, finish
     use beams, only: sample_type, make_beam, infinite
