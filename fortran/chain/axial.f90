@@ -4,6 +4,7 @@
 !> N = k u + n, the scalar counterpart of the sweep in gapbeam_band. Rigid supports and rigid bars are exact.
 module gapbeam_axial
     use gapbeam_kinds, only: wp
+    use gapbeam_require, only: checked, require
     implicit none
     private
     public :: solve_axial, axial_ok, axial_slides, axial_indeterminate
@@ -32,6 +33,10 @@ contains
         integer :: i, n
 
         n = size(flexibility)
+        if (checked) then
+            call require(all([size(force), size(stiffness), size(settlement)] == n + 1), "solve_axial: shapes")
+            call require(all(flexibility >= 0.0_wp) .and. all(stiffness >= 0.0_wp), "solve_axial: below zero")
+        end if
         allocate (k(0:n), n0(0:n), fixed(0:n), rigid(0:n))
         rigid = stiffness > huge(pull)
         state = axial_ok

@@ -20,6 +20,7 @@
 !> the sweep passes on moment and shear by statics alone and finds the deflection on the way back.
 module gapbeam_band
     use gapbeam_kinds, only: wp
+    use gapbeam_require, only: checked, require
     use gapbeam_link, only: link_type
     use gapbeam_nodes, only: plain, hinge, restrained
     implicit none
@@ -99,6 +100,7 @@ contains
         integer :: i, n, begin, finish
 
         n = size(links)
+        if (checked) call require(n > 0 .and. size(nodes) == n + 1 .and. size(pivots) == n + 1, "factor_chain: shapes")
         state = band_ok
         phi = 0.0_wp
         beta = 0.0_wp
@@ -107,6 +109,7 @@ contains
         begin = 0
         finish = n
         if (present(changed)) then
+            if (checked) call require(0 <= changed(1) .and. changed(1) <= changed(2) .and. changed(2) <= n, "factor_chain: changed")
             begin = changed(1)
             finish = changed(2)
             phi = pivots(begin)%phi
@@ -119,6 +122,8 @@ contains
             if (i > finish) then
                 if (repeats(pivots(i), phi, beta, delta, floating)) return
             end if
+            ! Sums of terms that are not negative
+            if (checked) call require(.not. (phi < 0.0_wp .or. beta < 0.0_wp .or. delta < 0.0_wp), "factor_chain: a negative term")
             associate (node => nodes(i), p => pivots(i))
                 p%floating = floating
                 p%phi = phi
@@ -236,6 +241,8 @@ contains
 
         integer :: last, first
 
+        if (checked) call require(size(nodes) == size(links) + 1 .and. size(pivots) == size(nodes) .and. &
+                                  size(rhs) == size(nodes) .and. size(answers) == size(nodes), "solve_chain: shapes")
         call eliminate(nodes, links, pivots, rhs, [0, size(links)], answers, last)
         call substitute(nodes, links, pivots, rhs, [0, size(links)], answers, first)
     end subroutine solve_chain
@@ -255,6 +262,8 @@ contains
         type(answer_type), intent(inout) :: correction(0:)
         integer, intent(out) :: window(2)
 
+        if (checked) call require(0 <= changed(1) .and. changed(1) <= changed(2) .and. changed(2) <= size(links), &
+                                  "correct_chain: changed")
         call eliminate(nodes, links, pivots, rhs, changed, correction, window(2), solution)
         call substitute(nodes, links, pivots, rhs, [changed(1), window(2)], correction, window(1), solution)
     end subroutine correct_chain

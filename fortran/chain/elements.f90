@@ -5,6 +5,7 @@
 !> 40 bytes of input, 48 of eliminated rows forward, 48 and 16 of output backward at each node.
 module gapbeam_elements
     use gapbeam_kinds, only: wp
+    use gapbeam_require, only: checked, require
     use gapbeam_kernel, only: cell_type, row_type, eliminated_type, sweep_type, last_step, start_at_free_end, &
         sweep_inward, step_alone, meet, sweep_outward
     implicit none
@@ -47,6 +48,8 @@ contains
         state = elements_bad_input
         if (n < 2) return
         if (.not. (length(1) > 0.0_wp .and. ei(1) > 0.0_wp .and. length(n) > 0.0_wp .and. ei(n) > 0.0_wp)) return
+        if (checked) call require(all([size(ei), size(q), size(stiffness) - 1, size(force) - 1, size(deflection) - 1, &
+                                       size(moment) - 1] == n) .and. size(eliminated) > last_step(n), "solve_elements: shapes")
         state = elements_mechanism
         if (.not. (stiffness(0) > 0.0_wp .and. stiffness(n) > 0.0_wp)) return
         call sweep(length, ei, q, stiffness, force, eliminated, deflection, moment, good)

@@ -4,6 +4,7 @@
 !> solve again costs less than to read one.
 module gapbeam_plain
     use gapbeam_kinds, only: wp
+    use gapbeam_require, only: checked, require
     use gapbeam_link, only: link_type
     use gapbeam_band, only: node_type, rhs_type, answer_type, plain, restrained
     use gapbeam_kernel, only: cell_type, row_type, eliminated_type, sweep_type, last_step, start_at_free_end, step_alone, &
@@ -54,6 +55,7 @@ contains
         integer :: n, s
 
         n = size(links)
+        if (checked) call require(is_plain(links, spread(plain, 1, n + 1)), "prepare_plain: a rigid link, or one link alone")
         allocate (beam%cells(0:last_step(n)), beam%rows(0:last_step(n)), beam%eliminated(0:last_step(n)))
         allocate (beam%moment(0:n), beam%deflection(0:n))
         ! Lane 1 may have nothing to do at step 0, and multiplies what it finds there all the same
@@ -83,6 +85,12 @@ contains
         integer :: n, s, i, odd, last
 
         n = ubound(nodes, 1)
+        if (checked) then
+            call require(size(beam%moment) == n + 1, "solve_plain: prepared for another beam")
+            call require(size(rhs) == n + 1 .and. size(answers) == n + 1, "solve_plain: shapes")
+            call require(ends_hold(nodes) .and. all(nodes(1:n - 1)%kind == plain), "solve_plain: nodes")
+            call require(.not. any(abs(rhs%couple) > 0.0_wp), "solve_plain: couples")
+        end if
         odd = modulo(n, 2)
         last = last_step(n)
         do s = 0, last

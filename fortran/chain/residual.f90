@@ -5,6 +5,7 @@
 !> never compile with -ffast-math. It stands here and not in a module of its own so that compilers inline it.
 module gapbeam_residual
     use gapbeam_kinds, only: wp
+    use gapbeam_require, only: checked, require
     use gapbeam_link, only: link_type
     use gapbeam_band, only: node_type, rhs_type, answer_type, plain, restrained
     implicit none
@@ -60,6 +61,7 @@ contains
         begin = 0
         finish = n
         if (present(range)) then
+            if (checked) call require(0 <= range(1) .and. range(1) <= range(2) .and. range(2) <= n, "residual_chain: range")
             begin = range(1)
             finish = range(2)
         end if

@@ -5,6 +5,7 @@
 !> of gapbeam_band with the deflections left out.
 module gapbeam_three_moment
     use gapbeam_kinds, only: wp
+    use gapbeam_require, only: checked, require
     use gapbeam_link, only: link_type
     use gapbeam_band, only: node_type, rhs_type, answer_type, plain, restrained
     implicit none
@@ -54,6 +55,10 @@ contains
         integer :: i, n, first, final
 
         n = size(links)
+        if (checked) then
+            call require(size(nodes) == n + 1 .and. size(rhs) == n + 1 .and. size(answers) == n + 1, "solve_three_moment: shapes")
+            call require(fits_three_moment(nodes), "solve_three_moment: nodes")
+        end if
         regular = .true.
         first = merge(0, 1, nodes(0)%held)
         final = merge(n, n - 1, nodes(n)%held)

@@ -14,6 +14,7 @@
 !> Loops over supports stand here as well, since procedures of other files are not inlined.
 module gapbeam_law
     use gapbeam_kinds, only: wp
+    use gapbeam_require, only: checked, require
     use gapbeam_band, only: node_type, rhs_type, answer_type
     implicit none
     private
@@ -156,6 +157,8 @@ contains
         real(wp) :: by_spring, spring_error, elastic, elastic_error, worst_error
         integer :: i, j, k, company, worst
 
+        if (checked) call require(size(force) > range(2) - range(1) .and. size(force_error) > range(2) - range(1), &
+                                  "share_forces: shapes")
         do i = range(1), range(2)
             company = 0
             elastic = 0.0_wp

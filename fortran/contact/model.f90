@@ -1,6 +1,7 @@
 !> The beam as arrays: links, nodes, supports
 module gapbeam_model
     use gapbeam_kinds, only: wp
+    use gapbeam_require, only: checked, require
     use gapbeam_link, only: link_type
     use gapbeam_law, only: support_type, below, above, both, is_rigid, least_stiffness
     implicit none
@@ -65,6 +66,12 @@ contains
         integer :: k, i, n
 
         n = size(beam%links)
+        if (checked) then
+            call require(all(supports%node >= 0 .and. supports%node <= n), "place_supports: node")
+            call require(all(abs(supports%side) <= 1), "place_supports: side")
+            call require(all(supports%stiffness >= 0.0_wp), "place_supports: stiffness")
+            call require(all(abs(supports%contact) <= huge(1.0_wp)), "place_supports: contact")
+        end if
         if (allocated(beam%supports)) deallocate (beam%supports, beam%order, beam%first)
         allocate (beam%supports(size(supports)), beam%order(size(supports)), beam%first(0:n + 1))
         beam%supports(:) = supports

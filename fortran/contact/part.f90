@@ -1,6 +1,7 @@
 !> A stretch of the beam as a beam of its own
 module gapbeam_part
     use gapbeam_kinds, only: wp, dp
+    use gapbeam_require, only: checked, require
     use gapbeam_band, only: plain
     use gapbeam_law, only: support_type, stiffness_of_changing, hold_both_ways
     use gapbeam_model, only: beam_type, place_supports
@@ -89,6 +90,7 @@ contains
         integer :: m, k
 
         m = to - from
+        if (checked) call require(0 <= from .and. from < to .and. to <= size(beam%links), "cut_out: from, to")
         allocate (part%links(m), part%kind(0:m), part%compliance(0:m), part%force(2, 0:m), part%couple(2, 0:m))
         part%links(:) = beam%links(from + 1:to)
         part%kind(:) = beam%kind(from:to)

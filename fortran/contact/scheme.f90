@@ -7,6 +7,7 @@
 !> which the loads do work, there is no equilibrium: that motion is the proof (Farkas' lemma).
 module gapbeam_scheme
     use gapbeam_kinds, only: wp, dp
+    use gapbeam_require, only: checked, require
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_no_equilibrium, &
         gapbeam_indeterminate, gapbeam_not_converged, gapbeam_not_finite
     use gapbeam_band, only: band_ok, band_needs_pivoting, hinge, restrained
@@ -77,6 +78,7 @@ contains
         logical, allocatable :: start(:)
         logical :: settled
 
+        if (checked) call require(size(closed) == size(beam%supports), "find_scheme: closed")
         closed = closed .or. always_closed(beam%supports)
         call separate_rigid_pairs(beam%supports, size(beam%links), closed)
         work%solves = 0
@@ -93,6 +95,7 @@ contains
             if (allocated(error)) call look_for_motion(beam, factor, rule, start, outcome, error)
         end if
         if (allocated(error) .or. outcome%status /= gapbeam_solved) return
+        if (checked) call require(all(closed .or. .not. always_closed(beam%supports)), "find_scheme: opened what holds both ways")
         call refine_scheme(beam, closed, work)
         if (.not. all(abs(work%answers%deflection) <= huge(1.0_wp)) .or. &
             .not. all(abs(work%answers%moment_left) <= huge(1.0_wp))) then

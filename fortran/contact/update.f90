@@ -5,6 +5,7 @@
 !> Residuals in twice the working precision, formed from the solution itself, keep errors from adding up over many changes.
 module gapbeam_update
     use gapbeam_kinds, only: wp
+    use gapbeam_require, only: checked, require
     use gapbeam_band, only: answer_type, factor_chain, correct_chain, band_ok
     use gapbeam_residual, only: residual_chain
     use gapbeam_model, only: beam_type
@@ -59,6 +60,8 @@ contains
         if (work%method == method_mixed .and. .not. work%from_both_ends) return
         call factor_chain(work%nodes, beam%links, work%pivots, state, place)
         follows = state == band_ok
+        ! Numbers may leave the range on the way where they did not from both ends
+        if (follows) follows = all(work%pivots%c <= huge(1.0_wp))
     end subroutine keep_factor
 
     !> Supports that change together: first and last node of each group
@@ -126,6 +129,7 @@ contains
         real(wp) :: relative
 
         n = size(beam%links)
+        if (checked) call require(0 <= changed(1) .and. changed(1) <= changed(2) .and. changed(2) <= n, "update_scheme: changed")
         work%method = method_mixed
         work%from_both_ends = .false.
         call apply_scheme(beam, acting, changed, work)

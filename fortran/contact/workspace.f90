@@ -1,6 +1,7 @@
 !> What solving a beam needs beside it: loads and scheme as they reach the nodes, factor, solution
 module gapbeam_workspace
     use gapbeam_kinds, only: wp
+    use gapbeam_require, only: checked, require
     use gapbeam_band, only: node_type, rhs_type, pivot_type, answer_type
     use gapbeam_residual, only: size_type
     use gapbeam_plain, only: plain_type, is_plain, prepare_plain
@@ -133,6 +134,10 @@ contains
         type(workspace_type), intent(inout) :: work
         integer :: i, from, to
 
+        if (checked) then
+            call require(size(acting) == size(beam%supports), "apply_scheme: acting")
+            call require(ubound(work%nodes, 1) == size(beam%links), "apply_scheme: workspace of another beam")
+        end if
         do from = range(1), range(2), nodes_at_a_time
             to = min(from + nodes_at_a_time - 1, range(2))
             do i = from, to
