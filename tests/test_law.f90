@@ -4,7 +4,8 @@ program test_law
     use beams, only: infinite
     use gapbeam_kinds, only: wp
     use gapbeam_band, only: node_type, rhs_type, answer_type
-    use gapbeam_law, only: support_type, below, above, both, is_rigid, may_change, always_closed, separate_rigid_pairs, &
+    use gapbeam_law, only: support_type, below, above, both, is_support, is_rigid, may_change, always_closed, &
+        separate_rigid_pairs, &
         add_supports, share_forces, margin_of, margin_rates, find_margins, find_wrong_states, find_clearly_wrong_states, &
         find_doubtful_states, largest_violations, mark_held, outermost, is_blocked, leaves_all, distance_to_contact, &
         least_stiffness, stiffness_of_changing, find_pairs, find_single, hold_both_ways, limit_stiffness, drop_level
@@ -36,6 +37,9 @@ contains
 
     !> Which states there are
     subroutine states()
+        call check(all(is_support(kinds())), "supports of every kind")
+        call check(.not. any(is_support([support_type(0, 2, 1.0_wp, 0.0_wp), support_type(0, both, -1.0_wp, 0.0_wp), &
+                                         support_type(0, both, 1.0_wp, infinite())])), "no such side, stiffness, level")
         call check(all(may_change(kinds()) .eqv. [.false., .false., .true., .true., .true.]), &
                    "only a one-sided support with a stiffness changes its state")
         call check(all(is_rigid(kinds()) .eqv. [.false., .false., .false., .true., .true.]), "infinite is rigid")

@@ -19,7 +19,7 @@ module gapbeam_law
     implicit none
     private
     public :: support_type, below, above, both, nodes_at_a_time
-    public :: is_rigid, may_change, always_closed, separate_rigid_pairs
+    public :: is_support, is_rigid, may_change, always_closed, separate_rigid_pairs
     public :: add_supports, share_forces
     public :: margin_of, margin_rates, find_margins, find_wrong_states, find_clearly_wrong_states, find_doubtful_states, &
         largest_violations
@@ -48,6 +48,14 @@ module gapbeam_law
 contains
 
     ! States
+
+    !> Are the numbers of a support such as they may be
+    elemental function is_support(support) result(it_is)
+        type(support_type), intent(in) :: support
+        logical :: it_is
+
+        it_is = abs(support%side) <= 1 .and. support%stiffness >= 0.0_wp .and. abs(support%contact) <= huge(support%contact)
+    end function is_support
 
     !> Is a support rigid
     elemental function is_rigid(support) result(rigid)

@@ -3,7 +3,7 @@ module gapbeam_model
     use gapbeam_kinds, only: wp
     use gapbeam_require, only: checked, require
     use gapbeam_link, only: link_type
-    use gapbeam_law, only: support_type, below, above, both, is_rigid, least_stiffness
+    use gapbeam_law, only: support_type, below, above, both, is_rigid, is_support, least_stiffness
     implicit none
     private
     public :: beam_type, new_beam, place_supports, softest
@@ -68,9 +68,7 @@ contains
         n = size(beam%links)
         if (checked) then
             call require(all(supports%node >= 0 .and. supports%node <= n), "place_supports: node")
-            call require(all(abs(supports%side) <= 1), "place_supports: side")
-            call require(all(supports%stiffness >= 0.0_wp), "place_supports: stiffness")
-            call require(all(abs(supports%contact) <= huge(1.0_wp)), "place_supports: contact")
+            call require(all(is_support(supports)), "place_supports: side, stiffness or contact level")
         end if
         if (allocated(beam%supports)) deallocate (beam%supports, beam%order, beam%first)
         allocate (beam%supports(size(supports)), beam%order(size(supports)), beam%first(0:n + 1))
