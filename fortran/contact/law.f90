@@ -120,7 +120,8 @@ contains
         !> Raised to the largest absolute contact level of the acting supports of a node, shape (0:n)
         real(wp), intent(inout) :: level(0:)
         !> Springs, and where they are without force, in place of the one-sided supports, acting or not, shape (size(supports))
-        real(wp), intent(in), optional :: spring(:), spring_contact(:)
+        !> (contiguous, or gfortran looks at the stride of what is absent)
+        real(wp), intent(in), contiguous, optional :: spring(:), spring_contact(:)
         logical :: sprung
         integer :: j, k
 
