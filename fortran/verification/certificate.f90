@@ -82,7 +82,8 @@ contains
         if (allocated(error) .or. outcome%status /= gapbeam_solved) return
         allocate (undecided(size(closed)))
         call find_undecided(fine, real(factor, qp), acting, work, undecided)
-        certificate%known = .not. (outcome%indifferent .or. held_by_ties(fine, acting, undecided))
+        certificate%known = .not. outcome%indifferent
+        if (certificate%known) certificate%known = .not. held_by_ties(fine, acting, undecided)
         call find_movements(beam, factor, closed, real(work%ease, wp), deflection, moment_left, moment_right, moves, inside)
         call compare_fields(detail, factor, fine, work, starts, certificate)
         associate (a => work%answers)

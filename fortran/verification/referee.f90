@@ -87,7 +87,7 @@ contains
         if (in_doubt) then
             call refer(beam, detail, factor, closed, undecided, work, outcome, error)
         else if (outcome%status == gapbeam_solved) then
-            outcome%indifferent = outcome%indifferent .or. held_by_ties(beam, closed, undecided)
+            if (.not. outcome%indifferent) outcome%indifferent = held_by_ties(beam, closed, undecided)
         end if
         if (allocated(error) .or. outcome%status /= gapbeam_solved) return
         call move_alloc(undecided, outcome%undecided)
@@ -185,7 +185,7 @@ contains
             return
         end if
         call find_undecided(fine, real(factor, qp), closed, fine_work, undecided)
-        outcome%indifferent = outcome%indifferent .or. fine_held_by_ties(fine, closed, undecided)
+        if (.not. outcome%indifferent) outcome%indifferent = fine_held_by_ties(fine, closed, undecided)
         associate (a => fine_work%answers)
             work%answers%deflection = real(a%deflection, wp)
             work%answers%moment_left = real(a%moment_left, wp)

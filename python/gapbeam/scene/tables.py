@@ -143,7 +143,7 @@ def _columns(key: str, value: Any) -> tuple[dict[str, Any], int] | None:
         value = {name: value[name] for name in value.dtype.names}
     if not isinstance(value, Mapping):
         return None
-    columns = {name: np.asarray(one) if isinstance(one, list | np.ndarray) else one for name, one in value.items()}
+    columns = {name: np.asanyarray(one) if isinstance(one, list | np.ndarray) else one for name, one in value.items()}
     columns = {name: one.to_numpy() if hasattr(one, "to_numpy") else one for name, one in columns.items()}
     lengths = {name: len(one) for name, one in columns.items() if isinstance(one, np.ndarray) and one.ndim}
     if not lengths:
@@ -174,13 +174,15 @@ def _table(key: str, columns: dict[str, Any], count: int) -> Table | None:
 
 def _clean(kind: Any, name: str, value: Any) -> Any:
     """A column of numbers, whole numbers or words of a choice; None for anything else."""
-    array = np.asarray(value)
+    array = np.asanyarray(value)
     words = {word for part in (kind, *get_args(kind)) for word in get_args(part) if isinstance(word, str)}
+    if np.ma.isMaskedArray(value):
+        return None
     if array.dtype.kind == "U" and words:
         return value if set(np.unique(array).tolist()) <= words else None
     if name == "node":
         return value if array.dtype.kind in "iu" else None
-    if array.dtype.kind not in "iuf" or array.dtype.itemsize > 8 or np.ma.isMaskedArray(value) or (words and name != "rotation"):
+    if array.dtype.kind not in "iuf" or array.dtype.itemsize > 8 or (words and name != "rotation"):
         return None
     return array.astype(float) if array.ndim else float(array)
 

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import astuple, dataclass
+from functools import partial
+from multiprocessing import get_context
 from time import perf_counter
 from typing import Any
 
@@ -19,18 +22,19 @@ from .page import Page
 from .schemes import gapped_spans, sprung_base
 from .truth import error, solve_exactly
 
-COLUMNS = ("problem", "program", "time", "faster", "solves", "deflection", "reaction", "states")
+COLUMNS = ("problem", "program", "cold", "faster cold", "hot", "faster hot", "solves", "deflection", "reaction", "states")
 """Headings of the table."""
 WORDS = (
     "Reference problem P6: work A, many spans on elastic one-sided supports with gaps; work B, a free beam on a one-sided",
     "foundation of springs. The active set is what a user would write with numpy and scipy: cubic Hermite elements (4 a span in",
     "work A), all wrong supports switched at once, banded Cholesky; plain, or incremental with residuals formed element by",
-    "element. All start with the same dict and end with deflection, reaction and state of every support, inside Python; the",
-    "engine alone goes from plain arrays to the same answers, compiled; prepared scene is what a further load case takes once",
-    "gapbeam.prepare has read the dict, alone, or for each of many cases in one call: then nearly all of it is the engine, and the",
-    "rest of a case alone is the call from Python; most of the time of gapbeam.solve is reading and checking the dict. They are",
-    "run in turn, the fastest of several counts. faster: how many times faster than the plain active set. Errors are relative to",
-    "the largest value at a support, against decimals of 80 digits; states counts supports whose state is wrong.",
+    "element. All start with the same dict, or columns, and end with deflection, reaction and state of every support, inside",
+    "Python; the engine alone goes from plain arrays to the same answers, compiled; prepared scene is what a further load case",
+    "takes once gapbeam.prepare has read the dict, alone, or for each of many cases in one call. cold: the first call in a process",
+    "of its own, once all is imported and a small problem has been solved, the fastest of three processes; hot: again and again in",
+    "turn in one process, the fastest of several counts. faster: how many times faster than the incremental active set, which has",
+    "all digits as gapbeam has. Errors are relative to the largest value at a support, against decimals of 80 digits; states",
+    "counts supports whose state is wrong.",
 )
 """What the table shows."""
 ROUNDS = 100
@@ -42,8 +46,12 @@ SIZES = (
     (("work B", "springs"), sprung_base, 1, (100, 1000, 10_000)),
 )
 """Name, maker, elements a span, and sizes of the two works."""
-OWN, PLAIN = "gapbeam.solve", "active set"
+OWN, BESIDE = "gapbeam.solve", "active set, incremental"
 """The program that is measured, and the one it is set beside."""
+FROM_COLUMNS, PLAIN = "gapbeam.solve, columns", "active set"
+"""The same from columns; the active set without incremental residuals."""
+PROCESSES = 3
+"""Processes in which every program is started cold."""
 PREPARED, TOGETHER = "prepared scene", "prepared, cases together"
 """A further load case, alone and one of many."""
 CASES = 3000
@@ -63,10 +71,11 @@ class Row:
     ----------
     problem, program : str
         Their names.
-    seconds : float
-        From the dict to the answer, the fastest.
-    faster : float
-        How many times faster than the plain active set.
+    cold, faster_cold : float
+        Seconds of the first call in a process of its own, and how many times faster that is than the incremental active set;
+        not-a-number for what is not started cold.
+    seconds, faster : float
+        The same again and again in one process.
     solves : int
         Linear solves.
     deflection, reaction : float
@@ -77,6 +86,8 @@ class Row:
 
     problem: str
     program: str
+    cold: float
+    faster_cold: float
     seconds: float
     faster: float
     solves: int
@@ -101,19 +112,17 @@ def contact(largest: int = 10_000) -> Iterator[Row]:
     for (work, unit), make, parts, sizes in SIZES:
         for count in sizes:
             if count <= largest:
-                yield from _side_by_side(f"{work}, {count:,} {unit}", make(count), parts)
+                yield from _side_by_side(f"{work}, {count:,} {unit}", make, count, parts)
 
 
-def _side_by_side(problem: str, scene: dict[str, Any], parts: int) -> Iterator[Row]:
+def _side_by_side(problem: str, make: Callable[[int], dict[str, Any]], count: int, parts: int) -> Iterator[Row]:
+    scene = make(count)
     beam, prepared = mesh(scene, 1), prepare(scene)
     cases = np.ones((max(2, CASES // beam.elements), len(prepared.scene.loads)))
     programs: dict[str, Callable[[], Found]] = {
-        OWN: lambda: _own(scene),
-        PREPARED: lambda: _prepared(prepared),
+        **{name: ready(scene, parts) for name, ready in READY.items()},
         TOGETHER: lambda: _together(prepared, cases),
         "engine alone": lambda: _engine_alone(beam),
-        PLAIN: lambda: _active_set(scene, parts, incremental=False),
-        "active set, incremental": lambda: _active_set(scene, parts, incremental=True),
     }
     answers = {name: run() for name, run in programs.items()}
     truth = solve_exactly(beam, answers[OWN][2])
@@ -127,10 +136,52 @@ def _side_by_side(problem: str, scene: dict[str, Any], parts: int) -> Iterator[R
             run()
             seconds[name] = min(seconds[name], perf_counter() - start)
     seconds[TOGETHER] /= len(cases)
+    cold = dict.fromkeys(programs, np.nan) | _cold(make, count, parts)
     for name, (w, reaction, closed, solves) in answers.items():
         errors = error(w, truth.deflection), error(reaction, truth.reaction)
         wrong = int(np.count_nonzero(closed != truth.closed))
-        yield Row(problem, name, seconds[name], seconds[PLAIN] / seconds[name], solves, *errors, wrong)
+        times = cold[name], cold[BESIDE] / cold[name], seconds[name], seconds[BESIDE] / seconds[name]
+        yield Row(problem, name, *times, solves, *errors, wrong)
+
+
+def _cold(make: Callable[[int], dict[str, Any]], count: int, parts: int) -> dict[str, float]:
+    """Seconds of the first call of every program that a user may start with."""
+    found = dict.fromkeys(READY, np.inf)
+    for _ in range(PROCESSES):
+        for name in READY:
+            with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as process:
+                found[name] = min(found[name], process.submit(_first_call, name, make, count, parts).result())
+    return found
+
+
+def _first_call(name: str, make: Callable[[int], dict[str, Any]], count: int, parts: int) -> float:
+    READY[name](make(3), parts)()  # imports what is imported on first use
+    run = READY[name](make(count), parts)
+    begin = perf_counter()
+    run()
+    return perf_counter() - begin
+
+
+def as_columns(scene: dict[str, Any]) -> dict[str, Any]:
+    """Write the supports of a scene, and loads of one type, as columns.
+
+    Parameters
+    ----------
+    scene : dict
+        With supports at nodes.
+
+    Returns
+    -------
+    dict
+        The same scene.
+    """
+    supports, loads = scene["supports"], scene["loads"]
+    defaults = {"side": "both", "stiffness": np.inf, "gap": 0.0}
+    made = {key: np.array([support.get(key, default) for support in supports]) for key, default in defaults.items()}
+    made["node"] = np.array([support["node"] for support in supports])
+    if len({tuple(load) for load in loads}) == 1:
+        loads = {key: np.array([load[key] for load in loads]) for key in loads[0]} | {"type": loads[0]["type"]}
+    return {**scene, "beam": {**scene["beam"], "spans": np.array(scene["beam"]["spans"])}, "supports": made, "loads": loads}
 
 
 def _own(scene: dict[str, Any]) -> Found:
@@ -158,6 +209,16 @@ def _active_set(scene: dict[str, Any], parts: int, incremental: bool) -> Found:
     return found.deflection, found.reaction, found.closed, found.solves
 
 
+READY: dict[str, Callable[[dict[str, Any], int], Callable[[], Found]]] = {
+    OWN: lambda scene, _: partial(_own, scene),
+    FROM_COLUMNS: lambda scene, _: partial(_own, as_columns(scene)),
+    PREPARED: lambda scene, _: partial(_prepared, prepare(scene)),
+    PLAIN: lambda scene, parts: partial(_active_set, scene, parts, incremental=False),
+    BESIDE: lambda scene, parts: partial(_active_set, scene, parts, incremental=True),
+}
+"""What a user may start with: makes the call for a scene."""
+
+
 def table(rows: Iterable[Row]) -> list[list[str]]:
     """Write the rows as text.
 
@@ -175,8 +236,7 @@ def table(rows: Iterable[Row]) -> list[list[str]]:
         [
             row.problem,
             row.program,
-            fmt.duration(row.seconds),
-            f"{row.faster:.2g}",
+            *(text for time, faster in ((row.cold, row.faster_cold), (row.seconds, row.faster)) for text in _timed(time, faster)),
             str(row.solves),
             f"{row.deflection:.0e}",
             f"{row.reaction:.0e}",
@@ -184,6 +244,10 @@ def table(rows: Iterable[Row]) -> list[list[str]]:
         ]
         for row in rows
     ]
+
+
+def _timed(seconds: float, faster: float) -> tuple[str, str]:
+    return ("-", "-") if np.isnan(seconds) else (fmt.duration(seconds), f"{faster:.2g}")
 
 
 def values(rows: Iterable[Row]) -> list[tuple]:
