@@ -177,8 +177,11 @@ contains
                 end if
             end associate
         end do
-        ! No moment of the simple bar exceeds the sum of the peaks of all loads alone
-        link%turn_sum(k) = link%turn_sum(k) + link%bending*peaks + slips/link%length
+        ! No moment of the simple bar exceeds the sum of the peaks of all loads alone. Ends held fast against a slip meet the shear
+        ! compliance, too: it counts as a rotation that bending alone would answer with the same moment
+        slips = slips/link%length
+        if (link%determinant > 0.0_wp) slips = min(slips, slips*link%bending*(link%bending/link%determinant))
+        link%turn_sum(k) = link%turn_sum(k) + link%bending*peaks + slips
         link%turn_a(k) = total(turn_a) - total(slip)/link%length
         link%turn_b(k) = total(turn_b) + total(slip)/link%length
         link%shear_a(k) = right_end/link%length

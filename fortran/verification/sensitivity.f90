@@ -31,6 +31,8 @@ module gapbeam_sensitivity
         real(wp), allocatable :: weight(:, :)
         !> What loads and shears at held nodes may be off: they go into the reactions only
         real(wp) :: at_held = 0.0_wp
+        !> What couples at nodes may be off: moments beside them, and shears of links, that follow from them directly
+        real(wp) :: of_couple = 0.0_wp, of_couple_shear = 0.0_wp
     end type sensitivity_type
 
 contains
@@ -54,6 +56,7 @@ contains
         call residual_chain(work%nodes, beam%links, work%rhs, work%answers, work%eliminated, work%sizes, compatibility, &
                             equilibrium)
         call add_load_sizes(beam, factor, work)
+        call add_couple_sizes(beam, factor, work, sensitivity)
         allocate (sensitivity%weight(3, 0:n))
         do i = 0, n
             associate (s => work%sizes(i), weight => sensitivity%weight(:, i))
@@ -93,6 +96,56 @@ contains
             end associate
         end do
     end subroutine add_load_sizes
+
+    !> So are couples at nodes: they are the step of the moment there, and what one side of it does to its link is as uncertain
+    pure subroutine add_couple_sizes(beam, factor, work, sensitivity)
+        type(beam_type), intent(in) :: beam
+        real(wp), intent(in) :: factor
+        type(workspace_type), intent(inout) :: work
+        type(sensitivity_type), intent(inout) :: sensitivity
+        real(wp) :: couple
+        integer :: i, n
+
+        n = size(beam%links)
+        do i = 0, n
+            couple = dot_product([1.0_wp, abs(factor)], abs(beam%couple(:, i)))
+            if (.not. couple > 0.0_wp) cycle
+            sensitivity%of_couple = max(sensitivity%of_couple, epsilon(1.0_dp)*couple)
+            if (beam%kind(i) == restrained) then
+                call add_turn(i, .true., work, beam%compliance(i)*couple)
+                call add_turn(i, .false., work, beam%compliance(i)*couple)
+            else
+                associate (k => min(i + 1, n))
+                    associate (link => beam%links(k), a => work%sizes(k - 1), b => work%sizes(k))
+                        call add_turn(k - 1, .false., work, merge(link%faa, abs(link%fab), i < n)*couple)
+                        call add_turn(k, .true., work, merge(abs(link%fab), link%fbb, i < n)*couple)
+                        a%shear = a%shear + couple*link%inverse
+                        b%shear = b%shear + couple*link%inverse
+                        sensitivity%of_couple_shear = max(sensitivity%of_couple_shear, epsilon(1.0_dp)*couple*link%inverse)
+                    end associate
+                end associate
+            end if
+        end do
+
+    contains
+
+        !> A rotation left or right of a node, if there is a row for it
+        pure subroutine add_turn(k, left, work, turn)
+            integer, intent(in) :: k
+            logical, intent(in) :: left
+            type(workspace_type), intent(inout) :: work
+            real(wp), intent(in) :: turn
+
+            associate (s => work%sizes(k))
+                if (beam%kind(k) == restrained .and. left) then
+                    s%left = s%left + turn
+                else if (beam%kind(k) == restrained .or. (beam%kind(k) == plain .and. k > 0 .and. k < n)) then
+                    s%right = s%right + turn
+                end if
+            end associate
+        end subroutine add_turn
+
+    end subroutine add_couple_sizes
 
     !> The most that any result of a kind moves
     subroutine largest_movement(beam, sensitivity, kind, work, movement)
@@ -136,6 +189,8 @@ contains
         call solve(rhs)
         movement = max(movement, 2*sum(abs(weighed()))/(3*size(x)))
         if (kind == of_reactions) movement = movement + sensitivity%at_held
+        if (kind == of_moments) movement = movement + sensitivity%of_couple
+        if (kind == of_shears) movement = movement + sensitivity%of_couple_shear
 
     contains
 
