@@ -163,3 +163,16 @@ def test_a_support_without_stiffness_is_open():
         assert step.state[2] == "open"
         assert step.opening[2] == pytest.approx(0.1 + 5 * 4.0**4 / (384 * 1e4), rel=1e-12)
     assert not refused or refused.startswith("supports[2].stiffness: ")
+
+
+@pytest.mark.parametrize(
+    ("family", "seed"),
+    [
+        (events, 15138),  # a couple at an elastic end that the load nearly takes away
+        (events, 16551),  # a rigid stretch, where quadruple precision needs refinement to tell signs
+        (events, 19387),  # imposed curvature makes no force, but rounding of one beside a short span
+        (signs, 13882),  # a couple on a beam far softer in shear than in bending
+    ],
+)
+def test_seeds_that_were_wrong(family, seed):
+    assert family.FAMILY.judge_seed(seed).wrong == []

@@ -1,6 +1,6 @@
 !> One working scheme solved: the system it needs is chosen, assembled and solved; reactions follow.
 module gapbeam_system
-    use gapbeam_kinds, only: wp, dp
+    use gapbeam_kinds, only: wp
     use gapbeam_band, only: factor_chain, solve_chain, band_ok, band_mechanism, band_needs_pivoting
     use gapbeam_residual, only: residual_chain
     use gapbeam_three_moment, only: fits_three_moment, solve_three_moment
@@ -107,7 +107,6 @@ contains
         logical :: regular
 
         if (work%method == method_pivoting) return  ! LAPACK's expert driver has refined already
-        if (digits(1.0_wp) > digits(1.0_dp)) return  ! Quadruple precision has digits to spare
         call residual_chain(work%nodes, beam%links, work%rhs, work%answers, work%eliminated, &
                             work%sizes, work%compatibility, work%equilibrium)
         if (fits_three_moment(work%nodes)) then
