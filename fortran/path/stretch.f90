@@ -16,7 +16,7 @@ module gapbeam_stretch
     public :: stretch_type, new_stretch, start_stretch, change_supports, add_those_at_zero, next_in_queue, line_in, same_factor
 
     !> What happens so near to each other, relative to the factor or the way, happens at the same factor
-    real(wp), parameter :: same_factor = 1e-12_wp
+    real(wp), parameter :: same_factor = 1e-15_wp
     !> Share of its factor by which an event may be off in doubles; if it may be more, it is found in quadruple precision
     real(wp), parameter :: coarse = 1e-9_wp
 
