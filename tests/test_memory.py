@@ -12,6 +12,7 @@ import gapbeam
 import numpy as np
 import pytest
 from gapbeam.base.errors import Status, check_status
+from gapbeam.scene import read_scene
 
 resource = pytest.importorskip("resource")
 
@@ -63,7 +64,13 @@ def cases(scene):
     return [found.reaction, found.deflection]
 
 
+def read_again(scene):
+    """Check a scene that was built in Python."""
+    return [read_scene(scene).beam.spans]
+
+
 CALLS = {
+    "structs": (read_again, read_scene(long_beam("steps")), 3_000_000, 25),
     "two springs": (every_answer, TWO_SPRINGS, 400_000, 25),
     "seesaw": (every_answer, SEESAW, 400_000, 25),
     "two springs as cases": (cases, TWO_SPRINGS, 400_000, 25),

@@ -37,7 +37,7 @@ def typed(source: S | Mapping[str, Any], struct: type[S]) -> S:
     """
     try:
         if isinstance(source, struct):
-            return msgspec.msgpack.decode(msgspec.msgpack.encode(source, enc_hook=_simple), type=struct)
+            return msgspec.msgpack.decode(_packed(source), type=struct)
         if not _has_structs(source):
             return msgspec.convert(_with_lists(source), struct)
     except (msgspec.ValidationError, OverflowError, RecursionError, TypeError, UnicodeEncodeError):
@@ -68,7 +68,14 @@ def plain(struct: msgspec.Struct) -> dict[str, Any]:
     dict
         By its keys.
     """
-    return msgspec.msgpack.decode(msgspec.msgpack.encode(struct, enc_hook=_simple), strict=False)
+    return msgspec.msgpack.decode(_packed(struct), strict=False)
+
+
+def _packed(struct: msgspec.Struct) -> bytearray:
+    """MessagePack of a struct; `encode` would end the process where there is no memory for it (msgspec 0.22)."""
+    packed = bytearray()
+    msgspec.msgpack.Encoder(enc_hook=_simple).encode_into(struct, packed)
+    return packed
 
 
 def _simple(value: Any) -> Any:
