@@ -22,7 +22,7 @@ module gapbeam_cell
     public :: cell_type, find_cell
 
     !> The first factor tried is above the given one by this share of the way; none nearer than this is
-    real(wp), parameter :: first_share = 2.0_wp**(-40), last_share = 2.0_wp**(-46)
+    real(wp), parameter :: first_share = 2.0_wp**(-40), last_share = 2.0_wp**(-48)
     !> What happens within this share of the way is not seen where even this precision cannot tell what falls
     real(wp), parameter :: unseen_share = 2.0_wp**(-24)
     !> Weak springs that hold a beam that is free to move, relative to those of the search
