@@ -109,4 +109,4 @@ def test_page_of_the_documentation_is_the_command_s():
     lines = [line.split(" | ") for line in DOCS.read_text().splitlines() if line.startswith("| ")]
     found = [(line[0].removeprefix("| "), line[1]) for line in lines[1:]]
     assert found == [(case.corner, case.value) for case in cases()]
-    assert DOCS.read_text().startswith(study.to_markdown([study.Row("", "", 0)]).partition("Worst")[0])
+    assert DOCS.read_text().startswith(study.PAGE.markdown(study.table([study.Row("", "", 0)]), "Worst").partition("Worst")[0])

@@ -3,7 +3,7 @@
 import pytest
 from gapbeam import solve
 from gapbeam.studies.fronts import random_front, scaled
-from gapbeam.studies.schemes import gapped_spans, lifted_end, schemes, sprung_base, to_markdown
+from gapbeam.studies.schemes import PAGE, gapped_spans, lifted_end, schemes, sprung_base, table
 
 
 @pytest.fixture(scope="module")
@@ -21,7 +21,7 @@ def test_small_problems_end_from_every_start_by_both_rules(rows):
 
 
 def test_page_has_a_line_for_every_problem(rows):
-    page = to_markdown(list(rows.values()))
+    page = PAGE.markdown(table(list(rows.values())))
     assert all(name in page for name in rows)
 
 

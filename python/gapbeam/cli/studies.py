@@ -83,11 +83,15 @@ def _add_tables(parser: argparse.ArgumentParser) -> None:
 
 def _study_extremes(arguments: argparse.Namespace) -> int:
     outputs = _outputs(arguments)
-    from ..studies.corners import extremes, print_extremes, to_csv, to_markdown
+    from ..studies.corners import PAGE, extremes, table, values, worst
     from ..studies.extremes import cases
 
+    forms = {
+        "--csv": lambda rows: PAGE.csv(values(rows), "worst in"),
+        "--markdown": lambda rows: PAGE.markdown(table(rows), worst(rows)),
+    }
     rows = list(extremes(cases(arguments.largest)))
-    return _tell(outputs, {"--csv": to_csv, "--markdown": to_markdown}, print_extremes, rows)
+    return _tell(outputs, forms, lambda rows: PAGE.show(table(rows), remark=worst(rows)), rows)
 
 
 def _study_accuracy(arguments: argparse.Namespace) -> int:
@@ -150,9 +154,10 @@ def _study_kernel(arguments: argparse.Namespace) -> int:
 
 def _study_schemes(arguments: argparse.Namespace) -> int:
     outputs = _outputs(arguments)
-    from ..studies.schemes import print_schemes, schemes, to_markdown
+    from ..studies.schemes import PAGE, schemes, table
 
-    return _tell(outputs, {"--markdown": to_markdown}, print_schemes, list(schemes()))
+    forms = {"--markdown": lambda rows: PAGE.markdown(table(rows))}
+    return _tell(outputs, forms, lambda rows: PAGE.show(table(rows)), list(schemes()))
 
 
 def _outputs(arguments: argparse.Namespace, scene: str | None = None) -> Outputs:

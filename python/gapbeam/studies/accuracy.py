@@ -16,7 +16,6 @@ from ..results import formatting as fmt
 from ..results.stepping import solve
 from ..scene.reading import read_scene
 from ..scene.structs import Analysis, Scene
-from .corners import literal_markdown, markdown_table
 from .exact import Reference
 from .meshes import MeshedBeam, Unfit, many_spans, mesh, one_span, soft_and_stiff, stiffness_jumps
 from .methods import (
@@ -31,6 +30,7 @@ from .methods import (
     front,
     methods,
 )
+from .page import literal_markdown, markdown_table
 from .page import to_csv as csv_text
 from .schemes import gapped_spans
 from .truth import solve_exactly, solve_one_span

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
-import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from math import inf, isnan, nan
@@ -19,9 +16,10 @@ from ..results.stepping import solve
 from ..scene.reading import read_scene
 from .exact import Reference
 from .extremes import Case, cases
+from .page import Page
 
 if TYPE_CHECKING:
-    from rich.console import Console
+    pass
 
 COLUMNS = ("corner", "value", "scenes", "true error", "error bound", "time", "solves")
 """Headings of the table."""
@@ -184,8 +182,8 @@ def _small(value: float) -> str:
     return "-" if isnan(value) else "0" if value == 0.0 else f"{value:.1e}"
 
 
-def to_csv(rows: Iterable[Row]) -> str:
-    """Write the rows as comma-separated values.
+def values(rows: Iterable[Row]) -> list[tuple]:
+    """Give the rows with all digits, times in seconds.
 
     Parameters
     ----------
@@ -194,19 +192,14 @@ def to_csv(rows: Iterable[Row]) -> str:
 
     Returns
     -------
-    str
-        With all digits; times in seconds.
+    list of tuple
+        As many columns as `COLUMNS`, and what the largest error is in.
     """
-    stream = io.StringIO()
-    writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow([*COLUMNS, "worst in"])
-    for row in rows:
-        writer.writerow([row.corner, row.value, row.scenes, row.error, row.bound, row.seconds, row.solves, row.kind])
-    return stream.getvalue()
+    return [(row.corner, row.value, row.scenes, row.error, row.bound, row.seconds, row.solves, row.kind) for row in rows]
 
 
-def to_markdown(rows: list[Row]) -> str:
-    """Write the page of the documentation.
+def worst(rows: list[Row]) -> str:
+    """Name the largest error of all that are well conditioned.
 
     Parameters
     ----------
@@ -217,97 +210,9 @@ def to_markdown(rows: list[Row]) -> str:
     -------
     str
     """
-    return page("Extremes", "extremes", [*WORDS, "", f"Worst of all: {_worst(rows)}"], COLUMNS, table(rows), texts=2)
+    found = max((row for row in rows if not row.ill_conditioned), key=lambda row: inf if isnan(row.error) else row.error)
+    return f"Worst of all: {_small(found.error)} ({found.corner}, {found.value}: {found.kind})."
 
 
-def page(title: str, study: str, words: Iterable[str], columns: Iterable[str], cells: list[list[str]], texts: int) -> str:
-    """Compose a page of the documentation that holds one table.
-
-    Parameters
-    ----------
-    title, study : str
-        Heading, and the name of the study, which is also that of the page.
-    words : iterable of str
-        What the table shows, line by line.
-    columns : iterable of str
-        Headings of the table.
-    cells : list of list of str
-        Its rows.
-    texts : int
-        How many columns are texts, the others are numbers.
-
-    Returns
-    -------
-    str
-    """
-    made = f"This page is made by `gapbeam study {study} --markdown docs/{study}.md`."
-    return "\n".join([f"# {title}", "", made, "", *words, "", *markdown_table(columns, cells, texts)]) + "\n"
-
-
-def markdown_table(columns: Iterable[str], cells: list[list[str]], texts: int) -> list[str]:
-    """Write one table of a page.
-
-    Parameters
-    ----------
-    columns, cells, texts
-        As for `page`.
-
-    Returns
-    -------
-    list of str
-        Its lines.
-    """
-    rule = "|---" * texts + "|---:" * (len(cells[0]) - texts) + "|"
-    rows = ["| " + " | ".join(row) + " |" for row in (list(columns), *cells)]
-    return [rows[0], rule, *rows[1:]]
-
-
-def literal_markdown(text: str) -> str:
-    r"""Write a text of the user so that Markdown shows it as it is.
-
-    Parameters
-    ----------
-    text : str
-        One line.
-
-    Returns
-    -------
-    str
-
-    Examples
-    --------
-    >>> literal_markdown("EI_1 <b> [x](y)")
-    'EI\\_1 \\<b\\> \\[x\\](y)'
-    """
-    return re.sub(r"([\\`*_\[\]<>#|$~])", r"\\\1", text)
-
-
-def print_extremes(rows: list[Row], console: Console | None = None) -> None:
-    """Print the table.
-
-    Parameters
-    ----------
-    rows : list of Row
-        From `extremes`.
-    console : rich.console.Console, optional
-        Where to print; default standard output.
-    """
-    from rich.console import Console
-
-    from ..report.writer import Writer
-
-    say = Writer(console or Console(highlight=False))
-    say.line("Extremes", "bold")
-    say.line(" ".join(WORDS), "dim")
-    say.line()
-    for corner in dict.fromkeys(row.corner for row in rows):
-        say.line()
-        cells = table(row for row in rows if row.corner == corner)
-        say.table((corner, *COLUMNS[2:]), [line[1:] for line in cells], left=(0,))
-    say.line()
-    say.line(f"Worst of all: {_worst(rows)}")
-
-
-def _worst(rows: list[Row]) -> str:
-    worst = max((row for row in rows if not row.ill_conditioned), key=lambda row: inf if isnan(row.error) else row.error)
-    return f"{_small(worst.error)} ({worst.corner}, {worst.value}: {worst.kind})."
+PAGE = Page("extremes", "Extremes", WORDS, COLUMNS, texts=2)
+"""How the table is written and printed."""

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Sequence
+import re
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
-
-from .corners import page
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -36,36 +35,43 @@ class Page:
     columns: Sequence[str]
     texts: int
 
-    def markdown(self, cells: list[list[str]]) -> str:
+    def markdown(self, cells: list[list[str]], remark: str = "") -> str:
         """Write the page of the documentation.
 
         Parameters
         ----------
         cells : list of list of str
             The rows.
+        remark : str
+            What is to be said of them.
 
         Returns
         -------
         str
         """
-        return page(self.title, self.study, self.words, self.columns, cells, self.texts)
+        made = f"This page is made by `gapbeam study {self.study} --markdown docs/{self.study}.md`."
+        said = ["", remark] if remark else []
+        table = markdown_table(self.columns, cells, self.texts)
+        return "\n".join([f"# {self.title}", "", made, "", *self.words, *said, "", *table]) + "\n"
 
-    def csv(self, values: Sequence[Sequence]) -> str:
+    def csv(self, values: Sequence[Sequence], *more: str) -> str:
         """Write comma-separated values.
 
         Parameters
         ----------
         values : sequence of sequence
             The rows, with all digits.
+        *more : str
+            Headings of further columns.
 
         Returns
         -------
         str
         """
-        return to_csv(self.columns, values)
+        return to_csv((*self.columns, *more), values)
 
-    def show(self, cells: list[list[str]], console: Console | None = None) -> None:
-        """Print the table, a part for each group of rows.
+    def show(self, cells: list[list[str]], console: Console | None = None, remark: str = "") -> None:
+        """Print the table, a part for each group of rows where the first column names one.
 
         Parameters
         ----------
@@ -73,6 +79,8 @@ class Page:
             The rows.
         console : rich.console.Console, optional
             Where to print; default standard output.
+        remark : str
+            What is to be said of the rows.
         """
         from rich.console import Console
 
@@ -81,10 +89,16 @@ class Page:
         say = Writer(console or Console(highlight=False))
         say.line(self.title, "bold")
         say.line(" ".join(self.words), "dim")
-        for group in dict.fromkeys(row[0] for row in cells):
+        if self.texts == 1:
+            say.line()
+            say.table(self.columns, cells, left=(0,))
+        for group in dict.fromkeys(row[0] for row in cells if self.texts > 1):
             say.heading(group)
             rows = [row[1:] for row in cells if row[0] == group]
             say.table(self.columns[1:], rows, left=range(self.texts - 1))
+        if remark:
+            say.line()
+            say.line(remark)
 
 
 def to_csv(columns: Sequence[str], values: Sequence[Sequence]) -> str:
@@ -109,3 +123,45 @@ def to_csv(columns: Sequence[str], values: Sequence[Sequence]) -> str:
     stream = io.StringIO()
     csv.writer(stream, lineterminator="\n").writerows([columns, *values])
     return stream.getvalue()
+
+
+def markdown_table(columns: Iterable[str], cells: list[list[str]], texts: int) -> list[str]:
+    """Write one table of a page.
+
+    Parameters
+    ----------
+    columns : iterable of str
+        Headings.
+    cells : list of list of str
+        Its rows.
+    texts : int
+        How many columns are texts, the others are numbers.
+
+    Returns
+    -------
+    list of str
+        Its lines.
+    """
+    rule = "|---" * texts + "|---:" * (len(cells[0]) - texts) + "|"
+    rows = ["| " + " | ".join(row) + " |" for row in (list(columns), *cells)]
+    return [rows[0], rule, *rows[1:]]
+
+
+def literal_markdown(text: str) -> str:
+    r"""Write a text of the user so that Markdown shows it as it is.
+
+    Parameters
+    ----------
+    text : str
+        One line.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> literal_markdown("EI_1 <b> [x](y)")
+    'EI\\_1 \\<b\\> \\[x\\](y)'
+    """
+    return re.sub(r"([\\`*_\[\]<>#|$~])", r"\\\1", text)

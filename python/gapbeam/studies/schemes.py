@@ -12,11 +12,10 @@ import numpy as np
 
 from ..results import formatting as fmt
 from ..results.stepping import solve
-from .corners import page
 from .fronts import random_front, scaled
+from .page import Page
 
 if TYPE_CHECKING:
-    from rich.console import Console
 
     from ..results.result import Result
 
@@ -290,37 +289,5 @@ def table(rows: list[Row]) -> list[list[str]]:
     ]
 
 
-def to_markdown(rows: list[Row]) -> str:
-    """Write the page of the documentation.
-
-    Parameters
-    ----------
-    rows : list of Row
-        From `schemes`.
-
-    Returns
-    -------
-    str
-    """
-    return page("Working schemes", "schemes", WORDS, COLUMNS, table(rows), texts=1)
-
-
-def print_schemes(rows: list[Row], console: Console | None = None) -> None:
-    """Print the table.
-
-    Parameters
-    ----------
-    rows : list of Row
-        From `schemes`.
-    console : rich.console.Console, optional
-        Where to print; default standard output.
-    """
-    from rich.console import Console
-
-    from ..report.writer import Writer
-
-    say = Writer(console or Console(highlight=False))
-    say.line("Working schemes", "bold")
-    say.line(" ".join(WORDS), "dim")
-    say.line()
-    say.table(COLUMNS, table(rows), left=(0,))
+PAGE = Page("schemes", "Working schemes", WORDS, COLUMNS, texts=1)
+"""How the table is written and printed."""
