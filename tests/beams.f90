@@ -4,8 +4,8 @@ module beams
     use, intrinsic :: iso_fortran_env, only: int64
     use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_positive_inf
     use gapbeam_kinds, only: wp
-    use gapbeam_link, only: piece_type, load_type, condense_link
-    use gapbeam_model, only: beam_type, support_type, place_supports
+    use gapbeam_link, only: piece_type, piece_load_type, condense_link
+    use gapbeam_model, only: beam_type, node_support_type, order_supports
     use gapbeam_referee, only: detail_type
     implicit none
     private
@@ -17,7 +17,7 @@ module beams
         type(beam_type) :: beam
         !> Pieces, their dead and live loads, and the last piece of every link, shape (n)
         type(piece_type), allocatable :: pieces(:)
-        type(load_type), allocatable :: dead(:), live(:)
+        type(piece_load_type), allocatable :: dead(:), live(:)
         integer, allocatable :: last(:)
     end type sample_type
 
@@ -30,7 +30,7 @@ contains
         !> Dead and live load per length of every span, shape (n)
         real(wp), intent(in) :: dead(:), live(:)
         !> The supports
-        type(support_type), intent(in) :: supports(:)
+        type(node_support_type), intent(in) :: supports(:)
         !> The beam, without forces and couples
         type(sample_type), intent(out) :: sample
         real(wp) :: work(1)
@@ -46,12 +46,12 @@ contains
             beam%couple(:, :) = 0.0_wp
             do i = 1, n
                 sample%pieces(i) = piece_type(length(i), 1/ei(i), 0.0_wp)
-                sample%dead(i) = load_type(dead(i), dead(i), 0, 0, 0)
-                sample%live(i) = load_type(live(i), live(i), 0, 0, 0)
+                sample%dead(i) = piece_load_type(dead(i), dead(i), 0, 0, 0)
+                sample%live(i) = piece_load_type(live(i), live(i), 0, 0, 0)
                 sample%last(i) = i
                 call condense_link(sample%pieces(i:i), sample%dead(i:i), sample%live(i:i), work, beam%links(i))
             end do
-            call place_supports(supports, beam)
+            call order_supports(supports, beam)
         end associate
     end subroutine make_beam
 

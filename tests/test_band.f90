@@ -2,7 +2,7 @@
 program test_band
     use testing, only: check, check_close, finish
     use gapbeam_kinds, only: wp
-    use gapbeam_link, only: link_type, piece_type, load_type, condense_link
+    use gapbeam_link, only: link_type, piece_type, piece_load_type, condense_link
     use gapbeam_band, only: node_type, rhs_type, pivot_type, answer_type, factor_chain, solve_chain, &
         band_ok, band_mechanism, band_needs_pivoting, plain, hinge, restrained
     use gapbeam_residual, only: residual_chain, size_type
@@ -36,12 +36,12 @@ contains
         integer, intent(in) :: n
         type(link_type), allocatable, intent(out) :: links(:)
         type(rhs_type), allocatable, intent(out) :: rhs(:)
-        type(load_type) :: none(1)
+        type(piece_load_type) :: none(1)
         real(wp) :: work(1)
         integer :: i
 
         allocate (links(n), rhs(0:n))
-        none = load_type(0, 0, 0, 0, 0)
+        none = piece_load_type(0, 0, 0, 0, 0)
         do i = 1, n
             call condense_link([piece_type(1 + fraction_of(seed), 0.5_wp + fraction_of(seed), fraction_of(seed)/2)], &
                                none, none, work, links(i))
@@ -229,7 +229,7 @@ contains
     !> The one case that needs pivoting
     subroutine rigid_beam_on_rigid_supports()
         type(link_type) :: links(3)
-        type(load_type) :: none(1)
+        type(piece_load_type) :: none(1)
         type(node_type) :: nodes(0:3)
         type(rhs_type) :: rhs(0:3)
         type(pivot_type) :: pivots(0:3)
@@ -238,7 +238,7 @@ contains
         integer :: i, state, place
         logical :: regular
 
-        none = load_type(0, 0, 0, 0, 0)
+        none = piece_load_type(0, 0, 0, 0, 0)
         do i = 1, 3
             call condense_link([piece_type(2.0_wp, 0.0_wp, 0.0_wp)], none, none, work, links(i))
         end do
@@ -265,13 +265,13 @@ contains
         type(rhs_type), allocatable :: rhs(:)
         type(pivot_type), allocatable :: pivots(:)
         type(answer_type), allocatable :: answers(:)
-        type(load_type) :: none(1)
+        type(piece_load_type) :: none(1)
         real(wp) :: work(1), h
         integer :: state, place
 
         allocate (links(n), nodes(0:n), rhs(0:n), pivots(0:n), answers(0:n))
         h = 1.0_wp/n
-        none = load_type(1, 1, 0, 0, 0)
+        none = piece_load_type(1, 1, 0, 0, 0)
         call condense_link([piece_type(h, 1.0_wp, 0.0_wp)], none, none, work, links(1))
         links = links(1)
         nodes(0)%held = .true.

@@ -6,7 +6,7 @@ program test_beam
     use gapbeam_error, only: error_type
     use gapbeam_memory, only: enough_memory, reserve_memory, for_solving, for_fields
     use gapbeam_element, only: field_type
-    use gapbeam_link, only: link_type, piece_type, load_type, condense_link
+    use gapbeam_link, only: link_type, piece_type, piece_load_type, condense_link
     use gapbeam_band, only: hinge
     use gapbeam_range, only: is_lost, first_lost_link
     use gapbeam_recover, only: recover_beam
@@ -46,11 +46,11 @@ contains
     subroutine lost_links()
         type(link_type) :: links(2)
         type(piece_type) :: pieces(2)
-        type(load_type) :: none(2)
+        type(piece_load_type) :: none(2)
         real(wp) :: work(1)
         integer :: i
 
-        none = load_type(0, 0, 0, 0, 0)
+        none = piece_load_type(0, 0, 0, 0, 0)
         pieces = [piece_type(2.0_wp, 0.1_wp, 0.0_wp), piece_type(2.0_wp, 1e-160_wp, 0.0_wp)]
         do i = 1, 2
             call condense_link(pieces(i:i), none(i:i), none(i:i), work, links(i))
@@ -68,7 +68,7 @@ contains
     !> q L**3/24 EI, 5 q L**4/384 EI, q L**2/8; in two pieces
     subroutine simple_beam()
         type(piece_type) :: pieces(2)
-        type(load_type) :: dead(2), live(2)
+        type(piece_load_type) :: dead(2), live(2)
         type(link_type) :: links(1)
         type(field_type) :: starts(2), fields(3)
         real(wp) :: work(2), values(2, 4), distance(2, 4)
@@ -76,8 +76,8 @@ contains
         real(wp), parameter :: l = 4.0_wp, f = 0.125_wp, q = 3.0_wp
 
         pieces = [piece_type(1.0_wp, f, 0.0_wp), piece_type(3.0_wp, f, 0.0_wp)]
-        dead = load_type(1, 1, 0, 0, 0)
-        live = load_type(1, 1, 0, 0, 0)
+        dead = piece_load_type(1, 1, 0, 0, 0)
+        live = piece_load_type(1, 1, 0, 0, 0)
         call condense_link(pieces, dead, live, work, links(1))
         call recover_beam(pieces, dead, live, 2.0_wp, links, [2], [0, 0], [0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp], &
                           [0.0_wp], starts)
@@ -98,7 +98,7 @@ contains
     !> A link so short that its chord is rounding has the rotation of its neighbour, unless a hinge is between
     subroutine rotation_through_a_node()
         type(piece_type) :: pieces(2)
-        type(load_type) :: none(2)
+        type(piece_load_type) :: none(2)
         type(link_type) :: links(2)
         type(field_type) :: starts(2)
         real(wp) :: work(1)
@@ -106,7 +106,7 @@ contains
         real(wp), parameter :: short = 1e-12_wp, w(0:2) = [1.0_wp, 2.0_wp, 2.0_wp]
 
         pieces = [piece_type(1.0_wp, 0.125_wp, 0.0_wp), piece_type(short, 0.125_wp, 0.0_wp)]
-        none = load_type(0, 0, 0, 0, 0)
+        none = piece_load_type(0, 0, 0, 0, 0)
         do i = 1, 2
             call condense_link(pieces(i:i), none(i:i), none(i:i), work, links(i))
         end do
@@ -121,13 +121,13 @@ contains
     !> All is zero everywhere; then a field that is no number
     subroutine extremes_of_nothing()
         type(piece_type) :: pieces(1)
-        type(load_type) :: none(1)
+        type(piece_load_type) :: none(1)
         type(field_type) :: starts(1)
         real(wp) :: values(2, 4), distance(2, 4)
         integer :: piece(2, 4)
 
         pieces = piece_type(1.0_wp, 1.0_wp, 0.0_wp)
-        none = load_type(0, 0, 0, 0, 0)
+        none = piece_load_type(0, 0, 0, 0, 0)
         starts = field_type(0, 0, 0, 0)
         call find_extremes(pieces, none, none, 1.0_wp, starts, values, piece, distance)
         call check(.not. any(abs(values) > 0.0_wp) .and. all(piece == 1), "zero")

@@ -3,7 +3,7 @@ program test_chain
     use testing, only: check, check_close, finish
     use beams, only: infinite
     use gapbeam_kinds, only: wp
-    use gapbeam_link, only: link_type, piece_type, load_type, condense_link
+    use gapbeam_link, only: link_type, piece_type, piece_load_type, condense_link
     use gapbeam_band, only: node_type, rhs_type, answer_type, plain, hinge, restrained
     use gapbeam_plain, only: plain_type, is_plain, ends_hold, prepare_plain, solve_plain
     use gapbeam_three_moment, only: fits_three_moment, solve_three_moment
@@ -38,7 +38,8 @@ contains
         allocate (nodes(0:n), links(n), rhs(0:n))
         nodes%held = .true.
         do i = 1, n
-            call condense_link([piece_type(2.0_wp, 1/ei, 0.0_wp)], [load_type(q, q, 0, 0, 0)], [load_type(0, 0, 0, 0, 0)], &
+            call condense_link([piece_type(2.0_wp, 1/ei, 0.0_wp)], [piece_load_type(q, q, 0, 0, 0)], &
+                               [piece_load_type(0, 0, 0, 0, 0)], &
                                work, links(i))
             rhs(i - 1)%right = links(i)%turn_a(1)
             rhs(i)%left = links(i)%turn_b(1)

@@ -4,7 +4,7 @@ program test_contact
     use beams, only: sample_type, make_beam, infinite
     use gapbeam_kinds, only: wp
     use gapbeam_band, only: band_ok, band_mechanism, hinge, restrained
-    use gapbeam_model, only: beam_type, support_type, place_supports, softest, below, above, both
+    use gapbeam_model, only: beam_type, node_support_type, order_supports, softest, below, above, both
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads, apply_scheme
     use gapbeam_system, only: solve_scheme
     use gapbeam_reactions, only: find_shears
@@ -39,7 +39,7 @@ contains
     subroutine spans(n, q, supports, beam)
         integer, intent(in) :: n
         real(wp), intent(in) :: q
-        type(support_type), intent(in) :: supports(:)
+        type(node_support_type), intent(in) :: supports(:)
         type(beam_type), intent(out) :: beam
         type(sample_type) :: sample
 
@@ -50,11 +50,11 @@ contains
     !> Rigid supports at all nodes of so many spans
     function at_all(n, side) result(supports)
         integer, intent(in) :: n, side
-        type(support_type) :: supports(n + 1)
+        type(node_support_type) :: supports(n + 1)
         integer :: i
 
         do i = 0, n
-            supports(i + 1) = support_type(i, side, infinite(), 0.0_wp)
+            supports(i + 1) = node_support_type(i, side, infinite(), 0.0_wp)
         end do
     end function at_all
 
@@ -77,10 +77,10 @@ contains
 
         call spans(2, 0.0_wp, at_all(2, both), beam)
         call check_close(softest(beam), 1/24.0_wp, "EI/L**3 of the whole beam, a third of it")
-        call spans(2, 0.0_wp, [support_type(0, both, 3e-6_wp, 0.0_wp), support_type(1, both, 0.0_wp, 0.0_wp)], beam)
+        call spans(2, 0.0_wp, [node_support_type(0, both, 3e-6_wp, 0.0_wp), node_support_type(1, both, 0.0_wp, 0.0_wp)], beam)
         call check_close(softest(beam), 1e-6_wp, "a soft support's, not that of one without stiffness")
         call make_rigid(beam)
-        call place_supports(at_all(2, both), beam)
+        call order_supports(at_all(2, both), beam)
         call check_close(softest(beam), 1/3.0_wp, "nothing is elastic")
     end subroutine weak_springs
 
@@ -116,7 +116,7 @@ contains
         integer :: state
 
         call make_beam([1.0_wp, 1e-9_wp, 1.0_wp], spread(1.0_wp, 1, 3), spread(0.0_wp, 1, 3), spread(0.0_wp, 1, 3), &
-                       [support_type(0, both, infinite(), 0.0_wp), support_type(3, both, infinite(), 0.0_wp)], sample)
+                       [node_support_type(0, both, infinite(), 0.0_wp), node_support_type(3, both, infinite(), 0.0_wp)], sample)
         sample%beam%force(1, 1) = 2.0_wp
         call solve(sample%beam, [.true., .true.], work, state)
         call find_shears(sample%beam, [1, 3], work)
@@ -237,10 +237,10 @@ contains
         type(beam_type) :: beam
         type(base_type) :: base
         integer :: i
-        type(support_type) :: supports(8)
+        type(node_support_type) :: supports(8)
 
-        supports(1:7) = [(support_type(i, below, infinite(), 0.25_wp*i**2), i=0, 6)]
-        supports(8) = support_type(2, above, 1.0_wp, 0.0_wp)
+        supports(1:7) = [(node_support_type(i, below, infinite(), 0.25_wp*i**2), i=0, 6)]
+        supports(8) = node_support_type(2, above, 1.0_wp, 0.0_wp)
         supports(7)%side = both
         call spans(6, 0.0_wp, supports, beam)
         beam%kind(4) = hinge
@@ -248,7 +248,7 @@ contains
         call check(all(base%support(-1:7) == [0, 1, 2, 0, 4, 0, 6, 0, 0]), &
                    "not with another beside it, at a hinge, where it holds both ways")
         call check(.not. any(abs(base%moment) > 0.0_wp), "no moment where neighbours are missing")
-        call place_supports(supports(:7), beam)
+        call order_supports(supports(:7), beam)
         beam%kind(4) = 0
         call find_base(beam, base)
         call check_close(base%moment, [0.0_wp, -0.5_wp, -0.5_wp, -0.5_wp, -0.5_wp, 0.0_wp, 0.0_wp], "along a parabola")
@@ -355,8 +355,8 @@ contains
         integer :: state, place, step
 
         call check_close(product_of(iterate), 0.0_wp, "nothing begun")
-        call spans(3, 0.0_wp, [support_type(0, both, infinite(), 0.0_wp), support_type(1, above, infinite(), 0.0_wp), &
-                               support_type(2, below, 1e4_wp, 0.0_wp), support_type(3, below, infinite(), 0.0_wp)], beam)
+        call spans(3, 0.0_wp, [node_support_type(0, both, infinite(), 0.0_wp), node_support_type(1, above, infinite(), 0.0_wp), &
+                               node_support_type(2, below, 1e4_wp, 0.0_wp), node_support_type(3, below, infinite(), 0.0_wp)], beam)
         beam%kind(0) = restrained
         beam%force(1, :) = [0.0_wp, 0.70707_wp, -4.3597_wp, 2.1155_wp]
         call new_workspace(beam, work)

@@ -3,7 +3,7 @@ program test_kernel
     use testing, only: check, check_close, finish
     use gapbeam_kinds, only: wp
     use gapbeam_band, only: node_type, rhs_type, pivot_type, answer_type, factor_chain, solve_chain, band_ok, plain, restrained
-    use gapbeam_link, only: link_type, piece_type, load_type, condense_link
+    use gapbeam_link, only: link_type, piece_type, piece_load_type, condense_link
     use gapbeam_plain, only: plain_type, prepare_plain, is_plain, ends_hold, solve_plain
     use gapbeam_kernel, only: eliminated_type, last_step
     use gapbeam_elements, only: solve_elements, refine_elements, elements_solved, elements_mechanism, elements_bad_input
@@ -45,7 +45,7 @@ contains
         integer, intent(in) :: left, right
         type(link_type) :: links(n)
         type(piece_type) :: pieces(2)
-        type(load_type) :: dead(2), live(2)
+        type(piece_load_type) :: dead(2), live(2)
         type(node_type) :: nodes(0:n)
         type(rhs_type) :: rhs(0:n), work(0:n)
         type(pivot_type) :: pivots(0:n)
@@ -57,7 +57,7 @@ contains
         do i = 1, n
             pieces(1) = piece_type(0.3_wp + modulo(7*i, 5), 1.0_wp/(1 + modulo(3*i, 4)), 0.1_wp*modulo(i, 2))
             pieces(2) = piece_type(1.0_wp, 1.0_wp/(1 + modulo(i, 7)), 0.0_wp)
-            dead = load_type(0, 0, 0, 0, 0)
+            dead = piece_load_type(0, 0, 0, 0, 0)
             live = dead
             dead(1)%qa = 1.0_wp + modulo(i, 3)
             dead(1)%force = -2.0_wp
@@ -90,14 +90,14 @@ contains
         real(wp) :: length(n), ei(n), q(n), stiffness(0:n), force(0:n), w(0:n), m(0:n), room(1)
         type(eliminated_type) :: eliminated(0:last_step(n))
         type(link_type) :: links(n)
-        type(load_type) :: load(1), none(1)
+        type(piece_load_type) :: load(1), none(1)
         type(node_type) :: nodes(0:n)
         type(rhs_type) :: rhs(0:n)
         type(answer_type) :: answers(0:n)
         type(plain_type) :: beam
         integer :: i, state
 
-        none = load_type(0, 0, 0, 0, 0)
+        none = piece_load_type(0, 0, 0, 0, 0)
         length = [(1.0_wp + modulo(5*i, 7)/7.0_wp, i=1, n)]
         ei = [(100.0_wp*(1 + modulo(3*i, 5)), i=1, n)]
         q = [(modulo(11*i, 13) - 4.0_wp, i=1, n)]
@@ -108,7 +108,7 @@ contains
         call solve_elements(length, ei, q, stiffness, force, eliminated, w, m, state)
         call check(state == elements_solved, "elements solved")
         do i = 1, n
-            load = load_type(q(i), q(i), 0, 0, 0)
+            load = piece_load_type(q(i), q(i), 0, 0, 0)
             call condense_link([piece_type(length(i), 1/ei(i), 0.0_wp)], load, none, room, links(i))
         end do
         do i = 0, n

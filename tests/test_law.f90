@@ -4,7 +4,7 @@ program test_law
     use beams, only: infinite
     use gapbeam_kinds, only: wp
     use gapbeam_band, only: node_type, rhs_type, answer_type
-    use gapbeam_law, only: support_type, below, above, both, is_support, is_rigid, may_change, always_closed, &
+    use gapbeam_law, only: node_support_type, below, above, both, is_support, is_rigid, may_change, always_closed, &
         separate_rigid_pairs, &
         add_supports, share_forces, margin_of, margin_rates, find_margins, find_wrong_states, find_clearly_wrong_states, &
         find_doubtful_states, largest_violations, mark_held, outermost, is_blocked, leaves_all, distance_to_contact, &
@@ -28,40 +28,40 @@ contains
 
     !> A support of each kind: both ways, of no stiffness, spring from below, rigid from below, rigid from above
     function kinds() result(supports)
-        type(support_type) :: supports(5)
+        type(node_support_type) :: supports(5)
 
-        supports = [support_type(0, both, 8.0_wp, 0.5_wp), support_type(1, below, 0.0_wp, 0.0_wp), &
-                    support_type(2, below, 4.0_wp, 0.25_wp), support_type(3, below, infinite(), 0.0_wp), &
-                    support_type(4, above, infinite(), -0.5_wp)]
+        supports = [node_support_type(0, both, 8.0_wp, 0.5_wp), node_support_type(1, below, 0.0_wp, 0.0_wp), &
+                    node_support_type(2, below, 4.0_wp, 0.25_wp), node_support_type(3, below, infinite(), 0.0_wp), &
+                    node_support_type(4, above, infinite(), -0.5_wp)]
     end function kinds
 
     !> Which states there are
     subroutine states()
         call check(all(is_support(kinds())), "supports of every kind")
-        call check(.not. any(is_support([support_type(0, 2, 1.0_wp, 0.0_wp), support_type(0, both, -1.0_wp, 0.0_wp), &
-                                         support_type(0, both, 1.0_wp, infinite())])), "no such side, stiffness, level")
+        call check(.not. any(is_support([node_support_type(0, 2, 1.0_wp, 0.0_wp), node_support_type(0, both, -1.0_wp, 0.0_wp), &
+                                         node_support_type(0, both, 1.0_wp, infinite())])), "no such side, stiffness, level")
         call check(all(may_change(kinds()) .eqv. [.false., .false., .true., .true., .true.]), &
                    "only a one-sided support with a stiffness changes its state")
         call check(all(is_rigid(kinds()) .eqv. [.false., .false., .false., .true., .true.]), "infinite is rigid")
         call check(all(always_closed(kinds()) .eqv. [.true., .false., .false., .false., .false.]), &
                    "one that holds both ways is always closed")
-        call check(size(always_closed([support_type ::])) == 0, "no supports")
+        call check(size(always_closed([node_support_type ::])) == 0, "no supports")
     end subroutine states
 
     !> Rigid supports at one node
     subroutine rigid_pairs()
         logical :: closed(4)
-        type(support_type) :: supports(4)
+        type(node_support_type) :: supports(4)
 
-        supports = [support_type(1, below, infinite(), 0.0_wp), support_type(1, above, infinite(), -0.1_wp), &
-                    support_type(2, below, infinite(), 0.0_wp), support_type(1, below, 1.0_wp, 0.0_wp)]
+        supports = [node_support_type(1, below, infinite(), 0.0_wp), node_support_type(1, above, infinite(), -0.1_wp), &
+                    node_support_type(2, below, infinite(), 0.0_wp), node_support_type(1, below, 1.0_wp, 0.0_wp)]
         closed = .true.
         call separate_rigid_pairs(supports, 2, closed)
         call check(all(closed .eqv. [.true., .false., .true., .true.]), "of two rigid ones the first acts, springs do as well")
         closed = [.false., .true., .true., .false.]
         call separate_rigid_pairs(supports, 2, closed)
         call check(all(closed .eqv. [.false., .true., .true., .false.]), "one of them alone stays")
-        supports(3) = support_type(1, both, infinite(), 0.0_wp)
+        supports(3) = node_support_type(1, both, infinite(), 0.0_wp)
         closed = .true.
         call separate_rigid_pairs(supports, 2, closed)
         call check(all(closed .eqv. [.false., .false., .true., .true.]), "beside one that holds both ways none acts")
@@ -72,10 +72,10 @@ contains
         type(node_type) :: nodes(0:2)
         type(rhs_type) :: rhs(0:2)
         real(wp) :: level(0:2)
-        type(support_type) :: supports(4)
+        type(node_support_type) :: supports(4)
 
-        supports = [support_type(1, below, 10.0_wp, 0.2_wp), support_type(1, both, 5.0_wp, -0.4_wp), &
-                    support_type(1, above, 100.0_wp, 3.0_wp), support_type(2, below, infinite(), 0.7_wp)]
+        supports = [node_support_type(1, below, 10.0_wp, 0.2_wp), node_support_type(1, both, 5.0_wp, -0.4_wp), &
+                    node_support_type(1, above, 100.0_wp, 3.0_wp), node_support_type(2, below, infinite(), 0.7_wp)]
         rhs(1)%shear = 1.0_wp
         level = 0.0_wp
         call add_supports(supports, [1, 2, 3, 4], [.true., .true., .false., .true.], nodes, rhs, level)
@@ -95,7 +95,7 @@ contains
         real(wp) :: level(0:1)
 
         level = 0.0_wp
-        call add_supports([support_type(0, both, 2.0_wp, 1.0_wp), support_type(1, below, infinite(), 9.0_wp)], [1, 2], &
+        call add_supports([node_support_type(0, both, 2.0_wp, 1.0_wp), node_support_type(1, below, infinite(), 9.0_wp)], [1, 2], &
                           [.true., .false.], nodes, rhs, level, [50.0_wp, 3.0_wp], [50.0_wp, 0.5_wp])
         call check_close(nodes%stiffness, [2.0_wp, 3.0_wp], "the spring takes the place of the one-sided support only")
         call check_close(rhs%shear, [2.0_wp, 1.5_wp], "with its own level")
@@ -113,20 +113,20 @@ contains
         reaction = -1.0_wp
         error = -1.0_wp
         ! A spring of 4 from 0.25 on takes 1, the rigid one the rest of 7; the third is open
-        call share_forces([support_type(1, below, 4.0_wp, 0.25_wp), support_type(1, below, infinite(), 0.5_wp), &
-                           support_type(1, above, infinite(), 9.0_wp)], [1, 2, 3], [1, 1, 4], [.true., .true., .false.], &
+        call share_forces([node_support_type(1, below, 4.0_wp, 0.25_wp), node_support_type(1, below, infinite(), 0.5_wp), &
+                           node_support_type(1, above, infinite(), 9.0_wp)], [1, 2, 3], [1, 1, 4], [.true., .true., .false.], &
                           [1, 1], nodes, answers, [1.0_wp, 1.0_wp], [7.0_wp], [0.0_wp], reaction, error)
         call check_close(reaction, [1.0_wp, 6.0_wp, 0.0_wp], "spring, rigid support, open support")
         call check_close(error, epsilon(1.0_wp)*[4.0_wp, 1.0_wp, 0.0_wp], "their rounding errors")
         ! A spring so stiff that its compression is rounding: 1e20 * 0.5 is nothing to go by
         nodes(1)%held = .false.
-        call share_forces([support_type(1, below, 1e20_wp, 0.5_wp), support_type(1, below, 4.0_wp, 0.25_wp)], [1, 2], &
+        call share_forces([node_support_type(1, below, 1e20_wp, 0.5_wp), node_support_type(1, below, 4.0_wp, 0.25_wp)], [1, 2], &
                           [1, 1, 3], [.true., .true.], [1, 1], nodes, answers, [1.0_wp, 1.0_wp], [7.0_wp], [1e-15_wp], &
                           reaction(:2), error(:2))
         call check_close(reaction(:2), [6.0_wp, 1.0_wp], "the stiffest spring takes what the others leave")
         call check(error(1) < 1e-14_wp, "and is known as well")
         reaction = 5.0_wp
-        call share_forces([support_type(1, below, 4.0_wp, 0.25_wp)], [1], [1, 1, 2], [.false.], [1, 1], nodes, answers, &
+        call share_forces([node_support_type(1, below, 4.0_wp, 0.25_wp)], [1], [1, 1, 2], [.false.], [1, 1], nodes, answers, &
                           [1.0_wp, 1.0_wp], [7.0_wp], [0.0_wp], reaction(:1), error(:1))
         call check_close(reaction(1), 0.0_wp, "nothing acts")
         call check_close(reaction(2), 5.0_wp, "others stay")
@@ -147,24 +147,24 @@ contains
                           [-5.0_wp, 0.0_wp, 3.0_wp, -3.0_wp, -3.0_wp], spread(0.5_wp, 1, 5), margin, rounding)
         call check_close(margin, [0.0_wp, 0.0_wp, 3.0_wp, -3.0_wp, 3.0_wp], "force with which it pushes")
         call check_close(rounding(3:), spread(0.5_wp, 1, 3), "rounding of the reaction")
-        call margin_of(support_type(0, above, 1.0_wp, 8.0_wp), .false., 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, margin(1), rounding(1))
+        call margin_of(node_support_type(0, above, 1.0_wp, 8.0_wp), .false., 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, margin(1), rounding(1))
         call check_close([margin(1), rounding(1)], [-8.0_wp, 8*epsilon(1.0_wp)], "a contact level beyond the deflections counts")
-        call margin_rates(support_type(0, above, 3.0_wp, -8.0_wp), .true., rate, level)
+        call margin_rates(node_support_type(0, above, 3.0_wp, -8.0_wp), .true., rate, level)
         call check_close([rate, level], [3.0_wp, 8.0_wp], "a closed spring's margin changes by its stiffness")
-        call margin_rates(support_type(0, above, infinite(), -8.0_wp), .false., rate, level)
+        call margin_rates(node_support_type(0, above, infinite(), -8.0_wp), .false., rate, level)
         call check_close(rate, 1.0_wp, "an opening as the deflection")
     end subroutine margins
 
     !> Which states are wrong, doubtful, clearly wrong
     subroutine wrong_states()
         type(answer_type) :: answers(0:2)
-        type(support_type) :: supports(3)
+        type(node_support_type) :: supports(3)
         logical :: wrong(3), doubtful(3), in_doubt
         real(wp) :: pull, penetration
         real(wp), parameter :: some(0:2) = 1.0_wp, errors(3) = 1e-3_wp
 
-        supports = [support_type(0, below, infinite(), 0.0_wp), support_type(1, below, infinite(), 0.0_wp), &
-                    support_type(2, below, 2.0_wp, 0.5_wp)]
+        supports = [node_support_type(0, below, infinite(), 0.0_wp), node_support_type(1, below, infinite(), 0.0_wp), &
+                    node_support_type(2, below, 2.0_wp, 0.5_wp)]
         answers%deflection = [0.0_wp, -0.25_wp, 0.75_wp]
         associate (closed => [.true., .false., .false.], reaction => [-0.02_wp, 0.0_wp, 0.0_wp])
             call find_wrong_states(supports, closed, answers, some, reaction, errors, 10.0_wp, wrong)
@@ -233,7 +233,7 @@ contains
 
     !> What other methods make of supports
     subroutine forms()
-        type(support_type) :: supports(5)
+        type(node_support_type) :: supports(5)
         integer, allocatable :: numbers(:)
         integer :: number(0:4), side(0:4)
         real(wp) :: contact(0:4)

@@ -6,7 +6,7 @@ program test_line
     use gapbeam_kinds, only: wp, qp
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_equilibrium
     use gapbeam_element, only: field_type
-    use gapbeam_model, only: beam_type, support_type, below, both
+    use gapbeam_model, only: beam_type, node_support_type, below, both
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_system, only: solve_scheme
     use gapbeam_line, only: line_type, without_dead_loads, value_at, width_at, zero_of, falls, rises, stays_at_zero
@@ -37,8 +37,8 @@ contains
         type(sample_type), intent(out) :: sample
 
         call make_beam([1.0_wp, 1.0_wp], [1.0_wp, 1.0_wp], [1.0_wp, 1.0_wp], [1.0_wp, 0.0_wp], &
-                       [support_type(0, below, infinite(), 0.0_wp), support_type(1, below, infinite(), 0.0_wp), &
-                        support_type(2, below, infinite(), 0.0_wp)], sample)
+                       [node_support_type(0, below, infinite(), 0.0_wp), node_support_type(1, below, infinite(), 0.0_wp), &
+                        node_support_type(2, below, infinite(), 0.0_wp)], sample)
     end subroutine two_spans
 
     !> Signs, zeros, widths
@@ -133,7 +133,7 @@ contains
         call check(all(cell%closed .eqv. [.true., .true., .false.]), "then the right one is open")
         call check(cell%to > 10, "to the end")
         call make_beam([1.0_wp, 1.0_wp], [1.0_wp, 1.0_wp], [1.0_wp, 1.0_wp], [0.0_wp, 0.0_wp], &
-                       [support_type(0, below, infinite(), 0.0_wp), support_type(1, below, infinite(), 0.0_wp)], sample)
+                       [node_support_type(0, below, infinite(), 0.0_wp), node_support_type(1, below, infinite(), 0.0_wp)], sample)
         sample%beam%force(2, 2) = 1.0_wp
         call refine_beam(sample%beam, detail_of(sample), fine)
         call find_cell(fine, 0.0_qp, 10.0_qp, [.true., .true.], cell, outcome, error)
@@ -150,7 +150,7 @@ contains
         integer :: state, place
 
         call make_beam([1.0_wp, 1.0_wp], [1.0_wp, 1.0_wp], [1.0_wp, 1.0_wp], [0.0_wp, 0.0_wp], &
-                       [support_type(0, both, infinite(), 0.0_wp), support_type(2, both, infinite(), 0.0_wp)], sample)
+                       [node_support_type(0, both, infinite(), 0.0_wp), node_support_type(2, both, infinite(), 0.0_wp)], sample)
         call new_workspace(sample%beam, work)
         call set_loads(sample%beam, 1.0_wp, work)
         call solve_scheme(sample%beam, [.true., .true.], work, state, place)

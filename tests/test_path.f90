@@ -4,12 +4,12 @@ program test_path
     use beams, only: sample_type, make_beam, detail_of, infinite
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_equilibrium
-    use gapbeam_model, only: support_type, below, above, both
+    use gapbeam_model, only: node_support_type, below, above, both
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_search, only: rule_block
     use gapbeam_scheme, only: outcome_type
     use gapbeam_referee, only: decide_scheme
-    use gapbeam_path, only: follow_load, path_type, event_opens, event_closes, event_turns
+    use gapbeam_path, only: follow_path, path_type, event_opens, event_closes, event_turns
     implicit none
     !> A path on its way
     type :: walk_type
@@ -48,7 +48,7 @@ contains
         call set_loads(sample%beam, 0.0_wp, work)
         call decide_scheme(sample%beam, detail_of(sample), 0.0_wp, rule_block, walk%closed, work, walk%outcome, walk%error)
         marginal = walk%outcome%undecided
-        call follow_load(sample%beam, detail_of(sample), 1.0_wp, 1000, walk%factor, walk%closed, marginal, walk%path, &
+        call follow_path(sample%beam, detail_of(sample), 1.0_wp, 1000, walk%factor, walk%closed, marginal, walk%path, &
                          walk%outcome, walk%error)
     end subroutine follow
 
@@ -75,8 +75,8 @@ contains
         type(walk_type) :: walk
 
         call make_beam([4.0_wp, 4.0_wp], [1e4_wp, 1e4_wp], [0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp], &
-                       [support_type(1, both, infinite(), 0.0_wp), support_type(0, below, infinite(), 0.0_wp), &
-                        support_type(2, below, infinite(), 0.1_wp)], sample)
+                       [node_support_type(1, both, infinite(), 0.0_wp), node_support_type(0, below, infinite(), 0.0_wp), &
+                        node_support_type(2, below, infinite(), 0.1_wp)], sample)
         sample%beam%force(1, 0) = 10.0_wp
         sample%beam%force(2, 2) = 20.0_wp
         call follow(sample, walk)
@@ -92,8 +92,8 @@ contains
         type(walk_type) :: walk
 
         call make_beam([4.0_wp, 4.0_wp], [1e4_wp, 1e4_wp], [0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp], &
-                       [support_type(1, both, infinite(), 0.0_wp), support_type(0, below, infinite(), 0.01_wp), &
-                        support_type(2, below, infinite(), 0.01_wp)], sample)
+                       [node_support_type(1, both, infinite(), 0.0_wp), node_support_type(0, below, infinite(), 0.01_wp), &
+                        node_support_type(2, below, infinite(), 0.01_wp)], sample)
         sample%beam%force(2, 2) = 20.0_wp
         call follow(sample, walk)
         call check(.not. allocated(walk%error) .and. walk%outcome%status == gapbeam_solved, "followed from no load on")
@@ -108,8 +108,9 @@ contains
         real(wp), parameter :: weight = 0.151_wp*800, lift = 3000.0_wp
 
         call make_beam([400.0_wp, 400.0_wp], spread(6.32e10_wp, 1, 2), spread(0.151_wp, 1, 2), [0.0_wp, 0.0_wp], &
-                       [support_type(0, below, infinite(), 0.06_wp), support_type(0, above, infinite(), -0.06_wp), &
-                        support_type(2, below, infinite(), 0.06_wp), support_type(2, above, infinite(), -0.06_wp)], sample)
+                       [node_support_type(0, below, infinite(), 0.06_wp), node_support_type(0, above, infinite(), -0.06_wp), &
+                        node_support_type(2, below, infinite(), 0.06_wp), node_support_type(2, above, infinite(), &
+                                    -0.06_wp)], sample)
         sample%beam%force(2, 1) = -lift
         call follow(sample, walk)
         call check(.not. allocated(walk%error) .and. walk%outcome%status == gapbeam_solved, "the shaft is followed")
@@ -129,8 +130,8 @@ contains
         x = l
         reach = q*x*((4*l)**3 - 2*(4*l)*x**2 + x**3)/(24*ei)/2
         call make_beam(spread(l, 1, 4), spread(ei, 1, 4), spread(0.0_wp, 1, 4), spread(q, 1, 4), &
-                       [support_type(0, both, infinite(), 0.0_wp), support_type(1, below, infinite(), reach), &
-                        support_type(3, below, infinite(), reach), support_type(4, both, infinite(), 0.0_wp)], sample)
+                       [node_support_type(0, both, infinite(), 0.0_wp), node_support_type(1, below, infinite(), reach), &
+                        node_support_type(3, below, infinite(), reach), node_support_type(4, both, infinite(), 0.0_wp)], sample)
         call follow(sample, walk)
         call check_events(walk, [2, 3], [event_closes, event_closes], 0.5_wp, "two stops")
         call check(all(walk%closed), "all act in the end")
@@ -145,8 +146,9 @@ contains
 
         reach = q*l*((4*l)**3 - 2*(4*l)*l**2 + l**3)/(24*ei)/2
         call make_beam(spread(l, 1, 4), spread(ei, 1, 4), spread(0.0_wp, 1, 4), spread(q, 1, 4), &
-                       [support_type(0, both, infinite(), 0.0_wp), support_type(1, below, infinite(), reach), &
-                        support_type(3, below, infinite(), reach*(1 + apart)), support_type(4, both, infinite(), 0.0_wp)], &
+                       [node_support_type(0, both, infinite(), 0.0_wp), node_support_type(1, below, infinite(), reach), &
+                        node_support_type(3, below, infinite(), reach*(1 + apart)), node_support_type(4, both, &
+                                    infinite(), 0.0_wp)], &
                        sample)
         call follow(sample, walk)
         call check(walk%path%count == 2, "two events")
@@ -162,7 +164,7 @@ contains
         type(walk_type) :: walk
 
         call make_beam([4.0_wp, 2.0_wp], [1e4_wp, 1e4_wp], [1.0_wp, 1.0_wp], [0.0_wp, 0.0_wp], &
-                       [support_type(0, below, infinite(), 0.0_wp), support_type(1, below, infinite(), 0.0_wp)], sample)
+                       [node_support_type(0, below, infinite(), 0.0_wp), node_support_type(1, below, infinite(), 0.0_wp)], sample)
         sample%beam%force(2, 2) = 10.0_wp
         call follow(sample, walk)
         call check(.not. allocated(walk%error), "an answer")
@@ -178,8 +180,8 @@ contains
         type(walk_type) :: walk
 
         call make_beam([1.0_wp, 1.0_wp], [1.0_wp, 1.0_wp], [0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp], &
-                       [support_type(0, below, infinite(), 0.0_wp), support_type(1, below, infinite(), 0.1_wp), &
-                        support_type(2, below, infinite(), 0.0_wp)], sample)
+                       [node_support_type(0, below, infinite(), 0.0_wp), node_support_type(1, below, infinite(), 0.1_wp), &
+                        node_support_type(2, below, infinite(), 0.0_wp)], sample)
         sample%beam%force(2, :) = [-1.0_wp, 2.0_wp, -1.0_wp]
         call follow(sample, walk)
         call check(.not. allocated(walk%error) .and. walk%outcome%status == gapbeam_solved, "a beam free to move is followed")

@@ -4,7 +4,7 @@ program test_referee
     use beams, only: sample_type, make_beam, detail_of, draw, draw_magnitude, infinite
     use gapbeam_kinds, only: wp, qp
     use gapbeam_error, only: error_type, gapbeam_solved
-    use gapbeam_model, only: support_type, below, both
+    use gapbeam_model, only: node_support_type, below, both
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_rules, only: find_doubtful
     use gapbeam_search, only: rule_block
@@ -31,7 +31,7 @@ contains
     subroutine draw_beam(seed, sample)
         integer, intent(inout) :: seed
         type(sample_type), intent(out) :: sample
-        type(support_type), allocatable :: supports(:)
+        type(node_support_type), allocatable :: supports(:)
         real(wp), allocatable :: length(:), ei(:), dead(:), live(:)
         integer :: i, n
 
@@ -44,7 +44,7 @@ contains
             live(i) = merge(2*draw(seed) - 1, 0.0_wp, draw(seed) < 0.5_wp)
         end do
         do i = 0, n
-            supports(i + 1) = support_type(i, int(3*draw(seed)) - 1, infinite(), 0.0_wp)
+            supports(i + 1) = node_support_type(i, int(3*draw(seed)) - 1, infinite(), 0.0_wp)
             if (draw(seed) < 0.3_wp) supports(i + 1)%side = below
             if (draw(seed) < 0.4_wp) supports(i + 1)%stiffness = draw_magnitude(seed, -2.0_wp, 8.0_wp)
             if (draw(seed) < 0.5_wp) supports(i + 1)%contact = (2*draw(seed) - 1)*draw_magnitude(seed, -6.0_wp, 0.0_wp)
@@ -169,7 +169,7 @@ contains
         do start = 0, 1
             ! The far end lifts when the load of the first span is more than six times the weight
             call make_beam([l, l], [1.0_wp, 1.0_wp], [weight, weight], [0.6_wp, 0.0_wp], &
-                           [(support_type(i, below, infinite(), 0.0_wp), i=0, 2)], sample)
+                           [(node_support_type(i, below, infinite(), 0.0_wp), i=0, 2)], sample)
             closed = [.true., .true., start == 1]
             call decide(sample, closed, work, outcome, error)
             call check(.not. allocated(error) .and. outcome%status == gapbeam_solved, "a tie is solved")
@@ -177,7 +177,7 @@ contains
             call check_close(work%reaction, [3.0_wp, 5.0_wp, 0.0_wp]*weight*l, "its reaction is zero", &
                              absolute=1e-16_wp)
             call make_beam([l, l], [1.0_wp, 1.0_wp], [weight, weight], [0.6_wp*(1 + 1e-13_wp), 0.0_wp], &
-                           [(support_type(i, below, infinite(), 0.0_wp), i=0, 2)], sample)
+                           [(node_support_type(i, below, infinite(), 0.0_wp), i=0, 2)], sample)
             closed = [.true., .true., start == 1]
             call decide(sample, closed, work, outcome, error)
             call check(all(closed .eqv. [.true., .true., .false.]), "a little more load lifts it")
@@ -199,8 +199,8 @@ contains
         do while (stiffness < 1e20_wp)
             do start = 0, 1
                 call make_beam([5.0_wp], [1e4_wp], [0.0_wp], [0.0_wp], &
-                               [support_type(0, below, stiffness, 0.04_wp), support_type(0, both, 100.0_wp, 0.0_wp), &
-                                support_type(1, both, infinite(), 0.0_wp)], sample)
+                               [node_support_type(0, below, stiffness, 0.04_wp), node_support_type(0, both, 100.0_wp, 0.0_wp), &
+                                node_support_type(1, both, infinite(), 0.0_wp)], sample)
                 sample%beam%force(2, 0) = 3.9_wp
                 closed = [start == 1, .true., .true.]
                 call decide(sample, closed, work, outcome, error)
@@ -222,8 +222,8 @@ contains
         real(wp), parameter :: stiff = 1e10_wp, soft = 2.0_wp, contact = 0.5_wp, force = 21.0_wp
 
         call make_beam([4.0_wp], [1e3_wp], [0.0_wp], [0.0_wp], &
-                       [support_type(0, below, stiff, contact), support_type(0, both, soft, 0.0_wp), &
-                        support_type(1, both, infinite(), 0.0_wp)], sample)
+                       [node_support_type(0, below, stiff, contact), node_support_type(0, both, soft, 0.0_wp), &
+                        node_support_type(1, both, infinite(), 0.0_wp)], sample)
         sample%beam%force(1, 0) = force
         closed = .true.
         call decide(sample, closed, work, outcome, error)

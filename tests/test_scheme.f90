@@ -3,9 +3,9 @@ program test_scheme
     use testing, only: check, check_close, finish
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_indeterminate
-    use gapbeam_link, only: piece_type, load_type, condense_link
+    use gapbeam_link, only: piece_type, piece_load_type, condense_link
     use gapbeam_band, only: restrained
-    use gapbeam_model, only: beam_type, support_type, place_supports, below, above, both
+    use gapbeam_model, only: beam_type, node_support_type, order_supports, below, above, both
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_search, only: rule_block, rule_single
     use gapbeam_scheme, only: find_scheme, outcome_type
@@ -35,11 +35,11 @@ contains
         integer, intent(in) :: n
         real(wp), intent(in) :: length, ei
         type(beam_type), intent(out) :: beam
-        type(load_type) :: none(1)
+        type(piece_load_type) :: none(1)
         real(wp) :: work(1)
         integer :: i
 
-        none = load_type(0, 0, 0, 0, 0)
+        none = piece_load_type(0, 0, 0, 0, 0)
         allocate (beam%links(n), beam%kind(0:n), beam%compliance(0:n), beam%force(2, 0:n), beam%couple(2, 0:n))
         do i = 1, n
             call condense_link([piece_type(length, 1/ei, 0.0_wp)], none, none, work, beam%links(i))
@@ -63,8 +63,8 @@ contains
         call make(3, 2.0_wp, 44.5_wp, beam)
         beam%kind(0) = restrained
         beam%force(2, :) = [0.0_wp, f2, f3, f4]
-        call place_supports([support_type(0, both, infinite(), 0.0_wp), support_type(1, above, infinite(), 0.0_wp), &
-                         support_type(2, below, infinite(), 0.0_wp), support_type(3, below, infinite(), 0.0_wp)], beam)
+        call order_supports([node_support_type(0, both, infinite(), 0.0_wp), node_support_type(1, above, infinite(), 0.0_wp), &
+                         node_support_type(2, below, infinite(), 0.0_wp), node_support_type(3, below, infinite(), 0.0_wp)], beam)
         most = 0
         do rule = rule_block, rule_single
             do start = 0, 7
@@ -94,9 +94,9 @@ contains
 
         call make(4, 1.0_wp, 1000.0_wp, beam)
         beam%force(2, 1:2) = [-80.0_wp, 35.0_wp]
-        call place_supports([support_type(0, both, infinite(), 0.0_wp), support_type(1, above, 1e6_wp, 0.009_wp), &
-                         support_type(2, below, 1e8_wp, 0.018_wp), support_type(3, below, 1e6_wp, -0.012_wp), &
-                         support_type(4, both, infinite(), 0.0_wp)], beam)
+        call order_supports([node_support_type(0, both, infinite(), 0.0_wp), node_support_type(1, above, 1e6_wp, 0.009_wp), &
+                         node_support_type(2, below, 1e8_wp, 0.018_wp), node_support_type(3, below, 1e6_wp, -0.012_wp), &
+                         node_support_type(4, both, infinite(), 0.0_wp)], beam)
         do rule = rule_block, rule_single
             do start = 0, 7
                 closed = [.true., btest(start, 0), btest(start, 1), btest(start, 2), .true.]
@@ -117,18 +117,18 @@ contains
         type(workspace_type) :: work
         type(outcome_type) :: outcome
         type(error_type), allocatable :: error
-        type(load_type) :: dead(1), live(1)
+        type(piece_load_type) :: dead(1), live(1)
         logical :: closed(3)
         real(wp) :: space(1)
         integer :: i
 
         call make(2, 1.0_wp, 1.0_wp, beam)
-        dead = load_type(1, 1, 0, 0, 0)
+        dead = piece_load_type(1, 1, 0, 0, 0)
         do i = 1, 2
-            live = load_type(merge(10.0_wp, 0.0_wp, i == 1), merge(10.0_wp, 0.0_wp, i == 1), 0, 0, 0)
+            live = piece_load_type(merge(10.0_wp, 0.0_wp, i == 1), merge(10.0_wp, 0.0_wp, i == 1), 0, 0, 0)
             call condense_link([piece_type(1.0_wp, 1.0_wp, 0.0_wp)], dead, live, space, beam%links(i))
         end do
-        call place_supports([(support_type(i, below, infinite(), 0.0_wp), i=0, 2)], beam)
+        call order_supports([(node_support_type(i, below, infinite(), 0.0_wp), i=0, 2)], beam)
         closed = .true.
         call new_workspace(beam, work)
         call set_loads(beam, 1.0_wp, work)
@@ -136,7 +136,7 @@ contains
         call check_close(work%reaction, [5.0_wp, 7.0_wp, 0.0_wp], "the far end lifts")
         call check_close(work%answers(2)%deflection, -1/6.0_wp, "by (q - 6 g) l**4/24 EI")
         beam%supports(3)%node = 1
-        call place_supports([(support_type(i, below, infinite(), 0.0_wp), i=0, 1)], beam)
+        call order_supports([(node_support_type(i, below, infinite(), 0.0_wp), i=0, 1)], beam)
         beam%force(2, 2) = 100.0_wp
         closed = .true.
         call new_workspace(beam, work)
@@ -156,7 +156,7 @@ contains
         integer :: i
 
         call make(2, 1.0_wp, infinite(), beam)
-        call place_supports([(support_type(i, both, infinite(), 0.0_wp), i=0, 2)], beam)
+        call order_supports([(node_support_type(i, both, infinite(), 0.0_wp), i=0, 2)], beam)
         beam%force(1, 1) = 1.0_wp
         closed = .true.
         call new_workspace(beam, work)
@@ -182,7 +182,7 @@ contains
         call make(n, spacing, 1.0_wp, beam)
         allocate (closed(n + 1))
         do side = -1, 1, 2
-            call place_supports([(support_type(i, merge(side, 1, i < n/2), infinite(), 0.0_wp), i=0, n)], beam)
+            call order_supports([(node_support_type(i, merge(side, 1, i < n/2), infinite(), 0.0_wp), i=0, n)], beam)
             do i = 0, n
                 beam%force(1, i) = merge(side, 1, i < n/2)*spacing
             end do

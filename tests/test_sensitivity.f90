@@ -3,7 +3,7 @@ program test_sensitivity
     use testing, only: check, finish
     use beams, only: sample_type, make_beam, detail_of, draw, draw_magnitude, infinite
     use gapbeam_kinds, only: wp, qp
-    use gapbeam_model, only: support_type, below, both
+    use gapbeam_model, only: node_support_type, below, both
     use gapbeam_referee, only: refine_beam
     use gapbeam_band_quad, only: band_ok
     use gapbeam_model_quad, only: fine_beam_type => beam_type, is_rigid
@@ -29,7 +29,7 @@ contains
         type(fine_beam_type), intent(out) :: beam
         logical, allocatable, intent(out) :: closed(:)
         type(sample_type), target :: sample
-        type(support_type), allocatable :: supports(:)
+        type(node_support_type), allocatable :: supports(:)
         real(wp), allocatable :: length(:), ei(:), dead(:), live(:)
         integer :: i, n
 
@@ -42,7 +42,7 @@ contains
             live(i) = 2*draw(seed) - 1
         end do
         do i = 0, n
-            supports(i + 1) = support_type(i, below, infinite(), draw_magnitude(seed, -6.0_wp, -2.0_wp))
+            supports(i + 1) = node_support_type(i, below, infinite(), draw_magnitude(seed, -6.0_wp, -2.0_wp))
             if (draw(seed) < 0.4_wp) supports(i + 1)%stiffness = draw_magnitude(seed, 0.0_wp, 5.0_wp)
             closed(i + 1) = draw(seed) < 0.5_wp
         end do

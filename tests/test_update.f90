@@ -3,8 +3,8 @@ program test_update
     use testing, only: check, check_close, finish
     use gapbeam_kinds, only: wp
     use gapbeam_band, only: band_ok, hinge
-    use gapbeam_link, only: piece_type, load_type, condense_link
-    use gapbeam_model, only: beam_type, support_type, new_beam, both, below
+    use gapbeam_link, only: piece_type, piece_load_type, condense_link
+    use gapbeam_model, only: beam_type, node_support_type, new_beam, both, below
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_system, only: solve_scheme, refine_scheme
     use gapbeam_update, only: start_updates, update_scheme
@@ -29,7 +29,7 @@ contains
         logical, intent(in) :: rigid, hinges
         type(beam_type), intent(out) :: beam
         type(piece_type) :: piece(1)
-        type(load_type) :: dead(1), live(1)
+        type(piece_load_type) :: dead(1), live(1)
         real(wp) :: work(1), stiffness(0:n), contact(0:n), none(2, 0:n)
         integer :: kind(0:n), node(0:n), side(0:n), i
         type(beam_type) :: spans
@@ -37,8 +37,8 @@ contains
         allocate (spans%links(n))
         do i = 1, n
             piece = piece_type(1.0_wp + modulo(7*i, 5)/4.0_wp, 1e-3_wp*(1 + modulo(i, 3)), 0.0_wp)
-            dead = load_type(0, 0, 1.0_wp + modulo(3*i, 7), 0, 0)
-            live = load_type(0, 0, 0, 0, 0)
+            dead = piece_load_type(0, 0, 1.0_wp + modulo(3*i, 7), 0, 0)
+            live = piece_load_type(0, 0, 0, 0, 0)
             call condense_link(piece, dead, live, work, spans%links(i))
         end do
         kind = 0

@@ -3,7 +3,7 @@ module gapbeam_fields
     use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_positive_inf, ieee_negative_inf
     use gapbeam_kinds, only: wp
     use gapbeam_element, only: field_type, fields_at
-    use gapbeam_link, only: piece_type, load_type, combine_loads
+    use gapbeam_link, only: piece_type, piece_load_type, combine_loads
     use gapbeam_polynomial, only: roots_between, highest_degree
     implicit none
     private
@@ -15,7 +15,7 @@ contains
     pure subroutine values_at(pieces, dead, live, factor, starts, piece, distance, fields)
         !> Pieces, loads, factor of the live loads and fields at the pieces' left ends
         type(piece_type), intent(in) :: pieces(:)
-        type(load_type), intent(in) :: dead(:), live(:)
+        type(piece_load_type), intent(in) :: dead(:), live(:)
         real(wp), intent(in) :: factor
         type(field_type), intent(in) :: starts(:)
         !> The piece of each place (1-based) and the distance from its left end, shape (m)
@@ -23,7 +23,7 @@ contains
         real(wp), intent(in) :: distance(:)
         !> The values, shape (m)
         type(field_type), intent(out) :: fields(:)
-        type(load_type) :: load
+        type(piece_load_type) :: load
         integer :: i, j
 
         do i = 1, size(piece)
@@ -39,14 +39,14 @@ contains
     pure subroutine find_extremes(pieces, dead, live, factor, starts, values, piece, distance)
         !> As for values_at
         type(piece_type), intent(in) :: pieces(:)
-        type(load_type), intent(in) :: dead(:), live(:)
+        type(piece_load_type), intent(in) :: dead(:), live(:)
         real(wp), intent(in) :: factor
         type(field_type), intent(in) :: starts(:)
         !> Maximum (1) and minimum (2) of deflection, rotation, moment, shear, shape (2, 4), and where they are
         real(wp), intent(out) :: values(:, :)
         integer, intent(out) :: piece(:, :)
         real(wp), intent(out) :: distance(:, :)
-        type(load_type) :: q
+        type(piece_load_type) :: q
         real(wp) :: c(0:highest_degree, 4), roots(highest_degree), slope
         integer :: degree(4), j, k, i, number
 
@@ -91,7 +91,7 @@ contains
         integer, intent(in) :: k
         !> The piece, its load, the fields at its left end
         type(piece_type), intent(in) :: piece
-        type(load_type), intent(in) :: load
+        type(piece_load_type), intent(in) :: load
         type(field_type), intent(in) :: start
         !> Maximum and minimum so far and their places
         real(wp), intent(inout) :: values(:)

@@ -8,7 +8,7 @@ module gapbeam_link
     use gapbeam_element, only: sum_type, add, total, moment_integrals, field_type
     implicit none
     private
-    public :: link_type, piece_type, load_type, condense_link, condense_loads, recover_link, combine_loads
+    public :: link_type, piece_type, piece_load_type, condense_link, condense_loads, recover_link, combine_loads
 
     !> A prismatic piece
     type, bind(c) :: piece_type
@@ -17,12 +17,12 @@ module gapbeam_link
     end type piece_type
 
     !> Loads on a piece and on the point at its right end
-    type, bind(c) :: load_type
+    type, bind(c) :: piece_load_type
         !> Load per length at the left and right end, imposed curvature
         real(wp) :: qa, qb, kappa
         !> Force (down) and couple (clockwise) at the right end; those on a node are the node's, not the link's
         real(wp) :: force, couple
-    end type load_type
+    end type piece_load_type
 
     !> A condensed link; index 1 dead, 2 live
     type, bind(c) :: link_type
@@ -47,7 +47,7 @@ contains
         !> The pieces, left to right, shape (n)
         type(piece_type), intent(in) :: pieces(:)
         !> Their dead and live loads, shape (n); the point load of the last one belongs to the node
-        type(load_type), intent(in) :: dead(:), live(:)
+        type(piece_load_type), intent(in) :: dead(:), live(:)
         !> Workspace, shape (at least n)
         real(wp), intent(inout) :: work(:)
         !> The condensed link
@@ -118,7 +118,7 @@ contains
     !> Load terms of the link for one load case
     pure subroutine condense_loads(pieces, loads, link, k, work)
         type(piece_type), intent(in) :: pieces(:)
-        type(load_type), intent(in) :: loads(:)
+        type(piece_load_type), intent(in) :: loads(:)
         type(link_type), intent(inout) :: link
         integer, intent(in) :: k
         real(wp), intent(inout) :: work(:)
@@ -190,7 +190,7 @@ contains
 
     !> Is there anything to do for this load case
     pure function any_load(loads) result(found)
-        type(load_type), intent(in) :: loads(:)
+        type(piece_load_type), intent(in) :: loads(:)
         logical :: found
         integer :: j
 
@@ -215,7 +215,7 @@ contains
     !> Sum of the moments about the right end of all loads that lie to the right of each interior point
     pure subroutine moments_about_right_end(pieces, loads, right, all_of_them)
         type(piece_type), intent(in) :: pieces(:)
-        type(load_type), intent(in) :: loads(:)
+        type(piece_load_type), intent(in) :: loads(:)
         !> right(j): loads strictly to the right of the right end of piece j
         real(wp), intent(inout) :: right(:)
         !> The same for the left end of the link
@@ -241,7 +241,7 @@ contains
     !> The same just left of the point at the right end of a piece: its point load is still to the right
     elemental function before_point(right, load, y, is_last) result(moment)
         real(wp), intent(in) :: right
-        type(load_type), intent(in) :: load
+        type(piece_load_type), intent(in) :: load
         real(wp), intent(in) :: y
         logical, intent(in) :: is_last
         real(wp) :: moment
@@ -252,9 +252,9 @@ contains
 
     !> Dead plus factor times live
     elemental function combine_loads(dead, live, factor) result(loads)
-        type(load_type), intent(in) :: dead, live
+        type(piece_load_type), intent(in) :: dead, live
         real(wp), intent(in) :: factor
-        type(load_type) :: loads
+        type(piece_load_type) :: loads
 
         loads%qa = dead%qa + factor*live%qa
         loads%qb = dead%qb + factor*live%qb
@@ -268,7 +268,7 @@ contains
     pure subroutine recover_link(pieces, loads, length, moment_a, moment_b, shear, w_a, w_b, psi_a, work, starts)
         !> Pieces and their loads (already combined), shape (n)
         type(piece_type), intent(in) :: pieces(:)
-        type(load_type), intent(in) :: loads(:)
+        type(piece_load_type), intent(in) :: loads(:)
         !> Length of the link
         real(wp), intent(in) :: length
         !> Moments just inside its ends, shear that belongs to them, deflections of its ends, rotation at its left end

@@ -2,7 +2,7 @@
 module gapbeam_recover
     use gapbeam_kinds, only: wp
     use gapbeam_element, only: field_type
-    use gapbeam_link, only: link_type, piece_type, load_type, combine_loads, recover_link
+    use gapbeam_link, only: link_type, piece_type, piece_load_type, combine_loads, recover_link
     use gapbeam_nodes, only: hinge
     implicit none
     private
@@ -15,7 +15,7 @@ contains
                                  starts)
         !> Pieces and their loads, shape (npiece)
         type(piece_type), intent(in) :: pieces(:)
-        type(load_type), intent(in) :: dead(:), live(:)
+        type(piece_load_type), intent(in) :: dead(:), live(:)
         !> Factor of the live loads
         real(wp), intent(in) :: factor
         !> Links, shape (n), and the last piece of each
@@ -28,7 +28,7 @@ contains
         real(wp), intent(in) :: shear(:)
         !> The fields, shape (npiece)
         type(field_type), intent(out) :: starts(:)
-        type(load_type), allocatable :: loads(:)
+        type(piece_load_type), allocatable :: loads(:)
         real(wp), allocatable :: work(:, :), psi(:)
         integer :: i, first, longest
 

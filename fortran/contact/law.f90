@@ -18,7 +18,7 @@ module gapbeam_law
     use gapbeam_band, only: node_type, rhs_type, answer_type
     implicit none
     private
-    public :: support_type, below, above, both, nodes_at_a_time
+    public :: node_support_type, below, above, both, nodes_at_a_time
     public :: is_support, is_rigid, may_change, always_closed, separate_rigid_pairs
     public :: add_supports, share_forces
     public :: margin_of, margin_rates, find_margins, find_wrong_states, find_clearly_wrong_states, find_doubtful_states, &
@@ -34,7 +34,7 @@ module gapbeam_law
     integer, parameter :: nodes_at_a_time = 128
 
     !> A support at a node
-    type :: support_type
+    type :: node_support_type
         !> Node, 0..n
         integer :: node
         !> below, above or both
@@ -43,7 +43,7 @@ module gapbeam_law
         real(wp) :: stiffness
         !> Deflection at which it begins to act: settlement + gap (below), settlement - gap (above)
         real(wp) :: contact
-    end type support_type
+    end type node_support_type
 
 contains
 
@@ -51,7 +51,7 @@ contains
 
     !> Are the numbers of a support such as they may be
     elemental function is_support(support) result(it_is)
-        type(support_type), intent(in) :: support
+        type(node_support_type), intent(in) :: support
         logical :: it_is
 
         it_is = abs(support%side) <= 1 .and. support%stiffness >= 0.0_wp .and. abs(support%contact) <= huge(support%contact)
@@ -59,7 +59,7 @@ contains
 
     !> Is a support rigid
     elemental function is_rigid(support) result(rigid)
-        type(support_type), intent(in) :: support
+        type(node_support_type), intent(in) :: support
         logical :: rigid
 
         rigid = support%stiffness > huge(support%stiffness)
@@ -67,7 +67,7 @@ contains
 
     !> Has a support more than one state
     elemental function may_change(support) result(may)
-        type(support_type), intent(in) :: support
+        type(node_support_type), intent(in) :: support
         logical :: may
 
         may = support%side /= both .and. support%stiffness > 0.0_wp
@@ -75,7 +75,7 @@ contains
 
     !> Which supports are closed in every scheme
     pure function always_closed(supports) result(always)
-        type(support_type), intent(in) :: supports(:)
+        type(node_support_type), intent(in) :: supports(:)
         logical :: always(size(supports))
 
         always(:) = supports%side == both
@@ -83,7 +83,7 @@ contains
 
     !> Two rigid supports at one node cannot both act: begin with the one that holds both ways, or with the first
     pure subroutine separate_rigid_pairs(supports, last, closed)
-        type(support_type), intent(in) :: supports(:)
+        type(node_support_type), intent(in) :: supports(:)
         !> Last node
         integer, intent(in) :: last
         logical, intent(inout) :: closed(:)
@@ -111,7 +111,7 @@ contains
     !> Add stiffness and load of the acting supports to their nodes; a rigid one holds its node at the contact level
     pure subroutine add_supports(supports, order, acting, nodes, rhs, level, spring, spring_contact)
         !> All supports, the numbers of those at the nodes at hand, and which act
-        type(support_type), intent(in) :: supports(:)
+        type(node_support_type), intent(in) :: supports(:)
         integer, intent(in) :: order(:)
         logical, intent(in) :: acting(:)
         !> All nodes and their right-hand sides, shape (0:n)
@@ -150,7 +150,7 @@ contains
     pure subroutine share_forces(supports, order, first, acting, range, nodes, answers, deflection_size, force, force_error, &
                                  reaction, reaction_error)
         !> All supports; those at node i are order(first(i)) to order(first(i + 1) - 1); which act
-        type(support_type), intent(in) :: supports(:)
+        type(node_support_type), intent(in) :: supports(:)
         integer, intent(in) :: order(:), first(0:)
         logical, intent(in) :: acting(:)
         !> First and last node
@@ -219,7 +219,7 @@ contains
 
     !> By how much the state of a support is right, and the rounding error of that: the one measure of all signs
     elemental subroutine margin_of(support, closed, deflection, deflection_size, reaction, reaction_error, margin, rounding)
-        type(support_type), intent(in) :: support
+        type(node_support_type), intent(in) :: support
         logical, intent(in) :: closed
         !> Of its node, and the size of that for rounding errors
         real(wp), intent(in) :: deflection, deflection_size
@@ -243,7 +243,7 @@ contains
 
     !> By how much the margin of a support that is not held rigidly changes with the deflection of its node, and its contact level
     elemental subroutine margin_rates(support, closed, rate, level)
-        type(support_type), intent(in) :: support
+        type(node_support_type), intent(in) :: support
         logical, intent(in) :: closed
         !> Absolute values: its stiffness where it is closed, else 1; its contact level
         real(wp), intent(out) :: rate, level
@@ -256,7 +256,7 @@ contains
     !> The margins of all supports
     pure subroutine find_margins(supports, closed, answers, deflection_size, reaction, reaction_error, margin, rounding)
         !> The supports and the scheme, shape (m)
-        type(support_type), intent(in) :: supports(:)
+        type(node_support_type), intent(in) :: supports(:)
         logical, intent(in) :: closed(:)
         !> At the nodes, shape (0:n)
         type(answer_type), intent(in) :: answers(0:)
@@ -278,7 +278,7 @@ contains
     !> Which states are wrong: margins below zero by more than so many rounding errors
     pure subroutine find_wrong_states(supports, closed, answers, deflection_size, reaction, reaction_error, width, wrong)
         !> As for find_margins
-        type(support_type), intent(in) :: supports(:)
+        type(node_support_type), intent(in) :: supports(:)
         logical, intent(in) :: closed(:)
         type(answer_type), intent(in) :: answers(0:)
         real(wp), intent(in) :: deflection_size(0:), reaction(:), reaction_error(:)
@@ -302,7 +302,7 @@ contains
     pure subroutine find_doubtful_states(supports, closed, answers, deflection_size, reaction, reaction_error, width, doubtful, &
                                          in_doubt)
         !> As for find_wrong_states
-        type(support_type), intent(in) :: supports(:)
+        type(node_support_type), intent(in) :: supports(:)
         logical, intent(in) :: closed(:)
         type(answer_type), intent(in) :: answers(0:)
         real(wp), intent(in) :: deflection_size(0:), reaction(:), reaction_error(:), width
@@ -330,7 +330,7 @@ contains
     pure subroutine find_clearly_wrong_states(supports, order, first, closed, range, answers, force, least_force, &
                                               least_deflection, near_zero, wrong, doubtful)
         !> As for share_forces, and the scheme
-        type(support_type), intent(in) :: supports(:)
+        type(node_support_type), intent(in) :: supports(:)
         integer, intent(in) :: order(:), first(0:)
         logical, intent(in) :: closed(:)
         !> First and last node
@@ -370,7 +370,7 @@ contains
     !> The largest force with which a closed one-sided support pulls, and the largest penetration of an open one
     pure subroutine largest_violations(supports, closed, answers, reaction, pull, penetration)
         !> As for find_margins
-        type(support_type), intent(in) :: supports(:)
+        type(node_support_type), intent(in) :: supports(:)
         logical, intent(in) :: closed(:)
         type(answer_type), intent(in) :: answers(0:)
         real(wp), intent(in) :: reaction(:)
@@ -396,7 +396,7 @@ contains
 
     !> Mark the nodes that acting supports hold, rigidly or not
     pure subroutine mark_held(supports, acting, held)
-        type(support_type), intent(in) :: supports(:)
+        type(node_support_type), intent(in) :: supports(:)
         logical, intent(in) :: acting(:)
         !> Shape (0:n)
         logical, intent(inout) :: held(0:)
@@ -409,7 +409,7 @@ contains
 
     !> First and last node at which supports of a side can carry; the first is beyond the last if there are none
     pure function outermost(supports, side) result(nodes)
-        type(support_type), intent(in) :: supports(:)
+        type(node_support_type), intent(in) :: supports(:)
         !> below, above or both
         integer, intent(in) :: side
         integer :: nodes(2)
@@ -425,7 +425,7 @@ contains
 
     !> Is a motion towards any support, closed or open
     pure function is_blocked(supports, displacement) result(blocked)
-        type(support_type), intent(in) :: supports(:)
+        type(node_support_type), intent(in) :: supports(:)
         !> Of the nodes, shape (0:n)
         real(wp), intent(in) :: displacement(0:)
         logical :: blocked
@@ -442,7 +442,7 @@ contains
 
     !> Is a motion towards none of some supports
     pure function leaves_all(supports, chosen, first, last, displacement, way) result(leaves)
-        type(support_type), intent(in) :: supports(:)
+        type(node_support_type), intent(in) :: supports(:)
         logical, intent(in) :: chosen(:)
         !> First and last node that move, their displacements, and 1 or -1 for the motion or its opposite
         integer, intent(in) :: first, last
@@ -463,7 +463,7 @@ contains
     !> How far a motion can go until one of some supports closes; huge if none does
     pure function distance_to_contact(supports, numbers, closed, direction, deflection, least_speed) result(way)
         !> All supports, the numbers of those in question, and the scheme
-        type(support_type), intent(in) :: supports(:)
+        type(node_support_type), intent(in) :: supports(:)
         integer, intent(in) :: numbers(:)
         logical, intent(in) :: closed(:)
         !> The motion and where it starts, shape (0:n)
@@ -487,7 +487,7 @@ contains
 
     !> The least stiffness that is not 0; huge if there is no finite one
     pure function least_stiffness(supports) result(least)
-        type(support_type), intent(in) :: supports(:)
+        type(node_support_type), intent(in) :: supports(:)
         real(wp) :: least
         integer :: k
 
@@ -499,7 +499,7 @@ contains
 
     !> Stiffnesses of the supports whose state may change when they are closed, infinite for rigid ones; 0 for the others
     pure function stiffness_of_changing(supports) result(stiffness)
-        type(support_type), intent(in) :: supports(:)
+        type(node_support_type), intent(in) :: supports(:)
         real(wp) :: stiffness(size(supports))
         integer :: k
 
@@ -510,7 +510,7 @@ contains
 
     !> The supports whose state may change as complementary pairs: R >= 0, side (contact - w) + R compliance >= 0, their product 0
     pure subroutine find_pairs(supports, numbers, side, contact, compliance)
-        type(support_type), intent(in) :: supports(:)
+        type(node_support_type), intent(in) :: supports(:)
         !> Their numbers, sides (1 or -1), contact levels, and 1/stiffness
         integer, allocatable, intent(out) :: numbers(:)
         real(wp), allocatable, intent(out) :: side(:), contact(:), compliance(:)
@@ -530,7 +530,7 @@ contains
 
     !> The nodes at which one support alone can carry, and that to one side only
     pure subroutine find_single(supports, number, side, contact)
-        type(support_type), intent(in) :: supports(:)
+        type(node_support_type), intent(in) :: supports(:)
         !> Its number, 0 at other nodes; its side and contact level; shape (0:n)
         integer, intent(out) :: number(0:), side(0:)
         real(wp), intent(out) :: contact(0:)
@@ -553,14 +553,14 @@ contains
 
     !> Make a support one that holds both ways
     elemental subroutine hold_both_ways(support)
-        type(support_type), intent(inout) :: support
+        type(node_support_type), intent(inout) :: support
 
         support%side = both
     end subroutine hold_both_ways
 
     !> Make a support no stiffer than this
     elemental subroutine limit_stiffness(support, stiffness)
-        type(support_type), intent(inout) :: support
+        type(node_support_type), intent(inout) :: support
         real(wp), intent(in) :: stiffness
 
         if (support%stiffness > stiffness) support%stiffness = stiffness
@@ -568,7 +568,7 @@ contains
 
     !> Take the contact level for the origin: what is left of the law when deflections are changes
     elemental subroutine drop_level(support)
-        type(support_type), intent(inout) :: support
+        type(node_support_type), intent(inout) :: support
 
         support%contact = 0.0_wp
     end subroutine drop_level

@@ -3,12 +3,12 @@ module gapbeam_model
     use gapbeam_kinds, only: wp
     use gapbeam_require, only: checked, require
     use gapbeam_link, only: link_type
-    use gapbeam_law, only: support_type, below, above, both, is_rigid, is_support, least_stiffness
+    use gapbeam_law, only: node_support_type, below, above, both, is_rigid, is_support, least_stiffness
     implicit none
     private
-    public :: beam_type, new_beam, place_supports, softest
+    public :: beam_type, new_beam, order_supports, softest
     ! Of gapbeam_law, for those who make beams
-    public :: support_type, below, above, both, is_rigid
+    public :: node_support_type, below, above, both, is_rigid
 
     !> A beam; load index 1 dead, 2 live
     type :: beam_type
@@ -21,7 +21,7 @@ module gapbeam_model
         !> Applied force (down) and couple (clockwise), shape (2, 0:n)
         real(wp), allocatable :: force(:, :), couple(:, :)
         !> Supports in the caller's order
-        type(support_type), allocatable :: supports(:)
+        type(node_support_type), allocatable :: supports(:)
         !> Their numbers from left to right; those at node i are order(first(i)) to order(first(i + 1) - 1)
         integer, allocatable :: order(:), first(:)
     end type beam_type
@@ -40,7 +40,7 @@ contains
         real(wp), intent(in) :: stiffness(:), contact(:)
         !> The beam
         type(beam_type), intent(out) :: beam
-        type(support_type), allocatable :: supports(:)
+        type(node_support_type), allocatable :: supports(:)
         integer :: k, n
 
         n = size(links)
@@ -52,23 +52,23 @@ contains
         beam%force(:, :) = force
         beam%couple(:, :) = couple
         do k = 1, size(node)
-            supports(k) = support_type(node(k), side(k), stiffness(k), contact(k))
+            supports(k) = node_support_type(node(k), side(k), stiffness(k), contact(k))
         end do
-        call place_supports(supports, beam)
+        call order_supports(supports, beam)
     end subroutine new_beam
 
     !> Give a beam its supports, and put them in order from left to right, those at the same node in the caller's order
-    pure subroutine place_supports(supports, beam)
+    pure subroutine order_supports(supports, beam)
         !> The supports
-        type(support_type), intent(in) :: supports(:)
+        type(node_support_type), intent(in) :: supports(:)
         !> A beam whose links are there
         type(beam_type), intent(inout) :: beam
         integer :: k, i, n
 
         n = size(beam%links)
         if (checked) then
-            call require(all(supports%node >= 0 .and. supports%node <= n), "place_supports: node")
-            call require(all(is_support(supports)), "place_supports: side, stiffness or contact level")
+            call require(all(supports%node >= 0 .and. supports%node <= n), "order_supports: node")
+            call require(all(is_support(supports)), "order_supports: side, stiffness or contact level")
         end if
         if (allocated(beam%supports)) deallocate (beam%supports, beam%order, beam%first)
         allocate (beam%supports(size(supports)), beam%order(size(supports)), beam%first(0:n + 1))
@@ -92,7 +92,7 @@ contains
             beam%first(i) = beam%first(i - 1)
         end do
         beam%first(0) = 1
-    end subroutine place_supports
+    end subroutine order_supports
 
     !> A stiffness far below all others: that of the whole beam in bending, or of its softest support
     pure function softest(beam) result(stiffness)

@@ -3,8 +3,8 @@ module gapbeam_part
     use gapbeam_kinds, only: wp, dp
     use gapbeam_require, only: checked, require
     use gapbeam_band, only: plain
-    use gapbeam_law, only: support_type, stiffness_of_changing, hold_both_ways
-    use gapbeam_model, only: beam_type, place_supports
+    use gapbeam_law, only: node_support_type, stiffness_of_changing, hold_both_ways
+    use gapbeam_model, only: beam_type, order_supports
     use gapbeam_workspace, only: workspace_type, new_workspace
     implicit none
     private
@@ -86,7 +86,7 @@ contains
         type(workspace_type), intent(out) :: part_work
         !> Numbers of its supports in the whole beam
         integer, allocatable, intent(out) :: number(:)
-        type(support_type), allocatable :: supports(:)
+        type(node_support_type), allocatable :: supports(:)
         integer :: m, k
 
         m = to - from
@@ -101,7 +101,7 @@ contains
         allocate (supports(size(number)))
         supports(:) = beam%supports(number)
         supports%node = supports%node - from
-        call place_supports(supports, part)
+        call order_supports(supports, part)
         call new_workspace(part, part_work)
         part_work%loads(:) = work%loads(from:to)
         part_work%load_size(:) = work%load_size(from:to)

@@ -18,7 +18,7 @@ module gapbeam_scheme
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_system, only: solve_scheme, refine_scheme
     use gapbeam_rules, only: find_wrong, first_width
-    use gapbeam_search, only: settle, refuse
+    use gapbeam_search, only: settle, refuse_scheme
     implicit none
     private
     public :: find_scheme, outcome_type
@@ -162,7 +162,7 @@ contains
             if (stable) then
                 work%ease = 0.0_wp
                 call solve_scheme(beam, closed, work, state, place)
-                if (state == band_needs_pivoting) call refuse(beam, state, place, error)
+                if (state == band_needs_pivoting) call refuse_scheme(beam, state, place, error)
                 if (allocated(error)) return
                 if (state == band_ok) then
                     call refine_scheme(beam, closed, work)

@@ -31,7 +31,7 @@ module gapbeam_search
     use gapbeam_interior_point, only: interior_type, start_interior, step_interior, product_of
     implicit none
     private
-    public :: settle, refuse, rule_block, rule_single
+    public :: settle, refuse_scheme, rule_block, rule_single
 
     !> The two rules
     integer, parameter :: rule_block = 0, rule_single = 1
@@ -120,7 +120,7 @@ contains
         if (search%state == band_ok) call change_least_index(beam, closed, work, search, settled)
         if (settled) return
         if (search%state /= band_ok) then
-            call refuse(beam, search%state, search%place, error)
+            call refuse_scheme(beam, search%state, search%place, error)
         else
             call fatal_error(error, gapbeam_not_converged, "the signs of some reactions or openings cannot be told from "// &
                              "rounding errors in double precision")
@@ -436,7 +436,7 @@ contains
     end subroutine change_least_index
 
     !> A scheme that cannot be solved though all that holds the beam acts
-    subroutine refuse(beam, state, place, error)
+    subroutine refuse_scheme(beam, state, place, error)
         type(beam_type), intent(in) :: beam
         integer, intent(in) :: state, place
         type(error_type), allocatable, intent(out) :: error
@@ -450,6 +450,6 @@ contains
         else
             call fatal_error(error, gapbeam_not_converged, "the scheme near node "//trim(text)//" cannot be solved")
         end if
-    end subroutine refuse
+    end subroutine refuse_scheme
 
 end module gapbeam_search

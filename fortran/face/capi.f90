@@ -9,7 +9,7 @@ module gapbeam_capi
     use gapbeam_state, only: event_type
     use gapbeam_api, only: prepared_type, options_type, result_type, certificate_type, prepare_model, replace_loads, &
         count_supports, count_nodes, solve_beam, follow_load, get_supports, get_fields, get_extremes, get_motion, get_certificate
-    use gapbeam_capi_model, only: c_model, read_model, read_loads
+    use gapbeam_capi_model, only: c_model, model_from_c, loads_from_c
     implicit none
     private
     public :: c_options, c_info, c_certificate
@@ -132,7 +132,7 @@ contains
         if (.not. (present(model) .and. present(beam))) then
             call fatal_error(error, gapbeam_bad_input, "model or beam is NULL")
         else
-            call read_model(model, plain, error)
+            call model_from_c(model, plain, error)
         end if
         if (.not. allocated(error)) then
             allocate (handle, stat=stat)
@@ -178,7 +178,7 @@ contains
         else if (.not. present(loads)) then
             call fatal_error(error, gapbeam_bad_input, "loads is NULL")
         else
-            call read_loads(loads, list, error)
+            call loads_from_c(loads, list, error)
             if (.not. allocated(error)) call replace_loads(handle%beam, list, error)
         end if
         call report(error, status, message, message_size)
@@ -471,7 +471,7 @@ contains
         if (.not. present(model)) then
             call fatal_error(error, gapbeam_bad_input, "model is NULL")
         else
-            call read_model(model, plain, error)
+            call model_from_c(model, plain, error)
         end if
         if (.not. allocated(error)) call read_options(options, chosen, error)
         if (.not. allocated(error)) call check_points(count, present(x) .and. present(fields), error)

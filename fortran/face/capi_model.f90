@@ -5,7 +5,7 @@ module gapbeam_capi_model
     use gapbeam_scene, only: model_type, load_type
     implicit none
     private
-    public :: c_model, read_model, read_loads
+    public :: c_model, model_from_c, loads_from_c
 
     !> Mirror of the header's structure; tests/test_capi.c compares the sizes
     type, bind(c) :: c_model
@@ -26,7 +26,7 @@ module gapbeam_capi_model
 contains
 
     !> Copy a model; what is NULL keeps its default
-    subroutine read_model(c, model, error)
+    subroutine model_from_c(c, model, error)
         !> As the caller filled it
         type(c_model), intent(in) :: c
         type(model_type), intent(out) :: model
@@ -43,7 +43,7 @@ contains
         if (.not. allocated(error)) call check_array("supports", c%supports, c_associated(c%support_x) &
                                                      .or. c_associated(c%support_node), "support_x or support_node is needed", &
                                                      error)
-        if (.not. allocated(error)) call read_loads(c, model%loads, error)
+        if (.not. allocated(error)) call loads_from_c(c, model%loads, error)
         if (allocated(error)) return
         allocate (model%spans(c%spans), model%hinges(c%hinges), model%supports(c%supports), stat=stat)
         if (stat /= 0) then
@@ -67,13 +67,13 @@ contains
             if (has_reals(c%support_rotation, n, reals)) s%rotation = reals
             if (has_integers(c%support_direction, n, integers)) s%direction = integers
         end associate
-    end subroutine read_model
+    end subroutine model_from_c
 
     !> Copy the loads of a model
-    subroutine read_loads(c, loads, error)
+    subroutine loads_from_c(c, loads, error)
         type(c_model), intent(in) :: c
         type(load_type), allocatable, intent(out) :: loads(:)
-        !> As for read_model
+        !> As for model_from_c
         type(error_type), allocatable, intent(out) :: error
         real(c_double), pointer :: reals(:)
         integer(c_int), pointer :: integers(:)
@@ -102,7 +102,7 @@ contains
             end do
             if (has_reals(c%load_value_to, n, reals)) loads%value_to = reals
         end associate
-    end subroutine read_loads
+    end subroutine loads_from_c
 
     !> Is the structure the library's
     subroutine check_size(c, error)

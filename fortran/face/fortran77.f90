@@ -27,7 +27,7 @@ subroutine gbprep(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, alo
     use gapbeam_error, only: error_type, gapbeam_no_memory, gapbeam_bad_input
     use gapbeam_scene, only: model_type
     use gapbeam_api, only: prepared_type, prepare_model
-    use gapbeam_work, only: sizes_of_beam, read_model, put_beam
+    use gapbeam_work, only: sizes_of_beam, model_from_arrays, put_beam
     implicit none
     ! Sizes; NSPAN 1 or more, the others 0 or more
     integer, intent(in) :: nspan, nhinge, nsup, nload
@@ -67,7 +67,7 @@ subroutine gbprep(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, alo
     if (liwork < integers) info = -14
     if (info /= 0) return
     iwork(1) = 0
-    call read_model(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, model, error)
+    call model_from_arrays(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, model, error)
     if (.not. allocated(error)) call prepare_model(model, beam, error)
     if (allocated(error)) then
         info = error%code
@@ -86,7 +86,7 @@ subroutine gbload(nload, iload, aload, work, lwork, iwork, liwork, info)
     use gapbeam_error, only: error_type, gapbeam_no_memory, gapbeam_bad_input
     use gapbeam_scene, only: load_type
     use gapbeam_api, only: prepared_type, replace_loads
-    use gapbeam_work, only: take_beam, read_loads, put_beam
+    use gapbeam_work, only: take_beam, loads_from_arrays, put_beam
     implicit none
     ! All loads from now on, see above
     integer, intent(in) :: nload
@@ -111,7 +111,7 @@ subroutine gbload(nload, iload, aload, work, lwork, iwork, liwork, info)
         info = merge(error%code, -4, error%code == gapbeam_no_memory)
         return
     end if
-    call read_loads(nload, iload, aload, loads, error)
+    call loads_from_arrays(nload, iload, aload, loads, error)
     if (.not. allocated(error)) call replace_loads(beam, loads, error)
     if (allocated(error)) then
         info = merge(-2, error%code, error%code == gapbeam_bad_input)

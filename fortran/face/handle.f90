@@ -24,7 +24,8 @@ contains
 
     !> Lower a model and keep it
     subroutine new_handle(model, address, error)
-        type(model_type), intent(in) :: model
+        !> Moved away
+        type(model_type), intent(inout) :: model
         !> The handle; 0 where an error is found
         integer(int64), intent(out) :: address
         !> As for lower_model
@@ -38,7 +39,13 @@ contains
             call no_memory(error)
             return
         end if
-        handle%lowered%model = model
+        associate (kept => handle%lowered%model)
+            call move_alloc(model%spans, kept%spans)
+            call move_alloc(model%hinges, kept%hinges)
+            call move_alloc(model%sections, kept%sections)
+            call move_alloc(model%supports, kept%supports)
+            call move_alloc(model%loads, kept%loads)
+        end associate
         call lower_model(handle%lowered, error)
         if (allocated(error)) then
             deallocate (handle)

@@ -1,8 +1,8 @@
 !> Prepared beams and their states in the work arrays of Fortran 77, and back
 module gapbeam_pack
     use gapbeam_kinds, only: wp
-    use gapbeam_link, only: link_type, piece_type, piece_load_type => load_type
-    use gapbeam_model, only: node_support_type => support_type
+    use gapbeam_link, only: link_type, piece_type, piece_load_type
+    use gapbeam_model, only: node_support_type
     use gapbeam_scene, only: model_type
     use gapbeam_units, only: units_type
     use gapbeam_lowered, only: lowered_type

@@ -266,7 +266,7 @@ subroutine gbpath(most, beam, nl, ns, limit, factor, closed, margin, events, at,
     use gapbeam_memory, only: for_following
     use gapbeam_scheme, only: outcome_type
     use gapbeam_referee, only: reserve_for
-    use gapbeam_path, only: follow_load, path_type
+    use gapbeam_path, only: follow_path, path_type
     use gapbeam_state, only: detail_of, name_range
     implicit none
     ! Number of events after which it stops
@@ -309,7 +309,7 @@ subroutine gbpath(most, beam, nl, ns, limit, factor, closed, margin, events, at,
             allocate (acting(ns), zero(ns))
             acting(:) = closed(:ns) /= 0
             zero(:) = margin(:ns) /= 0
-            call follow_load(lowered%beam, detail_of(lowered), limit, most, factor, acting, zero, path, outcome, error)
+            call follow_path(lowered%beam, detail_of(lowered), limit, most, factor, acting, zero, path, outcome, error)
             call name_range(lowered, error)
         end if
     end associate

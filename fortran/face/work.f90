@@ -12,7 +12,7 @@ module gapbeam_work
     use gapbeam_pack, only: exchange_beam, exchange_state
     implicit none
     private
-    public :: sizes_of_beam, sizes_of_state, put_beam, take_beam, put_result, take_result, read_loads, read_model
+    public :: sizes_of_beam, sizes_of_state, put_beam, take_beam, put_result, take_result, loads_from_arrays, model_from_arrays
     public :: begin_result, take_both
 
     !> Marks of what a pair of work arrays holds, in the first integer; the next two are the lengths used
@@ -221,12 +221,12 @@ contains
     end subroutine start
 
     !> A model from the arrays of GBPREP
-    subroutine read_model(spans, span, hinges, hinge, supports, isup, sup, loads, iload, aload, model, error)
+    subroutine model_from_arrays(spans, span, hinges, hinge, supports, isup, sup, loads, iload, aload, model, error)
         integer, intent(in) :: spans, hinges, supports, loads
         !> length, EI, GA, EA; x; side, direction, node; x, stiffness, gap, settlement, rotation
         real(wp), intent(in) :: span(4, *), hinge(*), sup(5, *)
         integer, intent(in) :: isup(3, *)
-        !> As for read_loads
+        !> As for loads_from_arrays
         integer, intent(in) :: iload(3, *)
         real(wp), intent(in) :: aload(4, *)
         type(model_type), intent(out) :: model
@@ -260,11 +260,11 @@ contains
                 s%rotation = sup(5, i)
             end associate
         end do
-        call read_loads(loads, iload, aload, model%loads, error)
-    end subroutine read_model
+        call loads_from_arrays(loads, iload, aload, model%loads, error)
+    end subroutine model_from_arrays
 
     !> Loads from the arrays of GBPREP and GBLOAD
-    subroutine read_loads(number, iload, aload, loads, error)
+    subroutine loads_from_arrays(number, iload, aload, loads, error)
         integer, intent(in) :: number
         !> kind, case, node; x, to, value, value_to
         integer, intent(in) :: iload(3, *)
@@ -290,6 +290,6 @@ contains
                 load%value_to = aload(4, i)
             end associate
         end do
-    end subroutine read_loads
+    end subroutine loads_from_arrays
 
 end module gapbeam_work

@@ -32,7 +32,7 @@ module gapbeam_path
         line_in, same_factor
     implicit none
     private
-    public :: follow_load, path_type, event_opens, event_closes, event_turns
+    public :: follow_path, path_type, event_opens, event_closes, event_turns
 
     !> What happens to a support
     integer, parameter :: event_opens = 0, event_closes = 1
@@ -64,7 +64,7 @@ module gapbeam_path
 contains
 
     !> Follow the load from one factor to another
-    subroutine follow_load(beam, detail, limit, most, factor, closed, marginal, path, outcome, error)
+    subroutine follow_path(beam, detail, limit, most, factor, closed, marginal, path, outcome, error)
         !> The beam, and what its links are made of
         type(beam_type), intent(in) :: beam
         type(detail_type), intent(in) :: detail
@@ -106,7 +106,7 @@ contains
         stretch%closely = .true.
         call follow(beam, detail, limit, most, factor, closed, marginal, stretch, path, outcome, error)
         path%solves = stretch%solves
-    end subroutine follow_load
+    end subroutine follow_path
 
     !> Is the scheme at the end of the path that of the state there
     function right_at(beam, detail, factor, closed) result(right)
@@ -131,7 +131,7 @@ contains
 
     !> The same, in one precision after the other
     subroutine follow(beam, detail, limit, most, factor, closed, marginal, stretch, path, outcome, error)
-        !> As for follow_load
+        !> As for follow_path
         type(beam_type), intent(in) :: beam
         type(detail_type), intent(in) :: detail
         real(wp), intent(in) :: limit

@@ -2,7 +2,7 @@
 module gapbeam_cases
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
-    use gapbeam_link, only: link_type, load_type, condense_loads
+    use gapbeam_link, only: link_type, piece_load_type, condense_loads
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, set_loads
     use gapbeam_scheme, only: outcome_type
@@ -36,7 +36,7 @@ module gapbeam_cases
     end type case_loads_type
 
     !> No load on a piece
-    type(load_type), parameter :: nothing = load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
+    type(piece_load_type), parameter :: nothing = piece_load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
 
 contains
 
@@ -46,7 +46,7 @@ contains
         type(case_loads_type), intent(out) :: loads
         !> No memory
         type(error_type), allocatable, intent(out) :: error
-        type(load_type), allocatable :: on_pieces(:)
+        type(piece_load_type), allocatable :: on_pieces(:)
         integer, allocatable :: link_of(:)
         real(wp), allocatable :: work(:)
         integer :: i, k, shares, at_nodes, stat

@@ -9,7 +9,7 @@ module gapbeam_state
     use gapbeam_scheme, only: outcome_type
     use gapbeam_referee, only: rule_given, decide_scheme, detail_type, reserve_for
     use gapbeam_certificate, only: certificate_type, certify
-    use gapbeam_path, only: follow_load, path_type, event_turns
+    use gapbeam_path, only: follow_path, path_type, event_turns
     use gapbeam_axial, only: solve_axial, axial_slides, axial_indeterminate
     use gapbeam_words, only: shown
     use gapbeam_lowered, only: lowered_type, point_x
@@ -221,7 +221,7 @@ contains
         do while (at < factor)
             call reserve_for(for_following, lowered%beam, detail_of(lowered), error)
             if (allocated(error)) return
-            call follow_load(lowered%beam, detail_of(lowered), factor, changes_at_a_time, at, state%closed, state%undecided, &
+            call follow_path(lowered%beam, detail_of(lowered), factor, changes_at_a_time, at, state%closed, state%undecided, &
                              path, outcome, error)
             call name_range(lowered, error)
             if (allocated(error)) then

@@ -2,7 +2,7 @@
 module gapbeam_lower_loads
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
-    use gapbeam_link, only: condense_link, piece_load_type => load_type
+    use gapbeam_link, only: condense_link, piece_load_type
     use gapbeam_range, only: first_lost_link
     use gapbeam_scene, only: load_type, gapbeam_force, gapbeam_axial_force, gapbeam_curvature, gapbeam_dead
     use gapbeam_lowered, only: lowered_type, fingerprint, is_stretch

@@ -5,7 +5,7 @@ module gapbeam_lower_supports
     use gapbeam_band, only: plain, hinge, restrained
     use gapbeam_scene, only: support_type, gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_normal, gapbeam_axial, &
         gapbeam_axial_force
-    use gapbeam_model, only: node_support_type => support_type, order_supports => place_supports
+    use gapbeam_model, only: node_support_type, order_supports
     use gapbeam_words, only: shown, whole
     use gapbeam_lowered, only: lowered_type
     use gapbeam_places, only: position_tolerance

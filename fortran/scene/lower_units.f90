@@ -3,7 +3,7 @@
 module gapbeam_lower_units
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type
-    use gapbeam_link, only: piece_load_type => load_type
+    use gapbeam_link, only: piece_load_type
     use gapbeam_range, only: is_lost
     use gapbeam_units, only: units_type, exponents_type, rotation_unit, moment_unit, stiffness_unit, turning_unit, &
         units_with_loads, middle, largest, no_exponent, ordinary_exponent

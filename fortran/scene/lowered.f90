@@ -2,7 +2,7 @@
 module gapbeam_lowered
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp
-    use gapbeam_link, only: piece_type, piece_load_type => load_type
+    use gapbeam_link, only: piece_type, piece_load_type
     use gapbeam_model, only: beam_type
     use gapbeam_scene, only: model_type, load_type, gapbeam_distributed, gapbeam_curvature
     use gapbeam_units, only: units_type

@@ -8,7 +8,7 @@ module gapbeam_certificate
     use gapbeam_kinds, only: wp, qp
     use gapbeam_error, only: error_type, gapbeam_solved
     use gapbeam_element, only: field_type
-    use gapbeam_link, only: piece_type, load_type
+    use gapbeam_link, only: piece_type, piece_load_type
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: plain_workspace_type => workspace_type, new_plain_workspace => new_workspace, &
         set_plain_loads => set_loads, apply_scheme
@@ -223,7 +223,7 @@ contains
     !> Errors of the fields inside a piece: those at its left end, carried on, and the rounding of every term
     pure subroutine add_piece(piece, dead, live, factor, start, change, certificate)
         type(piece_type), intent(in) :: piece
-        type(load_type), intent(in) :: dead, live
+        type(piece_load_type), intent(in) :: dead, live
         !> Size of the factor of the live loads
         real(wp), intent(in) :: factor
         !> Fields at the left end, and their errors

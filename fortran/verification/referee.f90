@@ -9,7 +9,7 @@ module gapbeam_referee
     use gapbeam_kinds, only: wp, qp
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_memory, gapbeam_indeterminate
     use gapbeam_memory, only: reserve_memory, for_refining
-    use gapbeam_link, only: piece_type, load_type
+    use gapbeam_link, only: piece_type, piece_load_type
     use gapbeam_law, only: always_closed
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, set_loads
@@ -17,7 +17,7 @@ module gapbeam_referee
     use gapbeam_system, only: solve_scheme, refine_scheme
     use gapbeam_band, only: band_ok
     use gapbeam_scheme, only: find_scheme, outcome_type
-    use gapbeam_link_quad, only: fine_piece_type => piece_type, fine_load_type => load_type, fine_link_type => link_type, &
+    use gapbeam_link_quad, only: fine_piece_type => piece_type, fine_load_type => piece_load_type, fine_link_type => link_type, &
         condense_link
     use gapbeam_kinematics, only: held_by_ties
     use gapbeam_kinematics_quad, only: fine_held_by_ties => held_by_ties
@@ -46,7 +46,7 @@ module gapbeam_referee
     type :: detail_type
         !> Pieces, and their dead and live loads, shape (npiece); not associated where there are the links only
         type(piece_type), pointer :: pieces(:) => null()
-        type(load_type), pointer :: dead(:) => null(), live(:) => null()
+        type(piece_load_type), pointer :: dead(:) => null(), live(:) => null()
         !> Last piece of every link, shape (n)
         integer, pointer :: last(:) => null()
     end type detail_type
@@ -333,7 +333,7 @@ contains
 
     !> A load in quadruple precision
     elemental function fine_load(load) result(fine)
-        type(load_type), intent(in) :: load
+        type(piece_load_type), intent(in) :: load
         type(fine_load_type) :: fine
 
         fine = fine_load_type(real(load%qa, qp), real(load%qb, qp), real(load%kappa, qp), real(load%force, qp), &

@@ -4,7 +4,7 @@ module yardstick_condensed
     use gapbeam_band, only: restrained
     use gapbeam_element, only: field_type
     use gapbeam_error, only: error_type, gapbeam_solved
-    use gapbeam_link, only: link_type, piece_type, load_type, condense_link
+    use gapbeam_link, only: link_type, piece_type, piece_load_type, condense_link
     use gapbeam_model, only: chain_type => beam_type, new_beam
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_scheme, only: find_scheme, outcome_type
@@ -29,7 +29,7 @@ contains
         !> solved or singular
         integer, intent(out) :: status
         type(piece_type), allocatable :: pieces(:)
-        type(load_type), allocatable :: loads(:), none(:)
+        type(piece_load_type), allocatable :: loads(:), none(:)
         type(link_type), allocatable :: links(:)
         type(field_type), allocatable :: starts(:)
         type(chain_type) :: chain
@@ -47,10 +47,10 @@ contains
         nl = size(at) - 1
         allocate (pieces(n), loads(n), none(n), links(nl), starts(n), room(n))
         allocate (force(2, 0:nl), couple(2, 0:nl), compliance(0:nl), kind(0:nl), node(size(support)), acting(size(support)))
-        none(:) = load_type(0, 0, 0, 0, 0)
+        none(:) = piece_load_type(0, 0, 0, 0, 0)
         do i = 1, n
             pieces(i) = piece_type(beam%length(i), 1/beam%ei(i), 0.0_wp)
-            loads(i) = load_type(beam%q(i), beam%q(i), 0.0_wp, beam%force(i), 0.0_wp)
+            loads(i) = piece_load_type(beam%q(i), beam%q(i), 0.0_wp, beam%force(i), 0.0_wp)
         end do
         force(:, :) = 0.0_wp
         couple(:, :) = 0.0_wp

@@ -4,7 +4,7 @@
 !> residual in plain double, with differences of neighbouring unknowns formed first, or in double-double.
 module yardstick_mixed
     use gapbeam_kinds, only: wp
-    use gapbeam_link, only: link_type, piece_type, load_type, condense_link
+    use gapbeam_link, only: link_type, piece_type, piece_load_type, condense_link
     use gapbeam_band, only: node_type, rhs_type, pivot_type, chain_answer_type => answer_type, factor_chain, solve_chain, &
         band_ok, plain, restrained
     use gapbeam_residual, only: residual_chain, size_type
@@ -149,7 +149,7 @@ contains
         type(beam_type), intent(in) :: beam
         logical, intent(in) :: closed(0:)
         type(piece_type) :: piece(1)
-        type(load_type) :: dead(1), live(1)
+        type(piece_load_type) :: dead(1), live(1)
         real(wp) :: work(1)
         integer :: i, n
 
@@ -158,10 +158,10 @@ contains
             allocate (self%links(n), self%nodes(0:n), self%rhs(0:n), self%eliminated(0:n), self%pivots(0:n))
             allocate (self%solution(0:n), self%correction(0:n), self%sizes(0:n))
         end if
-        dead(1) = load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
+        dead(1) = piece_load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
         do i = 1, n
             piece(1) = piece_type(beam%length(i), 1/beam%ei(i), 0.0_wp)
-            live(1) = load_type(beam%q(i), beam%q(i), 0.0_wp, 0.0_wp, 0.0_wp)
+            live(1) = piece_load_type(beam%q(i), beam%q(i), 0.0_wp, 0.0_wp, 0.0_wp)
             call condense_link(piece, dead, live, work, self%links(i))
         end do
         do i = 0, n
