@@ -574,7 +574,9 @@ subroutine gbshar(beam, status)
     if (allocated(handle%cases)) return
     allocate (handle%cases)
     call split_loads(handle%lowered, handle%cases, error)
-    if (allocated(error)) status = error%code
+    if (.not. allocated(error)) return
+    deallocate (handle%cases)
+    status = error%code
 end subroutine gbshar
 
 ! Solve NC cases of loads; every load counts with its factor
