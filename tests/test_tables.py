@@ -1,7 +1,9 @@
 """Supports, loads and sections as columns: the same results as from lists of tables, the same refusals."""
 
 import pickle
+import random
 import sys
+from contextlib import suppress
 
 import gapbeam
 import numpy as np
@@ -169,3 +171,41 @@ def test_no_object_a_support():
     scene = gapbeam.read_scene(made)
     assert sys.getallocatedblocks() - before < 2 * many  # the spans are a list of floats, as in every scene
     assert len(scene.supports) == many + 1
+
+
+ODD = [
+    np.array([0, 1, 2]), np.array(["both", "below", "above"]), np.array([True, False, True]), np.array([1 + 2j, 1, 2]),
+    np.array([None, 1, 2], dtype=object), np.array([["a"], ["b"], ["c"]]), np.array([np.nan, 1, 2]), np.array([2**63 - 1, 1, 2]),
+    np.array([-5, 1, 2]), np.array([], dtype=float), np.array([1, 2]), np.zeros((3, 2)), np.zeros((3, 3)), np.float16([1, 2, 3]),
+    np.longdouble([1, 2, 3]), np.ma.array([1, 2, 3], mask=[0, 1, 0]), [0.0, 3.0, 6.0], ["free", "fixed", 3.0], [None] * 3, (0, 1, 2),
+    "both", None, 1, -1, 1.5, float("inf"), np.array(5), np.array(["2020"], dtype="M8"), ["a\ud800", "b", "c"], b"x", {}, [],
+    [[1], [2], [3]], [[1], [2, 3], 4], 2**70, [10**400, 1, 1],
+]  # fmt: skip
+KEYS = {
+    "supports": ("node", "x", "side", "stiffness", "gap", "settlement", "rotation", "direction", "law", "other"),
+    "loads": ("q", "F", "M", "kappa", "x", "node", "from", "to", "case", "other"),
+    "sections": ("from", "to", "EI", "GA", "EA", "other"),
+}
+TYPES = ["uniform", "force", "moment", "linear", "curvature", "axial", ["uniform"] * 3, np.array(["force", "moment", "force"]), 5, None]
+
+
+@pytest.mark.parametrize("block", range(4))
+def test_odd_columns(block):
+    """Whatever stands in columns: a result, or a refusal in words."""
+    for seed in range(500 * block, 500 * block + 500):
+        rng = random.Random(seed)
+        made = {"beam": {"spans": [3.0, 3.0], "EI": 1e4}, "supports": [{"node": 0}, {"node": 2}]}
+        for key in rng.sample(list(KEYS), rng.randint(1, 2)):
+            made[key] = {name: rng.choice(ODD) for name in rng.sample(KEYS[key], rng.randint(1, 3))}
+            if key == "loads":
+                made[key]["type"] = rng.choice(TYPES)
+        with suppress(SceneError, gapbeam.EngineError):
+            result = gapbeam.solve(made)
+            assert list(result.scene.supports) == [result.scene.supports[k] for k in range(len(result.scene.supports))], seed
+
+
+def test_words_beside_numbers():
+    supports = {"node": [0, 1, 2], "rotation": ["free", 5.0, "fixed"]}
+    rows = [{"node": 0}, {"node": 1, "rotation": 5.0}, {"node": 2, "rotation": "fixed"}]
+    found, expected = (gapbeam.solve({**lists(), "supports": made}) for made in (supports, rows))
+    assert found.steps[-1].solution == expected.steps[-1].solution

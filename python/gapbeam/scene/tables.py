@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from typing import Any, get_args, get_type_hints, overload
 
 import msgspec
@@ -143,15 +144,31 @@ def _columns(key: str, value: Any) -> tuple[dict[str, Any], int] | None:
         value = {name: value[name] for name in value.dtype.names}
     if not isinstance(value, Mapping):
         return None
-    columns = {name: np.asanyarray(one) if isinstance(one, list | np.ndarray) else one for name, one in value.items()}
-    columns = {name: one.to_numpy() if hasattr(one, "to_numpy") else one for name, one in columns.items()}
-    lengths = {name: len(one) for name, one in columns.items() if isinstance(one, np.ndarray) and one.ndim}
+    columns = {name: _column(one) for name, one in value.items()}
+    lengths = {name: len(one) for name, one in columns.items() if isinstance(one, np.ndarray)}
     if not lengths:
         return None
     if len(set(lengths.values())) > 1:
         counts = choice((f"{name} has {count}" for name, count in lengths.items()), "and")
         raise SceneError(key, f"its columns are of unequal length: {counts}; give each one number, or one for every row")
     return columns, next(iter(lengths.values()))
+
+
+def _column(value: Any) -> Any:
+    """An array of a list, of its objects where they are of several kinds; anything else as it is."""
+    if hasattr(value, "to_numpy"):
+        value = value.to_numpy()
+    if isinstance(value, np.ndarray):
+        return value if value.ndim else value.item()
+    if not isinstance(value, list):
+        return value
+    with suppress(ValueError, OverflowError):  # rows of unequal length, endless integers
+        array = np.array(value)
+        if array.dtype.kind != "U" or all(isinstance(entry, str) for entry in value):
+            return array
+    array = np.empty(len(value), dtype=object)
+    array[:] = value
+    return array
 
 
 def _table(key: str, columns: dict[str, Any], count: int) -> Table | None:
@@ -175,15 +192,19 @@ def _table(key: str, columns: dict[str, Any], count: int) -> Table | None:
 def _clean(kind: Any, name: str, value: Any) -> Any:
     """A column of numbers, whole numbers or words of a choice; None for anything else."""
     array = np.asanyarray(value)
+    many = isinstance(value, np.ndarray)
     words = {word for part in (kind, *get_args(kind)) for word in get_args(part) if isinstance(word, str)}
-    if np.ma.isMaskedArray(value):
+    if np.ma.isMaskedArray(value) or array.ndim != many + (kind == tuple[float, float]):
         return None
     if array.dtype.kind == "U" and words:
         return value if set(np.unique(array).tolist()) <= words else None
-    if name == "node":
-        return value if array.dtype.kind in "iu" else None
     if array.dtype.kind not in "iuf" or array.dtype.itemsize > 8 or (words and name != "rotation"):
         return None
+    if array.shape[many:] not in ((), (2,)):
+        return None
+    if name == "node":
+        small = array.dtype.kind in "iu" and array.size and array.min() >= -(2**31) and array.max() < 2**31
+        return value if small else None
     return array.astype(float) if array.ndim else float(array)
 
 
