@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import astuple, dataclass
 from functools import partial
-from multiprocessing import get_context
 from time import perf_counter
 from typing import Any
 
@@ -149,12 +149,30 @@ def _cold(make: Callable[[int], dict[str, Any]], count: int, parts: int) -> dict
     found = dict.fromkeys(READY, np.inf)
     for _ in range(PROCESSES):
         for name in READY:
-            with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as process:
-                found[name] = min(found[name], process.submit(_first_call, name, make, count, parts).result())
+            code = f"from {__name__} import first_call; print(first_call({name!r}, {make.__name__!r}, {count}, {parts}))"
+            run = subprocess.run([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True, check=True)
+            found[name] = min(found[name], float(run.stdout))
     return found
 
 
-def _first_call(name: str, make: Callable[[int], dict[str, Any]], count: int, parts: int) -> float:
+def first_call(name: str, work: str, count: int, parts: int) -> float:
+    """Time the first call of a program in this process, once all is imported.
+
+    Parameters
+    ----------
+    name : str
+        The program, from READY.
+    work : str
+        Name of what makes the scene.
+    count, parts : int
+        Spans or springs, and elements a span of the active set.
+
+    Returns
+    -------
+    float
+        Seconds.
+    """
+    make = {one[1].__name__: one[1] for one in SIZES}[work]
     READY[name](make(3), parts)()  # imports what is imported on first use
     run = READY[name](make(count), parts)
     begin = perf_counter()
