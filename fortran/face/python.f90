@@ -124,7 +124,7 @@ subroutine gbplac(beam, np, nl, ns, nm, xend, xpoint, ispan, piece, dead, live, 
                   snode, number, place, level)
     use gapbeam_handle, only: handle_type, handle_of
     use gapbeam_units, only: rotation_unit, moment_unit
-    use gapbeam_lowered, only: point_x, piece_length, bending_stiffness, shear_stiffness
+    use gapbeam_lowered, only: point_x, piece_length, stiffness_of, in_bending, in_shear
     use gapbeam_lower_supports, only: contact_level
     implicit none
     integer(8), intent(in) :: beam
@@ -155,7 +155,7 @@ subroutine gbplac(beam, np, nl, ns, nm, xend, xpoint, ispan, piece, dead, live, 
         end do
         ispan = lowered%point_span(:np - 1)
         do j = 1, np
-            piece(:, j) = [piece_length(lowered, j), bending_stiffness(lowered, j), shear_stiffness(lowered, j)]
+            piece(:, j) = [piece_length(lowered, j), stiffness_of(lowered, j, in_bending), stiffness_of(lowered, j, in_shear)]
             associate (a => lowered%dead(j), b => lowered%live(j), q => units%force - units%length, &
                        bent => rotation_unit(units) - units%length)
                 dead(:, j) = scale([a%qa, a%qb, a%kappa, a%force, a%couple], [q, q, bent, units%force, moment_unit(units)])

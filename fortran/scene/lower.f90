@@ -8,7 +8,7 @@ module gapbeam_lower
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_scene, only: gapbeam_by_x, gapbeam_axial, gapbeam_couple, gapbeam_right_end, gapbeam_unchanged
-    use gapbeam_lowered, only: lowered_type, is_stretch
+    use gapbeam_lowered, only: lowered_type, is_stretch, in_bending, in_shear, along_axis
     use gapbeam_places, only: place_span_ends, locate, merge_places
     use gapbeam_check, only: check_spans, check_rest, check_loads
     use gapbeam_refusal, only: refuse, of_hinges, of_sections, of_loads, twice, no_stretch, at_hinge
@@ -66,9 +66,9 @@ contains
         lowered%section_of(:, :) = 0
         do i = 1, size(lowered%model%sections)
             associate (s => lowered%model%sections(i), first => lowered%section_from(i) + 1, last => lowered%section_to(i))
-                if (s%EI > gapbeam_unchanged) lowered%section_of(1, first:last) = i
-                if (s%GA > gapbeam_unchanged) lowered%section_of(2, first:last) = i
-                if (s%EA > gapbeam_unchanged) lowered%section_of(3, first:last) = i
+                if (s%EI > gapbeam_unchanged) lowered%section_of(in_bending, first:last) = i
+                if (s%GA > gapbeam_unchanged) lowered%section_of(in_shear, first:last) = i
+                if (s%EA > gapbeam_unchanged) lowered%section_of(along_axis, first:last) = i
             end associate
         end do
     end subroutine assign_sections

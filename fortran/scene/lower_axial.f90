@@ -5,7 +5,7 @@ module gapbeam_lower_axial
     use gapbeam_range, only: is_lost
     use gapbeam_scene, only: gapbeam_axial, gapbeam_axial_force, gapbeam_dead
     use gapbeam_units, only: exponents_type, stiffness_unit, units_with_loads, middle, middle_of, largest, no_exponent
-    use gapbeam_lowered, only: lowered_type, point_x, piece_length, axial_stiffness
+    use gapbeam_lowered, only: lowered_type, point_x, piece_length, stiffness_of, along_axis
     use gapbeam_words, only: shown
     use gapbeam_refusal, only: refuse_range, named, of_supports
     implicit none
@@ -28,7 +28,7 @@ contains
         associate (axial => lowered%axial, model => lowered%model)
             do j = 1, size(lowered%pieces)
                 length = piece_length(lowered, j)
-                EA = axial_stiffness(lowered, j)
+                EA = stiffness_of(lowered, j, along_axis)
                 call lengths%note(length, 0)
                 if (EA <= huge(EA)) call soft%note(length, -exponent(EA))
             end do
@@ -47,7 +47,7 @@ contains
             axial%flexibility(:) = 0.0_wp
             i = 1
             do j = 1, size(lowered%pieces)
-                EA = axial_stiffness(lowered, j)
+                EA = stiffness_of(lowered, j, along_axis)
                 axial%softness(j) = scale(piece_length(lowered, j), -unit)/scale(EA, -unit - stiffness_unit(axial%units))
                 if (EA <= huge(EA) .and. is_lost(axial%softness(j))) then
                     call refuse_range(error, "EA = "//trim(shown(EA))//" from x = "//trim(shown(point_x(lowered, j - 1)))// &

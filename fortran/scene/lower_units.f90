@@ -7,7 +7,7 @@ module gapbeam_lower_units
     use gapbeam_range, only: is_lost
     use gapbeam_units, only: units_type, exponents_type, rotation_unit, moment_unit, stiffness_unit, turning_unit, &
         units_with_loads, middle, largest, no_exponent, ordinary_exponent
-    use gapbeam_lowered, only: lowered_type, point_x, piece_length, bending_stiffness, shear_stiffness
+    use gapbeam_lowered, only: lowered_type, point_x, piece_length, stiffness_of, in_bending, in_shear
     use gapbeam_lower_supports, only: contact_level
     use gapbeam_words, only: shown
     use gapbeam_refusal, only: refuse_range, named, of_supports
@@ -63,8 +63,8 @@ contains
         length = middle(lengths)
         associate (beam => lowered%beam, model => lowered%model)
             do j = 1, size(lowered%pieces)
-                call stiff(1)%note(bending_stiffness(lowered, j), -3*length)
-                call stiff(2)%note(shear_stiffness(lowered, j), -length)
+                call stiff(1)%note(stiffness_of(lowered, j, in_bending), -3*length)
+                call stiff(2)%note(stiffness_of(lowered, j, in_shear), -length)
             end do
             do k = 1, size(lowered%normal)
                 associate (s => model%supports(lowered%normal(k)))
@@ -101,8 +101,8 @@ contains
         integer :: j
 
         do j = 1, size(lowered%pieces)
-            EI = bending_stiffness(lowered, j)
-            GA = shear_stiffness(lowered, j)
+            EI = stiffness_of(lowered, j, in_bending)
+            GA = stiffness_of(lowered, j, in_shear)
             associate (units => lowered%units, p => lowered%pieces(j))
                 p%length = scale(piece_length(lowered, j), -units%length)
                 p%flexibility = 1/scale(EI, -turning_unit(units) - units%length)
@@ -228,9 +228,9 @@ contains
             case (1)
                 call say("the length of the stretch "//trim(from_to(lowered, entry - 1, entry)))
             case (2)
-                call say("EI = "//trim(shown(bending_stiffness(lowered, entry)))//" "//from_to(lowered, entry - 1, entry))
+                call say("EI = "//trim(shown(stiffness_of(lowered, entry, in_bending)))//" "//from_to(lowered, entry - 1, entry))
             case (3)
-                call say("GA = "//trim(shown(shear_stiffness(lowered, entry)))//" "//from_to(lowered, entry - 1, entry))
+                call say("GA = "//trim(shown(stiffness_of(lowered, entry, in_shear)))//" "//from_to(lowered, entry - 1, entry))
             case (4)
                 call say("rotation = "//trim(shown(lowered%turning(entry)))//" of the supports at x = "// &
                          shown(point_x(lowered, lowered%node_point(entry))))

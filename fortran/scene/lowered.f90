@@ -8,8 +8,11 @@ module gapbeam_lowered
     use gapbeam_units, only: units_type
     implicit none
     private
-    public :: bending_stiffness, shear_stiffness, axial_stiffness
+    public :: stiffness_of, in_bending, in_shear, along_axis
     public :: lowered_type, axial_type, copy_model, fingerprint, is_stretch, point_x, piece_length
+
+    !> Kinds of stiffness: EI, GA, EA
+    integer, parameter :: in_bending = 1, in_shear = 2, along_axis = 3
 
     !> The axial system: bars between points with an axial load or support, in units of its own; none allocated if it is not
     !> needed
@@ -105,38 +108,25 @@ contains
         end associate
     end function piece_length
 
-    !> Bending stiffness of a piece in the user's units
-    pure function bending_stiffness(lowered, piece) result(EI)
+    !> Stiffness of a piece in the user's units
+    pure function stiffness_of(lowered, piece, kind) result(stiffness)
         type(lowered_type), intent(in) :: lowered
         integer, intent(in) :: piece
-        real(wp) :: EI
+        !> in_bending, in_shear or along_axis
+        integer, intent(in) :: kind
+        real(wp) :: stiffness, all_three(3)
 
-        EI = lowered%model%spans(lowered%point_span(piece - 1) + 1)%EI
+        associate (s => lowered%model%spans(lowered%point_span(piece - 1) + 1))
+            all_three = [s%EI, s%GA, s%EA]
+        end associate
+        stiffness = all_three(kind)
         if (.not. allocated(lowered%section_of)) return
-        if (lowered%section_of(1, piece) > 0) EI = lowered%model%sections(lowered%section_of(1, piece))%EI
-    end function bending_stiffness
-
-    !> Shear stiffness of a piece in the user's units
-    pure function shear_stiffness(lowered, piece) result(GA)
-        type(lowered_type), intent(in) :: lowered
-        integer, intent(in) :: piece
-        real(wp) :: GA
-
-        GA = lowered%model%spans(lowered%point_span(piece - 1) + 1)%GA
-        if (.not. allocated(lowered%section_of)) return
-        if (lowered%section_of(2, piece) > 0) GA = lowered%model%sections(lowered%section_of(2, piece))%GA
-    end function shear_stiffness
-
-    !> Axial stiffness of a piece in the user's units
-    pure function axial_stiffness(lowered, piece) result(EA)
-        type(lowered_type), intent(in) :: lowered
-        integer, intent(in) :: piece
-        real(wp) :: EA
-
-        EA = lowered%model%spans(lowered%point_span(piece - 1) + 1)%EA
-        if (.not. allocated(lowered%section_of)) return
-        if (lowered%section_of(3, piece) > 0) EA = lowered%model%sections(lowered%section_of(3, piece))%EA
-    end function axial_stiffness
+        if (lowered%section_of(kind, piece) == 0) return
+        associate (s => lowered%model%sections(lowered%section_of(kind, piece)))
+            all_three = [s%EI, s%GA, s%EA]
+        end associate
+        stiffness = all_three(kind)
+    end function stiffness_of
 
     !> Copy a model, what is missing as arrays of size 0
     pure subroutine copy_model(source, copy, stat)
