@@ -97,28 +97,29 @@ def _supports(items: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
 def _loads(items: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
     codes, found = _empty(3, len(items), np.int32), _empty(4, len(items))
     if isinstance(items, Table):
-        groups = {items.struct: np.arange(len(items))}
+        groups: dict[type, Any] = {items.struct: slice(None)}
     else:
         types = list(map(type, items))
-        groups = {one: np.arange(len(items)) for one in types[:1]}
+        groups = {one: slice(None) for one in types[:1]}
         if any(one is not types[0] for one in types):
             numbers = {one: k for k, one in enumerate(KINDS)}
             of = np.fromiter(map(numbers.__getitem__, types), np.int8, len(types))
             groups = {one: some for one, k in numbers.items() if len(some := np.flatnonzero(of == k))}
     codes[1, :-1] = _words(items, "case", CASES)
     for one, some in groups.items():
-        group = items if len(some) == len(items) else [items[k] for k in some.tolist()]
+        group = items if isinstance(some, slice) else [items[k] for k in some.tolist()]
         kind, key = KINDS[one]
-        codes[0, some] = kind
+        codes[0, :-1][some] = kind
         if kind in (DISTRIBUTED, CURVATURE):
-            codes[2, some] = BY_X
-            found[0, some] = _numbers(group, "from_")
-            found[1, some] = _optional(group, "to")
+            codes[2, :-1][some] = BY_X
+            found[0, :-1][some] = _numbers(group, "from_")
+            found[1, :-1][some] = _optional(group, "to")
         else:
-            codes[2, some], found[0, some] = _places("loads", group, some)
-            found[1, some] = 0.0
+            index = range(len(items)) if isinstance(some, slice) else some
+            codes[2, :-1][some], found[0, :-1][some] = _places("loads", group, index)
+            found[1, :-1][some] = 0.0
         values = _numbers(group, key)
-        found[2, some], found[3, some] = values.T if values.ndim == 2 else (values, values)
+        found[2, :-1][some], found[3, :-1][some] = values.T if values.ndim == 2 else (values, values)
     return codes, found
 
 

@@ -12,6 +12,7 @@ the i-th span. Positions that differ by rounding only (`POSITION_TOLERANCE`) cou
 
 The docstrings of the classes are also the descriptions in the JSON Schema (`scene_schema`).
 
+>>> from gapbeam import read_scene
 >>> scene = read_scene(Scene(
 ...     beam=Beam([6.0, 6.0], EI=1e4),
 ...     supports=[Support(node=0), Support(x=6.0, side="below", gap=0.01), Support(node=2)],
