@@ -136,6 +136,8 @@ def _words(items: Sequence[Any], key: str, codes: dict[str, int]) -> Any:
     values = _column(items, key)
     if isinstance(values, str):
         return codes[values]
+    if isinstance(values, np.ndarray):
+        return sum(code * (values == word) for word, code in codes.items())
     return list(map(codes.__getitem__, values))
 
 

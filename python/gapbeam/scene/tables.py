@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
+from functools import cache
 from typing import Any, get_args, get_type_hints, overload
 
 import msgspec
@@ -184,9 +185,15 @@ def _table(key: str, columns: dict[str, Any], count: int) -> Table | None:
     required = {field.name for field in msgspec.structs.fields(struct) if field.required}
     if not rest.keys() <= names.keys() or not required <= {names[name] for name in rest} or "law" in rest:
         return None
-    hints = get_type_hints(struct)
+    hints = _hints(struct)
     found = {names[name]: _clean(hints[names[name]], name, value) for name, value in rest.items()}
     return None if any(value is None for value in found.values()) else Table(struct, found, count)
+
+
+@cache
+def _hints(struct: type[msgspec.Struct]) -> dict[str, Any]:
+    """Types of the attributes."""
+    return get_type_hints(struct)
 
 
 def _clean(kind: Any, name: str, value: Any) -> Any:
