@@ -37,8 +37,8 @@ def columns(**changes):
     starts = 6.0 * np.arange(SPANS)
     return {
         "beam": {"spans": np.full(SPANS, 6.0), "EI": 1e4},
-        "supports": {"node": NODES, "side": SIDE, "stiffness": STIFFNESS, "gap": GAP},
-        "loads": {"type": "uniform", "q": Q, "from": starts, "to": starts + 6.0},
+        "supports": {"node": NODES.copy(), "side": SIDE.copy(), "stiffness": STIFFNESS.copy(), "gap": GAP.copy()},
+        "loads": {"type": "uniform", "q": Q.copy(), "from": starts, "to": starts + 6.0},
         "sections": {"from": starts, "to": starts + 3.0, "EI": 2e4},
     } | changes
 
@@ -106,6 +106,16 @@ def test_rows_are_made_when_they_are_looked_at():
     assert [load.q for load in scene.loads[:2]] == Q[:2].tolist()
     assert scene == gapbeam.read_scene(lists())
     assert pickle.loads(pickle.dumps(scene)) == scene
+
+
+def test_the_arrays_of_the_caller_stay_his_own():
+    made = columns()
+    scene = gapbeam.read_scene(made)
+    for part in ("supports", "loads", "sections"):
+        for value in made[part].values():
+            if isinstance(value, np.ndarray):
+                value[0] = value[-1]
+    assert scene == gapbeam.read_scene(lists())
 
 
 def test_loads_of_every_kind():

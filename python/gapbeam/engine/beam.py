@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from ..base.errors import Status, check_status
-from ..base.records import Record, read_only
+from ..base.records import read_only
 from . import calls as _engine  # the compiled layer itself, but for Ctrl-C
+from .arrays import Columns, Places, Solution, Stretch
 from .units import Units
 
 SOLVED, NO_EQUILIBRIUM = Status.SOLVED, Status.NO_EQUILIBRIUM
@@ -33,181 +33,6 @@ class RefusalError(Exception):
     def __init__(self, reason: int, table: int, entry: int, partner: int, key: str):
         super().__init__(reason, table, entry, partner, key)
         self.codes = (reason, table, entry, partner, key)
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Columns(Record):
-    """What a beam is made of, as columns with one entry more than there are numbers: f2py takes none that is empty.
-
-    Attributes
-    ----------
-    span : numpy.ndarray
-        Length, EI, GA, EA of the spans, 4 rows.
-    hinge : numpy.ndarray
-        Places of the hinges.
-    section : numpy.ndarray
-        Left and right end, EI, GA, EA of the sections, 5 rows.
-    support_codes, support : numpy.ndarray
-        Node, side and direction of the supports, 3 rows of int; x, stiffness, gap, settlement, rotation, 5 rows.
-    load_codes, load : numpy.ndarray
-        Kind, case and node of the loads, 3 rows of int; x or left end, right end, value, value at the right end, 4 rows.
-    """
-
-    span: np.ndarray
-    hinge: np.ndarray
-    section: np.ndarray
-    support_codes: np.ndarray
-    support: np.ndarray
-    load_codes: np.ndarray
-    load: np.ndarray
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Solution(Record):
-    """What the engine found at one load factor, in its own units (`Beam.units`).
-
-    Attributes
-    ----------
-    status : int
-        SOLVED or NO_EQUILIBRIUM; in the second case only `motion` and `slides` have a meaning.
-    closed : numpy.ndarray of int
-        1 where a support acts, 0 where it is open.
-    undecided : numpy.ndarray of int
-        1 where its reaction or opening is zero, so that it may be closed or open.
-    deflection, moment_left, moment_right : numpy.ndarray
-        At the nodes.
-    shear : numpy.ndarray
-        Of the links, beside that of the simple bar.
-    reaction : numpy.ndarray
-        Of every support, positive upward.
-    motion : numpy.ndarray
-        Displacements of the nodes in the free motion, positive downward, largest 1.
-    displacement, tension : numpy.ndarray
-        Of the points and bars of the axial system.
-    at_supports : numpy.ndarray
-        Reaction, deflection, opening and couple of the scene's supports in its units, 4 rows.
-    states : numpy.ndarray of int
-        0 where a support of the scene is open, 1 where it is closed, 2 where it holds both ways.
-    solves : int
-        Linear solves; they do not count when solutions are compared.
-    method : int
-        Index into METHODS.
-    indifferent : bool
-        Whether the beam can move freely without work of the loads: forces are unique, the position is not.
-    came_back : bool
-        Whether the rule ``single`` came back to a scheme, so that ``block`` went on.
-    slides : bool
-        Whether nothing holds the beam along its axis.
-    """
-
-    status: int
-    closed: np.ndarray
-    undecided: np.ndarray
-    deflection: np.ndarray
-    moment_left: np.ndarray
-    moment_right: np.ndarray
-    shear: np.ndarray
-    reaction: np.ndarray
-    motion: np.ndarray
-    displacement: np.ndarray
-    tension: np.ndarray
-    at_supports: np.ndarray
-    states: np.ndarray
-    solves: int = field(compare=False)
-    method: int
-    indifferent: bool
-    came_back: bool
-    slides: bool
-
-
-@dataclass(frozen=True, slots=True)
-class Stretch:
-    """A piece of the load path.
-
-    Attributes
-    ----------
-    status : int
-        SOLVED, or NO_EQUILIBRIUM if the beam begins to move above `factor`.
-    factor : float
-        How far it goes.
-    closed : numpy.ndarray of int
-        The scheme there, before what changes there.
-    marginal : numpy.ndarray of int
-        1 for the supports at zero there.
-    factors : numpy.ndarray
-        Load factors of the events, those at its beginning included.
-    supports : numpy.ndarray of int
-        Their supports, from 0.
-    events : numpy.ndarray of int
-        What happens to them: OPENS, CLOSES or TURNS.
-    motion : numpy.ndarray
-        As in `Solution`.
-    solves : int
-        Linear solves of the whole beam.
-    nodes : int
-        Nodes at which the solution was made anew besides.
-    """
-
-    status: int
-    factor: float
-    closed: np.ndarray
-    marginal: np.ndarray
-    factors: np.ndarray
-    supports: np.ndarray
-    events: np.ndarray
-    motion: np.ndarray
-    solves: int
-    nodes: int
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Places(Record):
-    """What there is along a beam, in the scene's units.
-
-    Attributes
-    ----------
-    end : float
-        The beam's right end.
-    point_x : numpy.ndarray
-        Places of the points between pieces.
-    span : numpy.ndarray of int
-        Span of every piece.
-    pieces : numpy.ndarray
-        Length, EI, GA of every piece, n by 3.
-    dead, live : numpy.ndarray
-        Load per length at the left and right end of every piece, imposed curvature, force and couple at its right end
-        unless a node is there, n by 5.
-    node_points : numpy.ndarray of int
-        The points that are nodes.
-    kinds : numpy.ndarray of int
-        PLAIN, HINGE or RESTRAINED for every node.
-    turning : numpy.ndarray
-        Stiffness of the rotational restraint of every node, 0 where there is none.
-    force, couple : numpy.ndarray
-        Dead and live force and couple at every node, nodes by 2.
-    support_nodes, supports : numpy.ndarray of int
-        Node of every support that can carry across the beam, and its number in the scene.
-    nodes_of_supports : numpy.ndarray of int
-        Node of every support of the scene; 0 for axial ones.
-    levels : numpy.ndarray
-        Deflection at which every support of the scene begins to act; 0 for axial ones.
-    """
-
-    end: float
-    point_x: np.ndarray
-    span: np.ndarray
-    pieces: np.ndarray
-    dead: np.ndarray
-    live: np.ndarray
-    node_points: np.ndarray
-    kinds: np.ndarray
-    turning: np.ndarray
-    force: np.ndarray
-    couple: np.ndarray
-    support_nodes: np.ndarray
-    supports: np.ndarray
-    nodes_of_supports: np.ndarray
-    levels: np.ndarray
 
 
 class Beam:

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..engine.beam import CLOSES, NO_EQUILIBRIUM, OPENS, TURNS, Stretch
+from ..engine.arrays import Stretch
+from ..engine.beam import CLOSES, NO_EQUILIBRIUM, OPENS, TURNS
 
 if TYPE_CHECKING:
     from .result import Result

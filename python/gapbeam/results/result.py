@@ -15,7 +15,8 @@ import numpy as np
 from ..base.errors import EngineError, Status
 from ..base.memory import refuse_beyond
 from ..base.records import Pickled, Record
-from ..engine.beam import FIELDS, GIVEN, METHODS, Beam, Solution
+from ..engine.arrays import Solution
+from ..engine.beam import FIELDS, GIVEN, METHODS, Beam
 from ..scene.structs import Scene
 from ..scene.wording import shown
 from .arguments import finite, numbers, whole

@@ -12,7 +12,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ..base.records import Pickled
-from ..engine.beam import SOLVED, Beam, Solution
+from ..engine.arrays import Solution
+from ..engine.beam import SOLVED, Beam
 from ..engine.units import bound_in_scene
 
 BOUNDED = ("deflection", "rotation", "moment", "shear", "reaction")

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..base.errors import SceneError
-from ..engine.beam import Columns
+from ..engine.arrays import Columns
 from .structs import AxialLoad, CurvatureLoad, ForceLoad, LinearLoad, MomentLoad, Scene, UniformLoad
 from .tables import Table
 from .wording import number, shown

@@ -27,7 +27,8 @@ def read_scene(source: Scene | Mapping[str, Any] | str | os.PathLike) -> Scene:
     ----------
     source : Scene, mapping, str or path
         A scene built in Python, its data as dicts and lists, or the path of a ``.toml`` or ``.json`` file.
-        Numpy numbers and arrays are welcome in place of numbers and lists.
+        Numpy numbers and arrays are welcome in place of numbers and lists; lists of supports, loads and sections may be
+        columns: arrays by key, a pandas DataFrame, a structured array, where a single value holds for every row.
 
     Returns
     -------

@@ -204,15 +204,20 @@ def _clean(kind: Any, name: str, value: Any) -> Any:
     if np.ma.isMaskedArray(value) or array.ndim != many + (kind == tuple[float, float]):
         return None
     if array.dtype.kind == "U" and words:
-        return value if set(np.unique(array).tolist()) <= words else None
+        return _own(value) if set(np.unique(array).tolist()) <= words else None
     if array.dtype.kind not in "iuf" or array.dtype.itemsize > 8 or (words and name != "rotation"):
         return None
     if array.shape[many:] not in ((), (2,)):
         return None
     if name == "node":
         small = array.dtype.kind in "iu" and array.size and array.min() >= -(2**31) and array.max() < 2**31
-        return value if small else None
+        return _own(value) if small else None
     return array.astype(float) if array.ndim else float(array)
+
+
+def _own(value: Any) -> Any:
+    """The caller's arrays stay his own."""
+    return value.copy() if _is_array(value) else value
 
 
 def _row(columns: dict[str, Any], k: int) -> dict[str, Any]:
