@@ -132,10 +132,10 @@ class Handle(int):
     Calls that go on after Ctrl-C keep theirs.
     """
 
-    def __del__(self) -> None:
-        """Free the beam."""
+    def __del__(self, drop: Callable = _engine.gbdrop) -> None:
+        """Free the beam, also when Python ends and modules are gone."""
         if self:
-            _engine.gbdrop(self)
+            drop(self)
 
 
 def parts(count: int) -> Iterator[slice]:
