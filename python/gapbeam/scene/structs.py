@@ -355,11 +355,11 @@ class Scene(_Table, forbid_unknown_fields=True, kw_only=True):
         array([0.3, 1. ])
         """
         spans = np.asarray(self.beam.spans, dtype=float)
-        ends = np.concatenate(([0.0], np.cumsum(spans)))
-        # What each addition of the running sum lost, exactly; summed up it corrects every end.
-        before, after = ends[:-1], ends[1:]
-        added = after - before
-        with np.errstate(invalid="ignore"):
+        with np.errstate(over="ignore", invalid="ignore"):  # of a scene that is refused
+            ends = np.concatenate(([0.0], np.cumsum(spans)))
+            # What each addition of the running sum lost, exactly; summed up it corrects every end.
+            before, after = ends[:-1], ends[1:]
+            added = after - before
             ends[1:] += np.cumsum((before - (after - added)) + (spans - added))
         return ends
 
