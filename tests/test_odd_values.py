@@ -1,5 +1,7 @@
 """Values and keys that no scene holds: refused in words, whatever Python makes of them."""
 
+import math
+import warnings
 from fractions import Fraction
 
 import numpy as np
@@ -100,3 +102,11 @@ def test_halves_of_characters():
     assert read_scene(Scene(title=half, beam=Beam(**BEAM))).title == half
     assert message(title=half, supports=[{"x": 1.0, half: 2}]).startswith(r'supports[0]."a\\ud800": unknown key; ')
     assert message(supports=[{"x": 1.0, "side": half}]).startswith("supports[0].side: expected ")
+
+
+@pytest.mark.parametrize("spans", [[6.0, math.inf], [math.nan], [1e308, 1e308, -math.inf]])
+def test_endless_spans_are_refused_without_a_warning(spans):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with pytest.raises(SceneError, match=r"beam\.spans"):
+            read_scene({"beam": {"spans": spans, "EI": 1.0}})
