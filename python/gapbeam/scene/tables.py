@@ -36,7 +36,6 @@ class Table(Sequence):
         self.struct = struct
         self._columns = {key: read_only(value) for key, value in columns.items()}
         self._count = count
-        self._defaults = dict(zip(reversed(struct.__struct_fields__), reversed(struct.__struct_defaults__), strict=False))
 
     def __len__(self) -> int:
         """Count the rows."""
@@ -82,7 +81,7 @@ class Table(Sequence):
         numpy.ndarray or object
             One for every row, or one for all; the struct's default where it is not given.
         """
-        value = self._columns.get(key, self._defaults.get(key))
+        value = self._columns[key] if key in self._columns else _defaults(self.struct)[key]
         if value is None or isinstance(value, str) or _is_array(value):
             return value
         return np.broadcast_to(np.asarray(value), (self._count, *np.shape(value)))
@@ -188,6 +187,12 @@ def _table(key: str, columns: dict[str, Any], count: int) -> Table | None:
     hints = _hints(struct)
     found = {names[name]: _clean(hints[names[name]], name, value) for name, value in rest.items()}
     return None if any(value is None for value in found.values()) else Table(struct, found, count)
+
+
+@cache
+def _defaults(struct: type[msgspec.Struct]) -> dict[str, Any]:
+    """Values of attributes that are not given."""
+    return dict(zip(reversed(struct.__struct_fields__), reversed(struct.__struct_defaults__), strict=False))
 
 
 @cache
