@@ -201,18 +201,6 @@ contains
             call no_memory(error)
             return
         end if
-        ! A beam that slides at the end of the path moves as soon as it is pushed
-        state%factor = factor
-        call solve_along_axis(lowered, state, error)
-        if (allocated(error)) return
-        if (state%slides) then
-            call forget(state)
-            state%status = gapbeam_no_equilibrium
-            state%slides = .true.
-            state%factor = 0.0_wp
-            state%fingerprint = lowered%fingerprint
-            return
-        end if
         state%closed(:) = .true.
         call solve_state(lowered, 0.0_wp, rule, state, error)
         if (allocated(error) .or. state%status /= gapbeam_solved) return

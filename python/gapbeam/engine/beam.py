@@ -15,15 +15,18 @@ from .units import Units
 
 SOLVED, NO_EQUILIBRIUM = Status.SOLVED, Status.NO_EQUILIBRIUM
 """Outcomes, as in gapbeam_error; codes above 10 are errors."""
-RULES = {"block": 0, "single": 1, "given": 2}
+RULES = {"block": 0, "single": 1}
+"""Rules by which schemes are found, as in gapbeam_search."""
 GIVEN = "given"
 """Instead of a rule: the scheme is known, as along a path."""
+RULE_GIVEN = 2
+"""Its code, as in gapbeam_referee."""
 OPENS, CLOSES, TURNS = 0, 1, 3
 """Events, as in gapbeam_path."""
 METHODS = ("block tridiagonal mixed", "three-moment", "mixed with pivoting")
 """What was solved, as in gapbeam_system."""
-PLAIN, HINGE, RESTRAINED = 0, 1, 2
-"""Kinds of node, as in gapbeam_band."""
+HINGE, RESTRAINED = 1, 2
+"""Kinds of node other than plain ones (0), as in gapbeam_band."""
 FIELDS = ("deflection", "rotation", "moment", "shear", "axial_force", "axial_displacement")
 
 
@@ -42,8 +45,6 @@ class Beam:
     ----------
     columns : Columns
         What it is made of.
-    factors : numpy.ndarray, optional
-        Take each load times its factor, all of them live.
 
     Attributes
     ----------
@@ -68,27 +69,55 @@ class Beam:
 
     __hash__ = None
 
-    def __init__(self, columns: Columns, factors: np.ndarray | None = None):
-        self.columns, self._factors = columns, factors
-        if factors is None:
-            parts = (columns.span.T, columns.hinge, columns.section.T, columns.support_codes.T, columns.support.T)
-            handle, status, reason, table, entry, partner, key, message = _engine.gbmake(
-                *parts, columns.load_codes.T, columns.load.T
-            )
-            if status == Status.BAD_INPUT:
-                raise RefusalError(reason, table, entry, partner, key.decode().strip())
-        else:
-            handle, status, message = _engine.gbcopy(Beam(columns).handle, np.append(factors, 0.0))
+    def __init__(self, columns: Columns):
+        self.columns = columns
+        self._factors: np.ndarray | None = None
+        parts = (columns.span.T, columns.hinge, columns.section.T, columns.support_codes.T, columns.support.T)
+        handle, status, reason, table, entry, partner, key, message = _engine.gbmake(
+            *parts, columns.load_codes.T, columns.load.T
+        )
+        if status == Status.BAD_INPUT:
+            raise RefusalError(reason, table, entry, partner, key.decode().strip())
         check_status(status, message)
+        self._take(handle)
+
+    def _take(self, handle: int) -> None:
+        """Keep a handle, and what it says of itself."""
         self.handle = _engine.Handle(handle)
         sizes, units = _engine.gbsize(handle)
         self.pieces, self.links, self.supports, self.scene_supports, self.bars, *has = sizes.tolist()
         self.has_hinges, self.has_restraints, self.has_shear, self.is_one_sided = map(bool, has)
         self.units = Units(*units.tolist())
 
+    def with_factors(self, factors: np.ndarray) -> Beam:
+        """Make another beam: each load times its factor, all of them live.
+
+        Parameters
+        ----------
+        factors : numpy.ndarray
+            Of all loads.
+
+        Returns
+        -------
+        Beam
+
+        Raises
+        ------
+        EngineError
+            Numbers are beyond the range of doubles.
+        MemoryError
+            The system gives no more memory.
+        """
+        handle, status, message = _engine.gbcopy(self.handle, np.append(factors, 0.0))
+        check_status(status, message)
+        beam = object.__new__(type(self))
+        beam.columns, beam._factors = self.columns, factors
+        beam._take(handle)
+        return beam
+
     def __reduce__(self) -> tuple:
         """Pickle by what it is made of."""
-        return type(self), (self.columns, self._factors)
+        return _made_of, (self.columns, self._factors)
 
     def __eq__(self, other: object) -> bool:
         """Whether they are made of the same numbers."""
@@ -154,7 +183,7 @@ class Beam:
         m, n = self.supports, max(self.bars, 0)
         scheme = _scheme(closed)
         undecided, w, left, right, shear, reaction, motion, u, tension, values, states, counts, status, message = _engine.gbsolv(
-            self.handle, self.links, self.scene_supports, n, factor, RULES[rule], scheme
+            self.handle, self.links, self.scene_supports, n, factor, RULES.get(rule, RULE_GIVEN), scheme
         )
         check_status(status, message)
         solves, method, indifferent, came_back, slides = counts.tolist()
@@ -377,6 +406,12 @@ class Beam:
         check_status(status[0] if status[0] == Status.NO_MEMORY else SOLVED)  # then all are
         found = w.T, left.T, right.T, reaction.T[:, :m], schemes[:, :m]
         return (*(values[:cases] for values in found), solves[:cases], status[:cases])
+
+
+def _made_of(columns: Columns, factors: np.ndarray | None) -> Beam:
+    """Make a beam that was pickled again."""
+    beam = Beam(columns)
+    return beam if factors is None else beam.with_factors(factors)
 
 
 def _state(factor: float, solution: Solution) -> tuple[Any, ...]:

@@ -171,7 +171,7 @@ class Prepared(Pickled):
         factors = self._checked(factors)
         if factors.ndim != 1:
             raise ValueError("factors: expected one case")
-        beam = Beam(self._beam.columns, factors)
+        beam = self._beam.with_factors(factors)
         result = Result(self.scene, beam, self._rule)
         result.steps = LoadSteps(beam, self._rule, np.ones(beam.supports, dtype=np.int32), 1)
         fallen = result.steps.solve_all()

@@ -165,10 +165,11 @@ def follow(result: Result, rule: str, closed: np.ndarray) -> Path | None:
     """
     begin = perf_counter()
     beam = result.beam
-    if beam.bars >= 0 and beam.solve(1.0, rule, closed).slides:
+    solution = beam.solve(0.0, rule, closed)
+    if solution.slides:
+        # What nothing holds along its axis moves as soon as it is pushed
         result.refuse("above load factor 0", None)
         return None
-    solution = beam.solve(0.0, rule, closed)
     if solution.status == NO_EQUILIBRIUM:
         result.refuse("at load factor 0", solution.motion)
         return None

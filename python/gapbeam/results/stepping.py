@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..base.errors import SceneError
-from ..engine.beam import GIVEN, RULES, Beam
+from ..engine.beam import RULES, Beam
 from ..scene.reading import read_beam
 from ..scene.structs import Scene
 from ..scene.wording import shown
@@ -98,8 +98,8 @@ def choose_rule(scene: Scene, rule: str | None) -> str:
         There is no such rule.
     """
     rule = scene.analysis.rule if rule is None else rule
-    if not isinstance(rule, str) or rule not in RULES or rule == GIVEN:
-        raise SceneError("rule", f"expected one of {', '.join(one for one in RULES if one != GIVEN)}, got {shown(rule)}")
+    if not isinstance(rule, str) or rule not in RULES:
+        raise SceneError("rule", f"expected one of {', '.join(RULES)}, got {shown(rule)}")
     return rule
 
 
