@@ -135,6 +135,7 @@ contains
     !> The one measure of all signs
     subroutine margins()
         real(wp) :: margin(5), rounding(5), rate, level
+        logical :: by_force
         type(answer_type) :: answers(0:4)
 
         answers%deflection = [9.0_wp, 9.0_wp, 0.125_wp, -0.25_wp, 0.25_wp]
@@ -149,9 +150,9 @@ contains
         call check_close(rounding(3:), spread(0.5_wp, 1, 3), "rounding of the reaction")
         call margin_of(node_support_type(0, above, 1.0_wp, 8.0_wp), .false., 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, margin(1), rounding(1))
         call check_close([margin(1), rounding(1)], [-8.0_wp, 8*epsilon(1.0_wp)], "a contact level beyond the deflections counts")
-        call margin_rates(node_support_type(0, above, 3.0_wp, -8.0_wp), .true., rate, level)
+        call margin_rates([node_support_type(0, above, 3.0_wp, -8.0_wp)], [.true.], 1, rate, level, by_force)
         call check_close([rate, level], [3.0_wp, 8.0_wp], "a closed spring's margin changes by its stiffness")
-        call margin_rates(node_support_type(0, above, infinite(), -8.0_wp), .false., rate, level)
+        call margin_rates([node_support_type(0, above, infinite(), -8.0_wp)], [.false.], 1, rate, level, by_force)
         call check_close(rate, 1.0_wp, "an opening as the deflection")
     end subroutine margins
 

@@ -139,7 +139,7 @@ contains
             call prepare_sensitivity(beam, 1.0_qp, work, sensitivity)
             call check(sensitivity%known, "a movement is known")
             do k = 1, size(closed)
-                call movement_of_support(beam, sensitivity, closed(k), k, work, movement(k))
+                call movement_of_support(beam, sensitivity, closed, k, work, movement(k))
             end do
             farthest(:) = 0.0_qp
             do change = 1, 60
@@ -182,7 +182,7 @@ contains
             call largest_movement(beam, sensitivity, of_deflections, work, largest(2))
             ratio = 0.0_qp
             do k = 1, size(closed)
-                call movement_of_support(beam, sensitivity, closed(k), k, work, single)
+                call movement_of_support(beam, sensitivity, closed, k, work, single)
                 if (.not. closed(k)) then
                     ! That of an opening has the rounding of the contact level besides
                     ratio = max(ratio, (single - epsilon(1.0_wp)*abs(beam%supports(k)%contact))/largest(2))

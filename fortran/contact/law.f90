@@ -9,20 +9,22 @@
 !> A support that holds both ways has the second piece only, one of stiffness 0 the first only: their states never change. A
 !> scheme is the states of all supports, kept as a logical array: `closed(k)` is true on the second piece. How far a support is
 !> from the end of its piece is its margin; below zero its state is wrong, and the right one lies beyond that end: with two
-!> pieces the other one. A law with more pieces takes an integer in place of the logical, and a margin for either end.
+!> pieces the other one. A law with more pieces is one support for every kink between them (gapbeam_polyline).
 !>
 !> Loops over supports stand here as well, since procedures of other files are not inlined.
 module gapbeam_law
     use gapbeam_kinds, only: wp
     use gapbeam_require, only: checked, require
     use gapbeam_band, only: node_type, rhs_type, answer_type
+    use gapbeam_polyline, only: node_support_type, piece_that_acts, piece_force, kink_margin, is_watched, open_beyond
     implicit none
     private
     public :: node_support_type, below, above, both, nodes_at_a_time
     public :: is_support, is_rigid, may_change, always_closed, separate_rigid_pairs
     public :: add_supports, share_forces
-    public :: margin_of, margin_rates, find_margins, find_wrong_states, find_clearly_wrong_states, find_doubtful_states, &
-        largest_violations
+    public :: margin_of, margin_in_scheme, margin_rates, find_margins, find_wrong_states, find_clearly_wrong_states, &
+        find_doubtful_states, largest_violations
+    public :: has_laws, is_watched_in, open_beyond, constant_force
     public :: mark_held, outermost, is_blocked, leaves_all, distance_to_contact
     public :: least_stiffness, stiffness_of_changing, find_pairs, find_single
     public :: hold_both_ways, limit_stiffness, drop_level
@@ -33,18 +35,6 @@ module gapbeam_law
     !> For so many nodes supports are best asked at a time, while what they need is in the cache
     integer, parameter :: nodes_at_a_time = 128
 
-    !> A support at a node
-    type :: node_support_type
-        !> Node, 0..n
-        integer :: node
-        !> below, above or both
-        integer :: side
-        !> Force per length; infinite for a rigid one
-        real(wp) :: stiffness
-        !> Deflection at which it begins to act: settlement + gap (below), settlement - gap (above)
-        real(wp) :: contact
-    end type node_support_type
-
 contains
 
     ! States
@@ -54,8 +44,17 @@ contains
         type(node_support_type), intent(in) :: support
         logical :: it_is
 
-        it_is = abs(support%side) <= 1 .and. support%stiffness >= 0.0_wp .and. abs(support%contact) <= huge(support%contact)
+        it_is = abs(support%side) <= 1 .and. (support%stiffness >= 0.0_wp .or. support%kink > 0) &
+            .and. abs(support%contact) <= huge(support%contact)
     end function is_support
+
+    !> Has any support a law
+    pure function has_laws(supports) result(any_has)
+        type(node_support_type), intent(in) :: supports(:)
+        logical :: any_has
+
+        any_has = any(supports%kink > 0)
+    end function has_laws
 
     !> Is a support rigid
     elemental function is_rigid(support) result(rigid)
@@ -70,7 +69,7 @@ contains
         type(node_support_type), intent(in) :: support
         logical :: may
 
-        may = support%side /= both .and. support%stiffness > 0.0_wp
+        may = support%side /= both .and. (support%stiffness > 0.0_wp .or. support%kink > 0)
     end function may_change
 
     !> Which supports are closed in every scheme
@@ -99,7 +98,7 @@ contains
         end do
         do k = 1, size(closed)
             associate (s => supports(k))
-                if (s%side == both .or. .not. closed(k) .or. .not. is_rigid(s)) cycle
+                if (s%side == both .or. .not. closed(k) .or. .not. is_rigid(s) .or. s%kink > 0) cycle
                 closed(k) = .not. taken(s%node)
                 taken(s%node) = .true.
             end associate
@@ -122,7 +121,8 @@ contains
         !> Springs, and where they are without force, in place of the one-sided supports, acting or not, shape (size(supports))
         !> (contiguous, or gfortran looks at the stride of what is absent)
         real(wp), intent(in), contiguous, optional :: spring(:), spring_contact(:)
-        logical :: sprung
+        logical :: sprung, acts
+        real(wp) :: slope
         integer :: j, k
 
         sprung = present(spring)
@@ -132,6 +132,17 @@ contains
                 if (sprung .and. s%side /= both) then
                     node%stiffness = node%stiffness + spring(k)
                     r%shear = r%shear + spring(k)*spring_contact(k)
+                else if (s%kink > 0) then
+                    call piece_that_acts(supports, acting, k, acts, slope)
+                    if (.not. acts) cycle
+                    level(s%node) = max(level(s%node), abs(s%contact))
+                    if (abs(slope) > huge(slope)) then
+                        node%held = .true.
+                        r%deflection = s%contact
+                    else
+                        node%stiffness = node%stiffness + slope
+                        r%shear = r%shear + (slope*s%contact - s%side*s%force)
+                    end if
                 else if (acting(k)) then
                     level(s%node) = max(level(s%node), abs(s%contact))
                     if (is_rigid(s)) then
@@ -165,6 +176,7 @@ contains
         real(wp), intent(inout) :: reaction(:), reaction_error(:)
         real(wp) :: by_spring, spring_error, elastic, elastic_error, worst_error
         integer :: i, j, k, company, worst
+        logical :: acts, rigid
 
         if (checked) call require(size(force) > range(2) - range(1) .and. size(force_error) > range(2) - range(1), &
                                   "share_forces: shapes")
@@ -178,44 +190,112 @@ contains
                 k = order(j)
                 reaction(k) = 0.0_wp
                 reaction_error(k) = 0.0_wp
-                if (.not. acting(k)) cycle
+                call force_by_spring(supports, acting, k, answers(i)%deflection, deflection_size(i), acts, rigid, by_spring, &
+                                     spring_error)
+                if (.not. acts) cycle
                 company = company + 1
-                associate (s => supports(k))
-                    if (is_rigid(s)) cycle
-                    elastic = elastic + s%stiffness*(answers(i)%deflection - s%contact)
-                    spring_error = epsilon(1.0_wp)*s%stiffness*max(deflection_size(i), abs(s%contact))
-                    elastic_error = elastic_error + spring_error
-                    if (spring_error > worst_error) worst = k
-                    worst_error = max(worst_error, spring_error)
-                end associate
+                if (rigid) cycle
+                elastic = elastic + by_spring
+                elastic_error = elastic_error + spring_error
+                if (spring_error > worst_error) worst = k
+                worst_error = max(worst_error, spring_error)
             end do
             if (company == 0) cycle
             do j = first(i), first(i + 1) - 1
                 k = order(j)
-                if (.not. acting(k)) cycle
-                associate (s => supports(k))
-                    if (is_rigid(s)) then
-                        reaction(k) = force(i) - elastic
-                        reaction_error(k) = force_error(i) + epsilon(1.0_wp)*abs(elastic)
-                        cycle
-                    end if
-                    by_spring = s%stiffness*(answers(i)%deflection - s%contact)
-                    spring_error = epsilon(1.0_wp)*s%stiffness*max(deflection_size(i), abs(s%contact))
-                    if (k == worst .and. force_error(i) + (elastic_error - spring_error) < spring_error &
-                        .and. .not. nodes(i)%held) then
-                        ! What the others leave of the force at the node
-                        reaction(k) = force(i) - (elastic - by_spring)
-                        reaction_error(k) = force_error(i) + (elastic_error - spring_error)
-                    else
-                        reaction(k) = by_spring
-                        reaction_error(k) = spring_error
-                    end if
-                end associate
+                call force_by_spring(supports, acting, k, answers(i)%deflection, deflection_size(i), acts, rigid, by_spring, &
+                                     spring_error)
+                if (.not. acts) cycle
+                if (rigid) then
+                    reaction(k) = force(i) - elastic
+                    reaction_error(k) = force_error(i) + epsilon(1.0_wp)*abs(elastic)
+                else if (k == worst .and. force_error(i) + (elastic_error - spring_error) < spring_error &
+                         .and. .not. nodes(i)%held) then
+                    ! What the others leave of the force at the node
+                    reaction(k) = force(i) - (elastic - by_spring)
+                    reaction_error(k) = force_error(i) + (elastic_error - spring_error)
+                else
+                    reaction(k) = by_spring
+                    reaction_error(k) = spring_error
+                end if
             end do
         end do
     end subroutine share_forces
 
+    !> Does a support act, is it rigid then, and if not, its force by its law
+    pure subroutine force_by_spring(supports, acting, k, deflection, deflection_size, acts, rigid, force, rounding)
+        !> As for share_forces, and the number of the support
+        type(node_support_type), intent(in) :: supports(:)
+        logical, intent(in) :: acting(:)
+        integer, intent(in) :: k
+        !> Of its node, and the size of that
+        real(wp), intent(in) :: deflection, deflection_size
+        logical, intent(out) :: acts, rigid
+        real(wp), intent(out) :: force, rounding
+        real(wp) :: slope
+
+        force = 0.0_wp
+        rounding = 0.0_wp
+        rigid = .false.
+        associate (s => supports(k))
+            if (s%kink > 0) then
+                call piece_that_acts(supports, acting, k, acts, slope)
+                if (.not. acts) return
+                rigid = abs(slope) > huge(slope)
+                if (.not. rigid) call piece_force(s, slope, deflection, deflection_size, force, rounding)
+            else
+                acts = acting(k)
+                if (.not. acts) return
+                rigid = is_rigid(s)
+                if (rigid) return
+                force = s%stiffness*(deflection - s%contact)
+                rounding = epsilon(1.0_wp)*s%stiffness*max(deflection_size, abs(s%contact))
+            end if
+        end associate
+    end subroutine force_by_spring
+
+    !> Force of the piece of a law that does not change with the deflection, positive up; 0 if another piece acts
+    pure function constant_force(supports, closed, k) result(force)
+        !> All supports, the scheme, and the number of one of them
+        type(node_support_type), intent(in) :: supports(:)
+        logical, intent(in) :: closed(:)
+        integer, intent(in) :: k
+        real(wp) :: force, slope
+        logical :: acts
+
+        force = 0.0_wp
+        if (supports(k)%kink == 0) return
+        call piece_that_acts(supports, closed, k, acts, slope)
+        if (acts .and. .not. abs(slope) > 0.0_wp) force = supports(k)%side*supports(k)%force
+    end function constant_force
+
     ! Margins
+
+    !> The same of any support in a scheme; of a law with which of its kinks something is wrong
+    pure subroutine margin_in_scheme(supports, closed, k, deflection, deflection_size, reaction, reaction_error, margin, rounding, &
+                                     by_force)
+        !> All supports, the scheme, and the number of one of them
+        type(node_support_type), intent(in) :: supports(:)
+        logical, intent(in) :: closed(:)
+        integer, intent(in) :: k
+        !> Of its node, and the size of that for rounding errors
+        real(wp), intent(in) :: deflection, deflection_size
+        !> Reactions of all supports and their rounding errors
+        real(wp), intent(in) :: reaction(:), reaction_error(:)
+        !> As for margin_of
+        real(wp), intent(out) :: margin, rounding
+        !> Is it a force, not a distance
+        logical, intent(out), optional :: by_force
+        logical :: is_force
+
+        if (supports(k)%kink > 0) then
+            call kink_margin(supports, closed, k, deflection, deflection_size, reaction, reaction_error, margin, rounding, is_force)
+        else
+            call margin_of(supports(k), closed(k), deflection, deflection_size, reaction(k), reaction_error(k), margin, rounding)
+            is_force = closed(k)
+        end if
+        if (present(by_force)) by_force = is_force
+    end subroutine margin_in_scheme
 
     !> By how much the state of a support is right, and the rounding error of that: the one measure of all signs
     elemental subroutine margin_of(support, closed, deflection, deflection_size, reaction, reaction_error, margin, rounding)
@@ -242,16 +322,35 @@ contains
     end subroutine margin_of
 
     !> By how much the margin of a support that is not held rigidly changes with the deflection of its node, and its contact level
-    elemental subroutine margin_rates(support, closed, rate, level)
-        type(node_support_type), intent(in) :: support
-        logical, intent(in) :: closed
-        !> Absolute values: its stiffness where it is closed, else 1; its contact level
+    pure subroutine margin_rates(supports, closed, k, rate, level, by_force)
+        !> All supports, the scheme, and the number of one of them
+        type(node_support_type), intent(in) :: supports(:)
+        logical, intent(in) :: closed(:)
+        integer, intent(in) :: k
+        !> Absolute values: the slope of its piece where the margin is a force, else 1; its contact level
         real(wp), intent(out) :: rate, level
+        !> Is the margin a force
+        logical, intent(out) :: by_force
+        real(wp) :: none(size(supports)), margin, rounding
 
+        none(:) = 0.0_wp
+        call margin_in_scheme(supports, closed, k, 0.0_wp, 0.0_wp, none, none, margin, rounding, by_force)
         rate = 1.0_wp
-        if (closed) rate = support%stiffness
-        level = abs(support%contact)
+        if (by_force) rate = abs(merge(supports(k)%stiffness, supports(k)%before, closed(k)))
+        level = abs(supports(k)%contact)
     end subroutine margin_rates
+
+    !> Can the state of a support change next
+    pure function is_watched_in(supports, closed, k) result(watched)
+        !> As for margin_in_scheme
+        type(node_support_type), intent(in) :: supports(:)
+        logical, intent(in) :: closed(:)
+        integer, intent(in) :: k
+        logical :: watched
+
+        watched = may_change(supports(k))
+        if (supports(k)%kink > 0) watched = is_watched(supports, closed, k)
+    end function is_watched_in
 
     !> The margins of all supports
     pure subroutine find_margins(supports, closed, answers, deflection_size, reaction, reaction_error, margin, rounding)
@@ -269,8 +368,8 @@ contains
 
         do k = 1, size(closed)
             associate (i => supports(k)%node)
-                call margin_of(supports(k), closed(k), answers(i)%deflection, deflection_size(i), reaction(k), &
-                               reaction_error(k), margin(k), rounding(k))
+                call margin_in_scheme(supports, closed, k, answers(i)%deflection, deflection_size(i), reaction, reaction_error, &
+                                      margin(k), rounding(k))
             end associate
         end do
     end subroutine find_margins
@@ -291,8 +390,8 @@ contains
 
         do k = 1, size(closed)
             associate (i => supports(k)%node)
-                call margin_of(supports(k), closed(k), answers(i)%deflection, deflection_size(i), reaction(k), &
-                               reaction_error(k), margin, rounding)
+                call margin_in_scheme(supports, closed, k, answers(i)%deflection, deflection_size(i), reaction, reaction_error, &
+                                      margin, rounding)
             end associate
             wrong(k) = margin < -width*rounding
         end do
@@ -316,10 +415,10 @@ contains
         in_doubt = .false.
         do k = 1, size(closed)
             doubtful(k) = .false.
-            if (.not. may_change(supports(k))) cycle
+            if (.not. is_watched_in(supports, closed, k)) cycle
             associate (i => supports(k)%node)
-                call margin_of(supports(k), closed(k), answers(i)%deflection, deflection_size(i), reaction(k), &
-                               reaction_error(k), margin, rounding)
+                call margin_in_scheme(supports, closed, k, answers(i)%deflection, deflection_size(i), reaction, reaction_error, &
+                                      margin, rounding)
             end associate
             doubtful(k) = abs(margin) <= width*rounding
             in_doubt = in_doubt .or. (doubtful(k) .and. rounding > 0.0_wp)
@@ -353,7 +452,10 @@ contains
             wrong(k) = .false.
             associate (s => supports(k), i => supports(k)%node)
                 if (.not. may_change(s)) cycle
-                if (closed(k) .and. is_rigid(s)) then
+                if (s%kink > 0) then
+                    ! Which piece acts is for find_wrong_states
+                    doubtful = .true.
+                else if (closed(k) .and. is_rigid(s)) then
                     ! Forces of several supports at one node are for share_forces
                     doubtful = abs(force(i)) <= least_force .or. first(i + 1) - first(i) > 1
                     wrong(k) = s%side*force(i) < 0.0_wp
@@ -376,19 +478,21 @@ contains
         real(wp), intent(in) :: reaction(:)
         !> 0 if none does
         real(wp), intent(out) :: pull, penetration
+        real(wp) :: margin, rounding
+        logical :: by_force
         integer :: k
 
         pull = 0.0_wp
         penetration = 0.0_wp
         do k = 1, size(closed)
-            associate (s => supports(k))
-                if (s%side == both) cycle
-                if (closed(k)) then
-                    pull = max(pull, -s%side*reaction(k))
-                else if (s%stiffness > 0.0_wp) then
-                    penetration = max(penetration, s%side*(answers(s%node)%deflection - s%contact))
-                end if
-            end associate
+            ! Rounding errors do not matter here
+            call margin_in_scheme(supports, closed, k, answers(supports(k)%node)%deflection, 0.0_wp, reaction, reaction, margin, &
+                                  rounding, by_force)
+            if (by_force) then
+                pull = max(pull, -margin)
+            else
+                penetration = max(penetration, -margin)
+            end if
         end do
     end subroutine largest_violations
 
@@ -400,10 +504,17 @@ contains
         logical, intent(in) :: acting(:)
         !> Shape (0:n)
         logical, intent(inout) :: held(0:)
+        real(wp) :: slope
+        logical :: acts
         integer :: k
 
         do k = 1, size(supports)
-            if (acting(k) .and. supports(k)%stiffness > 0.0_wp) held(supports(k)%node) = .true.
+            if (supports(k)%kink > 0) then
+                call piece_that_acts(supports, acting, k, acts, slope)
+                if (acts .and. abs(slope) > 0.0_wp) held(supports(k)%node) = .true.
+            else if (acting(k) .and. supports(k)%stiffness > 0.0_wp) then
+                held(supports(k)%node) = .true.
+            end if
         end do
     end subroutine mark_held
 
@@ -477,6 +588,13 @@ contains
         do j = 1, size(numbers)
             associate (s => supports(numbers(j)))
                 speed = s%side*direction(s%node)
+                if (closed(numbers(j)) .and. s%kink > 0) then
+                    ! Back to where the piece before takes more force
+                    if (-speed > least_speed .and. s%before > 0.0_wp) then
+                        way = min(way, max(0.0_wp, s%side*(s%contact - deflection(s%node))/speed))
+                    end if
+                    cycle
+                end if
                 if (closed(numbers(j)) .or. .not. speed > least_speed .or. .not. s%stiffness > 0.0_wp) cycle
                 way = min(way, max(0.0_wp, s%side*(s%contact - deflection(s%node))/speed))
             end associate
@@ -571,6 +689,7 @@ contains
         type(node_support_type), intent(inout) :: support
 
         support%contact = 0.0_wp
+        support%force = 0.0_wp
     end subroutine drop_level
 
 end module gapbeam_law

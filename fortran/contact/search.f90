@@ -18,7 +18,7 @@ module gapbeam_search
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, fatal_error, gapbeam_indeterminate, gapbeam_not_converged
     use gapbeam_band, only: band_ok, band_mechanism, band_needs_pivoting
-    use gapbeam_law, only: separate_rigid_pairs
+    use gapbeam_law, only: separate_rigid_pairs, has_laws, open_beyond
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type
     use gapbeam_system, only: solve_deflections, complete_scheme, refine_scheme
@@ -101,19 +101,22 @@ contains
         !> Rounds of parts, if this is a part itself
         integer, intent(in), optional :: rounds
         type(search_type) :: search
+        logical :: with_laws
 
         allocate (search%wrong(size(closed)))
         search%rounds = part_rounds
         if (present(rounds)) search%rounds = rounds
         search%next_rounds = search%rounds/2
-        search%margin = least_margin(beam)
+        ! Parts and interior points know of ordinary supports only
+        with_laws = has_laws(beam%supports)
+        if (.not. with_laws) search%margin = least_margin(beam)
         settled = .false.
         if (rule == rule_single) call change_single(beam, closed, work, search, settled)
         if (.not. settled .and. search%state == band_ok) then
             search%fewest = huge(0)
             call change_all(beam, merge(patience, warm_patience, all(closed)), closed, work, search, settled)
         end if
-        if (.not. settled .and. search%state /= band_mechanism) then
+        if (.not. settled .and. search%state /= band_mechanism .and. .not. with_laws) then
             call change_by_interior_point(beam, closed, work, search, settled)
         end if
         if (settled .or. may_float) return
@@ -222,11 +225,21 @@ contains
             call look(beam, closed, .true., work, search, settled)
             if (settled .or. search%state /= band_ok) return
             call keep_worst_pull(closed, work, search%wrong)
-            closed = closed .neqv. search%wrong
+            call change(beam, search%wrong, closed)
             work%came_back = came_back(mark, closed)
             if (work%came_back) return
         end do
     end subroutine change_single
+
+    !> Change the states that are wrong
+    pure subroutine change(beam, wrong, closed)
+        type(beam_type), intent(in) :: beam
+        logical, intent(in) :: wrong(:)
+        logical, intent(inout) :: closed(:)
+
+        closed(:) = closed .neqv. wrong
+        if (has_laws(beam%supports)) call open_beyond(beam%supports, closed)
+    end subroutine change
 
     !> Begin to watch for a scheme that comes back
     pure subroutine set_mark(mark, closed)
@@ -285,7 +298,7 @@ contains
                     call keep_local_worst(beam, closed, work, search%wrong)
                 end if
             end if
-            closed = closed .neqv. search%wrong
+            call change(beam, search%wrong, closed)
         end do
     end subroutine change_all
 
@@ -426,7 +439,7 @@ contains
                 if (settled .or. search%state /= band_ok) return
                 if (search%wrong_now < search%fewest) exit
                 call keep_least_index(search%wrong)
-                closed = closed .neqv. search%wrong
+                call change(beam, search%wrong, closed)
                 if (came_back(mark, closed)) then
                     search%width = 16*search%width
                     if (search%width > last_width) return

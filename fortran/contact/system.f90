@@ -1,7 +1,7 @@
 !> One working scheme solved: the system it needs is chosen, assembled and solved; reactions follow.
 module gapbeam_system
     use gapbeam_kinds, only: wp
-    use gapbeam_band, only: factor_chain, solve_chain, band_ok, band_mechanism, band_needs_pivoting
+    use gapbeam_band, only: node_type, factor_chain, solve_chain, band_ok, band_mechanism, band_needs_pivoting
     use gapbeam_residual, only: residual_chain
     use gapbeam_three_moment, only: fits_three_moment, solve_three_moment
     use gapbeam_pivoting, only: solve_pivoting
@@ -58,7 +58,9 @@ contains
         call apply_scheme(beam, acting, [0, size(beam%links)], work)
         work%solves = work%solves + 1
         place = 0
-        if (fits_three_moment(work%nodes)) then
+        if (softens(work%nodes)) then
+            regular = .false.
+        else if (fits_three_moment(work%nodes)) then
             work%method = method_three_moment
             call solve_three_moment(work%nodes, beam%links, work%rhs, work%moment_work, work%answers, regular)
         else
@@ -88,6 +90,14 @@ contains
             if (size(motions) > 0 .and. .not. any(work%ease > 0.0_wp)) state = band_mechanism
         end if
     end subroutine solve_deflections
+
+    !> Is the force of some node's supports falling: only pivoting minds signs
+    pure function softens(nodes) result(any_does)
+        type(node_type), intent(in) :: nodes(:)
+        logical :: any_does
+
+        any_does = any(nodes%stiffness < 0.0_wp)
+    end function softens
 
     !> Can a scheme be solved from both ends
     pure function fits_both_ends(work) result(fits)

@@ -142,10 +142,11 @@ contains
         cell%solves = cell%solves + 2
         springs = sum(dead%ease*(abs(dead%reference - dead%answers%deflection) + abs(live%answers%deflection)))
         do k = 1, size(cell%closed)
-            cell%lines(k) = line_of(beam, incremental, cell%closed(k), k, dead, live)
+            cell%lines(k) = line_of(beam, incremental, cell%closed, k, dead, live)
             ! What only the weak springs press on carries nothing
             associate (line => cell%lines(k))
-                if (cell%closed(k) .and. max(abs(line%v0), abs(line%v1)) <= 2*springs) line = line_type()
+                if (cell%closed(k) .and. beam%supports(k)%kink == 0 .and. max(abs(line%v0), abs(line%v1)) <= 2*springs) &
+                    line = line_type()
             end associate
         end do
     end subroutine find_lines

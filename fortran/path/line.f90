@@ -2,7 +2,7 @@
 !> the contact levels, v1 from the live loads alone
 module gapbeam_line
     use gapbeam_kinds, only: wp
-    use gapbeam_law, only: margin_of, drop_level
+    use gapbeam_law, only: margin_in_scheme, drop_level
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type
     use gapbeam_rules, only: first_width
@@ -45,18 +45,18 @@ contains
     pure function line_of(beam, incremental, closed, k, dead, live) result(line)
         !> The beam, and what without_dead_loads makes of it
         type(beam_type), intent(in) :: beam, incremental
-        !> Does the support act, and its number
-        logical, intent(in) :: closed
+        !> The scheme, and the number of the support
+        logical, intent(in) :: closed(:)
         integer, intent(in) :: k
         !> v0 and v1, solved with the scheme at hand
         type(workspace_type), intent(in) :: dead, live
         type(line_type) :: line
 
         associate (i => beam%supports(k)%node)
-            call margin_of(beam%supports(k), closed, dead%answers(i)%deflection, dead%deflection_size(i), dead%reaction(k), &
-                           dead%reaction_error(k), line%v0, line%error_of_v0)
-            call margin_of(incremental%supports(k), closed, live%answers(i)%deflection, live%deflection_size(i), &
-                           live%reaction(k), live%reaction_error(k), line%v1, line%error_of_v1)
+            call margin_in_scheme(beam%supports, closed, k, dead%answers(i)%deflection, dead%deflection_size(i), dead%reaction, &
+                                  dead%reaction_error, line%v0, line%error_of_v0)
+            call margin_in_scheme(incremental%supports, closed, k, live%answers(i)%deflection, live%deflection_size(i), &
+                                  live%reaction, live%reaction_error, line%v1, line%error_of_v1)
         end associate
         line%error_of_v0 = first_width*line%error_of_v0
         line%error_of_v1 = first_width*line%error_of_v1

@@ -3,7 +3,7 @@
 module gapbeam_stretch
     use gapbeam_kinds, only: wp
     use gapbeam_band, only: band_ok
-    use gapbeam_law, only: may_change
+    use gapbeam_law, only: is_watched_in
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_update, only: start_updates, update_scheme, find_groups
@@ -123,7 +123,7 @@ contains
         type(stretch_type), intent(in) :: stretch
         type(line_type) :: line
 
-        line = line_of(beam, stretch%incremental, closed(k), k, stretch%dead, stretch%live)
+        line = line_of(beam, stretch%incremental, closed, k, stretch%dead, stretch%live)
     end function line_in
 
     !> Supports that are at zero at a factor
@@ -143,7 +143,7 @@ contains
         there(:) = .false.
         there(at_zero) = .true.
         do k = 1, size(closed)
-            if (.not. may_change(beam%supports(k))) cycle
+            if (.not. is_watched_in(beam%supports, closed, k)) cycle
             line = line_in(beam, closed, k, stretch)
             if (abs(value_at(line, factor)) > width_at(line, factor)) cycle
             there(k) = .true.

@@ -24,7 +24,7 @@ module gapbeam_referee
     use gapbeam_model_quad, only: fine_beam_type => beam_type, new_beam
     use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type, new_fine_workspace => new_workspace, &
         set_fine_loads => set_loads
-    use gapbeam_law_quad, only: may_change, find_margins
+    use gapbeam_law_quad, only: is_watched_in, find_margins
     use gapbeam_sensitivity_quad, only: sensitivity_type, prepare_sensitivity, movement_of_support
     use gapbeam_search_quad, only: rule_block
     use gapbeam_scheme_quad, only: find_fine_scheme => find_scheme, fine_outcome_type => outcome_type
@@ -222,7 +222,7 @@ contains
                           margin, rounding)
         do k = 1, size(closed)
             undecided(k) = .false.
-            if (.not. may_change(fine%supports(k))) cycle
+            if (.not. is_watched_in(fine%supports, closed, k)) cycle
             ! What is held stiffly beside a soft spring may move it by rounding
             if (closed(k)) rounding(k) = max(rounding(k), epsilon(1.0_qp)*work%shear_size(fine%supports(k)%node))
             undecided(k) = abs(margin(k)) <= first_width*rounding(k)*(epsilon(1.0_wp)/epsilon(1.0_qp))
@@ -233,7 +233,7 @@ contains
         if (.not. sensitivity%known) return
         do k = 1, size(closed)
             if (.not. undecided(k)) cycle
-            call movement_of_support(fine, sensitivity, closed(k), k, work, movement)
+            call movement_of_support(fine, sensitivity, closed, k, work, movement)
             undecided(k) = abs(margin(k)) <= max(movement, fine_width*rounding(k))
         end do
     end subroutine find_undecided
@@ -267,6 +267,10 @@ contains
         associate (s => beam%supports)
             call new_beam(links, beam%kind, fine_reciprocal(beam%compliance), real(beam%force, qp), real(beam%couple, qp), &
                           s%node, s%side, real(s%stiffness, qp), real(s%contact, qp), fine)
+            fine%supports%kink = s%kink
+            fine%supports%more = s%more
+            fine%supports%force = s%force
+            fine%supports%before = s%before
         end associate
     end subroutine refine_beam
 

@@ -49,7 +49,8 @@ contains
         real(wp) :: compatibility, equilibrium
 
         n = size(beam%links)
-        call factor_chain(work%nodes, beam%links, work%pivots, state, place)
+        state = band_needs_pivoting
+        if (.not. any(work%nodes%stiffness < 0.0_wp)) call factor_chain(work%nodes, beam%links, work%pivots, state, place)
         if (state == band_mechanism) return
         sensitivity%known = .true.
         sensitivity%pivoting = state == band_needs_pivoting
@@ -247,20 +248,20 @@ contains
     subroutine movement_of_support(beam, sensitivity, closed, k, work, movement)
         type(beam_type), intent(in) :: beam
         type(sensitivity_type), intent(in) :: sensitivity
-        !> Does the support act, and its number
-        logical, intent(in) :: closed
+        !> The scheme, and the number of the support
+        logical, intent(in) :: closed(:)
         integer, intent(in) :: k
         type(workspace_type), intent(inout) :: work
         real(wp), intent(out) :: movement
         type(rhs_type), allocatable :: rhs(:)
         real(wp) :: rate, level
-        logical :: regular
+        logical :: regular, is_force
         integer :: i
 
         allocate (rhs(0:size(beam%links)))
         i = beam%supports(k)%node
-        call margin_rates(beam%supports(k), closed, rate, level)
-        associate (by_force => closed .and. work%nodes(i)%held)
+        call margin_rates(beam%supports, closed, k, rate, level, is_force)
+        associate (by_force => is_force .and. work%nodes(i)%held)
             call add_functional(beam, work%nodes, merge(of_reactions, of_deflections, by_force), i, &
                                 [1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp], rhs)
             call solve_again(beam%links, sensitivity, work, rhs, regular)

@@ -1,0 +1,178 @@
+!> Supports whose law has more than two pieces: a polyline of the force over the deflection, one kink an entry.
+!>
+!> With y = side*deflection and f = side*reaction, piece i of a law begins at kink i, a point (side*contact, force), and goes
+!> on with the slope `stiffness` of that kink; left of the first kink it has the slope `before`. Slopes may have any sign: 0 is
+!> a constant force, infinite a rigid piece (the node is held while the force grows), minus infinite a brittle drop. The kinks
+!> of a law stand one after the other among the supports, and are closed up to the piece that acts: a law is a support with one
+!> state more for every kink, and any scheme is still a logical array. An ordinary support is one kink: open before it, a spring
+!> after it.
+!>
+!> Which side of zero a kink is on is measured along the steeper of the pieces beside it by the force, along the flatter by the
+!> deflection: so neither 1e12 nor 1e-12 costs digits.
+module gapbeam_polyline
+    use gapbeam_kinds, only: wp
+    implicit none
+    private
+    public :: node_support_type, piece_that_acts, piece_force, kink_margin, is_watched, open_beyond, coincide
+
+    !> A support at a node, or a kink of its law
+    type :: node_support_type
+        !> Node, 0..n
+        integer :: node
+        !> below, above or both (gapbeam_law)
+        integer :: side
+        !> Force per length; infinite for a rigid one. Of a kink the slope of the piece that begins there
+        real(wp) :: stiffness
+        !> Deflection at which it begins to act: settlement + gap (below), settlement - gap (above). Of a kink its place
+        real(wp) :: contact
+        !> Number of the kink in its law, from 1; 0 for an ordinary support
+        integer :: kink = 0
+        !> Is the next support the next kink of the same law
+        logical :: more = .false.
+        !> Force at the kink, in the direction in which the support pushes, and slope of the piece that ends there
+        real(wp) :: force = 0.0_wp, before = 0.0_wp
+    end type node_support_type
+
+contains
+
+    !> Does a piece beside a kink act, and its slope: the one that begins there if no later kink is closed, or the one before the
+    !> first kink
+    pure subroutine piece_that_acts(supports, closed, k, acts, slope)
+        !> All supports, the scheme, and the number of one with a law
+        type(node_support_type), intent(in) :: supports(:)
+        logical, intent(in) :: closed(:)
+        integer, intent(in) :: k
+        logical, intent(out) :: acts
+        real(wp), intent(out) :: slope
+
+        associate (s => supports(k))
+            if (closed(k)) then
+                slope = s%stiffness
+                acts = .true.
+                if (s%more) acts = .not. closed(k + 1)
+            else
+                slope = s%before
+                acts = s%kink == 1 .and. abs(s%before) > 0.0_wp
+            end if
+        end associate
+    end subroutine piece_that_acts
+
+    !> Force of a piece that is not vertical, positive up, and the rounding error of that
+    pure subroutine piece_force(support, slope, deflection, deflection_size, force, rounding)
+        !> The kink and the slope of the piece
+        type(node_support_type), intent(in) :: support
+        real(wp), intent(in) :: slope
+        !> Of the node, and the size of that for rounding errors
+        real(wp), intent(in) :: deflection, deflection_size
+        real(wp), intent(out) :: force, rounding
+
+        force = slope*(deflection - support%contact) + support%side*support%force
+        rounding = epsilon(force)*(abs(slope)*max(deflection_size, abs(support%contact)) + abs(support%force))
+    end subroutine piece_force
+
+    !> By how much the state of a kink is right, and the rounding error of that
+    pure subroutine kink_margin(supports, closed, k, deflection, deflection_size, reaction, reaction_error, margin, rounding, &
+                                by_force)
+        !> All supports, the scheme, and the number of one with a law
+        type(node_support_type), intent(in) :: supports(:)
+        logical, intent(in) :: closed(:)
+        integer, intent(in) :: k
+        !> Of its node, and the size of that for rounding errors
+        real(wp), intent(in) :: deflection, deflection_size
+        !> Of all supports, and their rounding errors; that of a law is that of the kink whose piece acts
+        real(wp), intent(in) :: reaction(:), reaction_error(:)
+        !> Force or deflection from here to the kink, below zero beyond it; 0 where it is not watched
+        real(wp), intent(out) :: margin, rounding
+        !> Is it a force
+        logical, intent(out) :: by_force
+        real(wp) :: here, there
+        integer :: from
+        logical :: beside
+
+        margin = 0.0_wp
+        rounding = 0.0_wp
+        by_force = .false.
+        call look_around(supports, closed, k, beside, from, here, there)
+        associate (s => supports(k))
+            if (.not. beside) then
+                if (abs(here) > huge(here)) return
+            else
+                by_force = abs(here) > abs(there)
+            end if
+            if (by_force) then
+                margin = s%side*reaction(from) - s%force
+                if (here < 0.0_wp) margin = -margin
+                rounding = reaction_error(from) + epsilon(margin)*abs(s%force)
+            else
+                margin = s%side*(deflection - s%contact)
+                rounding = epsilon(deflection)*max(deflection_size, abs(s%contact))
+            end if
+        end associate
+        if (.not. closed(k)) margin = -margin
+    end subroutine kink_margin
+
+    !> Is a kink beside the piece that acts, and the slopes on this side of it and beyond
+    pure subroutine look_around(supports, closed, k, beside, from, here, there)
+        type(node_support_type), intent(in) :: supports(:)
+        logical, intent(in) :: closed(:)
+        integer, intent(in) :: k
+        logical, intent(out) :: beside
+        !> The kink that has the reaction of the law
+        integer, intent(out) :: from
+        real(wp), intent(out) :: here, there
+
+        associate (s => supports(k))
+            from = k
+            beside = .true.
+            if (closed(k)) then
+                here = s%stiffness
+                there = s%before
+                if (s%more) beside = .not. closed(k + 1)
+            else
+                here = s%before
+                there = s%stiffness
+                if (s%kink > 1) then
+                    from = k - 1
+                    beside = closed(k - 1)
+                end if
+            end if
+        end associate
+    end subroutine look_around
+
+    !> Can a kink be passed next or at once with others: not if a vertical piece lies between it and the piece that acts
+    pure function is_watched(supports, closed, k) result(watched)
+        !> As for kink_margin
+        type(node_support_type), intent(in) :: supports(:)
+        logical, intent(in) :: closed(:)
+        integer, intent(in) :: k
+        logical :: watched
+        real(wp) :: here, there
+        integer :: from
+
+        call look_around(supports, closed, k, watched, from, here, there)
+        watched = watched .or. abs(here) <= huge(here)
+    end function is_watched
+
+    !> Open the kinks of a law beyond its first open one
+    pure subroutine open_beyond(supports, closed)
+        type(node_support_type), intent(in) :: supports(:)
+        logical, intent(inout) :: closed(:)
+        integer :: k
+
+        do k = 2, size(closed)
+            if (supports(k)%kink > 1) closed(k) = closed(k) .and. closed(k - 1)
+        end do
+    end subroutine open_beyond
+
+    !> Are a kink and the next one of its law the same point, so that they are passed together
+    pure function coincide(supports, k) result(same)
+        type(node_support_type), intent(in) :: supports(:)
+        integer, intent(in) :: k
+        logical :: same
+
+        same = supports(k)%more
+        if (same) same = .not. (abs(supports(k + 1)%contact - supports(k)%contact) > 0.0_wp &
+                                .or. abs(supports(k + 1)%force - supports(k)%force) > 0.0_wp)
+    end function coincide
+
+end module gapbeam_polyline
