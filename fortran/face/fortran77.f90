@@ -27,7 +27,8 @@ subroutine gbprep(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, alo
     use gapbeam_error, only: error_type, gapbeam_no_memory, gapbeam_bad_input
     use gapbeam_scene, only: model_type
     use gapbeam_api, only: prepared_type, prepare_model
-    use gapbeam_work, only: sizes_of_beam, model_from_arrays, put_beam
+    use gapbeam_arrays, only: model_from_arrays
+    use gapbeam_work, only: sizes_of_beam, put_beam
     implicit none
     ! Sizes; NSPAN 1 or more, the others 0 or more
     integer, intent(in) :: nspan, nhinge, nsup, nload
@@ -47,6 +48,7 @@ subroutine gbprep(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, alo
     integer(int64) :: reals, integers
     ! The argument that an array of the model is; of a pair of arrays the first, which has the number of entries
     integer, parameter :: argument(0:4) = [1, 2, 4, 6, 9]
+    double precision :: no_sections(5, 0)
     logical :: fits
 
     info = 0
@@ -67,7 +69,8 @@ subroutine gbprep(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, alo
     if (liwork < integers) info = -14
     if (info /= 0) return
     iwork(1) = 0
-    call model_from_arrays(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, model, error)
+    call model_from_arrays(span(:, 1:nspan), hinge(1:nhinge), no_sections, isup(:, 1:nsup), sup(:, 1:nsup), &
+                           iload(:, 1:nload), aload(:, 1:nload), model, error)
     if (.not. allocated(error)) call prepare_model(model, beam, error)
     if (allocated(error)) then
         info = error%code
@@ -86,7 +89,8 @@ subroutine gbload(nload, iload, aload, work, lwork, iwork, liwork, info)
     use gapbeam_error, only: error_type, gapbeam_no_memory, gapbeam_bad_input
     use gapbeam_scene, only: load_type
     use gapbeam_api, only: prepared_type, replace_loads
-    use gapbeam_work, only: take_beam, loads_from_arrays, put_beam
+    use gapbeam_arrays, only: loads_from_arrays
+    use gapbeam_work, only: take_beam, put_beam
     implicit none
     ! All loads from now on, see above
     integer, intent(in) :: nload
@@ -111,7 +115,7 @@ subroutine gbload(nload, iload, aload, work, lwork, iwork, liwork, info)
         info = merge(error%code, -4, error%code == gapbeam_no_memory)
         return
     end if
-    call loads_from_arrays(nload, iload, aload, loads, error)
+    call loads_from_arrays(iload(:, 1:nload), aload(:, 1:nload), loads, error)
     if (.not. allocated(error)) call replace_loads(beam, loads, error)
     if (allocated(error)) then
         info = merge(-2, error%code, error%code == gapbeam_bad_input)

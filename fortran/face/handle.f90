@@ -11,7 +11,7 @@ module gapbeam_handle
     use gapbeam_cases, only: case_loads_type
     implicit none
     private
-    public :: handle_type, new_handle, copy_handle, handle_of, drop_handle, read_columns, state_of
+    public :: handle_type, new_handle, copy_handle, handle_of, drop_handle, state_of
 
     !> What a handle stands for
     type :: handle_type
@@ -90,74 +90,6 @@ contains
         handle => handle_of(address)
         if (associated(handle)) deallocate (handle)
     end subroutine drop_handle
-
-    !> A model from columns, each with one entry more than it has numbers, so that none is empty
-    subroutine read_columns(span, hinge, sect, isup, sup, iload, aload, model, error)
-        !> Length, EI, GA, EA
-        real(wp), intent(in) :: span(:, :)
-        !> Places
-        real(wp), intent(in) :: hinge(:)
-        !> From, to, EI, GA, EA
-        real(wp), intent(in) :: sect(:, :)
-        !> Node, side, direction; x, stiffness, gap, settlement, rotation
-        integer, intent(in) :: isup(:, :)
-        real(wp), intent(in) :: sup(:, :)
-        !> Kind, case, node; x or from, to, value, value at the right end
-        integer, intent(in) :: iload(:, :)
-        real(wp), intent(in) :: aload(:, :)
-        type(model_type), intent(out) :: model
-        !> No memory
-        type(error_type), allocatable, intent(out) :: error
-        integer :: i, stat
-
-        allocate (model%spans(size(span, 1) - 1), model%hinges(size(hinge) - 1), model%sections(size(sect, 1) - 1), &
-                  model%supports(size(sup, 1) - 1), model%loads(size(aload, 1) - 1), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
-        do i = 1, size(model%spans)
-            associate (s => model%spans(i))
-                s%length = span(i, 1)
-                s%EI = span(i, 2)
-                s%GA = span(i, 3)
-                s%EA = span(i, 4)
-            end associate
-        end do
-        model%hinges(:) = hinge(:size(model%hinges))
-        do i = 1, size(model%sections)
-            associate (s => model%sections(i))
-                s%from = sect(i, 1)
-                s%to = sect(i, 2)
-                s%EI = sect(i, 3)
-                s%GA = sect(i, 4)
-                s%EA = sect(i, 5)
-            end associate
-        end do
-        do i = 1, size(model%supports)
-            associate (s => model%supports(i))
-                s%node = isup(i, 1)
-                s%side = isup(i, 2)
-                s%direction = isup(i, 3)
-                s%x = sup(i, 1)
-                s%stiffness = sup(i, 2)
-                s%gap = sup(i, 3)
-                s%settlement = sup(i, 4)
-                s%rotation = sup(i, 5)
-            end associate
-        end do
-        do i = 1, size(model%loads)
-            associate (load => model%loads(i))
-                load%kind = iload(i, 1)
-                load%case = iload(i, 2)
-                load%node = iload(i, 3)
-                load%x = aload(i, 1)
-                load%to = aload(i, 2)
-                load%value = aload(i, 3)
-                load%value_to = aload(i, 4)
-            end associate
-        end do
-    end subroutine read_columns
 
     !> A state from the numbers that were taken out of it
     subroutine state_of(lowered, factor, closed, w, ml, mr, shear, react, state, error)

@@ -12,13 +12,14 @@ subroutine gbmake(mspan, mhinge, msect, msup, mload, span, hinge, sect, isup, su
                   beam, status, reason, table, entry, partner, key, message)
     use gapbeam_error, only: error_type, gapbeam_solved
     use gapbeam_scene, only: model_type
-    use gapbeam_handle, only: read_columns, new_handle
+    use gapbeam_arrays, only: model_from_arrays
+    use gapbeam_handle, only: new_handle
     implicit none
     ! One more than there are
     integer, intent(in) :: mspan, mhinge, msect, msup, mload
-    ! Columns as for read_columns, in the scene's units
-    double precision, intent(in) :: span(mspan, 4), hinge(mhinge), sect(msect, 5), sup(msup, 5), aload(mload, 4)
-    integer, intent(in) :: isup(msup, 3), iload(mload, 3)
+    ! As for model_from_arrays, in the scene's units
+    double precision, intent(in) :: span(4, mspan), hinge(mhinge), sect(5, msect), sup(5, msup), aload(4, mload)
+    integer, intent(in) :: isup(3, msup), iload(3, mload)
     ! The handle; 0 where it is refused
     integer(8), intent(out) :: beam
     ! Why: as in gapbeam_error and gapbeam_refusal; entries count from 1
@@ -26,11 +27,11 @@ subroutine gbmake(mspan, mhinge, msect, msup, mload, span, hinge, sect, isup, su
     character(len=10), intent(out) :: key
     character(len=240), intent(out) :: message
     !f2py threadsafe
-    !f2py integer, intent(hide), depend(span) :: mspan = shape(span, 0)
+    !f2py integer, intent(hide), depend(span) :: mspan = shape(span, 1)
     !f2py integer, intent(hide), depend(hinge) :: mhinge = shape(hinge, 0)
-    !f2py integer, intent(hide), depend(sect) :: msect = shape(sect, 0)
-    !f2py integer, intent(hide), depend(sup) :: msup = shape(sup, 0)
-    !f2py integer, intent(hide), depend(aload) :: mload = shape(aload, 0)
+    !f2py integer, intent(hide), depend(sect) :: msect = shape(sect, 1)
+    !f2py integer, intent(hide), depend(sup) :: msup = shape(sup, 1)
+    !f2py integer, intent(hide), depend(aload) :: mload = shape(aload, 1)
     type(model_type) :: model
     type(error_type), allocatable :: error
 
@@ -42,7 +43,8 @@ subroutine gbmake(mspan, mhinge, msect, msup, mload, span, hinge, sect, isup, su
     partner = 0
     key = " "
     message = " "
-    call read_columns(span, hinge, sect, isup, sup, iload, aload, model, error)
+    call model_from_arrays(span(:, :mspan - 1), hinge(:mhinge - 1), sect(:, :msect - 1), isup(:, :msup - 1), sup(:, :msup - 1), &
+                           iload(:, :mload - 1), aload(:, :mload - 1), model, error)
     if (.not. allocated(error)) call new_handle(model, beam, error)
     if (.not. allocated(error)) return
     status = error%code

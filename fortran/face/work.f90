@@ -5,15 +5,13 @@ module gapbeam_work
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_no_memory, gapbeam_not_prepared
     use gapbeam_search, only: rule_block, rule_single
-    use gapbeam_scene, only: load_type, model_type
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_api, only: prepared_type, result_type
     use gapbeam_tape, only: tape_type, writing, reading
     use gapbeam_pack, only: exchange_beam, exchange_state
     implicit none
     private
-    public :: sizes_of_beam, sizes_of_state, put_beam, take_beam, put_result, take_result, loads_from_arrays, model_from_arrays
-    public :: begin_result, take_both
+    public :: sizes_of_beam, sizes_of_state, put_beam, take_beam, put_result, take_result, begin_result, take_both
 
     !> Marks of what a pair of work arrays holds, in the first integer; the next two are the lengths used
     integer, parameter :: beam_mark = 770042, state_mark = 770043, header = 3
@@ -219,77 +217,5 @@ contains
         call c_f_pointer(c_loc(work), tape%real_array, [reals])
         call c_f_pointer(c_loc(iwork), tape%integer_array, [integers])
     end subroutine start
-
-    !> A model from the arrays of GBPREP
-    subroutine model_from_arrays(spans, span, hinges, hinge, supports, isup, sup, loads, iload, aload, model, error)
-        integer, intent(in) :: spans, hinges, supports, loads
-        !> length, EI, GA, EA; x; side, direction, node; x, stiffness, gap, settlement, rotation
-        real(wp), intent(in) :: span(4, *), hinge(*), sup(5, *)
-        integer, intent(in) :: isup(3, *)
-        !> As for loads_from_arrays
-        integer, intent(in) :: iload(3, *)
-        real(wp), intent(in) :: aload(4, *)
-        type(model_type), intent(out) :: model
-        !> No memory
-        type(error_type), allocatable, intent(out) :: error
-        integer :: i, stat
-
-        allocate (model%spans(spans), model%hinges(hinges), model%supports(supports), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
-        do i = 1, spans
-            associate (s => model%spans(i))
-                s%length = span(1, i)
-                s%EI = span(2, i)
-                s%GA = span(3, i)
-                s%EA = span(4, i)
-            end associate
-        end do
-        if (hinges > 0) model%hinges(:) = hinge(1:hinges)
-        do i = 1, supports
-            associate (s => model%supports(i))
-                s%side = isup(1, i)
-                s%direction = isup(2, i)
-                s%node = isup(3, i)
-                s%x = sup(1, i)
-                s%stiffness = sup(2, i)
-                s%gap = sup(3, i)
-                s%settlement = sup(4, i)
-                s%rotation = sup(5, i)
-            end associate
-        end do
-        call loads_from_arrays(loads, iload, aload, model%loads, error)
-    end subroutine model_from_arrays
-
-    !> Loads from the arrays of GBPREP and GBLOAD
-    subroutine loads_from_arrays(number, iload, aload, loads, error)
-        integer, intent(in) :: number
-        !> kind, case, node; x, to, value, value_to
-        integer, intent(in) :: iload(3, *)
-        real(wp), intent(in) :: aload(4, *)
-        type(load_type), allocatable, intent(out) :: loads(:)
-        !> No memory
-        type(error_type), allocatable, intent(out) :: error
-        integer :: i, stat
-
-        allocate (loads(number), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
-        do i = 1, number
-            associate (load => loads(i))
-                load%kind = iload(1, i)
-                load%case = iload(2, i)
-                load%node = iload(3, i)
-                load%x = aload(1, i)
-                load%to = aload(2, i)
-                load%value = aload(3, i)
-                load%value_to = aload(4, i)
-            end associate
-        end do
-    end subroutine loads_from_arrays
 
 end module gapbeam_work

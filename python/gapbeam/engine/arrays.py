@@ -13,6 +13,8 @@ from ..base.records import Record
 class Columns(Record):
     """What a beam is made of, as columns with one entry more than there are numbers: f2py takes none that is empty.
 
+    Entries lie one after another in memory (Fortran's order), as in the Fortran 77 interface.
+
     Attributes
     ----------
     span : numpy.ndarray
@@ -22,7 +24,7 @@ class Columns(Record):
     section : numpy.ndarray
         Left and right end, EI, GA, EA of the sections, 5 rows.
     support_codes, support : numpy.ndarray
-        Node, side and direction of the supports, 3 rows of int; x, stiffness, gap, settlement, rotation, 5 rows.
+        Side, direction and node of the supports, 3 rows of int; x, stiffness, gap, settlement, rotation, 5 rows.
     load_codes, load : numpy.ndarray
         Kind, case and node of the loads, 3 rows of int; x or left end, right end, value, value at the right end, 4 rows.
     """

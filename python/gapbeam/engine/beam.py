@@ -72,9 +72,9 @@ class Beam:
     def __init__(self, columns: Columns):
         self.columns = columns
         self._factors: np.ndarray | None = None
-        parts = (columns.span.T, columns.hinge, columns.section.T, columns.support_codes.T, columns.support.T)
+        c = columns
         handle, status, reason, table, entry, partner, key, message = _engine.gbmake(
-            *parts, columns.load_codes.T, columns.load.T
+            c.span, c.hinge, c.section, c.support_codes, c.support, c.load_codes, c.load
         )
         if status == Status.BAD_INPUT:
             raise RefusalError(reason, table, entry, partner, key.decode().strip())
@@ -146,17 +146,17 @@ class Beam:
     def carrying(self) -> np.ndarray:
         """Number in the scene of every support across the beam that can carry."""
         codes, stiffness = self.columns.support_codes[:, :-1], self.columns.support[1, :-1]
-        return read_only(np.flatnonzero((codes[2] == 0) & ((stiffness > 0.0) | (codes[1] == 0))))
+        return read_only(np.flatnonzero((codes[1] == 0) & ((stiffness > 0.0) | (codes[0] == 0))))
 
     @cached_property
     def across(self) -> np.ndarray:
         """Which supports of the scene are across the beam, not axial."""
-        return read_only(self.columns.support_codes[2, :-1] == 0)
+        return read_only(self.columns.support_codes[1, :-1] == 0)
 
     @cached_property
     def sides(self) -> np.ndarray:
         """Side of every support of the scene."""
-        return self.columns.support_codes[1, :-1]
+        return self.columns.support_codes[0, :-1]
 
     def solve(self, factor: float, rule: str, closed: np.ndarray) -> Solution:
         """Find the working scheme at one load factor.

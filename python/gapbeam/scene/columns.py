@@ -53,7 +53,7 @@ def columns(scene: Scene) -> Columns:
     """
     beam = scene.beam
     spans = len(beam.spans)
-    span = np.empty((4, spans + 1))
+    span = _empty(4, spans)
     span[0, :spans] = beam.spans
     for row, key in enumerate(("EI", "GA", "EA"), 1):
         values = np.asarray(getattr(beam, key), dtype=float)
@@ -63,14 +63,14 @@ def columns(scene: Scene) -> Columns:
         span[row, :spans] = values if spans else np.inf
     hinge = np.empty(len(beam.hinges) + 1)
     hinge[:-1] = beam.hinges
-    span[:, spans:] = hinge[-1] = 0.0
+    hinge[-1] = 0.0
     codes, values = _supports(scene.supports)
     load_codes, load_values = _loads(scene.loads)
     return Columns(span, hinge, _sections(scene.sections), codes, values, load_codes, load_values)
 
 
 def _empty(rows: int, count: int, kind: type = float) -> np.ndarray:
-    found = np.empty((rows, count + 1), dtype=kind)
+    found = np.empty((rows, count + 1), dtype=kind, order="F")
     found[:, count] = 0
     return found
 
@@ -85,9 +85,9 @@ def _sections(items: Sequence[Any]) -> np.ndarray:
 
 def _supports(items: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
     codes, found = _empty(3, len(items), np.int32), _empty(5, len(items))
-    codes[0, :-1], found[0, :-1] = _places("supports", items, range(len(items)))
-    codes[1, :-1] = _words(items, "side", SIDES)
-    codes[2, :-1] = _words(items, "direction", DIRECTIONS)
+    codes[0, :-1] = _words(items, "side", SIDES)
+    codes[1, :-1] = _words(items, "direction", DIRECTIONS)
+    codes[2, :-1], found[0, :-1] = _places("supports", items, range(len(items)))
     for row, key in enumerate(("stiffness", "gap", "settlement"), 1):
         found[row, :-1] = _numbers(items, key)
     found[4, :-1] = _rotations(items)

@@ -1,0 +1,98 @@
+!> Models and loads from plain arrays, one column an entry, as Fortran 77 and Python hand them over
+module gapbeam_arrays
+    use gapbeam_kinds, only: wp
+    use gapbeam_error, only: error_type, no_memory
+    use gapbeam_scene, only: load_type, model_type
+    implicit none
+    private
+    public :: model_from_arrays, loads_from_arrays
+
+contains
+
+    !> A model from arrays
+    subroutine model_from_arrays(span, hinge, sect, isup, sup, iload, aload, model, error)
+        !> Length, EI, GA, EA
+        real(wp), intent(in) :: span(:, :)
+        !> Places
+        real(wp), intent(in) :: hinge(:)
+        !> From, to, EI, GA, EA
+        real(wp), intent(in) :: sect(:, :)
+        !> Side, direction, node; x, stiffness, gap, settlement, rotation
+        integer, intent(in) :: isup(:, :)
+        real(wp), intent(in) :: sup(:, :)
+        !> As for loads_from_arrays
+        integer, intent(in) :: iload(:, :)
+        real(wp), intent(in) :: aload(:, :)
+        type(model_type), intent(out) :: model
+        !> No memory
+        type(error_type), allocatable, intent(out) :: error
+        integer :: i, stat
+
+        allocate (model%spans(size(span, 2)), model%hinges(size(hinge)), model%sections(size(sect, 2)), &
+                  model%supports(size(sup, 2)), stat=stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        do i = 1, size(model%spans)
+            associate (s => model%spans(i))
+                s%length = span(1, i)
+                s%EI = span(2, i)
+                s%GA = span(3, i)
+                s%EA = span(4, i)
+            end associate
+        end do
+        model%hinges(:) = hinge
+        do i = 1, size(model%sections)
+            associate (s => model%sections(i))
+                s%from = sect(1, i)
+                s%to = sect(2, i)
+                s%EI = sect(3, i)
+                s%GA = sect(4, i)
+                s%EA = sect(5, i)
+            end associate
+        end do
+        do i = 1, size(model%supports)
+            associate (s => model%supports(i))
+                s%side = isup(1, i)
+                s%direction = isup(2, i)
+                s%node = isup(3, i)
+                s%x = sup(1, i)
+                s%stiffness = sup(2, i)
+                s%gap = sup(3, i)
+                s%settlement = sup(4, i)
+                s%rotation = sup(5, i)
+            end associate
+        end do
+        call loads_from_arrays(iload, aload, model%loads, error)
+    end subroutine model_from_arrays
+
+    !> Loads from arrays
+    subroutine loads_from_arrays(iload, aload, loads, error)
+        !> Kind, case, node; x or from, to, value, value at the right end
+        integer, intent(in) :: iload(:, :)
+        real(wp), intent(in) :: aload(:, :)
+        type(load_type), allocatable, intent(out) :: loads(:)
+        !> No memory
+        type(error_type), allocatable, intent(out) :: error
+        integer :: i, stat
+
+        allocate (loads(size(aload, 2)), stat=stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        do i = 1, size(loads)
+            associate (load => loads(i))
+                load%kind = iload(1, i)
+                load%case = iload(2, i)
+                load%node = iload(3, i)
+                load%x = aload(1, i)
+                load%to = aload(2, i)
+                load%value = aload(3, i)
+                load%value_to = aload(4, i)
+            end associate
+        end do
+    end subroutine loads_from_arrays
+
+end module gapbeam_arrays
