@@ -193,6 +193,7 @@ def test_defaults():
         rotation="free",
         direction="normal",
         law=None,
+        unloading="elastic",
     )
     assert scene.supports == [support]
     assert scene.sections == [Section(from_=0.0, to=None, EI=None, GA=3.0, EA=None)]
@@ -370,7 +371,7 @@ def test_schema_fits_the_example():
 def test_schema_is_json_and_describes_every_key():
     schema = scene_schema()
     assert json.loads(json.dumps(schema, allow_nan=False)) == schema
-    assert len(schema["$defs"]) == 13
+    assert len(schema["$defs"]) == 20
     for name, table in schema["$defs"].items():
         assert table["description"], name
         assert "Parameters" not in table["description"]
@@ -380,4 +381,4 @@ def test_schema_is_json_and_describes_every_key():
     assert support["settlement"]["description"].startswith(
         "Movement of the support itself (length), positive downward"
     )
-    assert support["law"]["description"].endswith("Not available in this version.")
+    assert support["law"]["description"].startswith("Instead of stiffness: points")

@@ -57,14 +57,14 @@ side = 1 -> supports[0].side: expected "above", "below" or "both", got 1
 rotation = "stiff" -> supports[0].rotation: expected "fixed", "free" or a number, got "stiff"
 rotation = [1] -> supports[0].rotation: expected "fixed", "free" or a number, got [1]
 direction = "x" -> supports[0].direction: expected "axial" or "normal", got "x"
-law = 3 -> supports[0].law: expected a list of pairs of numbers, got 3
+law = 3 -> supports[0].law: expected a list of pairs of numbers or a table, got 3
 law = [[1.0]] -> supports[0].law[0]: expected a pair of numbers, got [1.0]
 law = [[1.0, "a"]] -> supports[0].law[0][1]: expected a number, got "a"
 stifness = 3 -> supports[0].stifness: unknown key; did you mean "stiffness"?
 Stiffness = 3 -> supports[0].Stiffness: unknown key; did you mean "stiffness"?
 zzz = 1 ->
     supports[0].zzz: unknown key; the keys are node, x, side, stiffness, gap, settlement, rotation,
-    direction and law
+    direction, law and unloading
 """
 
 
@@ -210,8 +210,35 @@ x = 6.0; direction = "axial"; side = "below" ->
 x = 6.0; direction = "axial"; gap = 0.1 -> supports[0].gap: an axial support has no gap; remove it
 x = 6.0; direction = "axial"; rotation = "fixed" ->
     supports[0].rotation: an axial support holds no rotation; a normal one here can do that
-x = 6.0; law = [[0.01, 100.0]] ->
-    supports[0].law: piecewise linear laws are not available in this version; give stiffness instead
+x = 6.0; law = [] -> supports[0].law: has no point; give (displacement past the gap, force)
+x = 6.0; law = [[0.01, 5.0], [0.005, 6.0]] ->
+    supports[0].law: the displacements go back at [0.005, 6], after 0.01; give them in ascending order
+x = 6.0; law = [[0.01, inf]] -> supports[0].law: expected finite numbers, got [0.01, inf]
+x = 6.0; law = [[0.01, -5.0]] ->
+    supports[0].law: the force is below zero at [0.01, -5]; a support that pushes cannot pull: end the law at 0
+x = 6.0; law = [[0.01, 5.0], [0.02, 4.0]] ->
+    supports[0].law: it ends falling, so its force would become negative beyond [0.02, 4]; add a point from which
+    on it stays, such as [1.02, 4]
+x = 6.0; law = [[0.0, 0.0]] ->
+    supports[0].law: the point [0, 0] stands there twice, or at the origin; leave it out
+x = 6.0; law = [[0.0, 1.0], [0.0, 2.0]] ->
+    supports[0].law: there are two vertical pieces at 0; give the outer points only
+x = 6.0; direction = "axial"; law = [[0.01, 5.0]] ->
+    supports[0].law: an axial support has a stiffness only
+x = 6.0; law = { type = "soft" } ->
+    supports[0].law.type: expected "plastic", "brittle", "hardening", "cubic", "hyperbolic", "tanh" or "power", got
+    "soft"
+x = 6.0; law = { stiffness = 1.0 } ->
+    supports[0].law.type: this key is missing; give "plastic", "brittle", "hardening", "cubic", "hyperbolic",
+    "tanh" or "power"
+x = 6.0; law = { type = "plastic", stiffness = 1.0 } ->
+    supports[0].law.limit: this key is missing; give a number
+x = 6.0; law = { type = "plastic", stiffness = 0, limit = 2 } ->
+    supports[0].law.stiffness: expected a number above 0, got 0
+x = 6.0; law = { type = "tanh", stiffness = inf, limit = 2 } ->
+    supports[0].law.stiffness: expected a finite number above 0, got inf
+x = 6.0; law = { type = "plastic", stiffness = 1.0, limit = 2.0, k = 3 } ->
+    supports[0].law.k: unknown key; the keys of a law of type "plastic" are type, stiffness and limit
 x = 6.0; law = [[0.01, 100.0]]; stiffness = 5.0 ->
     supports[0]: has both stiffness and law; give one of the two
 """

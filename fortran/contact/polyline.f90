@@ -13,7 +13,7 @@ module gapbeam_polyline
     use gapbeam_kinds, only: wp
     implicit none
     private
-    public :: node_support_type, piece_that_acts, piece_force, kink_margin, is_watched, open_beyond, coincide
+    public :: node_support_type, piece_that_acts, piece_force, kink_margin, is_watched, open_beyond, coincide, last_kink
 
     !> A support at a node, or a kink of its law
     type :: node_support_type
@@ -163,6 +163,18 @@ contains
             if (supports(k)%kink > 1) closed(k) = closed(k) .and. closed(k - 1)
         end do
     end subroutine open_beyond
+
+    !> The last kink of the law that begins at a support; the support itself if it has none
+    pure function last_kink(supports, k) result(last)
+        type(node_support_type), intent(in) :: supports(:)
+        integer, intent(in) :: k
+        integer :: last
+
+        last = k
+        do while (supports(last)%more)
+            last = last + 1
+        end do
+    end function last_kink
 
     !> Are a kink and the next one of its law the same point, so that they are passed together
     pure function coincide(supports, k) result(same)

@@ -2,7 +2,7 @@
 module gapbeam_arrays
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
-    use gapbeam_scene, only: load_type, model_type
+    use gapbeam_scene, only: law_point_type, load_type, model_type
     implicit none
     private
     public :: model_from_arrays, loads_from_arrays
@@ -10,16 +10,19 @@ module gapbeam_arrays
 contains
 
     !> A model from arrays
-    subroutine model_from_arrays(span, hinge, sect, isup, sup, iload, aload, model, error)
+    subroutine model_from_arrays(span, hinge, sect, isup, sup, ilaw, alaw, iload, aload, model, error)
         !> Length, EI, GA, EA
         real(wp), intent(in) :: span(:, :)
         !> Places
         real(wp), intent(in) :: hinge(:)
         !> From, to, EI, GA, EA
         real(wp), intent(in) :: sect(:, :)
-        !> Side, direction, node; x, stiffness, gap, settlement, rotation
+        !> Side, direction, node, and unloading if there is a fourth row; x, stiffness, gap, settlement, rotation
         integer, intent(in) :: isup(:, :)
         real(wp), intent(in) :: sup(:, :)
+        !> Points of laws: support, from 1; displacement, force
+        integer, intent(in) :: ilaw(:)
+        real(wp), intent(in) :: alaw(:, :)
         !> As for loads_from_arrays
         integer, intent(in) :: iload(:, :)
         real(wp), intent(in) :: aload(:, :)
@@ -29,7 +32,7 @@ contains
         integer :: i, stat
 
         allocate (model%spans(size(span, 2)), model%hinges(size(hinge)), model%sections(size(sect, 2)), &
-                  model%supports(size(sup, 2)), stat=stat)
+                  model%supports(size(sup, 2)), model%law(size(ilaw)), stat=stat)
         if (stat /= 0) then
             call no_memory(error)
             return
@@ -62,7 +65,11 @@ contains
                 s%gap = sup(3, i)
                 s%settlement = sup(4, i)
                 s%rotation = sup(5, i)
+                if (size(isup, 1) > 3) s%unloading = isup(4, i)
             end associate
+        end do
+        do i = 1, size(model%law)
+            model%law(i) = law_point_type(ilaw(i), alaw(1, i), alaw(2, i))
         end do
         call loads_from_arrays(iload, aload, model%loads, error)
     end subroutine model_from_arrays

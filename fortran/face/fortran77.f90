@@ -48,7 +48,8 @@ subroutine gbprep(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, alo
     integer(int64) :: reals, integers
     ! The argument that an array of the model is; of a pair of arrays the first, which has the number of entries
     integer, parameter :: argument(0:4) = [1, 2, 4, 6, 9]
-    double precision :: no_sections(5, 0)
+    double precision :: no_sections(5, 0), no_points(2, 0)
+    integer :: no_laws(0)
     logical :: fits
 
     info = 0
@@ -70,7 +71,7 @@ subroutine gbprep(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, alo
     if (info /= 0) return
     iwork(1) = 0
     call model_from_arrays(span(:, 1:nspan), hinge(1:nhinge), no_sections, isup(:, 1:nsup), sup(:, 1:nsup), &
-                           iload(:, 1:nload), aload(:, 1:nload), model, error)
+                           no_laws, no_points, iload(:, 1:nload), aload(:, 1:nload), model, error)
     if (.not. allocated(error)) call prepare_model(model, beam, error)
     if (allocated(error)) then
         info = error%code

@@ -44,6 +44,7 @@ contains
             call move_alloc(model%hinges, kept%hinges)
             call move_alloc(model%sections, kept%sections)
             call move_alloc(model%supports, kept%supports)
+            call move_alloc(model%law, kept%law)
             call move_alloc(model%loads, kept%loads)
         end associate
         call lower_model(handle%lowered, error)

@@ -8,7 +8,7 @@
 ! 10 an error with its MESSAGE and nothing else set.
 
 ! Prepare a beam
-subroutine gbmake(mspan, mhinge, msect, msup, mload, span, hinge, sect, isup, sup, iload, aload, &
+subroutine gbmake(mspan, mhinge, msect, msup, mlaw, mload, span, hinge, sect, isup, sup, ilaw, alaw, iload, aload, &
                   beam, status, reason, table, entry, partner, key, message)
     use gapbeam_error, only: error_type, gapbeam_solved
     use gapbeam_scene, only: model_type
@@ -16,10 +16,10 @@ subroutine gbmake(mspan, mhinge, msect, msup, mload, span, hinge, sect, isup, su
     use gapbeam_handle, only: new_handle
     implicit none
     ! One more than there are
-    integer, intent(in) :: mspan, mhinge, msect, msup, mload
+    integer, intent(in) :: mspan, mhinge, msect, msup, mlaw, mload
     ! As for model_from_arrays, in the scene's units
-    double precision, intent(in) :: span(4, mspan), hinge(mhinge), sect(5, msect), sup(5, msup), aload(4, mload)
-    integer, intent(in) :: isup(3, msup), iload(3, mload)
+    double precision, intent(in) :: span(4, mspan), hinge(mhinge), sect(5, msect), sup(5, msup), alaw(2, mlaw), aload(4, mload)
+    integer, intent(in) :: isup(4, msup), ilaw(mlaw), iload(3, mload)
     ! The handle; 0 where it is refused
     integer(8), intent(out) :: beam
     ! Why: as in gapbeam_error and gapbeam_refusal; entries count from 1
@@ -31,6 +31,7 @@ subroutine gbmake(mspan, mhinge, msect, msup, mload, span, hinge, sect, isup, su
     !f2py integer, intent(hide), depend(hinge) :: mhinge = shape(hinge, 0)
     !f2py integer, intent(hide), depend(sect) :: msect = shape(sect, 1)
     !f2py integer, intent(hide), depend(sup) :: msup = shape(sup, 1)
+    !f2py integer, intent(hide), depend(ilaw) :: mlaw = shape(ilaw, 0)
     !f2py integer, intent(hide), depend(aload) :: mload = shape(aload, 1)
     type(model_type) :: model
     type(error_type), allocatable :: error
@@ -44,7 +45,7 @@ subroutine gbmake(mspan, mhinge, msect, msup, mload, span, hinge, sect, isup, su
     key = " "
     message = " "
     call model_from_arrays(span(:, :mspan - 1), hinge(:mhinge - 1), sect(:, :msect - 1), isup(:, :msup - 1), sup(:, :msup - 1), &
-                           iload(:, :mload - 1), aload(:, :mload - 1), model, error)
+                           ilaw(:mlaw - 1), alaw(:, :mlaw - 1), iload(:, :mload - 1), aload(:, :mload - 1), model, error)
     if (.not. allocated(error)) call new_handle(model, beam, error)
     if (.not. allocated(error)) return
     status = error%code
@@ -100,11 +101,12 @@ end subroutine gbcopy
 ! Sizes of a beam, and its units
 subroutine gbsize(beam, sizes, units)
     use gapbeam_handle, only: handle_type, handle_of
+    use gapbeam_lower_laws, only: depends_on_path
     implicit none
     integer(8), intent(in) :: beam
     ! NP, NL, NS, NM, NB (-1 without an axial system), and whether there are hinges, rotational restraints, shear
-    ! flexibility, one-sided supports that can carry
-    integer, intent(out) :: sizes(9)
+    ! flexibility, one-sided supports that can carry, laws, laws on whose path the state depends
+    integer, intent(out) :: sizes(11)
     ! Exponents of two: length, force, deflection; force and displacement along the axis
     integer, intent(out) :: units(5)
     type(handle_type), pointer :: handle
@@ -113,7 +115,8 @@ subroutine gbsize(beam, sizes, units)
     associate (lowered => handle%lowered)
         sizes = [size(lowered%pieces), size(lowered%beam%links), size(lowered%beam%supports), size(lowered%model%supports), -1, &
                  size(lowered%model%hinges), merge(1, 0, any(lowered%turning > 0.0d0)), &
-                 merge(1, 0, any(lowered%pieces%shear_flexibility > 0.0d0)), merge(1, 0, any(lowered%beam%supports%side /= 0))]
+                 merge(1, 0, any(lowered%pieces%shear_flexibility > 0.0d0)), merge(1, 0, any(lowered%beam%supports%side /= 0)), &
+                 merge(1, 0, size(lowered%model%law) > 0), merge(1, 0, depends_on_path(lowered))]
         units = [lowered%units%length, lowered%units%force, lowered%units%deflection, 0, 0]
         if (.not. allocated(lowered%axial%point)) return
         sizes(5) = ubound(lowered%axial%point, 1)
@@ -121,9 +124,24 @@ subroutine gbsize(beam, sizes, units)
     end associate
 end subroutine gbsize
 
+! Which supports of the scene those of the engine are
+subroutine gbnumb(beam, ns, number)
+    use gapbeam_handle, only: handle_type, handle_of
+    implicit none
+    integer(8), intent(in) :: beam
+    integer, intent(in) :: ns
+    ! Number in the scene, from 0; of a law once for every kink
+    integer, intent(out) :: number(ns + 1)
+    type(handle_type), pointer :: handle
+
+    handle => handle_of(beam)
+    number = 0
+    number(:ns) = handle%lowered%normal - 1
+end subroutine gbnumb
+
 ! What there is along a beam, in the scene's units
 subroutine gbplac(beam, np, nl, ns, nm, xend, xpoint, ispan, piece, dead, live, npoint, kind, turn, force, couple, &
-                  snode, number, place, level)
+                  snode, level)
     use gapbeam_handle, only: handle_type, handle_of
     use gapbeam_units, only: rotation_unit, moment_unit
     use gapbeam_lowered, only: point_x, piece_length, stiffness_of, in_bending, in_shear
@@ -140,10 +158,9 @@ subroutine gbplac(beam, np, nl, ns, nm, xend, xpoint, ispan, piece, dead, live, 
     ! Points that are nodes; 0 plain, 1 hinge, 2 rotational restraint of stiffness TURN; dead and live forces and couples
     integer, intent(out) :: npoint(0:nl), kind(0:nl)
     double precision, intent(out) :: turn(0:nl), force(2, 0:nl), couple(2, 0:nl)
-    ! Supports of the engine: node, and number in the scene, from 0
-    integer, intent(out) :: snode(ns + 1), number(ns + 1)
-    ! Supports of the scene: node, and deflection at which it begins to act; 0 for axial ones
-    integer, intent(out) :: place(nm + 1)
+    ! Node of the supports of the engine
+    integer, intent(out) :: snode(ns + 1)
+    ! Deflection at which a support of the scene begins to act; 0 for axial ones
     double precision, intent(out) :: level(nm + 1)
     !f2py threadsafe
     type(handle_type), pointer :: handle
@@ -171,13 +188,9 @@ subroutine gbplac(beam, np, nl, ns, nm, xend, xpoint, ispan, piece, dead, live, 
         couple = scale(lowered%beam%couple, moment_unit(units))
         snode = 0
         snode(:ns) = lowered%beam%supports%node
-        number = 0
-        number(:ns) = lowered%normal - 1
-        place = 0
         level = 0.0d0
         do k = 1, nm
             if (lowered%model%supports(k)%direction /= 0) cycle
-            place(k) = lowered%node_of_point(lowered%support_point(k))
             level(k) = contact_level(lowered%model%supports(k))
         end do
     end associate
@@ -185,7 +198,7 @@ end subroutine gbplac
 
 ! Find the working scheme at one load factor and solve it
 subroutine gbsolv(beam, nl, ns, nm, nb, factor, rule, closed, undec, w, ml, mr, shear, react, motion, u, pull, &
-                  values, states, counts, status, message)
+                  values, counts, status, message)
     use gapbeam_error, only: error_type, gapbeam_solved
     use gapbeam_handle, only: handle_type, handle_of
     use gapbeam_solution, only: state_type, new_state
@@ -207,9 +220,8 @@ subroutine gbsolv(beam, nl, ns, nm, nb, factor, rule, closed, undec, w, ml, mr, 
     double precision, intent(out) :: motion(0:nl)
     ! Displacements of the axial system's points and forces in its bars
     double precision, intent(out) :: u(0:nb), pull(nb + 1)
-    ! Of the scene's supports in its units: reaction, deflection, opening, couple; 0 open, 1 closed, 2 holds both ways
+    ! Of the scene's supports in its units: reaction, deflection, opening, couple
     double precision, intent(out) :: values(nm + 1, 4)
-    integer, intent(out) :: states(nm + 1)
     ! Linear solves; system solved last: 0 mixed, 1 three-moment, 2 with pivoting; 1 where the beam can move freely
     ! without work of the loads; 1 where the rule single came back to a scheme; 1 where the beam slides along its axis
     integer, intent(out) :: counts(5), status
@@ -219,6 +231,7 @@ subroutine gbsolv(beam, nl, ns, nm, nb, factor, rule, closed, undec, w, ml, mr, 
     type(handle_type), pointer :: handle
     type(state_type) :: state
     type(error_type), allocatable :: error
+    integer, allocatable :: conditions(:)
 
     handle => handle_of(beam)
     undec = 0
@@ -231,7 +244,6 @@ subroutine gbsolv(beam, nl, ns, nm, nb, factor, rule, closed, undec, w, ml, mr, 
     u = 0.0d0
     pull = 0.0d0
     values = 0.0d0
-    states = 0
     counts = 0
     message = " "
     call new_state(handle%lowered, state, error)
@@ -257,7 +269,8 @@ subroutine gbsolv(beam, nl, ns, nm, nb, factor, rule, closed, undec, w, ml, mr, 
     react(:ns) = state%reaction
     u = state%displacement
     pull(:nb) = state%tension
-    call support_values(handle%lowered, state, values(:nm, 1), values(:nm, 2), values(:nm, 3), values(:nm, 4), states(:nm))
+    allocate (conditions(nm))
+    call support_values(handle%lowered, state, values(:nm, 1), values(:nm, 2), values(:nm, 3), values(:nm, 4), conditions)
 end subroutine gbsolv
 
 ! Follow the load from a factor to LIMIT, from event to event

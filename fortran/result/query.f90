@@ -4,7 +4,8 @@ module gapbeam_query
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input
     use gapbeam_element, only: field_type
     use gapbeam_fields, only: values_at, find_extremes
-    use gapbeam_model, only: both
+    use gapbeam_model, only: node_support_type, both
+    use gapbeam_polyline, only: last_kink
     use gapbeam_scene, only: gapbeam_axial
     use gapbeam_units, only: moment_unit, rotation_unit
     use gapbeam_lowered, only: lowered_type, point_x, piece_length
@@ -20,10 +21,12 @@ module gapbeam_query
     private
     public :: make_starts, find_pieces, fields_in_pieces, extremes_of_pieces
     public :: support_values, find_undecided, fields_at_places, extremes_of_fields, motion_of_nodes, node_places
-    public :: gapbeam_open, gapbeam_closed, gapbeam_bilateral, gapbeam_turns, field_count
+    public :: gapbeam_open, gapbeam_closed, gapbeam_bilateral, gapbeam_branch, gapbeam_turns, field_count
 
     !> States of a support
     integer, parameter :: gapbeam_open = event_opens, gapbeam_closed = event_closes, gapbeam_bilateral = 2
+    !> Plus the number of the piece, from 1: of a support with a law
+    integer, parameter :: gapbeam_branch = 10
     !> An event: the beam has lost its hold and turns, at constant load, until the support holds it
     integer, parameter :: gapbeam_turns = event_turns
     !> Fields: deflection, rotation, moment, shear, axial force, axial displacement
@@ -46,9 +49,10 @@ contains
         real(wp), intent(out) :: opening(:)
         !> Couple on the beam, clockwise, shape (nsupport)
         real(wp), intent(out) :: couple(:)
-        !> gapbeam_open, gapbeam_closed or gapbeam_bilateral, shape (nsupport)
+        !> gapbeam_open, gapbeam_closed or gapbeam_bilateral; of a support with a law gapbeam_open or gapbeam_branch plus the number
+        !> of the piece, shape (nsupport)
         integer, intent(out) :: condition(:)
-        integer :: j, k
+        integer :: j, k, last
 
         associate (units => lowered%units, beam => lowered%beam, axial => lowered%axial)
             do k = 1, size(reaction)
@@ -66,8 +70,17 @@ contains
                     end if
                     deflection(k) = scale(state%deflection(node), units%deflection)
                     j = lowered%beam_support(k)
-                    if (j > 0) reaction(k) = scale(state%reaction(j), units%force)
-                    if (s%side /= both) then
+                    last = j
+                    if (j > 0) then
+                        last = last_kink(beam%supports, j)
+                        ! Of a law the kink whose piece acts has the force
+                        reaction(k) = scale(sum(state%reaction(j:last)), units%force)
+                    end if
+                    if (j > 0 .and. (last > j .or. beam%supports(max(j, 1))%kink > 0)) then
+                        condition(k) = piece_of(beam%supports(j:last), s%side, state%closed(j:last))
+                        if (condition(k) == gapbeam_open) opening(k) = scale(way_to_law(beam%supports(j:last), s%side, &
+                                                                                        state%deflection(node)), units%deflection)
+                    else if (s%side /= both) then
                         condition(k) = gapbeam_open
                         if (j > 0) condition(k) = merge(gapbeam_closed, gapbeam_open, state%closed(j))
                         opening(k) = scale(way_to_contact(lowered, state, k), units%deflection)
@@ -81,15 +94,51 @@ contains
         end associate
     end subroutine support_values
 
+    !> Piece of a law that acts, as a condition
+    pure function piece_of(kinks, side, closed) result(condition)
+        type(node_support_type), intent(in) :: kinks(:)
+        !> Side of the support, and the scheme of its kinks
+        integer, intent(in) :: side
+        logical, intent(in) :: closed(:)
+        integer :: condition, middle, way
+
+        middle = 0
+        if (side == both) middle = size(kinks)/2
+        way = abs(count(closed) - middle)
+        if (side == both .and. abs(kinks(middle)%stiffness) > 0.0_wp) way = way + 1
+        condition = gapbeam_open
+        if (way > 0) condition = gapbeam_branch + way
+    end function piece_of
+
+    !> How far a law is open
+    pure function way_to_law(kinks, side, deflection) result(way)
+        type(node_support_type), intent(in) :: kinks(:)
+        integer, intent(in) :: side
+        real(wp), intent(in) :: deflection
+        real(wp) :: way
+
+        associate (middle => size(kinks)/2)
+            if (side == both) then
+                way = min(kinks(middle + 1)%contact - deflection, deflection - kinks(middle)%contact)
+            else
+                way = side*(kinks(1)%contact - deflection)
+            end if
+        end associate
+        way = max(0.0_wp, way)
+    end function way_to_law
+
     !> Supports whose reaction or opening is zero: open or closed is not decided
     pure subroutine find_undecided(lowered, state, undecided)
         type(lowered_type), intent(in) :: lowered
         type(state_type), intent(in) :: state
         !> In the order of the model, shape (nsupport)
         logical, intent(out) :: undecided(:)
+        integer :: j
 
         undecided(:) = .false.
-        undecided(lowered%normal) = state%undecided
+        do j = 1, size(lowered%normal)
+            undecided(lowered%normal(j)) = undecided(lowered%normal(j)) .or. state%undecided(j)
+        end do
     end subroutine find_undecided
 
     !> Fields at the left ends of all pieces, if they are not there yet

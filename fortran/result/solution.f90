@@ -3,6 +3,7 @@ module gapbeam_solution
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_element, only: field_type
+    use gapbeam_polyline, only: last_kink
     use gapbeam_words, only: shown
     use gapbeam_refusal, only: refuse_range
     use gapbeam_units, only: moment_unit
@@ -115,7 +116,8 @@ contains
             do k = 1, size(lowered%model%supports)
                 j = lowered%beam_support(k)
                 associate (point => lowered%support_point(k))
-                    if (j > 0) call look(state%reaction(j), units%force, "reaction of the support", "force", point)
+                    if (j > 0) call look(sum(state%reaction(j:last_kink(lowered%beam%supports, j))), units%force, &
+                                         "reaction of the support", "force", point)
                     if (lowered%model%supports(k)%side == 0) cycle
                     call look(way_to_contact(lowered, state, k), units%deflection, "opening of the support", "length", point)
                 end associate

@@ -50,9 +50,11 @@ contains
     end subroutine check_spans
 
     !> Lengths beside each other, hinges, sections and supports, each alone
-    subroutine check_rest(model, ends, error)
+    subroutine check_rest(model, with_law, ends, error)
         !> With all arrays allocated
         type(model_type), intent(in) :: model
+        !> Which supports have a law
+        logical, intent(in) :: with_law(:)
         !> Span ends, shape (0:n)
         real(wp), intent(in) :: ends(0:)
         type(error_type), allocatable, intent(out) :: error
@@ -78,7 +80,8 @@ contains
             if (allocated(error)) return
         end do
         do i = 1, size(model%supports)
-            call check_support(model%supports(i), entry_type(of_supports, i, size(model%supports)), ends, error)
+            call check_support(model%supports(i), with_law(i), &
+                               entry_type(of_supports, i, size(model%supports)), ends, error)
             if (allocated(error)) return
         end do
     end subroutine check_rest
@@ -126,8 +129,10 @@ contains
     end function not_given
 
     !> One support
-    pure subroutine check_support(s, here, ends, error)
+    pure subroutine check_support(s, has_law, here, ends, error)
         type(support_type), intent(in) :: s
+        !> Has it a law; only then one that holds both ways may have a gap
+        logical, intent(in) :: has_law
         type(entry_type), intent(in) :: here
         real(wp), intent(in) :: ends(0:)
         type(error_type), allocatable, intent(out) :: error
@@ -155,7 +160,7 @@ contains
         else if (s%direction == gapbeam_axial .and. s%rotation > 0.0_wp) then
             call refuse_entry(error, here, "rotation", not_axial, &
                               "an axial support holds no rotation; a normal one here can do that")
-        else if (s%side == gapbeam_both .and. abs(s%gap) > 0.0_wp) then
+        else if (s%side == gapbeam_both .and. abs(s%gap) > 0.0_wp .and. .not. has_law) then
             call refuse_entry(error, here, "gap", no_gap, &
                               "only a support of side below or above has a gap, got "//trim(shown(s%gap)))
         end if

@@ -11,6 +11,7 @@ module gapbeam_lower
     use gapbeam_lowered, only: lowered_type, is_stretch, in_bending, in_shear, along_axis
     use gapbeam_places, only: place_span_ends, locate, merge_places
     use gapbeam_check, only: check_spans, check_rest, check_loads
+    use gapbeam_check_laws, only: check_laws, have_laws
     use gapbeam_refusal, only: refuse, of_hinges, of_sections, of_loads, twice, no_stretch, at_hinge
     use gapbeam_lower_supports, only: lower_supports
     use gapbeam_lower_loads, only: lower_loads
@@ -38,7 +39,9 @@ contains
                 return
             end if
             call place_span_ends(model%spans, lowered%ends)
-            call check_rest(model, lowered%ends, error)
+            call check_laws(model, error)
+            if (allocated(error)) return
+            call check_rest(model, have_laws(model), lowered%ends, error)
             if (allocated(error)) return
             call check_loads(model%loads, lowered%ends, any(model%supports%direction == gapbeam_axial), error)
             if (allocated(error)) return

@@ -8,6 +8,8 @@ module gapbeam_lower_supports
     use gapbeam_model, only: node_support_type, order_supports
     use gapbeam_words, only: shown, whole
     use gapbeam_lowered, only: lowered_type
+    use gapbeam_check_laws, only: have_laws
+    use gapbeam_lower_laws, only: find_laws, count_kinks, make_kinks
     use gapbeam_places, only: position_tolerance
     use gapbeam_refusal, only: refuse, refuse_range, named, of_supports, twice, no_room, at_hinge
     implicit none
@@ -42,9 +44,11 @@ contains
         !> The rigid support of each kind at a point, 0: none; kinds are the sides -1..1, 2 along the beam, elastic ones
         !> too, 3 clamp
         integer, allocatable :: rigid(:, :)
+        logical, allocatable :: with_law(:)
         integer :: k, m, stat, point
 
         m = size(lowered%model%supports)
+        with_law = have_laws(lowered%model)
         allocate (rigid(-1:3, 0:ubound(lowered%point_span, 1)), stat=stat)
         if (stat /= 0) then
             call no_memory(error)
@@ -60,7 +64,8 @@ contains
                 else if (s%direction == gapbeam_axial) then
                     call note(2, "direction", "hold the beam along its axis")
                 else if (s%stiffness > huge(s%stiffness)) then
-                    call note(s%side, "side", "do the same rigidly")
+                    ! A law is no stiffness; what it holds rigidly depends on its piece
+                    if (.not. with_law(k)) call note(s%side, "side", "do the same rigidly")
                 end if
                 if (.not. allocated(error) .and. s%rotation > huge(s%rotation)) then
                     call note(3, "rotation", "hold the rotation rigidly")
@@ -175,11 +180,21 @@ contains
         type(error_type), allocatable, intent(out) :: error
         type(node_support_type), allocatable :: supports(:)
         logical, allocatable :: clamped(:)
+        integer, allocatable :: first(:), last(:)
         integer :: k, j, m, n, stat
 
         n = ubound(lowered%node_point, 1)
-        associate (beam => lowered%beam, given => lowered%model%supports)
-            m = count(can_carry(given))
+        associate (beam => lowered%beam, given => lowered%model%supports, law => lowered%model%law)
+            allocate (first(size(given)), last(size(given)), stat=stat)
+            if (stat /= 0) then
+                call no_memory(error)
+                return
+            end if
+            call find_laws(lowered%model, first, last)
+            m = 0
+            do k = 1, size(given)
+                if (can_carry(given(k))) m = m + count_kinks(given(k), law(first(k):last(k)))
+            end do
             allocate (beam%links(n), beam%kind(0:n), beam%compliance(0:n), beam%force(2, 0:n), beam%couple(2, 0:n), &
                       lowered%normal(m), lowered%beam_support(size(given)), lowered%couple_share(size(given)), &
                       lowered%turning(0:n), clamped(0:n), supports(m), stat=stat)
@@ -200,10 +215,16 @@ contains
                     lowered%turning(node) = lowered%turning(node) + given(k)%rotation
                     if (given(k)%rotation > huge(given(k)%rotation)) clamped(node) = .true.
                     if (.not. can_carry(given(k))) cycle
-                    j = j + 1
-                    lowered%normal(j) = k
-                    lowered%beam_support(k) = j
-                    supports(j) = node_support_type(node, given(k)%side, 0.0_wp, 0.0_wp)
+                    lowered%beam_support(k) = j + 1
+                    m = 1
+                    if (last(k) < first(k)) then
+                        supports(j + 1) = node_support_type(node, given(k)%side, 0.0_wp, 0.0_wp)
+                    else
+                        m = count_kinks(given(k), law(first(k):last(k)))
+                        call make_kinks(given(k), law(first(k):last(k)), node, supports(j + 1:j + m))
+                    end if
+                    lowered%normal(j + 1:j + m) = k
+                    j = j + m
                 end associate
             end do
             call order_supports(supports, beam)

@@ -8,6 +8,7 @@ module gapbeam_lower_units
     use gapbeam_units, only: units_type, exponents_type, rotation_unit, moment_unit, stiffness_unit, turning_unit, &
         units_with_loads, middle, largest, no_exponent, ordinary_exponent
     use gapbeam_lowered, only: lowered_type, point_x, piece_length, stiffness_of, in_bending, in_shear
+    use gapbeam_check_laws, only: have_laws
     use gapbeam_lower_supports, only: contact_level
     use gapbeam_words, only: shown
     use gapbeam_refusal, only: refuse_range, named, of_supports
@@ -55,8 +56,10 @@ contains
     pure subroutine choose_units(lowered)
         type(lowered_type), intent(inout) :: lowered
         type(exponents_type) :: lengths, stiff(4), forces, ways
+        logical, allocatable :: with_law(:)
         integer :: length, j, k, stiffness
 
+        with_law = have_laws(lowered%model)
         do j = 1, size(lowered%pieces)
             call lengths%note(piece_length(lowered, j), 0)
         end do
@@ -67,9 +70,15 @@ contains
                 call stiff(2)%note(stiffness_of(lowered, j, in_shear), -length)
             end do
             do k = 1, size(lowered%normal)
-                associate (s => model%supports(lowered%normal(k)))
-                    call stiff(3)%note(s%stiffness, 0)
-                    call ways%note(abs(contact_level(s)), 0)
+                associate (s => model%supports(lowered%normal(k)), made => beam%supports(k))
+                    if (with_law(lowered%normal(k))) then
+                        call stiff(3)%note(abs(made%stiffness), 0)
+                        call ways%note(abs(made%contact), 0)
+                        call forces%note(abs(made%force), 0)
+                    else
+                        call stiff(3)%note(s%stiffness, 0)
+                        call ways%note(abs(contact_level(s)), 0)
+                    end if
                 end associate
             end do
             do j = 0, size(beam%links)
@@ -137,8 +146,10 @@ contains
     subroutine scale_supports(lowered, error)
         type(lowered_type), intent(inout) :: lowered
         type(error_type), allocatable, intent(out) :: error
+        logical, allocatable :: with_law(:)
         integer :: i, k, m
 
+        with_law = have_laws(lowered%model)
         m = size(lowered%model%supports)
         associate (beam => lowered%beam, units => lowered%units)
             beam%compliance(:) = 0.0_wp
@@ -153,6 +164,16 @@ contains
             end do
             do k = 1, size(beam%supports)
                 associate (s => beam%supports(k), given => lowered%model%supports(lowered%normal(k)))
+                    if (with_law(lowered%normal(k))) then
+                        s%stiffness = scale(s%stiffness, -stiffness_unit(units))
+                        s%before = scale(s%before, -stiffness_unit(units))
+                        s%contact = scale(s%contact, -units%deflection)
+                        s%force = scale(s%force, -units%force)
+                        if (abs(s%contact) <= huge(1.0_wp) .and. abs(s%force) <= huge(1.0_wp)) cycle
+                        call refuse_range(error, "the law of "//trim(named(of_supports, lowered%normal(k), m))//" is too far "// &
+                                          "from the other numbers", "bring them nearer together")
+                        return
+                    end if
                     s%stiffness = scale(given%stiffness, -stiffness_unit(units))
                     s%contact = scale(contact_level(given), -units%deflection)
                     if (is_lost(s%stiffness) .and. given%stiffness > 0.0_wp .and. given%stiffness <= huge(1.0_wp)) then

@@ -136,25 +136,28 @@ contains
         type(model_type), intent(out) :: copy
         !> 0, or what allocate says where memory is at an end
         integer, intent(out) :: stat
-        integer :: spans, hinges, sections, supports, loads
+        integer :: spans, hinges, sections, supports, points, loads
 
         spans = 0
         hinges = 0
         sections = 0
         supports = 0
+        points = 0
         loads = 0
         if (allocated(source%spans)) spans = size(source%spans)
         if (allocated(source%hinges)) hinges = size(source%hinges)
         if (allocated(source%sections)) sections = size(source%sections)
         if (allocated(source%supports)) supports = size(source%supports)
+        if (allocated(source%law)) points = size(source%law)
         if (allocated(source%loads)) loads = size(source%loads)
-        allocate (copy%spans(spans), copy%hinges(hinges), copy%sections(sections), copy%supports(supports), copy%loads(loads), &
-                  stat=stat)
+        allocate (copy%spans(spans), copy%hinges(hinges), copy%sections(sections), copy%supports(supports), copy%law(points), &
+                  copy%loads(loads), stat=stat)
         if (stat /= 0) return
         if (spans > 0) copy%spans(:) = source%spans
         if (hinges > 0) copy%hinges(:) = source%hinges
         if (sections > 0) copy%sections(:) = source%sections
         if (supports > 0) copy%supports(:) = source%supports
+        if (points > 0) copy%law(:) = source%law
         if (loads > 0) copy%loads(:) = source%loads
     end subroutine copy_model
 
@@ -185,6 +188,13 @@ contains
                 call mix(all_bits, [s%x, s%stiffness, s%gap, s%settlement, s%rotation, real([s%node, s%side, s%direction], wp)])
             end associate
         end do
+        if (allocated(model%law)) then
+            do i = 1, size(model%law)
+                associate (point => model%law(i), s => model%supports(model%law(i)%support))
+                    call mix(all_bits, [real([point%support, s%unloading], wp), point%displacement, point%force])
+                end associate
+            end do
+        end if
         do i = 1, size(model%loads)
             associate (load => model%loads(i))
                 call mix(all_bits, [load%x, load%to, load%value, load%value_to, real([load%kind, load%case, load%node], wp)])

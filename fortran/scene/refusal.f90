@@ -7,7 +7,7 @@ module gapbeam_refusal
     public :: refuse, refuse_range, named
     public :: of_spans, of_hinges, of_supports, of_loads, of_sections
     public :: no_span, not_expected, too_long, lost_length, at_end, off_beam, no_place, no_node, no_stretch, not_axial, no_gap, &
-              not_held, twice, no_room, at_hinge, idle
+              not_held, twice, no_room, at_hinge, idle, bad_law
 
     !> The arrays of a model
     integer, parameter :: of_spans = 1, of_hinges = 2, of_supports = 3, of_loads = 4, of_sections = 5
@@ -18,6 +18,8 @@ module gapbeam_refusal
     !> An axial support does not have that; a support that holds both ways has no gap; nothing holds an axial load; two parts do
     !> the same at one place; two supports leave no room; something is exactly at a hinge; a section changes nothing
     integer, parameter :: not_axial = 10, no_gap = 11, not_held = 12, twice = 13, no_room = 14, at_hinge = 15, idle = 16
+    !> A law is impossible: the message says why
+    integer, parameter :: bad_law = 17
     character(len=*), parameter :: names(5) = [character(len=7) :: "span", "hinge", "support", "load", "section"]
 
 contains

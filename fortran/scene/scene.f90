@@ -7,12 +7,13 @@ module gapbeam_scene
     use gapbeam_kinds, only: wp
     implicit none
     private
-    public :: span_type, section_type, support_type, load_type, model_type
+    public :: span_type, section_type, support_type, law_point_type, load_type, model_type
     public :: point_force, point_couple, uniform_load, linear_load, imposed_curvature, axial_force
     public :: gapbeam_infinity, gapbeam_by_x, gapbeam_unchanged, gapbeam_right_end
     public :: gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_normal, gapbeam_axial
     public :: gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force
     public :: gapbeam_live, gapbeam_dead
+    public :: gapbeam_elastic, gapbeam_plastic, gapbeam_broken
 
     !> Infinity: a rigid support, a rigid beam
     real(wp), parameter :: gapbeam_infinity = transfer(int(z"7FF0000000000000", int64), 1.0_wp)
@@ -27,6 +28,8 @@ module gapbeam_scene
                           gapbeam_axial_force = 5
     !> Cases of a load: scaled by the load factor, in full from the start
     integer, parameter :: gapbeam_live = 0, gapbeam_dead = 1
+    !> How a support with a law unloads: back along it, parallel to its first piece, or not at all once its force has fallen
+    integer, parameter :: gapbeam_elastic = 0, gapbeam_plastic = 1, gapbeam_broken = 2
     !> Instead of a stiffness of a section: it stays as it is. Instead of where a stretch ends: the right end of the beam
     real(wp), parameter :: gapbeam_unchanged = -huge(1.0_wp), gapbeam_right_end = -huge(1.0_wp)
     !> A place not given
@@ -70,7 +73,18 @@ module gapbeam_scene
         real(wp) :: rotation = 0.0_wp
         !> gapbeam_normal or gapbeam_axial
         integer :: direction = gapbeam_normal
+        !> Of a support with a law: gapbeam_elastic, gapbeam_plastic or gapbeam_broken
+        integer :: unloading = gapbeam_elastic
     end type support_type
+
+    !> A point of the law of a support, which has one instead of a stiffness: a polyline from (0, 0) through its points, in which
+    !> equal displacements are a vertical piece, and whose last slope goes on; a support that holds both ways has it both ways
+    type :: law_point_type
+        !> Number of the support, from 1; its points stand beside each other
+        integer :: support
+        !> Displacement past the gap, not below that of the point before; force, 0 or more
+        real(wp) :: displacement, force
+    end type law_point_type
 
     !> A load; the functions below make one of each kind
     type :: load_type
@@ -97,6 +111,8 @@ module gapbeam_scene
         real(wp), allocatable :: hinges(:)
         type(section_type), allocatable :: sections(:)
         type(support_type), allocatable :: supports(:)
+        !> Points of the laws of those that have one
+        type(law_point_type), allocatable :: law(:)
         type(load_type), allocatable :: loads(:)
     end type model_type
 

@@ -25,6 +25,8 @@ class Columns(Record):
         Left and right end, EI, GA, EA of the sections, 5 rows.
     support_codes, support : numpy.ndarray
         Side, direction and node of the supports, 3 rows of int; x, stiffness, gap, settlement, rotation, 5 rows.
+    law_supports, law : numpy.ndarray
+        Points of the laws: number of the support, from 1; displacement and force, 2 rows.
     load_codes, load : numpy.ndarray
         Kind, case and node of the loads, 3 rows of int; x or left end, right end, value, value at the right end, 4 rows.
     """
@@ -34,6 +36,8 @@ class Columns(Record):
     section: np.ndarray
     support_codes: np.ndarray
     support: np.ndarray
+    law_supports: np.ndarray
+    law: np.ndarray
     load_codes: np.ndarray
     load: np.ndarray
 
@@ -62,8 +66,6 @@ class Solution(Record):
         Of the points and bars of the axial system.
     at_supports : numpy.ndarray
         Reaction, deflection, opening and couple of the scene's supports in its units, 4 rows.
-    states : numpy.ndarray of int
-        0 where a support of the scene is open, 1 where it is closed, 2 where it holds both ways.
     solves : int
         Linear solves; they do not count when solutions are compared.
     method : int
@@ -88,7 +90,6 @@ class Solution(Record):
     displacement: np.ndarray
     tension: np.ndarray
     at_supports: np.ndarray
-    states: np.ndarray
     solves: int = field(compare=False)
     method: int
     indifferent: bool
@@ -161,10 +162,8 @@ class Places(Record):
         Stiffness of the rotational restraint of every node, 0 where there is none.
     force, couple : numpy.ndarray
         Dead and live force and couple at every node, nodes by 2.
-    support_nodes, supports : numpy.ndarray of int
-        Node of every support that can carry across the beam, and its number in the scene.
-    nodes_of_supports : numpy.ndarray of int
-        Node of every support of the scene; 0 for axial ones.
+    support_nodes : numpy.ndarray of int
+        Node of every support of the engine.
     levels : numpy.ndarray
         Deflection at which every support of the scene begins to act; 0 for axial ones.
     """
@@ -181,6 +180,4 @@ class Places(Record):
     force: np.ndarray
     couple: np.ndarray
     support_nodes: np.ndarray
-    supports: np.ndarray
-    nodes_of_supports: np.ndarray
     levels: np.ndarray

@@ -33,9 +33,9 @@ FIELDS = ("deflection", "rotation", "moment", "shear", "axial_force", "axial_dis
 class RefusalError(Exception):
     """A number makes no sense: codes of the Fortran layer, for which `gapbeam.scene.refusals` has the words."""
 
-    def __init__(self, reason: int, table: int, entry: int, partner: int, key: str):
-        super().__init__(reason, table, entry, partner, key)
-        self.codes = (reason, table, entry, partner, key)
+    def __init__(self, reason: int, table: int, entry: int, partner: int, key: str, message: str):
+        super().__init__(reason, table, entry, partner, key, message)
+        self.codes = (reason, table, entry, partner, key, message)
 
 
 class Beam:
@@ -56,6 +56,8 @@ class Beam:
         The engine's.
     has_hinges, has_restraints, has_shear, is_one_sided : bool
         What of that there is; a one-sided support that can carry.
+    has_laws, depends_on_path : bool
+        A support with a law; one whose force may fall, or that does not unload along its law.
 
     Raises
     ------
@@ -74,10 +76,10 @@ class Beam:
         self._factors: np.ndarray | None = None
         c = columns
         handle, status, reason, table, entry, partner, key, message = _engine.gbmake(
-            c.span, c.hinge, c.section, c.support_codes, c.support, c.load_codes, c.load
+            c.span, c.hinge, c.section, c.support_codes, c.support, c.law_supports, c.law, c.load_codes, c.load
         )
         if status == Status.BAD_INPUT:
-            raise RefusalError(reason, table, entry, partner, key.decode().strip())
+            raise RefusalError(reason, table, entry, partner, key.decode().strip(), message.decode().strip())
         check_status(status, message)
         self._take(handle)
 
@@ -86,7 +88,9 @@ class Beam:
         self.handle = _engine.Handle(handle)
         sizes, units = _engine.gbsize(handle)
         self.pieces, self.links, self.supports, self.scene_supports, self.bars, *has = sizes.tolist()
-        self.has_hinges, self.has_restraints, self.has_shear, self.is_one_sided = map(bool, has)
+        self.has_hinges, self.has_restraints, self.has_shear, self.is_one_sided, self.has_laws, self.depends_on_path = map(
+            bool, has
+        )
         self.units = Units(*units.tolist())
 
     def with_factors(self, factors: np.ndarray) -> Beam:
@@ -129,12 +133,11 @@ class Beam:
     @cached_property
     def places(self) -> Places:
         """What there is along it."""
-        end, x, span, pieces, dead, live, points, kinds, turning, force, couple, at, number, nodes, levels = _engine.gbplac(
+        end, x, span, pieces, dead, live, points, kinds, turning, force, couple, at, levels = _engine.gbplac(
             self.handle, self.pieces, self.links, self.supports, self.scene_supports
         )
-        at, number, nodes, levels = at[:-1], number[:-1], nodes[:-1], levels[:-1]
         return Places(
-            end, x, span, pieces.T, dead.T, live.T, points, kinds, turning, force.T, couple.T, at, number, nodes, levels
+            end, x, span, pieces.T, dead.T, live.T, points, kinds, turning, force.T, couple.T, at[:-1], levels[:-1]
         )
 
     @cached_property
@@ -143,10 +146,19 @@ class Beam:
         return read_only(self.places.point_x[self.places.node_points])
 
     @cached_property
-    def carrying(self) -> np.ndarray:
-        """Number in the scene of every support across the beam that can carry."""
-        codes, stiffness = self.columns.support_codes[:, :-1], self.columns.support[1, :-1]
-        return read_only(np.flatnonzero((codes[1] == 0) & ((stiffness > 0.0) | (codes[0] == 0))))
+    def numbers(self) -> np.ndarray:
+        """Number in the scene of every support of the engine: those across the beam that can carry, a law once a kink."""
+        return read_only(_engine.gbnumb(self.handle, self.supports)[:-1])
+
+    @cached_property
+    def laws(self) -> list[tuple[int, int, int]]:
+        """Supports of the scene with a law: number; kinks below the middle of the law; its piece there, 0 if it is open."""
+        which = np.unique(self.columns.law_supports[:-1]) - 1
+        kinks = np.bincount(self.numbers, minlength=self.scene_supports)[which]
+        both, gap = self.sides[which] == 0, self.columns.support[2, which]
+        one_piece = both & (np.bincount(self.columns.law_supports[:-1], minlength=1)[which + 1] == 1) & (gap == 0.0)
+        middle = np.where(one_piece, 1, np.where(both, kinks // 2, 0))
+        return list(zip(which.tolist(), middle.tolist(), (both & (gap == 0.0)).astype(int).tolist(), strict=True))
 
     @cached_property
     def across(self) -> np.ndarray:
@@ -182,14 +194,14 @@ class Beam:
         """
         m, n = self.supports, max(self.bars, 0)
         scheme = _scheme(closed)
-        undecided, w, left, right, shear, reaction, motion, u, tension, values, states, counts, status, message = _engine.gbsolv(
+        undecided, w, left, right, shear, reaction, motion, u, tension, values, counts, status, message = _engine.gbsolv(
             self.handle, self.links, self.scene_supports, n, factor, RULES.get(rule, RULE_GIVEN), scheme
         )
         check_status(status, message)
         solves, method, indifferent, came_back, slides = counts.tolist()
         return Solution(
             status, scheme[:m], undecided[:m], w, left, right, shear, reaction[:m], motion, u, tension[:n], values.T[:, :-1],
-            states[:-1], solves, method, bool(indifferent), bool(came_back), bool(slides),
+            solves, method, bool(indifferent), bool(came_back), bool(slides),
         )  # fmt: skip
 
     def follow(self, factor: float, closed: np.ndarray, marginal: np.ndarray, most: int) -> Stretch:

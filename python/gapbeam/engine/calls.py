@@ -161,6 +161,7 @@ def parts(count: int) -> Iterator[slice]:
 
 
 gbsize = _engine.gbsize
+gbnumb = _engine.gbnumb
 gbmake = interruptible(_engine.gbmake, lambda span, hinge, section, codes, support, *_: span.shape[1] + support.shape[1])
 gbcopy = interruptible(_engine.gbcopy)
 gbplac = interruptible(_engine.gbplac, lambda beam, pieces, *_: pieces)

@@ -119,7 +119,7 @@ class Prepared(Pickled):
         """
         factors = self._checked(factors)
         many = factors if factors.ndim == 2 else factors[None]
-        carries = np.searchsorted(self.supports, self._beam.carrying)
+        carries = np.searchsorted(self.supports, self._beam.numbers)
         closed: Any = 1
         if start is not None:
             closed = scheme(start, len(self.supports), "support across the beam")[carries]

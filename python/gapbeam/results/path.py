@@ -138,7 +138,7 @@ class Path:
             Knows where the supports are.
         """
         beam = result.beam
-        places, numbers = beam.node_x[beam.places.support_nodes].tolist(), beam.carrying.tolist()
+        places, numbers = beam.node_x[beam.places.support_nodes].tolist(), beam.numbers.tolist()
         columns = (self._factors.tolist(), self._supports.tolist(), self._events.tolist())
         for factor, k, event in zip(*columns, strict=True):
             # What changes at factor 0 is no event, unless the beam turns there

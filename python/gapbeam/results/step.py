@@ -114,7 +114,7 @@ class Step(Pickled):
 
     @cached_property
     def state(self) -> tuple[str, ...]:
-        """``closed``, ``open`` or ``bilateral``."""
+        """``closed``, ``open`` or ``bilateral``; of a law ``open`` or ``branch 1``, ``branch 2`` and so on."""
         return name_states(self._beam, self.closed)
 
     @cached_property
@@ -167,7 +167,7 @@ class Step(Pickled):
     @cached_property
     def undecided(self) -> tuple[int, ...]:
         """Supports whose reaction or opening is zero, even in quadruple precision: they may be closed or open."""
-        return tuple(self._beam.carrying[self.solution.undecided == 1].tolist())
+        return tuple(dict.fromkeys(self._beam.numbers[self.solution.undecided == 1].tolist()))
 
     @cached_property
     def starts(self) -> np.ndarray:
@@ -188,11 +188,15 @@ def name_states(beam: Beam, closed: np.ndarray) -> tuple[str, ...]:
     Returns
     -------
     tuple of str
-        ``closed``, ``open`` or ``bilateral``.
+        ``closed``, ``open`` or ``bilateral``; of a law ``open`` or ``branch 1``, ``branch 2`` and so on.
     """
-    acts = np.zeros(beam.scene_supports, dtype=bool)
-    acts[beam.carrying] = closed == 1
-    return tuple(np.where(beam.sides == 0, "bilateral", np.where(acts, "closed", "open")).tolist())
+    acting = np.zeros(beam.scene_supports, dtype=np.int64)
+    np.add.at(acting, beam.numbers, closed)
+    states = np.where(beam.sides == 0, "bilateral", np.where(acting > 0, "closed", "open")).tolist()
+    for k, middle, at_middle in beam.laws if beam.has_laws else ():
+        piece = abs(int(acting[k]) - middle) + at_middle
+        states[k] = f"branch {piece}" if piece else "open"
+    return tuple(states)
 
 
 def _relative(bound: float | None, size: float) -> float | None:

@@ -110,4 +110,4 @@ def _starting_scheme(beam: Beam, start: Sequence[bool] | None) -> np.ndarray:
     one_sided = np.flatnonzero(beam.sides)
     of_all = np.ones(beam.scene_supports, dtype=np.int32)
     of_all[one_sided] = scheme(start, len(one_sided), "one-sided support")
-    return of_all[beam.carrying]
+    return of_all[beam.numbers]

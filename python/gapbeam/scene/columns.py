@@ -10,6 +10,7 @@ import numpy as np
 
 from ..base.errors import SceneError
 from ..engine.arrays import Columns
+from .laws import law_points
 from .structs import AxialLoad, CurvatureLoad, ForceLoad, LinearLoad, MomentLoad, Scene, UniformLoad
 from .tables import Table
 from .wording import number, shown
@@ -20,6 +21,7 @@ NOT_GIVEN = -np.finfo(float).max
 """Instead of a place, the right end of a stretch, or a stiffness of a section."""
 SIDES = {"both": 0, "below": 1, "above": -1}
 DIRECTIONS = {"normal": 0, "axial": 1}
+UNLOADING = {"elastic": 0, "plastic": 1, "broken": 2}
 ROTATIONS = {"free": 0.0, "fixed": np.inf}
 CASES = {"live": 0, "dead": 1}
 FORCE, COUPLE, DISTRIBUTED, CURVATURE, AXIAL_FORCE = 1, 2, 3, 4, 5
@@ -65,8 +67,9 @@ def columns(scene: Scene) -> Columns:
     hinge[:-1] = beam.hinges
     hinge[-1] = 0.0
     codes, values = _supports(scene.supports)
+    law_supports, law = _laws(scene.supports)
     load_codes, load_values = _loads(scene.loads)
-    return Columns(span, hinge, _sections(scene.sections), codes, values, load_codes, load_values)
+    return Columns(span, hinge, _sections(scene.sections), codes, values, law_supports, law, load_codes, load_values)
 
 
 def _empty(rows: int, count: int, kind: type = float) -> np.ndarray:
@@ -84,14 +87,26 @@ def _sections(items: Sequence[Any]) -> np.ndarray:
 
 
 def _supports(items: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
-    codes, found = _empty(3, len(items), np.int32), _empty(5, len(items))
+    codes, found = _empty(4, len(items), np.int32), _empty(5, len(items))
     codes[0, :-1] = _words(items, "side", SIDES)
     codes[1, :-1] = _words(items, "direction", DIRECTIONS)
     codes[2, :-1], found[0, :-1] = _places("supports", items, range(len(items)))
     for row, key in enumerate(("stiffness", "gap", "settlement"), 1):
         found[row, :-1] = _numbers(items, key)
     found[4, :-1] = _rotations(items)
+    codes[3, :-1] = _words(items, "unloading", UNLOADING)
     return codes, found
+
+
+def _laws(items: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
+    """Points of laws, and the numbers of their supports, from 1; none of them can be given as columns."""
+    laws = [] if isinstance(items, Table) else list(map(attrgetter("law"), items))
+    which = [i for i, law in enumerate(laws) if law is not None] if laws.count(None) < len(laws) else []
+    points = [(i + 1, *point) for i in which for point in law_points(laws[i])]
+    supports, found = _empty(1, len(points), np.int32)[0], _empty(2, len(points))
+    for k, (support, displacement, force) in enumerate(points):
+        supports[k], found[:, k] = support, (displacement, force)
+    return supports, found
 
 
 def _loads(items: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:

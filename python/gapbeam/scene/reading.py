@@ -13,11 +13,12 @@ from ..base.errors import EngineError, SceneError
 from ..engine.beam import Beam, RefusalError
 from .columns import columns
 from .files import read_file
+from .laws import wrong_parameter
 from .refusals import refusal
 from .structs import Scene
 from .tables import Table, take_tables
 from .typed import typed
-from .wording import shown
+from .wording import number, shown
 
 
 def read_scene(source: Scene | Mapping[str, Any] | str | os.PathLike) -> Scene:
@@ -97,7 +98,7 @@ def _structured(source: Scene | Mapping[str, Any] | str | os.PathLike) -> Scene:
     scene = typed(source, Scene)
     for key, table in tables.items():
         setattr(scene, key, table)
-    _refuse_laws(scene)
+    _check_laws(scene)
     if scene.foundation:
         raise SceneError("foundation[0]", "foundations are not available in this version; use elastic supports")
     if scene.analysis.steps < 1:
@@ -105,12 +106,20 @@ def _structured(source: Scene | Mapping[str, Any] | str | os.PathLike) -> Scene:
     return scene
 
 
-def _refuse_laws(scene: Scene) -> None:
+def _check_laws(scene: Scene) -> None:
+    """Refuse what the columns of a law would not show any more."""
     if isinstance(scene.supports, Table):
         return
     laws = list(map(attrgetter("law"), scene.supports))
-    for i in [i for i, law in enumerate(laws) if law is not None][:1] if laws.count(None) < len(laws) else ():
-        if scene.supports[i].stiffness != float("inf"):
+    if laws.count(None) == len(laws):
+        return
+    for i, (support, law) in enumerate(zip(scene.supports, laws, strict=True)):
+        if law is None:
+            continue
+        if support.stiffness != float("inf"):
             raise SceneError(f"supports[{i}]", "has both stiffness and law; give one of the two")
-        problem = "piecewise linear laws are not available in this version; give stiffness instead"
-        raise SceneError(f"supports[{i}].law", problem)
+        if wrong := wrong_parameter(law):
+            key, value, expected = wrong
+            raise SceneError(f"supports[{i}].law.{key}", f"expected {expected}, got {number(value)}")
+        if isinstance(law, list) and not law:
+            raise SceneError(f"supports[{i}].law", "has no point; give (displacement past the gap, force)")

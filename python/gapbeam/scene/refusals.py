@@ -10,7 +10,7 @@ from .structs import Scene
 from .wording import number, shown
 
 (NO_SPAN, NOT_EXPECTED, TOO_LONG, LOST_LENGTH, AT_END, OFF_BEAM, NO_PLACE, NO_NODE, NO_STRETCH, NOT_AXIAL, NO_GAP, NOT_HELD, TWICE,
- NO_ROOM, AT_HINGE, IDLE) = range(1, 17)  # fmt: skip
+ NO_ROOM, AT_HINGE, IDLE, BAD_LAW) = range(1, 18)  # fmt: skip
 """Reasons, as in gapbeam_refusal."""
 SPANS, HINGES, SUPPORTS, LOADS, SECTIONS = range(1, 6)
 """Tables, as in gapbeam_refusal."""
@@ -29,7 +29,7 @@ AXIAL = {
 VALUE = {"force": "F", "moment": "M", "axial": "F", "uniform": "q", "linear": "q", "curvature": "kappa"}
 
 
-def refusal(scene: Scene, reason: int, table: int, entry: int, partner: int, key: str) -> SceneError:
+def refusal(scene: Scene, reason: int, table: int, entry: int, partner: int, key: str, message: str) -> SceneError:
     """Word a refusal of the Fortran layer.
 
     Parameters
@@ -40,6 +40,8 @@ def refusal(scene: Scene, reason: int, table: int, entry: int, partner: int, key
         As in the layer's error_type; entries count from 1.
     key : str
         What of the entry it is about.
+    message : str
+        The layer's own words.
 
     Returns
     -------
@@ -50,6 +52,8 @@ def refusal(scene: Scene, reason: int, table: int, entry: int, partner: int, key
     i, items = entry - 1, {HINGES: scene.beam.hinges, SUPPORTS: scene.supports, LOADS: scene.loads, SECTIONS: scene.sections}[table]
     item, path = items[i], f"{NAMES[table]}[{i}]"
     end = scene.span_ends()[-1]
+    if reason == BAD_LAW:
+        return SceneError(f"{path}.{key}", message.split(": ", 2)[2])
     if reason == NOT_EXPECTED:
         return _wrong_number(item, table, path, key)
     if reason == OFF_BEAM:

@@ -26,38 +26,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from typing import Annotated, Literal
+from typing import Literal
 
 import numpy as np
-from msgspec import Meta, Struct, field
+from msgspec import field
 
-from .typed import plain
+from .laws import Law
+from .table import Count, Node, NotNegative, Positive, Side, Spans, Table
 
 inf = math.inf
 
-# The limits are for editors; the Fortran layer enforces them.
-Positive = Annotated[float, Meta(extra_json_schema={"exclusiveMinimum": 0})]
-NotNegative = Annotated[float, Meta(extra_json_schema={"minimum": 0})]
-Node = Annotated[int, Meta(le=2**31 - 1, extra_json_schema={"minimum": 0})]
-Count = Annotated[int, Meta(le=2**31 - 1, extra_json_schema={"minimum": 1})]
-Spans = Annotated[list[Positive], Meta(extra_json_schema={"minItems": 1})]
-Side = Literal["both", "below", "above"]
 
-
-class _Table(Struct):
-    """A table of a scene."""
-
-    def __eq__(self, other: object) -> bool:
-        """Whether all keys have equal values, with numpy numbers and arrays for numbers and lists."""
-        if type(other) is not type(self):
-            return NotImplemented
-        try:
-            return bool(super().__eq__(other))
-        except ValueError:  # numpy compares arrays element by element
-            return plain(self) == plain(other)
-
-
-class Units(_Table, forbid_unknown_fields=True):
+class Units(Table, forbid_unknown_fields=True):
     """Labels of the units; they go into the report and change no number.
 
     Parameters
@@ -72,7 +52,7 @@ class Units(_Table, forbid_unknown_fields=True):
     length: str = ""
 
 
-class Beam(_Table, forbid_unknown_fields=True):
+class Beam(Table, forbid_unknown_fields=True):
     """The beam: its spans and stiffnesses.
 
     Parameters
@@ -96,7 +76,7 @@ class Beam(_Table, forbid_unknown_fields=True):
     hinges: list[float] = []
 
 
-class _Stretch(_Table, forbid_unknown_fields=True, kw_only=True, gc=False):
+class _Stretch(Table, forbid_unknown_fields=True, kw_only=True, gc=False):
     """What acts from one place to another.
 
     Parameters
@@ -112,7 +92,7 @@ class _Stretch(_Table, forbid_unknown_fields=True, kw_only=True, gc=False):
     to: float | None = None
 
 
-class _Point(_Table, forbid_unknown_fields=True, kw_only=True, gc=False):
+class _Point(Table, forbid_unknown_fields=True, kw_only=True, gc=False):
     """What acts at one place.
 
     Parameters
@@ -167,8 +147,13 @@ class Support(_Point, kw_only=True, gc=False):
         support is closed or open, as a guide does.
     direction : {"normal", "axial"}
         normal (default) is across the beam; axial holds it horizontally, only with axial loads.
-    law : list of (float, float), optional
-        Points (displacement past the gap, force), instead of stiffness. Not available in this version.
+    law : list of (float, float) or table, optional
+        Instead of stiffness: points (displacement past the gap, force) from (0, 0) on, which is left out. Equal
+        displacements are a vertical piece: rigid up to a force, or brittle; the last slope goes on; with side both the law
+        is mirrored, and may have a gap. Or a table with a type: plastic, brittle, hardening, cubic, hyperbolic, tanh, power.
+    unloading : {"elastic", "plastic", "broken"}
+        Of a support with a law: elastic (default) goes back along it; plastic goes back parallel to its first piece, and
+        leaves a set; broken never carries again once its force has fallen.
     """
 
     side: Side = "both"
@@ -177,7 +162,8 @@ class Support(_Point, kw_only=True, gc=False):
     settlement: float = 0.0
     rotation: Literal["free", "fixed"] | NotNegative = "free"
     direction: Literal["normal", "axial"] = "normal"
-    law: list[tuple[float, float]] | None = None
+    law: Law | None = None
+    unloading: Literal["elastic", "plastic", "broken"] = "elastic"
 
 
 class Foundation(_Stretch, kw_only=True, gc=False):
@@ -290,7 +276,7 @@ class CurvatureLoad(_StretchLoad, kw_only=True, gc=False, tag="curvature"):
 Load = ForceLoad | MomentLoad | UniformLoad | LinearLoad | CurvatureLoad | AxialLoad
 
 
-class Analysis(_Table, forbid_unknown_fields=True, kw_only=True):
+class Analysis(Table, forbid_unknown_fields=True, kw_only=True):
     """How the load is followed.
 
     Parameters
@@ -302,14 +288,21 @@ class Analysis(_Table, forbid_unknown_fields=True, kw_only=True):
     rule : {"block", "single"}
         How the acting supports are found: block (default) changes many at once and always ends, single (the
         paper's rule) releases the one that pulls most and puts back all that are penetrated.
+    at_limit : {"stop", "jump", "follow"}
+        Where the load cannot grow any more, since supports soften or yield: stop (default); jump to the next stable state
+        at the same load factor; or follow the path on, with falling load (only with follow = "events").
+    history : list of float
+        Load factors gone through in turn, from event to event; default [1.0].
     """
 
     steps: Count = 1
     follow: Literal["steps", "events"] = "steps"
     rule: Literal["block", "single"] = "block"
+    at_limit: Literal["stop", "jump", "follow"] = "stop"
+    history: list[float] = field(default_factory=lambda: [1.0])
 
 
-class Scene(_Table, forbid_unknown_fields=True, kw_only=True):
+class Scene(Table, forbid_unknown_fields=True, kw_only=True):
     """A beam with its supports and loads.
 
     Parameters

@@ -145,8 +145,7 @@ def explain(error: msgspec.ValidationError, source: Any, struct: type) -> SceneE
         return SceneError(_place(path), "keys are texts, one key here is not")
     for name, index in re.findall(r"\.(\w+)|\[(\d+)\]", path):
         if name == "type" and isinstance(kind := _core(kind), inspect.UnionType):
-            tags = (shown(member.tag) for member in kind.types)
-            return SceneError(f"{place}.type", f"expected {choice(tags)}, got {shown(value['type'])}")
+            return SceneError(f"{place}.type", f"expected {_tags(kind)}, got {shown(value['type'])}")
         kind = _inside(kind, value, name, int(index or 0))
         value = value[name] if name else value[int(index)]
         place += (f".{name}" if place else name) if name else f"[{index}]"
@@ -181,7 +180,8 @@ def _struct(kind: inspect.Type, value: Mapping) -> inspect.StructType | None:
     """Find the struct that a table is to become; None for a load without (valid) type."""
     kind = _core(kind)
     if isinstance(kind, inspect.UnionType):
-        return next((member for member in kind.types if member.tag == value.get("type")), None)
+        tables = (member for member in kind.types if isinstance(member, inspect.StructType))
+        return next((member for member in tables if member.tag == value.get("type")), None)
     return kind
 
 
@@ -218,18 +218,22 @@ def _described(kind: inspect.Type, plural: bool = False) -> str:
             return "tables" if plural else "a table"
         case inspect.UnionType(types=types) if not plural:
             values = [shown(value) for member in types for value in getattr(member, "values", ())]
-            others = [_described(member) for member in types if not hasattr(member, "values")]
+            others = dict.fromkeys(_described(member) for member in types if not hasattr(member, "values"))
             return choice([*values, *others])
         case inspect.UnionType():
             return "tables"
     return "something else"
 
 
+def _tags(kind: inspect.UnionType) -> str:
+    """Choice of the types of tables."""
+    return choice(shown(member.tag) for member in kind.types if isinstance(member, inspect.StructType))
+
+
 def _missing(kind: inspect.Type, value: Mapping, place: str) -> SceneError:
     struct = _struct(kind, value)
     if struct is None:
-        tags = choice(shown(member.tag) for member in _core(kind).types)
-        return SceneError(f"{place}.type", f"this key is missing; give {tags}")
+        return SceneError(f"{place}.type", f"this key is missing; give {_tags(_core(kind))}")
     field = next(field for field in struct.fields if field.required and field.encode_name not in value)
     where = f"{place}.{field.encode_name}" if place else field.encode_name
     return SceneError(where, f"this key is missing; give {_described(field.type)}")
@@ -246,5 +250,6 @@ def _unknown(kind: inspect.Type, value: Mapping, place: str) -> SceneError:
     near = difflib.get_close_matches(key.casefold().strip("_ "), folded, n=1, cutoff=0.55)
     if near:
         return SceneError(where, f'unknown key; did you mean "{folded[near[0]]}"?')
-    owner = f" of a load of type {shown(struct.tag)}" if struct.tag else ""
+    what = "law" if place.endswith(".law") else "load"
+    owner = f" of a {what} of type {shown(struct.tag)}" if struct.tag else ""
     return SceneError(where, f"unknown key; the keys{owner} are {choice(known, 'and')}")

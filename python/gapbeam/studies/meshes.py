@@ -212,8 +212,8 @@ def mesh(source: Mapping[str, Any] | Scene | str, parts: int, name: str = "") ->
     force[parts::parts] = loads[:, 3]
     force[parts * arrays.node_points] = arrays.force.sum(axis=1)
     at, order = parts * places, np.argsort(places)
-    stiffness[at], level[at] = beam.columns.support[1, arrays.supports], arrays.levels[arrays.supports]
-    side[at] = beam.sides[arrays.supports]
+    stiffness[at], level[at] = beam.columns.support[1, beam.numbers], arrays.levels[beam.numbers]
+    side[at] = beam.sides[beam.numbers]
     length = np.repeat(arrays.pieces[:, 0] / parts, parts)
     x = np.append(np.repeat(arrays.point_x[:-1], parts), arrays.point_x[-1])
     x[:-1] += np.tile(np.arange(parts), len(EI)) * length

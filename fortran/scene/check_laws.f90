@@ -1,0 +1,134 @@
+!> Are laws of supports possible
+module gapbeam_check_laws
+    use gapbeam_kinds, only: wp
+    use gapbeam_error, only: error_type
+    use gapbeam_words, only: shown
+    use gapbeam_scene, only: model_type, law_point_type, gapbeam_axial, gapbeam_elastic, gapbeam_broken
+    use gapbeam_refusal, only: refuse, of_supports, bad_law
+    implicit none
+    private
+    public :: check_laws, have_laws
+
+contains
+
+    !> Which supports have a law
+    pure function have_laws(model) result(have)
+        type(model_type), intent(in) :: model
+        logical :: have(size(model%supports))
+
+        have(:) = .false.
+        have(model%law%support) = .true.
+    end function have_laws
+
+    !> All laws
+    subroutine check_laws(model, error)
+        !> With all arrays allocated
+        type(model_type), intent(in) :: model
+        type(error_type), allocatable, intent(out) :: error
+        logical, allocatable :: seen(:)
+        integer :: i, first
+
+        allocate (seen(size(model%supports)))
+        seen(:) = .false.
+        first = 1
+        do i = 1, size(model%law)
+            associate (k => model%law(i)%support)
+                if (k < 1 .or. k > size(model%supports)) then
+                    call refuse(error, of_supports, 1, size(model%supports), bad_law, "law", &
+                                "a point belongs to a support that does not exist")
+                    return
+                end if
+                if (i < size(model%law)) then
+                    if (model%law(i + 1)%support == k) cycle
+                end if
+                if (seen(k)) then
+                    call say("its points must stand beside each other")
+                else if (model%supports(k)%direction == gapbeam_axial) then
+                    call say("an axial support has a stiffness only")
+                else
+                    call check_points(model%law(first:i))
+                end if
+                if (allocated(error)) return
+                seen(k) = .true.
+                first = i + 1
+            end associate
+        end do
+        do i = 1, size(model%supports)
+            associate (unloading => model%supports(i)%unloading)
+                if (unloading >= gapbeam_elastic .and. unloading <= gapbeam_broken) cycle
+                call refuse(error, of_supports, i, size(model%supports), bad_law, "unloading", &
+                            "expected 0 (elastic), 1 (plastic) or 2 (broken)")
+                return
+            end associate
+        end do
+
+    contains
+
+        !> What is wrong with the law at hand
+        subroutine say(problem)
+            character(len=*), intent(in) :: problem
+
+            call refuse(error, of_supports, model%law(i)%support, size(model%supports), bad_law, "law", problem)
+        end subroutine say
+
+        !> The points of a law
+        subroutine check_points(points)
+            type(law_point_type), intent(in) :: points(:)
+            real(wp) :: before(2), slope
+            integer :: j
+
+            before(:) = 0.0_wp
+            do j = 1, size(points)
+                associate (d => points(j)%displacement, f => points(j)%force)
+                    if (.not. (abs(d) <= huge(d) .and. abs(f) <= huge(f))) then
+                        call say("expected finite numbers, got "//point(d, f))
+                    else if (d < before(1)) then
+                        call say("the displacements go back at "//point(d, f)//", after "//trim(shown(before(1)))// &
+                                 "; give them in ascending order")
+                    else if (f < 0.0_wp) then
+                        call say("the force is below zero at "//point(d, f)//"; a support that pushes cannot pull: "// &
+                                 "end the law at 0")
+                    else if (.not. (abs(d - before(1)) > 0.0_wp .or. abs(f - before(2)) > 0.0_wp)) then
+                        call say("the point "//point(d, f)//" stands there twice, or at the origin; leave it out")
+                    else if (.not. abs(d - before(1)) > 0.0_wp .and. j > 1) then
+                        if (is_vertical(points(:j - 1))) call say("there are two vertical pieces at "//trim(shown(d))// &
+                                                                  "; give the outer points only")
+                    end if
+                    if (allocated(error)) return
+                    if (abs(d - before(1)) > 0.0_wp) then
+                        slope = (f - before(2))/(d - before(1))
+                    else
+                        slope = f - before(2)
+                    end if
+                    if (j == size(points) .and. slope < 0.0_wp) then
+                        call say("it ends falling, so its force would become negative beyond "//point(d, f)// &
+                                 "; add a point from which on it stays, such as "//point(d + max(d, 1.0_wp), f))
+                        return
+                    end if
+                    before(:) = [d, f]
+                end associate
+            end do
+        end subroutine check_points
+
+        !> Is the last piece of some points vertical
+        pure function is_vertical(points) result(vertical)
+            type(law_point_type), intent(in) :: points(:)
+            logical :: vertical
+            real(wp) :: before
+
+            before = 0.0_wp
+            if (size(points) > 1) before = points(size(points) - 1)%displacement
+            vertical = .not. points(size(points))%displacement > before
+        end function is_vertical
+
+        !> A point as text
+        pure function point(displacement, force) result(text)
+            real(wp), intent(in) :: displacement, force
+            character(len=:), allocatable :: text
+
+            text = "["//trim(shown(displacement))//", "//trim(shown(force))//"]"
+        end function point
+
+    end subroutine check_laws
+
+end module gapbeam_check_laws

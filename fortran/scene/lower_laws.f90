@@ -1,0 +1,131 @@
+!> Laws of supports: from the points that the user gave to kinks, in the user's units (gapbeam_polyline)
+module gapbeam_lower_laws
+    use gapbeam_kinds, only: wp
+    use gapbeam_scene, only: model_type, support_type, law_point_type, gapbeam_both, gapbeam_below, gapbeam_infinity, &
+        gapbeam_elastic
+    use gapbeam_model, only: node_support_type
+    use gapbeam_lowered, only: lowered_type
+    implicit none
+    private
+    public :: find_laws, count_kinks, make_kinks, depends_on_path
+
+contains
+
+    !> First and last point of the law of every support
+    pure subroutine find_laws(model, first, last)
+        type(model_type), intent(in) :: model
+        !> The last is before the first if there is none, shape (nsupport)
+        integer, intent(out) :: first(:), last(:)
+        integer :: i
+
+        first(:) = 1
+        last(:) = 0
+        do i = 1, size(model%law)
+            associate (k => model%law(i)%support)
+                if (last(k) == 0) first(k) = i
+                last(k) = i
+            end associate
+        end do
+    end subroutine find_laws
+
+    !> Does a state depend on the way of the load to it: a force may fall, or a support unloads otherwise than along its law
+    pure function depends_on_path(lowered) result(depends)
+        type(lowered_type), intent(in) :: lowered
+        logical :: depends
+
+        associate (s => lowered%beam%supports)
+            depends = any(s%kink > 0 .and. (s%stiffness < 0.0_wp .or. s%before < 0.0_wp))
+        end associate
+        if (size(lowered%model%law) == 0) return
+        depends = depends .or. any(lowered%model%supports(lowered%model%law%support)%unloading /= gapbeam_elastic)
+    end function depends_on_path
+
+    !> Number of kinks of a support: those of its law, or one
+    pure function count_kinks(support, points) result(kinks)
+        type(support_type), intent(in) :: support
+        !> Its law
+        type(law_point_type), intent(in) :: points(:)
+        integer :: kinks
+
+        kinks = max(1, size(points))
+        if (support%side /= gapbeam_both .or. size(points) == 0) return
+        ! Mirrored; without a gap the law goes through the origin without a kink
+        kinks = 2*(size(points) - merge(0, 1, abs(support%gap) > 0.0_wp))
+        ! One piece both ways is a spring
+        kinks = max(1, kinks)
+    end function count_kinks
+
+    !> The kinks of a law
+    pure subroutine make_kinks(support, points, node, kinks)
+        type(support_type), intent(in) :: support
+        !> Its law, one point at least
+        type(law_point_type), intent(in) :: points(:)
+        !> Its node
+        integer, intent(in) :: node
+        !> In ascending order of the displacement towards the support, shape (count_kinks)
+        type(node_support_type), intent(out) :: kinks(:)
+        integer :: i, m, n
+
+        n = size(points)
+        m = size(kinks)
+        if (support%side /= gapbeam_both) then
+            kinks(1) = kink(1, 0.0_wp, 0.0_wp, 0.0_wp, slope(1))
+            do i = 2, n
+                kinks(i) = kink(i, points(i - 1)%displacement, points(i - 1)%force, slope(i - 1), slope(i))
+            end do
+        else if (n == 1 .and. m == 1) then
+            kinks(1) = node_support_type(node, gapbeam_both, slope(1), support%settlement)
+            return
+        else
+            do i = 1, m/2
+                ! From the last kink of the pushing side down
+                associate (j => n - i)
+                    if (j > 0) then
+                        kinks(i) = kink(i, -points(j)%displacement, -points(j)%force, slope(j + 1), slope(j))
+                        kinks(m + 1 - i) = kink(m + 1 - i, points(j)%displacement, points(j)%force, slope(j), slope(j + 1))
+                    else
+                        kinks(i) = kink(i, -0.0_wp, 0.0_wp, slope(1), 0.0_wp)
+                        kinks(m + 1 - i) = kink(m + 1 - i, 0.0_wp, 0.0_wp, 0.0_wp, slope(1))
+                    end if
+                end associate
+            end do
+        end if
+        kinks(:m - 1)%more = .true.
+
+    contains
+
+        !> A kink at a displacement past the gap
+        pure function kink(number, displacement, force, before, after) result(made)
+            integer, intent(in) :: number
+            real(wp), intent(in) :: displacement, force, before, after
+            type(node_support_type) :: made
+            integer :: side, way
+
+            side = merge(gapbeam_below, support%side, support%side == gapbeam_both)
+            way = side
+            if (support%side == gapbeam_both .and. 2*number <= m) way = -1
+            made = node_support_type(node, side, after, support%settlement + (way*support%gap + side*displacement), kink=number, &
+                                     force=force, before=before)
+        end function kink
+
+        !> Slope of the piece that ends at a point; a vertical one is infinite
+        pure function slope(i)
+            integer, intent(in) :: i
+            real(wp) :: slope, width, rise
+
+            width = points(i)%displacement
+            rise = points(i)%force
+            if (i > 1) then
+                width = width - points(i - 1)%displacement
+                rise = rise - points(i - 1)%force
+            end if
+            if (width > 0.0_wp) then
+                slope = rise/width
+            else
+                slope = sign(gapbeam_infinity, rise)
+            end if
+        end function slope
+
+    end subroutine make_kinks
+
+end module gapbeam_lower_laws

@@ -1,0 +1,261 @@
+"""Laws of supports: what engineers have of them, as polylines and as curves."""
+
+from __future__ import annotations
+
+from math import inf, isfinite, tanh
+from typing import Any, ClassVar
+
+import numpy as np
+
+from .table import NotNegative, Positive, Table
+
+PIECES = 48
+"""Pieces of the polyline that a curve is followed with, before it is solved itself."""
+
+
+class _Law(Table, forbid_unknown_fields=True, kw_only=True, gc=False, tag_field="type"):
+    """A law by its parameters."""
+
+    smooth: ClassVar[bool] = False
+
+    def points(self) -> list[tuple[float, float]]:
+        """Give the polyline (displacement past the gap, force)."""
+        raise NotImplementedError
+
+
+class PlasticLaw(_Law, tag="plastic"):
+    """Elastic up to a force that stays.
+
+    Parameters
+    ----------
+    stiffness : float
+        Stiffness (force/length) up to there; inf = rigid.
+    limit : float
+        The force.
+    """
+
+    stiffness: Positive
+    limit: Positive
+
+    def points(self) -> list[tuple[float, float]]:
+        """Give the polyline."""
+        d = self.limit / self.stiffness
+        return [(d, self.limit), (2 * d or 1.0, self.limit)]
+
+
+class BrittleLaw(_Law, tag="brittle"):
+    """Elastic up to a force at which it breaks.
+
+    Parameters
+    ----------
+    stiffness : float
+        Stiffness (force/length) up to there; inf = rigid.
+    limit : float
+        The force at which it breaks.
+    """
+
+    stiffness: Positive
+    limit: Positive
+
+    def points(self) -> list[tuple[float, float]]:
+        """Give the polyline."""
+        d = self.limit / self.stiffness
+        return [(d, self.limit), (d, 0.0), (2 * d or 1.0, 0.0)]
+
+
+class HardeningLaw(_Law, tag="hardening"):
+    """Of one stiffness up to a force, of another one beyond.
+
+    Parameters
+    ----------
+    stiffness : float
+        Stiffness (force/length) up to the force; inf = rigid.
+    limit : float
+        The force.
+    slope : float
+        Stiffness beyond (force/length), greater or less than the first one; inf = rigid.
+    """
+
+    stiffness: Positive
+    limit: Positive
+    slope: NotNegative
+
+    def points(self) -> list[tuple[float, float]]:
+        """Give the polyline, so that the slope comes out of it to all digits."""
+        d = self.limit / self.stiffness
+        if not self.slope:
+            return PlasticLaw(stiffness=self.stiffness, limit=self.limit).points()
+        way = max(d, self.limit / self.slope)
+        rise = self.slope * way if way else self.limit
+        return [(d, self.limit), (d + way, self.limit + rise)]
+
+
+class _Curve(_Law):
+    """A smooth law."""
+
+    smooth: ClassVar[bool] = True
+
+    def scale(self) -> float:
+        """Give a displacement that is typical of the law."""
+        raise NotImplementedError
+
+    def force_and_slope(self, d: float) -> tuple[float, float]:
+        """Give force and slope at a displacement, 0 or more."""
+        raise NotImplementedError
+
+    def points(self) -> list[tuple[float, float]]:
+        """Give a polyline through points of the curve, closer where it bends."""
+        ways = self.scale() * np.geomspace(2.0**-20, 2.0**20, PIECES)
+        points = [(float(d), self.force_and_slope(float(d))[0]) for d in ways]
+        # Where a curve has become flat to the last digit, a point less
+        return [p for p, q in zip(points, [(0.0, 0.0), *points[:-1]], strict=True) if p[1] > q[1]] or points[-1:]
+
+
+class CubicLaw(_Curve, tag="cubic"):
+    """Force = k1*d + k3*d^3.
+
+    Parameters
+    ----------
+    k1 : float
+        Stiffness at first (force/length).
+    k3 : float
+        Hardening (force/length^3).
+    """
+
+    k1: NotNegative
+    k3: Positive
+
+    def scale(self) -> float:
+        """Give the displacement at which both parts are equal."""
+        return (self.k1 / self.k3) ** 0.5 or 1.0
+
+    def force_and_slope(self, d: float) -> tuple[float, float]:
+        """Give force and slope."""
+        return d * (self.k1 + self.k3 * d * d), self.k1 + 3 * self.k3 * d * d
+
+
+class HyperbolicLaw(_Curve, tag="hyperbolic"):
+    """Force = d/(1/stiffness + d/limit).
+
+    Parameters
+    ----------
+    stiffness : float
+        Stiffness at first (force/length).
+    limit : float
+        The force that it tends to.
+    """
+
+    stiffness: Positive
+    limit: Positive
+
+    def scale(self) -> float:
+        """Give the displacement at half the limit."""
+        return self.limit / self.stiffness
+
+    def force_and_slope(self, d: float) -> tuple[float, float]:
+        """Give force and slope."""
+        share = 1.0 / (1.0 + d * self.stiffness / self.limit)
+        return self.stiffness * d * share, self.stiffness * share * share
+
+
+class TanhLaw(_Curve, tag="tanh"):
+    """Force = limit*tanh(stiffness*d/limit).
+
+    Parameters
+    ----------
+    stiffness : float
+        Stiffness at first (force/length).
+    limit : float
+        The force that it tends to.
+    """
+
+    stiffness: Positive
+    limit: Positive
+
+    def scale(self) -> float:
+        """Give the displacement at which the first stiffness would reach the limit."""
+        return self.limit / self.stiffness
+
+    def force_and_slope(self, d: float) -> tuple[float, float]:
+        """Give force and slope."""
+        share = tanh(self.stiffness * d / self.limit)
+        return self.limit * share, self.stiffness * (1.0 - share) * (1.0 + share)
+
+
+class PowerLaw(_Curve, tag="power"):
+    """Force = limit*(d/d0)^n; with n below 1 infinitely stiff at first.
+
+    Parameters
+    ----------
+    d0 : float
+        Displacement (length) at which the force is limit.
+    limit : float
+        The force there.
+    n : float
+        Exponent, above 0.
+    """
+
+    d0: Positive
+    limit: Positive
+    n: Positive
+
+    def scale(self) -> float:
+        """Give d0."""
+        return self.d0
+
+    def force_and_slope(self, d: float) -> tuple[float, float]:
+        """Give force and slope."""
+        if d == 0.0:
+            return 0.0, inf if self.n < 1.0 else 0.0 if self.n > 1.0 else self.limit / self.d0
+        force = self.limit * (d / self.d0) ** self.n
+        return force, self.n * force / d
+
+
+LawTable = PlasticLaw | BrittleLaw | HardeningLaw | CubicLaw | HyperbolicLaw | TanhLaw | PowerLaw
+Law = list[tuple[float, float]] | LawTable
+
+
+def wrong_parameter(law: Any) -> tuple[str, float, str] | None:
+    """Find a parameter of a law's table that is out of range.
+
+    Parameters
+    ----------
+    law : Law
+        From a scene.
+
+    Returns
+    -------
+    None or (str, float, str)
+        Key, value, and what was expected.
+    """
+    if isinstance(law, list):
+        return None
+    for key in law.__struct_fields__:
+        value = getattr(law, key)
+        rigid = key == "slope" or (key == "stiffness" and not law.smooth)
+        least = key in ("k1", "slope")
+        if not (value > 0.0 or (least and value == 0.0)) or not (isfinite(value) or rigid):
+            more = "a number" if rigid else "a finite number"
+            return key, value, f"{more} {'of 0 or more' if least else 'above 0'}"
+    return None
+
+
+def law_points(law: Law) -> list[tuple[float, float]]:
+    """Give the polyline of a law.
+
+    Parameters
+    ----------
+    law : list or law table
+        Of a support.
+
+    Returns
+    -------
+    list of (float, float)
+        Displacement past the gap and force, from (0, 0) on, which is left out.
+
+    Examples
+    --------
+    >>> law_points(PlasticLaw(stiffness=100.0, limit=5.0))
+    [(0.05, 5.0), (0.1, 5.0)]
+    """
+    return law if isinstance(law, list) else law.points()
