@@ -35,7 +35,7 @@ def test_bound_holds_and_is_not_wasteful(block):
         if result.status != "solved" or result.steps[-1].indifferent:
             continue
         step = result.steps[-1]
-        errors = true_errors(made, step, result.beam.carrying)
+        errors = true_errors(made, step, result.beam.numbers)
         if errors is None:
             continue
         compared += 1

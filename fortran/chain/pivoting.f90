@@ -10,7 +10,7 @@ module gapbeam_pivoting
     use gapbeam_band_solver, only: solve_band
     implicit none
     private
-    public :: solve_pivoting
+    public :: solve_pivoting, count_unstable
 
     !> Half bandwidth of the mixed system
     integer, parameter :: half_bandwidth = 3
@@ -33,19 +33,7 @@ contains
         integer :: n, unknowns, i
 
         n = size(links)
-        allocate (left(0:n), deflection(0:n), right(0:n))
-        unknowns = 0
-        do i = 0, n
-            unknowns = unknowns + 1
-            left(i) = unknowns
-            unknowns = unknowns + 1
-            deflection(i) = unknowns
-            right(i) = left(i)
-            if (nodes(i)%kind == restrained .and. i > 0 .and. i < n) then
-                unknowns = unknowns + 1
-                right(i) = unknowns
-            end if
-        end do
+        call number_unknowns(nodes, left, deflection, right, unknowns)
         allocate (matrix(2*half_bandwidth + 1, unknowns), b(unknowns), x(unknowns))
         call assemble(nodes, links, rhs, left, deflection, right, matrix, b)
         call solve_band(half_bandwidth, matrix, b, x, regular)
@@ -64,6 +52,83 @@ contains
         answers(0)%moment_left = 0.0_wp
         answers(n)%moment_right = 0.0_wp
     end subroutine solve_pivoting
+
+    !> In how many independent ways the beam gives way by itself where springs push back less the more they are pressed: the
+    !> negative eigenvalues of its stiffness. The mixed matrix is symmetric and has one more for every moment (Haynsworth 1968),
+    !> and elimination shows how many (Sylvester's law of inertia)
+    subroutine count_unstable(nodes, links, index)
+        !> As for solve_pivoting; the system must be regular
+        type(node_type), intent(in) :: nodes(0:)
+        type(link_type), intent(in) :: links(:)
+        integer, intent(out) :: index
+        type(rhs_type), allocatable :: rhs(:)
+        real(wp), allocatable :: matrix(:, :), b(:)
+        integer, allocatable :: left(:), deflection(:), right(:)
+        logical, allocatable :: known(:)
+        real(wp) :: multiplier, size_of_pivot
+        integer :: n, unknowns, i, j, k
+        ! In place of a pivot that is zero only until the next unknowns are eliminated
+        real(wp), parameter :: hair = 2.0_wp**(-56)
+
+        n = size(links)
+        call number_unknowns(nodes, left, deflection, right, unknowns)
+        allocate (matrix(2*half_bandwidth + 1, unknowns), b(unknowns), known(unknowns), rhs(0:n))
+        call assemble(nodes, links, rhs, left, deflection, right, matrix, b)
+        known(:) = .false.
+        do i = 0, n
+            known(deflection(i)) = nodes(i)%held
+            known(left(i)) = nodes(i)%kind == hinge .or. ((i == 0 .or. i == n) .and. nodes(i)%kind /= restrained)
+        end do
+        index = 0
+        do k = 1, unknowns
+            if (known(k)) cycle
+            size_of_pivot = 0.0_wp
+            do i = max(1, k - half_bandwidth), min(unknowns, k + half_bandwidth)
+                if (.not. known(i)) size_of_pivot = max(size_of_pivot, abs(matrix(half_bandwidth + 1 + i - k, k)))
+            end do
+            associate (pivot => matrix(half_bandwidth + 1, k))
+                if (abs(pivot) <= hair*epsilon(pivot)*size_of_pivot) pivot = hair*size_of_pivot
+                if (pivot < 0.0_wp) index = index + 1
+                do i = k + 1, min(unknowns, k + half_bandwidth)
+                    if (known(i)) cycle
+                    multiplier = matrix(half_bandwidth + 1 + i - k, k)/pivot
+                    do j = i, min(unknowns, k + half_bandwidth)
+                        ! Symmetric: the part below the diagonal is enough
+                        matrix(half_bandwidth + 1 + j - i, i) = matrix(half_bandwidth + 1 + j - i, i) &
+                            - multiplier*matrix(half_bandwidth + 1 + j - k, k)
+                    end do
+                end do
+            end associate
+        end do
+        do i = 0, n
+            if (.not. known(left(i))) index = index - 1
+            if (right(i) /= left(i)) index = index - 1
+        end do
+    end subroutine count_unstable
+
+    !> Numbers of the unknowns of the nodes
+    subroutine number_unknowns(nodes, left, deflection, right, unknowns)
+        type(node_type), intent(in) :: nodes(0:)
+        !> Moment left of a node, its deflection, the moment right of it (the same but at restraints inside), shape (0:n)
+        integer, allocatable, intent(out) :: left(:), deflection(:), right(:)
+        integer, intent(out) :: unknowns
+        integer :: i, n
+
+        n = ubound(nodes, 1)
+        allocate (left(0:n), deflection(0:n), right(0:n))
+        unknowns = 0
+        do i = 0, n
+            unknowns = unknowns + 1
+            left(i) = unknowns
+            unknowns = unknowns + 1
+            deflection(i) = unknowns
+            right(i) = left(i)
+            if (nodes(i)%kind == restrained .and. i > 0 .and. i < n) then
+                unknowns = unknowns + 1
+                right(i) = unknowns
+            end if
+        end do
+    end subroutine number_unknowns
 
     !> Band matrix in LAPACK's storage: element (i, j) in row half_bandwidth + 1 + i - j of column j
     subroutine assemble(nodes, links, rhs, left, deflection, right, matrix, b)

@@ -100,7 +100,7 @@ contains
                     compatibility = max(compatibility, abs(r%right))
                 end if
                 largest_turn = max(largest_turn, s%left, s%right)
-                s%shear = left%size_of_shear + right%size_of_shear + abs(b%shear) + node%stiffness*abs(a%deflection)
+                s%shear = left%size_of_shear + right%size_of_shear + abs(b%shear) + abs(node%stiffness*a%deflection)
                 largest_shear = max(largest_shear, s%shear)
                 if (node%held) then
                     r%deflection = b%deflection - a%deflection

@@ -50,7 +50,7 @@ contains
         real(wp), intent(out) :: change, error
 
         change = work%nodes(i)%stiffness*work%answers(i)%deflection - work%rhs(i)%shear
-        error = epsilon(1.0_wp)*(work%nodes(i)%stiffness*abs(work%answers(i)%deflection) + abs(work%rhs(i)%shear))
+        error = epsilon(1.0_wp)*(abs(work%nodes(i)%stiffness*work%answers(i)%deflection) + abs(work%rhs(i)%shear))
     end subroutine change_at_node
 
     !> Sizes whose rounding errors reach a node: those beside it, and those of its neighbours; what crosses

@@ -9,6 +9,7 @@ module gapbeam_handle
     use gapbeam_lower, only: lower_model
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_cases, only: case_loads_type
+    use gapbeam_history, only: history_type
     implicit none
     private
     public :: handle_type, new_handle, copy_handle, handle_of, drop_handle, state_of
@@ -18,6 +19,8 @@ module gapbeam_handle
         type(lowered_type) :: lowered
         !> Its loads one by one, where they have been asked for
         type(case_loads_type), allocatable :: cases
+        !> The way of the load followed last
+        type(history_type), allocatable :: history
     end type handle_type
 
 contains

@@ -345,6 +345,126 @@ subroutine gbpath(most, beam, nl, ns, limit, factor, closed, margin, events, at,
     if (allocated(outcome%motion)) motion = outcome%motion
 end subroutine gbpath
 
+! Follow the load through factors in turn, by the path itself
+subroutine gbhist(beam, nf, factor, limit, most, sizes, status, message)
+    use gapbeam_error, only: error_type, gapbeam_solved
+    use gapbeam_handle, only: handle_type, handle_of
+    use gapbeam_history, only: follow_history
+    use gapbeam_state, only: name_range
+    implicit none
+    integer(8), intent(in) :: beam
+    integer, intent(in) :: nf
+    ! Load factors to go to
+    double precision, intent(in) :: factor(nf)
+    ! At a limit: 0 stop, 1 jump, 2 follow the path; stretches after which it is cut off
+    integer, intent(in) :: limit, most
+    ! Stretches, limits, how it ended (gapbeam_history), linear solves; kept for GBHGET
+    integer, intent(out) :: sizes(4), status
+    character(len=240), intent(out) :: message
+    !f2py threadsafe
+    !f2py integer, intent(hide), depend(factor) :: nf = shape(factor, 0)
+    type(handle_type), pointer :: handle
+    type(error_type), allocatable :: error
+
+    handle => handle_of(beam)
+    sizes = 0
+    status = gapbeam_solved
+    message = " "
+    if (allocated(handle%history)) deallocate (handle%history)
+    allocate (handle%history)
+    call follow_history(handle%lowered, factor, limit, most, handle%history, error)
+    call name_range(handle%lowered, error)
+    if (allocated(error)) then
+        status = error%code
+        message = error%message
+        return
+    end if
+    sizes = [handle%history%number, size(handle%history%limits), handle%history%ending, handle%history%solves]
+end subroutine gbhist
+
+! What GBHIST found
+subroutine gbhget(beam, ns, nh, nk, along, about, closed, laws, where, which)
+    use gapbeam_handle, only: handle_type, handle_of
+    use gapbeam_history, only: laws_at
+    use gapbeam_polyline, only: node_support_type
+    implicit none
+    integer(8), intent(in) :: beam
+    ! Supports of the engine, stretches and limits, one more than there are
+    integer, intent(in) :: ns, nh, nk
+    ! Of every stretch: load factors; leg (0 dead loads, then from 1), direction, index, ways, 1 if passed in a jump
+    double precision, intent(out) :: along(2, nh)
+    integer, intent(out) :: about(5, nh)
+    ! Scheme: 1 closed, 0 open; contact level, force, slope and slope before of every support as it has become
+    integer(1), intent(out) :: closed(ns, nh)
+    double precision, intent(out) :: laws(4, ns, nh)
+    ! Of every limit: load factor; kind, leg, stretch before it, stretch of the landing (from 1, 0 none)
+    double precision, intent(out) :: where(nk)
+    integer, intent(out) :: which(4, nk)
+    type(handle_type), pointer :: handle
+    type(node_support_type), allocatable :: now(:)
+    integer :: k
+
+    handle => handle_of(beam)
+    along = 0.0d0
+    about = 0
+    closed = 0_1
+    laws = 0.0d0
+    where = 0.0d0
+    which = 0
+    do k = 1, nh - 1
+        associate (s => handle%history%stretches(k))
+            along(:, k) = [s%from, s%to]
+            about(:, k) = [s%leg, s%direction, s%index, s%ways, merge(1, 0, s%skipped)]
+            closed(:ns - 1, k) = merge(1_1, 0_1, s%closed)
+            now = laws_at(handle%lowered, s)
+            laws(1, :ns - 1, k) = now%contact
+            laws(2, :ns - 1, k) = now%force
+            laws(3, :ns - 1, k) = now%stiffness
+            laws(4, :ns - 1, k) = now%before
+        end associate
+    end do
+    do k = 1, nk - 1
+        associate (limit => handle%history%limits(k))
+            where(k) = limit%factor
+            which(:, k) = [limit%kind, limit%leg, limit%stretch, limit%landing]
+        end associate
+    end do
+end subroutine gbhget
+
+! Another beam: the same with the laws of its supports as they have become
+subroutine gblaws(beam, ns, laws, copy, status, message)
+    use gapbeam_error, only: error_type, gapbeam_solved
+    use gapbeam_handle, only: handle_type, handle_of, copy_handle
+    implicit none
+    integer(8), intent(in) :: beam
+    ! As from GBHGET
+    integer, intent(in) :: ns
+    double precision, intent(in) :: laws(4, ns)
+    integer(8), intent(out) :: copy
+    integer, intent(out) :: status
+    character(len=240), intent(out) :: message
+    !f2py threadsafe
+    !f2py integer, intent(hide), depend(laws) :: ns = shape(laws, 1)
+    type(handle_type), pointer :: handle
+    type(error_type), allocatable :: error
+
+    status = gapbeam_solved
+    message = " "
+    call copy_handle(beam, copy, error)
+    if (allocated(error)) then
+        status = error%code
+        message = error%message
+        return
+    end if
+    handle => handle_of(copy)
+    associate (s => handle%lowered%beam%supports)
+        s%contact = laws(1, :ns - 1)
+        s%force = laws(2, :ns - 1)
+        s%stiffness = laws(3, :ns - 1)
+        s%before = laws(4, :ns - 1)
+    end associate
+end subroutine gblaws
+
 ! Check a solved state
 subroutine gbcert(beam, nl, ns, factor, closed, w, ml, mr, shear, react, residu, bound, known, status, message)
     use gapbeam_error, only: error_type, gapbeam_solved

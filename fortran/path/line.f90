@@ -8,7 +8,7 @@ module gapbeam_line
     use gapbeam_rules, only: first_width
     implicit none
     private
-    public :: line_type, line_of, without_dead_loads, value_at, width_at, zero_of, falls, rises, stays_at_zero
+    public :: line_type, line_of, without_dead_loads, drop_live, value_at, width_at, zero_of, falls, rises, stays_at_zero
 
     !> Force with which a support pushes, or its distance to contact, and the errors of the coefficients
     type :: line_type
@@ -40,6 +40,31 @@ contains
             end associate
         end do
     end subroutine without_dead_loads
+
+    !> The beam while its dead loads are put on: they grow with the factor, and there is no other load
+    subroutine drop_live(beam, growing)
+        !> The beam
+        type(beam_type), intent(in) :: beam
+        !> The same with its dead loads as live ones
+        type(beam_type), intent(out) :: growing
+        integer :: i
+
+        growing = beam
+        growing%force(2, :) = beam%force(1, :)
+        growing%force(1, :) = 0.0_wp
+        growing%couple(2, :) = beam%couple(1, :)
+        growing%couple(1, :) = 0.0_wp
+        do i = 1, size(beam%links)
+            associate (link => growing%links(i), from => beam%links(i))
+                link%turn_a = [0.0_wp, from%turn_a(1)]
+                link%turn_b = [0.0_wp, from%turn_b(1)]
+                link%shear_a = [0.0_wp, from%shear_a(1)]
+                link%shear_b = [0.0_wp, from%shear_b(1)]
+                link%load_sum = [0.0_wp, from%load_sum(1)]
+                link%turn_sum = [0.0_wp, from%turn_sum(1)]
+            end associate
+        end do
+    end subroutine drop_live
 
     !> The line of a support
     pure function line_of(beam, incremental, closed, k, dead, live) result(line)

@@ -3,7 +3,7 @@ module gapbeam_check_laws
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type
     use gapbeam_words, only: shown
-    use gapbeam_scene, only: model_type, law_point_type, gapbeam_axial, gapbeam_elastic, gapbeam_broken
+    use gapbeam_scene, only: model_type, law_point_type, gapbeam_both, gapbeam_axial, gapbeam_elastic, gapbeam_broken
     use gapbeam_refusal, only: refuse, of_supports, bad_law
     implicit none
     private
@@ -55,7 +55,18 @@ contains
         end do
         do i = 1, size(model%supports)
             associate (unloading => model%supports(i)%unloading)
-                if (unloading >= gapbeam_elastic .and. unloading <= gapbeam_broken) cycle
+                if (unloading == gapbeam_elastic) cycle
+                if (.not. seen(i)) then
+                    call refuse(error, of_supports, i, size(model%supports), bad_law, "unloading", "only a support with a law "// &
+                                "unloads in another way than along it; give law, or remove it")
+                    return
+                end if
+                if (model%supports(i)%side == gapbeam_both .and. unloading <= gapbeam_broken) then
+                    call refuse(error, of_supports, i, size(model%supports), bad_law, "unloading", "a support that holds both "// &
+                                "ways unloads along its law; put one below and one above at this place instead")
+                    return
+                end if
+                if (unloading > gapbeam_elastic .and. unloading <= gapbeam_broken) cycle
                 call refuse(error, of_supports, i, size(model%supports), bad_law, "unloading", &
                             "expected 0 (elastic), 1 (plastic) or 2 (broken)")
                 return

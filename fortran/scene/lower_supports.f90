@@ -48,7 +48,8 @@ contains
         integer :: k, m, stat, point
 
         m = size(lowered%model%supports)
-        with_law = have_laws(lowered%model)
+        allocate (with_law(size(lowered%model%supports)))
+        with_law(:) = have_laws(lowered%model)
         allocate (rigid(-1:3, 0:ubound(lowered%point_span, 1)), stat=stat)
         if (stat /= 0) then
             call no_memory(error)

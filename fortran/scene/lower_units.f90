@@ -59,7 +59,8 @@ contains
         logical, allocatable :: with_law(:)
         integer :: length, j, k, stiffness
 
-        with_law = have_laws(lowered%model)
+        allocate (with_law(size(lowered%model%supports)))
+        with_law(:) = have_laws(lowered%model)
         do j = 1, size(lowered%pieces)
             call lengths%note(piece_length(lowered, j), 0)
         end do
@@ -149,7 +150,8 @@ contains
         logical, allocatable :: with_law(:)
         integer :: i, k, m
 
-        with_law = have_laws(lowered%model)
+        allocate (with_law(size(lowered%model%supports)))
+        with_law(:) = have_laws(lowered%model)
         m = size(lowered%model%supports)
         associate (beam => lowered%beam, units => lowered%units)
             beam%compliance(:) = 0.0_wp

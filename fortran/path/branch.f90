@@ -1,0 +1,270 @@
+!> The path of a beam whose supports may soften, break or unload otherwise than along their law: from kink to kink, through limit
+!> points, in quadruple precision.
+!>
+!> The solution is followed along itself (gapbeam_ways), so the load factor may fall; nothing is stepped and nothing iterates.
+!> As no cell is crossed twice, a path of laws without memory has finitely many segments (docs/method.md 11). A support that
+!> unloads in a way of its own has its law written anew from the point where it is: its kinks up to there become one, at
+!> that point, before which lies a line with the slope of the first piece, down to its set.
+module gapbeam_branch
+    use gapbeam_kinds, only: wp => qp
+    use gapbeam_error, only: error_type
+    use gapbeam_polyline_quad, only: node_support_type, piece_that_acts, last_kink
+    use gapbeam_law_quad, only: margin_in_scheme, is_watched_in
+    use gapbeam_model_quad, only: beam_type
+    use gapbeam_line_quad, only: value_at, width_at, zero_of
+    use gapbeam_ways, only: lines_type, way_type, new_lines, solve_lines, find_ways, rise, fall, turn
+    implicit none
+    private
+    public :: branch_type, segment_type, start_branch, step_branch, goes_on, arrived, no_way_on, never_ends
+    public :: along_law, parallel, stays_broken
+
+    !> How a support unloads
+    integer, parameter :: along_law = 0, parallel = 1, stays_broken = 2
+    !> What a step came to: the next kink; the factor asked for; the end of the path; no further kink, whatever the load
+    integer, parameter :: goes_on = 0, arrived = 1, no_way_on = 2, never_ends = 3
+
+    !> A path on its way
+    type :: branch_type
+        !> The beam, with the laws as they have become
+        type(beam_type) :: beam
+        type(lines_type) :: lines
+        !> How each support unloads, shape (size(supports)); slopes of the first pieces
+        integer, allocatable :: unloading(:)
+        real(wp), allocatable :: first_slope(:)
+        real(wp) :: factor = 0.0_wp
+        type(way_type) :: way
+        !> Deflections of the nodes, shape (0:n)
+        real(wp), allocatable :: deflection(:)
+        !> Ways on there were at the last kink
+        integer :: ways = 0
+    end type branch_type
+
+    !> A stretch of the path on which all pieces stay the same
+    type :: segment_type
+        real(wp) :: from = 0.0_wp, to = 0.0_wp
+    end type segment_type
+
+contains
+
+    !> Begin at a load factor
+    subroutine start_branch(beam, unloading, closed, factor, direction, branch, outcome, error)
+        !> The beam, and how each of its supports unloads
+        type(beam_type), intent(in) :: beam
+        integer, intent(in) :: unloading(:)
+        !> Its scheme there
+        logical, intent(in) :: closed(:)
+        real(wp), intent(in) :: factor
+        !> rise or fall: where the load goes
+        integer, intent(in) :: direction
+        type(branch_type), intent(out) :: branch
+        !> goes_on or no_way_on
+        integer, intent(out) :: outcome
+        type(error_type), allocatable, intent(out) :: error
+
+        branch%beam = beam
+        branch%unloading = unloading
+        branch%first_slope = beam%supports%stiffness
+        branch%factor = factor
+        call new_lines(beam, branch%lines)
+        allocate (branch%deflection(0:size(beam%links)))
+        branch%deflection(:) = 0.0_wp
+        call solve_lines(branch%beam, closed, branch%lines)
+        branch%way%closed = closed
+        branch%way%direction = direction
+        if (branch%lines%regular) call note_place(branch)
+        call go_on(branch, direction, direction, spread(.false., 1, size(closed)), outcome, error)
+    end subroutine start_branch
+
+    !> Go on to the next kink, or to a factor
+    subroutine step_branch(branch, target, leg, segment, outcome, error)
+        type(branch_type), intent(inout) :: branch
+        !> The factor at which the path ends, if it comes there in the direction of the leg (rise or fall)
+        real(wp), intent(in) :: target
+        integer, intent(in) :: leg
+        !> What was passed; branch%way is another one already where the path goes on
+        type(segment_type), intent(out) :: segment
+        !> goes_on, arrived, no_way_on or never_ends
+        integer, intent(out) :: outcome
+        type(error_type), allocatable, intent(out) :: error
+        logical, allocatable :: at_hand(:)
+        real(wp) :: next
+        integer :: direction
+
+        direction = branch%way%direction
+        segment%from = branch%factor
+        segment%to = branch%factor
+        if (direction == turn) then
+            call turn_on(branch, at_hand)
+            outcome = never_ends
+            if (.not. any(at_hand)) return
+        else
+            call look_ahead(branch, next, at_hand)
+            if (direction == leg .and. direction*(next - target) >= 0.0_wp) then
+                branch%factor = target
+                segment%to = target
+                outcome = arrived
+                call note_place(branch)
+                return
+            end if
+            outcome = never_ends
+            if (.not. abs(next) < huge(next)) return
+            branch%factor = next
+            segment%to = next
+            call note_place(branch)
+        end if
+        call go_on(branch, leg, turn, at_hand, outcome, error)
+    end subroutine step_branch
+
+    !> Choose the way on: one that is stable under growing load if there is one, else the least unstable
+    subroutine go_on(branch, leg, wanted, at_hand, outcome, error)
+        type(branch_type), intent(inout) :: branch
+        integer, intent(in) :: leg, wanted
+        !> Kinks that are reached
+        logical, intent(in) :: at_hand(:)
+        integer, intent(out) :: outcome
+        type(error_type), allocatable, intent(out) :: error
+        type(way_type), allocatable :: ways(:)
+        logical, allocatable :: reached(:)
+        integer :: w, best
+
+        call rewrite_laws(branch)
+        reached = at_hand
+        call find_ways(branch%beam, branch%factor, branch%way%closed, merge(turn, branch%way%direction, wanted /= turn), wanted, &
+                       branch%deflection, reached, branch%lines, ways, error)
+        outcome = no_way_on
+        if (allocated(error)) return
+        branch%ways = size(ways)
+        if (size(ways) == 0) return
+        best = 1
+        do w = 2, size(ways)
+            if (preference(ways(w)) < preference(ways(best))) best = w
+        end do
+        branch%way = ways(best)
+        call solve_lines(branch%beam, branch%way%closed, branch%lines)
+        outcome = goes_on
+
+    contains
+
+        !> Stable ways come first; of equals the one in which the load goes where it should
+        pure function preference(way) result(last)
+            type(way_type), intent(in) :: way
+            !> The less the better
+            integer :: last
+
+            last = 3*way%index
+            if (way%direction == turn) last = last + 1
+            if (way%direction == -leg) last = last + 2
+        end function preference
+
+    end subroutine go_on
+
+    !> The next kink along a line
+    subroutine look_ahead(branch, next, at_hand)
+        type(branch_type), intent(in) :: branch
+        !> Its load factor; huge if there is none
+        real(wp), intent(out) :: next
+        !> The kinks there
+        logical, allocatable, intent(out) :: at_hand(:)
+        integer :: k, direction
+
+        direction = branch%way%direction
+        next = direction*huge(next)
+        associate (supports => branch%beam%supports, closed => branch%way%closed, lines => branch%lines%line)
+            allocate (at_hand(size(closed)))
+            at_hand(:) = .false.
+            do k = 1, size(closed)
+                at_hand(k) = is_watched_in(supports, closed, k) .and. direction*lines(k)%v1 < -lines(k)%error_of_v1
+                if (.not. at_hand(k)) cycle
+                associate (zero => zero_of(lines(k)))
+                    ! What is behind by rounding is here
+                    next = direction*min(direction*next, max(direction*zero, direction*branch%factor))
+                end associate
+            end do
+            do k = 1, size(closed)
+                if (at_hand(k)) at_hand(k) = value_at(lines(k), next) <= 2*width_at(lines(k), next)
+            end do
+        end associate
+    end subroutine look_ahead
+
+    !> Turn until something holds the beam
+    subroutine turn_on(branch, at_hand)
+        type(branch_type), intent(inout) :: branch
+        !> What does; none if nothing
+        logical, allocatable, intent(out) :: at_hand(:)
+        real(wp), allocatable :: way(:), none(:)
+        real(wp) :: speed, margin, rounding
+        logical :: by_force
+        integer :: k
+
+        associate (supports => branch%beam%supports, closed => branch%way%closed, motion => branch%way%motion)
+            allocate (at_hand(size(closed)), way(size(closed)), none(size(closed)))
+            none(:) = 0.0_wp
+            way(:) = huge(way)
+            do k = 1, size(closed)
+                if (.not. is_watched_in(supports, closed, k)) cycle
+                call margin_in_scheme(branch%lines%incremental%supports, closed, k, motion(supports(k)%node), 0.0_wp, none, none, &
+                                      speed, rounding, by_force)
+                if (by_force .or. .not. speed < 0.0_wp) cycle
+                call margin_in_scheme(supports, closed, k, branch%deflection(supports(k)%node), 0.0_wp, none, none, margin, &
+                                      rounding, by_force)
+                way(k) = max(0.0_wp, margin)/(-speed)
+            end do
+            at_hand(:) = way < huge(way)
+            if (.not. any(at_hand)) return
+            at_hand(:) = at_hand .and. way <= minval(way)*(1 + 64*epsilon(way))
+            branch%deflection(:) = branch%deflection + minval(way)*motion
+        end associate
+    end subroutine turn_on
+
+    !> Deflections at the factor at hand
+    subroutine note_place(branch)
+        type(branch_type), intent(inout) :: branch
+
+        branch%deflection(:) = branch%lines%dead%answers%deflection + branch%factor*branch%lines%live%answers%deflection
+    end subroutine note_place
+
+    !> Write the laws of supports that have a memory anew, from where they are
+    subroutine rewrite_laws(branch)
+        type(branch_type), intent(inout) :: branch
+        real(wp) :: deflection, force, slope
+        logical :: acts
+        integer :: k, last, top
+
+        k = 1
+        do while (k <= size(branch%way%closed))
+            last = last_kink(branch%beam%supports, k)
+            top = k - 1 + count(branch%way%closed(k:last))
+            if (branch%unloading(k) == stays_broken .and. top > k) then
+                associate (s => branch%beam%supports)
+                    if (s(top)%before < -huge(slope)) then
+                        ! What lies before the drop is gone: one line, on both sides of its kinks
+                        s(k:top)%contact = s(top)%contact
+                        s(k:top)%force = s(top)%force
+                        s(k:top)%stiffness = s(top)%stiffness
+                        s(k:top)%before = s(top)%stiffness
+                    end if
+                end associate
+            else if (branch%unloading(k) == parallel .and. top > k) then
+                associate (s => branch%beam%supports, work => branch%lines)
+                    call piece_that_acts(s, branch%way%closed, top, acts, slope)
+                    deflection = branch%deflection(s(k)%node)
+                    if (abs(slope) > huge(slope)) then
+                        deflection = s(top)%contact
+                        force = s(k)%side*(work%dead%reaction(top) + branch%factor*work%live%reaction(top))
+                    else
+                        force = s(top)%force + slope*s(top)%side*(deflection - s(top)%contact)
+                    end if
+                    s(k)%contact = deflection
+                    if (abs(branch%first_slope(k)) <= huge(slope)) s(k)%contact = deflection - s(k)%side*force/branch%first_slope(k)
+                    s(k + 1:top)%contact = deflection
+                    s(k + 1:top)%force = force
+                    s(k + 1:top)%stiffness = s(top)%stiffness
+                    s(k + 2:top)%before = s(top)%stiffness
+                    s(k + 1)%before = branch%first_slope(k)
+                end associate
+            end if
+            k = last + 1
+        end do
+    end subroutine rewrite_laws
+
+end module gapbeam_branch

@@ -1,0 +1,292 @@
+!> The ways on from a state at which some supports are at the end of their piece.
+!>
+!> While the pieces of all laws stay the same (in one cell), the solutions lie on a straight line over the load factor. At its end
+!> one kink or more are reached, and those beyond which the solution goes on are passed. A choice of passed kinks is a way on if
+!> the line of its cell leads into the cell: then every kink at hand moves away from zero in the direction taken, with the
+!> load rising or falling. Mostly there is one way. There is none where the path ends, and there are several at a
+!> bifurcation. Where the loads do work on a free motion the load stays, and the beam turns until something holds it.
+!> (Katzenelson 1965; Chien and Kuh 1977; docs/method.md 11.)
+module gapbeam_ways
+    use gapbeam_kinds, only: wp => qp
+    use gapbeam_error, only: error_type, fatal_error, gapbeam_not_converged
+    use gapbeam_band_quad, only: band_ok
+    use gapbeam_polyline_quad, only: node_support_type, coincide, piece_that_acts
+    use gapbeam_law_quad, only: margin_in_scheme, is_watched_in, always_closed
+    use gapbeam_model_quad, only: beam_type
+    use gapbeam_kinematics_quad, only: free_motions, motion_type
+    use gapbeam_workspace_quad, only: workspace_type, new_workspace, set_loads
+    use gapbeam_system_quad, only: solve_scheme, refine_scheme
+    use gapbeam_pivoting_quad, only: count_unstable
+    use gapbeam_line_quad, only: line_type, line_of, without_dead_loads, value_at, width_at
+    implicit none
+    private
+    public :: lines_type, way_type, new_lines, solve_lines, find_ways, rise, fall, turn
+
+    !> Directions of the load factor along a way
+    integer, parameter :: rise = 1, fall = -1, turn = 0
+    !> Of more kinks at one factor than these not all combinations are tried
+    integer, parameter :: most_at_once = 12
+    !> Share of the rates beside it below which a rate is none
+    real(wp), parameter :: no_rate = 2.0_wp**(-70)
+
+    !> A cell: what all supports do over the load factor while their pieces stay the same
+    type :: lines_type
+        type(beam_type) :: incremental
+        type(workspace_type) :: dead, live
+        type(line_type), allocatable :: line(:)
+        !> Is there a unique solution
+        logical :: regular = .false.
+        !> Linear solves
+        integer :: solves = 0
+    end type lines_type
+
+    !> A way on
+    type :: way_type
+        logical, allocatable :: closed(:)
+        !> rise, fall or turn
+        integer :: direction = rise
+        !> Number of ways in which the beam gives way by itself: stable if 0
+        integer :: index = 0
+        !> Where the beam turns: displacements of the nodes, shape (0:n)
+        real(wp), allocatable :: motion(:)
+    end type way_type
+
+contains
+
+    !> Room for the lines of a beam
+    subroutine new_lines(beam, lines)
+        type(beam_type), intent(in) :: beam
+        type(lines_type), intent(out) :: lines
+
+        call without_dead_loads(beam, lines%incremental)
+        call new_workspace(beam, lines%dead)
+        call new_workspace(lines%incremental, lines%live)
+        call set_loads(beam, 0.0_wp, lines%dead)
+        call set_loads(lines%incremental, 1.0_wp, lines%live)
+        allocate (lines%line(size(beam%supports)))
+    end subroutine new_lines
+
+    !> Solve a cell
+    subroutine solve_lines(beam, closed, lines)
+        !> The beam, whose supports may have changed since new_lines, and the scheme
+        type(beam_type), intent(in) :: beam
+        logical, intent(in) :: closed(:)
+        type(lines_type), intent(inout) :: lines
+        integer :: state, place, k
+
+        associate (s => lines%incremental%supports)
+            s = beam%supports
+            s%contact = 0.0_wp
+            s%force = 0.0_wp
+        end associate
+        call solve_scheme(beam, closed, lines%dead, state, place)
+        if (state == band_ok) call solve_scheme(lines%incremental, closed, lines%live, state, place)
+        lines%solves = lines%solves + 2
+        lines%regular = state == band_ok
+        if (.not. lines%regular) return
+        call refine_scheme(beam, closed, lines%dead)
+        call refine_scheme(lines%incremental, closed, lines%live)
+        do k = 1, size(closed)
+            lines%line(k) = line_of(beam, lines%incremental, closed, k, lines%dead, lines%live)
+        end do
+    end subroutine solve_lines
+
+    !> Find all ways on
+    subroutine find_ways(beam, factor, before, came, wanted, deflection, at_hand, lines, ways, error)
+        !> The beam and the load factor
+        type(beam_type), intent(in) :: beam
+        real(wp), intent(in) :: factor
+        !> Scheme of the way that led here, and its direction; the same way back is none
+        logical, intent(in) :: before(:)
+        integer, intent(in) :: came
+        !> rise or fall if only such a way is asked for, turn for any
+        integer, intent(in) :: wanted
+        !> Of the nodes, shape (0:n)
+        real(wp), intent(in) :: deflection(0:)
+        !> Kinks that are reached in, and those that follow from them out
+        logical, intent(inout) :: at_hand(:)
+        !> Solves are counted there
+        type(lines_type), intent(inout) :: lines
+        type(way_type), allocatable, intent(out) :: ways(:)
+        !> Too many kinks at once
+        type(error_type), allocatable, intent(out) :: error
+        logical, allocatable :: closed(:), more(:)
+        integer, allocatable :: first(:), last(:)
+        type(way_type) :: way
+        integer :: mask, u, number, count_before, direction
+        logical :: leads
+
+        allocate (closed(size(before)), more(size(before)))
+        do
+            call find_units(beam, at_hand, first, last)
+            number = size(first)
+            if (number > most_at_once) then
+                call fatal_error(error, gapbeam_not_converged, "so many supports reach a kink of their law at once that not "// &
+                                 "all ways on can be tried")
+                return
+            end if
+            if (allocated(ways)) deallocate (ways)
+            allocate (ways(0))
+            more(:) = .false.
+            do mask = 0, 2**number - 1
+                closed(:) = before
+                do u = 1, number
+                    if (btest(mask, u - 1)) closed(first(u):last(u)) = .not. before(first(u))
+                end do
+                if (.not. is_nested(beam%supports, closed)) cycle
+                call solve_lines(beam, closed, lines)
+                if (.not. lines%regular) then
+                    call try_motion(beam, closed, mask == 0, came, deflection, at_hand, lines, way, leads)
+                    if (leads .and. wanted == turn) ways = [ways, way]
+                    cycle
+                end if
+                do direction = rise, fall, -2
+                    if (mask == 0 .and. direction == -came) cycle
+                    if (wanted /= turn .and. direction /= wanted) cycle
+                    call look_into(beam, closed, factor, direction, at_hand, lines, leads, more)
+                    if (.not. leads) cycle
+                    way%closed = closed
+                    way%direction = direction
+                    if (allocated(way%motion)) deallocate (way%motion)
+                    call find_index(beam, closed, lines, way%index)
+                    ways = [ways, way]
+                end do
+            end do
+            count_before = count(at_hand)
+            at_hand(:) = at_hand .or. more
+            if (count(at_hand) == count_before) exit
+        end do
+    end subroutine find_ways
+
+    !> Does the line of a cell lead into it, and what else is at zero and falls along it
+    subroutine look_into(beam, closed, factor, direction, at_hand, lines, leads, more)
+        type(beam_type), intent(in) :: beam
+        logical, intent(in) :: closed(:)
+        real(wp), intent(in) :: factor
+        integer, intent(in) :: direction
+        logical, intent(in) :: at_hand(:)
+        type(lines_type), intent(in) :: lines
+        logical, intent(out) :: leads
+        logical, intent(inout) :: more(:)
+        logical, allocatable :: falling(:)
+        integer :: k
+
+        allocate (falling(size(closed)))
+        do k = 1, size(closed)
+            falling(k) = .false.
+            if (.not. is_watched_in(beam%supports, closed, k)) cycle
+            associate (line => lines%line(k))
+                falling(k) = direction*line%v1 < -max(line%error_of_v1, no_rate*abs(line%v1)) &
+                    .and. value_at(line, factor) <= width_at(line, factor)
+            end associate
+        end do
+        leads = .not. any(falling .and. at_hand)
+        if (.not. leads) return
+        leads = .not. any(falling)
+        more(:) = more .or. falling
+    end subroutine look_into
+
+    !> A cell without a unique solution: does the beam move freely, and into it
+    subroutine try_motion(beam, closed, as_before, came, deflection, at_hand, lines, way, leads)
+        type(beam_type), intent(in) :: beam
+        logical, intent(in) :: closed(:)
+        !> Is it the scheme that led here
+        logical, intent(in) :: as_before
+        integer, intent(in) :: came
+        real(wp), intent(in) :: deflection(0:)
+        logical, intent(in) :: at_hand(:)
+        type(lines_type), intent(in) :: lines
+        type(way_type), intent(out) :: way
+        logical, intent(out) :: leads
+        type(motion_type), allocatable :: motions(:)
+        real(wp), allocatable :: y(:), none(:)
+        real(wp) :: margin, rounding
+        integer :: k, sign
+        logical :: moves
+
+        leads = .false.
+        if (as_before .and. came == turn) return
+        call free_motions(beam, closed, motions)
+        if (size(motions) /= 1) return
+        allocate (y(0:ubound(deflection, 1)), none(size(closed)))
+        none(:) = 0.0_wp
+        do sign = 1, -1, -2
+            y(:) = 0.0_wp
+            y(motions(1)%first:motions(1)%last) = sign*motions(1)%displacement
+            leads = .true.
+            moves = .false.
+            do k = 1, size(closed)
+                if (.not. at_hand(k) .or. .not. is_watched_in(beam%supports, closed, k)) cycle
+                call margin_in_scheme(lines%incremental%supports, closed, k, y(beam%supports(k)%node), 0.0_wp, none, none, margin, &
+                                      rounding)
+                leads = leads .and. margin >= 0.0_wp
+                moves = moves .or. margin > 0.0_wp
+            end do
+            leads = leads .and. moves
+            if (leads) exit
+        end do
+        if (.not. leads) return
+        way%closed = closed
+        way%direction = turn
+        way%motion = y
+    end subroutine try_motion
+
+    !> Kinks that are passed together: first and last of each unit
+    pure subroutine find_units(beam, at_hand, first, last)
+        type(beam_type), intent(in) :: beam
+        logical, intent(in) :: at_hand(:)
+        integer, allocatable, intent(out) :: first(:), last(:)
+        integer :: k, begin
+
+        allocate (first(0), last(0))
+        begin = 1
+        do k = 1, size(at_hand)
+            if (coincide(beam%supports, k)) cycle
+            if (any(at_hand(begin:k))) then
+                first = [first, begin]
+                last = [last, k]
+            end if
+            begin = k + 1
+        end do
+    end subroutine find_units
+
+    !> Are the kinks of every law closed up to one
+    pure function is_nested(supports, closed) result(nested)
+        type(node_support_type), intent(in) :: supports(:)
+        logical, intent(in) :: closed(:)
+        logical :: nested
+        integer :: k
+
+        nested = .true.
+        do k = 2, size(closed)
+            if (supports(k)%kink > 1) nested = nested .and. (closed(k - 1) .or. .not. closed(k))
+        end do
+    end function is_nested
+
+    !> In how many ways the beam gives way by itself in a cell
+    subroutine find_index(beam, closed, lines, index)
+        type(beam_type), intent(in) :: beam
+        logical, intent(in) :: closed(:)
+        !> Solved
+        type(lines_type), intent(in) :: lines
+        integer, intent(out) :: index
+        real(wp) :: slope
+        integer :: k
+        logical :: acts
+
+        index = 0
+        do k = 1, size(closed)
+            if (beam%supports(k)%kink == 0) cycle
+            call piece_that_acts(beam%supports, closed, k, acts, slope)
+            if (acts .and. slope < 0.0_wp) index = index + merge(1, 0, slope < -huge(slope))
+        end do
+        if (any(lines%dead%nodes%stiffness < 0.0_wp)) then
+            block
+                integer :: unstable
+                call count_unstable(lines%dead%nodes, beam%links, unstable)
+                index = index + unstable
+            end block
+        end if
+    end subroutine find_index
+
+end module gapbeam_ways

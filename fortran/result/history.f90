@@ -1,0 +1,335 @@
+!> The load followed through factors in turn, by the path itself: past limit points, with supports that soften, break or keep a set
+module gapbeam_history
+    use gapbeam_kinds, only: wp, qp
+    use gapbeam_error, only: error_type, gapbeam_solved, no_memory
+    use gapbeam_memory, only: for_following_closely
+    use gapbeam_polyline, only: node_support_type, last_kink
+    use gapbeam_polyline_quad, only: fine_support_type => node_support_type
+    use gapbeam_model_quad, only: beam_type
+    use gapbeam_line_quad, only: drop_live
+    use gapbeam_scheme_quad, only: outcome_type
+    use gapbeam_referee, only: refine_beam, reserve_for
+    use gapbeam_cell, only: find_cell, cell_type
+    use gapbeam_ways, only: rise, fall, turn
+    use gapbeam_branch, only: branch_type, segment_type, start_branch, step_branch, goes_on, arrived, no_way_on, never_ends
+    use gapbeam_scene, only: gapbeam_elastic, gapbeam_both
+    use gapbeam_lowered, only: lowered_type
+    use gapbeam_state, only: detail_of, name_range
+    implicit none
+    private
+    public :: history_type, stretch_type, limit_type, follow_history, laws_at
+    public :: at_limit_stop, at_limit_jump, at_limit_follow
+    public :: no_limit, limit_point, bifurcation, mechanism, ended, cut_off
+
+    !> What to do where the load cannot go on: end there; go on from the next stable state at the same factor; follow the path
+    integer, parameter :: at_limit_stop = 0, at_limit_jump = 1, at_limit_follow = 2
+    !> Kinds of limit. A path may also have ended without an end in sight: no further kink, whatever the load; or after so many
+    !> stretches
+    integer, parameter :: no_limit = 0, limit_point = 1, bifurcation = 2, mechanism = 3, ended = 4, cut_off = 5
+
+    !> A stretch of the path on which all pieces of all laws stay the same
+    type :: stretch_type
+        !> Number of the factor that is gone to, from 1; 0 while the dead loads are put on
+        integer :: leg
+        !> Load factors
+        real(wp) :: from, to
+        !> Does the load rise (1), fall (-1), or does the beam turn at constant load (0); in how many ways the beam gives way by
+        !> itself; ways on there were at its beginning
+        integer :: direction, index, ways
+        !> Is it passed in a jump
+        logical :: skipped
+        !> The scheme, shape (size(supports))
+        logical, allocatable :: closed(:)
+        !> The laws as they have become, where they are not those of the beam
+        type(node_support_type), allocatable :: laws(:)
+    end type stretch_type
+
+    !> Where the load cannot go on
+    type :: limit_type
+        !> limit_point, bifurcation or mechanism
+        integer :: kind
+        !> As in stretch_type; last stretch before it
+        integer :: leg
+        real(wp) :: factor
+        integer :: stretch
+        !> Stretch on which the beam lands at the same factor; 0 if nowhere on its path
+        integer :: landing = 0
+    end type limit_type
+
+    !> The way of the load
+    type :: history_type
+        !> The stretches, the first `number` entries
+        type(stretch_type), allocatable :: stretches(:)
+        integer :: number = 0
+        !> Where the load could not go on
+        type(limit_type), allocatable :: limits(:)
+        !> How it ended: no_limit at the last factor
+        integer :: ending = no_limit
+        !> Linear solves
+        integer :: solves = 0
+    end type history_type
+
+contains
+
+    !> Put on the dead loads, then go through load factors in turn
+    subroutine follow_history(lowered, factors, at_limit, most, history, error)
+        !> The beam
+        type(lowered_type), intent(in), target :: lowered
+        !> Load factors to go to
+        real(wp), intent(in) :: factors(:)
+        !> at_limit_stop, at_limit_jump or at_limit_follow
+        integer, intent(in) :: at_limit
+        !> Stretches after which it is cut off
+        integer, intent(in) :: most
+        type(history_type), intent(out) :: history
+        !> As for follow_path
+        type(error_type), allocatable, intent(out) :: error
+        type(beam_type) :: beam, dead
+        type(branch_type) :: branch
+        type(fine_support_type), allocatable :: laws(:)
+        logical, allocatable :: closed(:)
+        integer, allocatable :: unloading(:)
+        real(qp) :: factor
+        integer :: leg
+
+        call reserve_for(for_following_closely, lowered%beam, detail_of(lowered), error)
+        if (allocated(error)) return
+        call refine_beam(lowered%beam, detail_of(lowered), beam)
+        allocate (history%stretches(16), history%limits(0), unloading(size(beam%supports)), closed(size(beam%supports)))
+        unloading(:) = lowered%model%supports(lowered%normal)%unloading
+        laws = beam%supports
+        call find_rest(lowered, closed)
+        if (has_dead_loads(beam)) then
+            call drop_live(beam, dead)
+            call go_leg(dead, 0, 0.0_qp, 1.0_qp)
+            if (allocated(error) .or. history%ending /= no_limit) return
+        end if
+        factor = 0.0_qp
+        do leg = 1, size(factors)
+            if (.not. abs(factors(leg) - factor) > 0.0_qp) cycle
+            call go_leg(beam, leg, factor, real(factors(leg), qp))
+            if (allocated(error) .or. history%ending /= no_limit) return
+            factor = factors(leg)
+        end do
+
+    contains
+
+        !> Go from one load factor to another
+        subroutine go_leg(beam, leg, from, to)
+            type(beam_type), intent(inout) :: beam
+            integer, intent(in) :: leg
+            real(qp), intent(in) :: from, to
+            type(segment_type) :: segment
+            integer :: way, outcome, index, direction, ways
+            logical :: stable
+            real(qp) :: target
+            logical :: acting(size(closed))
+            type(fine_support_type) :: laws_before(size(closed))
+
+            way = merge(rise, fall, to > from)
+            beam%supports = laws
+            if (history%number == 0) then
+                call find_beginning(beam, to, closed, history, error)
+                if (allocated(error) .or. history%ending /= no_limit) return
+            end if
+            call start_branch(beam, unloading, closed, from, way, branch, outcome, error)
+            if (.not. allocated(error) .and. outcome /= goes_on) call note_limit(mechanism, leg, real(from, wp))
+            if (outcome /= goes_on) history%ending = mechanism
+            do while (.not. allocated(error) .and. outcome == goes_on)
+                if (history%number >= most) then
+                    history%ending = cut_off
+                    exit
+                end if
+                acting(:) = branch%way%closed
+                index = branch%way%index
+                direction = branch%way%direction
+                ways = branch%ways
+                laws_before(:) = branch%beam%supports
+                stable = index == 0 .and. direction /= -way
+                ! Not at an end while it falls, but where it may have landed
+                target = to
+                if (is_jumping() .and. at_limit /= at_limit_follow .and. .not. (stable .and. direction == way .and. &
+                                                                                way*(branch%factor - to) <= 0.0_qp)) &
+                    target = way*huge(to)
+                call step_branch(branch, target, way, segment, outcome, error)
+                if (allocated(error)) exit
+                if (abs(segment%to - segment%from) > 0.0_qp .or. direction == turn) then
+                    if (outcome == never_ends .and. direction /= turn) segment%to = segment%from
+                    call add(leg, segment, direction, index, ways, acting, laws_before)
+                    if (is_jumping() .and. stable) call look_for_landing(way)
+                end if
+                if (outcome == goes_on) then
+                    if (stable .and. (branch%way%index > 0 .or. branch%way%direction == -way)) then
+                        call note_limit(merge(limit_point, bifurcation, branch%way%direction == -way .and. branch%ways == 1), &
+                                        leg, real(segment%to, wp))
+                    end if
+                else if (outcome == no_way_on .or. outcome == never_ends) then
+                    history%ending = merge(ended, mechanism, outcome == never_ends .and. direction /= turn)
+                    if (stable) call note_limit(mechanism, leg, real(segment%to, wp))
+                end if
+                if (at_limit == at_limit_stop .and. size(history%limits) > 0 .and. .not. is_jumping()) history%ending = ended
+                if (history%ending /= no_limit) exit
+            end do
+            history%solves = history%solves + branch%lines%solves
+            closed(:) = branch%way%closed
+            laws = branch%beam%supports
+        end subroutine go_leg
+
+        !> Keep a stretch
+        subroutine add(leg, segment, direction, index, ways, acting, now)
+            integer, intent(in) :: leg
+            type(segment_type), intent(in) :: segment
+            integer, intent(in) :: direction, index, ways
+            logical, intent(in) :: acting(:)
+            type(fine_support_type), intent(in) :: now(:)
+            type(stretch_type), allocatable :: longer(:)
+            integer :: stat
+
+            if (history%number == size(history%stretches)) then
+                allocate (longer(2*history%number), stat=stat)
+                if (stat /= 0) then
+                    call no_memory(error)
+                    return
+                end if
+                longer(:history%number) = history%stretches
+                call move_alloc(longer, history%stretches)
+            end if
+            history%number = history%number + 1
+            associate (s => history%stretches(history%number))
+                s = stretch_type(leg, real(segment%from, wp), real(segment%to, wp), direction, index, ways, .false., acting)
+                if (any(unloading /= gapbeam_elastic)) s%laws = rounded(now, lowered%beam%supports)
+            end associate
+        end subroutine add
+
+        !> Note a limit, but not while the beam falls from one to its landing
+        subroutine note_limit(kind, leg, factor)
+            integer, intent(in) :: kind, leg
+            real(wp), intent(in) :: factor
+
+            if (is_jumping() .and. at_limit /= at_limit_follow) return
+            history%limits = [history%limits, limit_type(kind, leg, factor, history%number)]
+        end subroutine note_limit
+
+        !> Is there a limit from which the beam has not landed yet
+        function is_jumping()
+            logical :: is_jumping
+
+            is_jumping = size(history%limits) > 0
+            if (is_jumping) is_jumping = history%limits(size(history%limits))%landing == 0
+        end function is_jumping
+
+        !> Does the last stretch pass the load factor of the limit, and is stable
+        subroutine look_for_landing(way)
+            integer, intent(in) :: way
+            integer :: k
+
+            associate (s => history%stretches(history%number), limit => history%limits(size(history%limits)))
+                if (s%direction /= way .or. s%leg /= limit%leg .or. way*(s%to - limit%factor) < 0.0_wp) return
+                limit%landing = history%number
+                if (at_limit /= at_limit_jump) return
+                s%from = limit%factor
+                do k = limit%stretch + 1, history%number - 1
+                    history%stretches(k)%skipped = .true.
+                end do
+            end associate
+        end subroutine look_for_landing
+
+    end subroutine follow_history
+
+    !> The scheme at the first factor above 0
+    subroutine find_beginning(beam, to, closed, history, error)
+        type(beam_type), intent(in) :: beam
+        real(qp), intent(in) :: to
+        !> Start in, scheme out
+        logical, intent(inout) :: closed(:)
+        type(history_type), intent(inout) :: history
+        type(error_type), allocatable, intent(out) :: error
+        type(beam_type) :: mirrored
+        type(cell_type) :: cell
+        type(outcome_type) :: outcome
+
+        mirrored = beam
+        if (to < 0.0_qp) call reverse_live(mirrored)
+        call find_cell(mirrored, 0.0_qp, abs(to), closed, cell, outcome, error)
+        history%solves = history%solves + cell%solves
+        if (allocated(error)) return
+        if (outcome%status == gapbeam_solved) then
+            closed(:) = cell%closed
+        else
+            history%limits = [limit_type(mechanism, 0, 0.0_wp, 0)]
+            history%ending = mechanism
+        end if
+    end subroutine find_beginning
+
+    !> Let the live loads act the other way
+    subroutine reverse_live(beam)
+        type(beam_type), intent(inout) :: beam
+        integer :: i
+
+        beam%force(2, :) = -beam%force(2, :)
+        beam%couple(2, :) = -beam%couple(2, :)
+        do i = 1, size(beam%links)
+            associate (link => beam%links(i))
+                link%turn_a(2) = -link%turn_a(2)
+                link%turn_b(2) = -link%turn_b(2)
+                link%shear_a(2) = -link%shear_a(2)
+                link%shear_b(2) = -link%shear_b(2)
+            end associate
+        end do
+    end subroutine reverse_live
+
+    !> Are there any dead loads
+    pure function has_dead_loads(beam) result(has)
+        type(beam_type), intent(in) :: beam
+        logical :: has
+        integer :: i
+
+        has = any(abs(beam%force(1, :)) > 0.0_qp) .or. any(abs(beam%couple(1, :)) > 0.0_qp)
+        do i = 1, size(beam%links)
+            associate (link => beam%links(i))
+                has = has .or. link%load_sum(1) > 0.0_qp .or. link%turn_sum(1) > 0.0_qp
+            end associate
+        end do
+    end function has_dead_loads
+
+    !> Where supports are before any load: laws on their first piece, all others closed
+    subroutine find_rest(lowered, closed)
+        type(lowered_type), intent(in) :: lowered
+        logical, intent(out) :: closed(:)
+        integer :: k, last, middle
+
+        k = 1
+        do while (k <= size(closed))
+            last = last_kink(lowered%beam%supports, k)
+            middle = 1
+            if (lowered%model%supports(lowered%normal(k))%side == gapbeam_both) middle = max(1, (last - k + 1)/2)
+            closed(k:last) = .false.
+            closed(k:k + middle - 1) = .true.
+            k = last + 1
+        end do
+    end subroutine find_rest
+
+    !> Laws in double precision
+    pure function rounded(fine, like) result(laws)
+        type(fine_support_type), intent(in) :: fine(:)
+        type(node_support_type), intent(in) :: like(:)
+        type(node_support_type) :: laws(size(fine))
+
+        laws(:) = like
+        laws%stiffness = real(fine%stiffness, wp)
+        laws%before = real(fine%before, wp)
+        laws%contact = real(fine%contact, wp)
+        laws%force = real(fine%force, wp)
+    end function rounded
+
+    !> The laws of a stretch
+    pure function laws_at(lowered, stretch) result(laws)
+        type(lowered_type), intent(in) :: lowered
+        type(stretch_type), intent(in) :: stretch
+        type(node_support_type), allocatable :: laws(:)
+
+        laws = lowered%beam%supports
+        if (allocated(stretch%laws)) laws = stretch%laws
+    end function laws_at
+
+end module gapbeam_history
