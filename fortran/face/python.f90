@@ -125,18 +125,27 @@ subroutine gbsize(beam, sizes, units)
 end subroutine gbsize
 
 ! Which supports of the scene those of the engine are
-subroutine gbnumb(beam, ns, number)
+subroutine gbnumb(beam, ns, number, laws)
     use gapbeam_handle, only: handle_type, handle_of
     implicit none
     integer(8), intent(in) :: beam
     integer, intent(in) :: ns
     ! Number in the scene, from 0; of a law once for every kink
     integer, intent(out) :: number(ns + 1)
+    ! Contact level, force, slope and slope before of every support
+    double precision, intent(out) :: laws(4, ns + 1)
     type(handle_type), pointer :: handle
 
     handle => handle_of(beam)
     number = 0
+    laws = 0.0d0
     number(:ns) = handle%lowered%normal - 1
+    associate (s => handle%lowered%beam%supports)
+        laws(1, :ns) = s%contact
+        laws(2, :ns) = s%force
+        laws(3, :ns) = s%stiffness
+        laws(4, :ns) = s%before
+    end associate
 end subroutine gbnumb
 
 ! What there is along a beam, in the scene's units
@@ -383,14 +392,14 @@ subroutine gbhist(beam, nf, factor, limit, most, sizes, status, message)
 end subroutine gbhist
 
 ! What GBHIST found
-subroutine gbhget(beam, ns, nh, nk, along, about, closed, laws, where, which)
+subroutine gbhget(beam, nl, ns, nh, nk, along, about, closed, laws, where, which, motion)
     use gapbeam_handle, only: handle_type, handle_of
     use gapbeam_history, only: laws_at
     use gapbeam_polyline, only: node_support_type
     implicit none
     integer(8), intent(in) :: beam
-    ! Supports of the engine, stretches and limits, one more than there are
-    integer, intent(in) :: ns, nh, nk
+    ! Links; supports of the engine, stretches and limits, one more than there are
+    integer, intent(in) :: nl, ns, nh, nk
     ! Of every stretch: load factors; leg (0 dead loads, then from 1), direction, index, ways, 1 if passed in a jump
     double precision, intent(out) :: along(2, nh)
     integer, intent(out) :: about(5, nh)
@@ -400,6 +409,8 @@ subroutine gbhget(beam, ns, nh, nk, along, about, closed, laws, where, which)
     ! Of every limit: load factor; kind, leg, stretch before it, stretch of the landing (from 1, 0 none)
     double precision, intent(out) :: where(nk)
     integer, intent(out) :: which(4, nk)
+    ! How the beam moves where the path ended in a mechanism; 0 if it did not
+    double precision, intent(out) :: motion(0:nl)
     type(handle_type), pointer :: handle
     type(node_support_type), allocatable :: now(:)
     integer :: k
@@ -411,6 +422,8 @@ subroutine gbhget(beam, ns, nh, nk, along, about, closed, laws, where, which)
     laws = 0.0d0
     where = 0.0d0
     which = 0
+    motion = 0.0d0
+    if (allocated(handle%history%motion)) motion = handle%history%motion
     do k = 1, nh - 1
         associate (s => handle%history%stretches(k))
             along(:, k) = [s%from, s%to]

@@ -65,6 +65,8 @@ module gapbeam_history
         type(limit_type), allocatable :: limits(:)
         !> How it ended: no_limit at the last factor
         integer :: ending = no_limit
+        !> How the beam moves where it ended in a mechanism, if that is a free motion of rigid parts, shape (0:n)
+        real(wp), allocatable :: motion(:)
         !> Linear solves
         integer :: solves = 0
     end type history_type
@@ -108,9 +110,17 @@ contains
         do leg = 1, size(factors)
             if (.not. abs(factors(leg) - factor) > 0.0_qp) cycle
             call go_leg(beam, leg, factor, real(factors(leg), qp))
-            if (allocated(error) .or. history%ending /= no_limit) return
+            if (allocated(error)) return
+            if (history%ending /= no_limit) exit
             factor = factors(leg)
         end do
+        if (at_limit == at_limit_follow .or. size(history%limits) == 0) return
+        if (is_jumping() .or. at_limit == at_limit_stop) then
+            ! What lies beyond the last limit was only looked at
+            do leg = history%limits(size(history%limits))%stretch + 1, history%number
+                history%stretches(leg)%skipped = .true.
+            end do
+        end if
 
     contains
 
@@ -153,8 +163,9 @@ contains
                     target = way*huge(to)
                 call step_branch(branch, target, way, segment, outcome, error)
                 if (allocated(error)) exit
-                if (abs(segment%to - segment%from) > 0.0_qp .or. direction == turn) then
-                    if (outcome == never_ends .and. direction /= turn) segment%to = segment%from
+                if (outcome == never_ends) then
+                    if (direction == turn) history%motion = real(branch%way%motion, wp)
+                else if (abs(segment%to - segment%from) > 0.0_qp .or. direction == turn) then
                     call add(leg, segment, direction, index, ways, acting, laws_before)
                     if (is_jumping() .and. stable) call look_for_landing(way)
                 end if
@@ -257,6 +268,7 @@ contains
             closed(:) = cell%closed
         else
             history%limits = [limit_type(mechanism, 0, 0.0_wp, 0)]
+            if (allocated(outcome%motion)) history%motion = real(outcome%motion, wp)
             history%ending = mechanism
         end if
     end subroutine find_beginning

@@ -9,6 +9,7 @@ module gapbeam_certificate
     use gapbeam_error, only: error_type, gapbeam_solved
     use gapbeam_element, only: field_type
     use gapbeam_link, only: piece_type, piece_load_type
+    use gapbeam_law, only: has_laws
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: plain_workspace_type => workspace_type, new_plain_workspace => new_workspace, &
         set_plain_loads => set_loads, apply_scheme
@@ -19,7 +20,8 @@ module gapbeam_certificate
     use gapbeam_element_quad, only: fine_field_type => field_type
     use gapbeam_model_quad, only: fine_beam_type => beam_type, softest
     use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type, new_workspace, set_loads
-    use gapbeam_system_quad, only: check_scheme
+    use gapbeam_band_quad, only: band_ok
+    use gapbeam_system_quad, only: solve_scheme, refine_scheme, check_scheme
     use gapbeam_rules_quad, only: complementarity
     use gapbeam_search_quad, only: rule_block
     use gapbeam_scheme_quad, only: find_scheme, outcome_type
@@ -72,14 +74,22 @@ contains
         logical, allocatable :: acting(:), undecided(:)
         real(qp), allocatable :: moment_size(:)
         real(wp) :: moves(5), inside
+        integer :: state, place
 
         allocate (acting(size(closed)))
         acting(:) = closed
         call refine_beam(beam, detail, fine)
         call new_workspace(fine, work)
         call set_loads(fine, real(factor, qp), work)
-        call find_scheme(fine, real(factor, qp), rule_block, acting, work, outcome, error)
-        if (allocated(error) .or. outcome%status /= gapbeam_solved) return
+        if (has_laws(beam%supports)) then
+            ! Of several states the one that is asked about
+            call solve_scheme(fine, acting, work, state, place)
+            if (state /= band_ok) return
+            call refine_scheme(fine, acting, work)
+        else
+            call find_scheme(fine, real(factor, qp), rule_block, acting, work, outcome, error)
+            if (allocated(error) .or. outcome%status /= gapbeam_solved) return
+        end if
         allocate (undecided(size(closed)))
         call find_undecided(fine, real(factor, qp), acting, work, undecided)
         certificate%known = .not. outcome%indifferent

@@ -7,10 +7,11 @@
 !> data move (gapbeam_sensitivity), is a tie: then either state is right, and the support is named (undecided).
 module gapbeam_referee
     use gapbeam_kinds, only: wp, qp
-    use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_memory, gapbeam_indeterminate
+    use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_no_memory, gapbeam_indeterminate, &
+        gapbeam_not_converged
     use gapbeam_memory, only: reserve_memory, for_refining
     use gapbeam_link, only: piece_type, piece_load_type
-    use gapbeam_law, only: always_closed
+    use gapbeam_law, only: always_closed, has_laws
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, set_loads
     use gapbeam_rules, only: find_doubtful, find_wrong, first_width
@@ -26,6 +27,7 @@ module gapbeam_referee
         set_fine_loads => set_loads
     use gapbeam_law_quad, only: is_watched_in, find_margins
     use gapbeam_sensitivity_quad, only: sensitivity_type, prepare_sensitivity, movement_of_support
+    use gapbeam_system_quad, only: solve_fine_scheme => solve_scheme, refine_fine_scheme => refine_scheme
     use gapbeam_search_quad, only: rule_block
     use gapbeam_scheme_quad, only: find_fine_scheme => find_scheme, fine_outcome_type => outcome_type
     implicit none
@@ -73,6 +75,12 @@ contains
         if (rule == rule_given) then
             call solve_given(beam, closed, undecided, work, outcome)
             if (allocated(outcome%undecided)) return
+            if (has_laws(beam%supports)) then
+                ! Another scheme may be right as well, but it is not the one asked for
+                call refer_given(beam, detail, factor, closed, undecided, work, outcome, error)
+                if (.not. allocated(error)) call move_alloc(undecided, outcome%undecided)
+                return
+            end if
         end if
         call find_scheme(beam, factor, merge(rule_block, rule, rule == rule_given), closed, work, outcome, error)
         if (allocated(error)) then
@@ -128,6 +136,54 @@ contains
         if (size(work%reaction) > 0) lost = maxval(work%reaction_error) > worst_digits*maxval(abs(work%reaction))
     end function digits_lost
 
+    !> A scheme that is known, in quadruple precision
+    subroutine refer_given(beam, detail, factor, closed, undecided, work, outcome, error)
+        !> As for refer
+        type(beam_type), intent(in) :: beam
+        type(detail_type), intent(in) :: detail
+        real(wp), intent(in) :: factor
+        logical, intent(in) :: closed(:)
+        logical, intent(out) :: undecided(:)
+        type(workspace_type), intent(inout) :: work
+        type(outcome_type), intent(inout) :: outcome
+        type(error_type), allocatable, intent(out) :: error
+        type(fine_beam_type) :: fine
+        type(fine_workspace_type) :: fine_work
+        integer :: state, place
+
+        undecided(:) = .false.
+        call reserve_for(for_refining, beam, detail, error)
+        if (allocated(error)) return
+        call refine_beam(beam, detail, fine)
+        call new_fine_workspace(fine, fine_work)
+        call set_fine_loads(fine, real(factor, qp), fine_work)
+        call solve_fine_scheme(fine, closed, fine_work, state, place)
+        work%solves = work%solves + fine_work%solves
+        if (state /= band_ok) then
+            call fatal_error(error, gapbeam_not_converged, "the beam is held by so little here that its state is not unique")
+            return
+        end if
+        call refine_fine_scheme(fine, closed, fine_work)
+        outcome = outcome_type()
+        call find_undecided(fine, real(factor, qp), closed, fine_work, undecided)
+        call take_rounded(fine_work, work)
+    end subroutine refer_given
+
+    !> The solution in quadruple precision, rounded once
+    pure subroutine take_rounded(fine_work, work)
+        type(fine_workspace_type), intent(in) :: fine_work
+        type(workspace_type), intent(inout) :: work
+
+        associate (a => fine_work%answers)
+            work%answers%deflection = real(a%deflection, wp)
+            work%answers%moment_left = real(a%moment_left, wp)
+            work%answers%moment_right = real(a%moment_right, wp)
+        end associate
+        work%shear = real(fine_work%shear, wp)
+        work%reaction = real(fine_work%reaction, wp)
+        work%method = fine_work%method
+    end subroutine take_rounded
+
     !> Is there the memory for what is to be done to a beam
     subroutine reserve_for(purpose, beam, detail, error)
         !> One of the purposes of gapbeam_memory
@@ -177,7 +233,6 @@ contains
             call find_fine_scheme(fine, real(factor, qp), rule_block, closed, fine_work, found, error)
             work%solves = work%solves + fine_work%solves
         end do
-        work%method = fine_work%method
         if (allocated(error)) return
         outcome = outcome_type(status=found%status, indifferent=found%indifferent)
         if (found%status /= gapbeam_solved) then
@@ -186,13 +241,7 @@ contains
         end if
         call find_undecided(fine, real(factor, qp), closed, fine_work, undecided)
         if (.not. outcome%indifferent) outcome%indifferent = fine_held_by_ties(fine, closed, undecided)
-        associate (a => fine_work%answers)
-            work%answers%deflection = real(a%deflection, wp)
-            work%answers%moment_left = real(a%moment_left, wp)
-            work%answers%moment_right = real(a%moment_right, wp)
-        end associate
-        work%shear = real(fine_work%shear, wp)
-        work%reaction = real(fine_work%reaction, wp)
+        call take_rounded(fine_work, work)
     end subroutine refer
 
     !> Did a search end at a rigid stretch over more rigid supports than statics can tell apart

@@ -137,6 +137,44 @@ class Stretch:
     nodes: int
 
 
+@dataclass(frozen=True, slots=True)
+class History:
+    """The path of the load through factors in turn, stretch by stretch.
+
+    Attributes
+    ----------
+    along : numpy.ndarray
+        Load factors at both ends of the stretches, n by 2.
+    about : numpy.ndarray of int
+        Leg (0 while the dead loads are put on, then from 1), direction (1 rising, -1 falling, 0 turning at constant load), number
+        of ways in which the beam gives way by itself, ways on at the beginning, 1 if passed in a jump; n by 5.
+    closed : numpy.ndarray of int
+        Schemes, n by supports of the engine.
+    kinks : numpy.ndarray
+        The laws as they have become, n by 4 by supports of the engine, as `Beam.kinks`.
+    limit_factors : numpy.ndarray
+        Where the load could not go on.
+    limits : numpy.ndarray of int
+        Kind (as an index into ENDINGS), leg, last stretch before it and stretch of the landing, both from 1 (0: none); m by 4.
+    ending : str
+        How it ended: one of ENDINGS; empty at the last factor.
+    motion : numpy.ndarray or None
+        Displacements of the nodes in the mechanism in which it ended.
+    solves : int
+        Linear solves.
+    """
+
+    along: np.ndarray
+    about: np.ndarray
+    closed: np.ndarray
+    kinks: np.ndarray
+    limit_factors: np.ndarray
+    limits: np.ndarray
+    ending: str
+    motion: np.ndarray | None
+    solves: int
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Places(Record):
     """What there is along a beam, in the scene's units.

@@ -10,7 +10,7 @@ import numpy as np
 from ..base.errors import Status, check_status
 from ..base.records import read_only
 from . import calls as _engine  # the compiled layer itself, but for Ctrl-C
-from .arrays import Columns, Places, Solution, Stretch
+from .arrays import Columns, History, Places, Solution, Stretch
 from .units import Units
 
 SOLVED, NO_EQUILIBRIUM = Status.SOLVED, Status.NO_EQUILIBRIUM
@@ -21,6 +21,9 @@ GIVEN = "given"
 """Instead of a rule: the scheme is known, as along a path."""
 RULE_GIVEN = 2
 """Its code, as in gapbeam_referee."""
+AT_LIMIT = {"stop": 0, "jump": 1, "follow": 2}
+ENDINGS = ("", "limit", "bifurcation", "mechanism", "ended", "cut off")
+"""Ways to go on at a limit and how a path ends, as in gapbeam_history."""
 OPENS, CLOSES, TURNS = 0, 1, 3
 """Events, as in gapbeam_path."""
 METHODS = ("block tridiagonal mixed", "three-moment", "mixed with pivoting")
@@ -119,16 +122,37 @@ class Beam:
         beam._take(handle)
         return beam
 
+    def with_kinks(self, kinks: np.ndarray) -> Beam:
+        """Make another beam: the same with the laws of its supports as they have become.
+
+        Parameters
+        ----------
+        kinks : numpy.ndarray
+            As the attribute.
+
+        Returns
+        -------
+        Beam
+        """
+        handle, status, message = _engine.gblaws(self.handle, np.column_stack((kinks, np.zeros(4))))
+        check_status(status, message)
+        beam = object.__new__(type(self))
+        beam.columns, beam._factors = self.columns, self._factors
+        beam._take(handle)
+        return beam
+
     def __reduce__(self) -> tuple:
         """Pickle by what it is made of."""
-        return _made_of, (self.columns, self._factors)
+        kinks = self.kinks if self.has_laws else None
+        return _made_of, (self.columns, self._factors, kinks)
 
     def __eq__(self, other: object) -> bool:
         """Whether they are made of the same numbers."""
         if not isinstance(other, Beam):
             return NotImplemented
         same = self.columns == other.columns and (self._factors is None) == (other._factors is None)
-        return self is other or (same and (self._factors is None or np.array_equal(self._factors, other._factors)))
+        same = same and (self._factors is None or np.array_equal(self._factors, other._factors))
+        return self is other or (same and (not self.has_laws or np.array_equal(self.kinks, other.kinks)))
 
     @cached_property
     def places(self) -> Places:
@@ -146,9 +170,19 @@ class Beam:
         return read_only(self.places.point_x[self.places.node_points])
 
     @cached_property
+    def _numbered(self) -> tuple[np.ndarray, np.ndarray]:
+        number, laws = _engine.gbnumb(self.handle, self.supports)
+        return read_only(number[:-1]), read_only(laws[:, :-1])
+
+    @property
     def numbers(self) -> np.ndarray:
         """Number in the scene of every support of the engine: those across the beam that can carry, a law once a kink."""
-        return read_only(_engine.gbnumb(self.handle, self.supports)[:-1])
+        return self._numbered[0]
+
+    @property
+    def kinks(self) -> np.ndarray:
+        """Contact level, force, slope and slope before (rows) of every support of the engine, in its units."""
+        return self._numbered[1]
 
     @cached_property
     def laws(self) -> list[tuple[int, int, int]]:
@@ -235,6 +269,38 @@ class Beam:
         check_status(status, message, f"at load factor {factor:.15g}: ")
         events = factors[:count], which[:count] - 1, what[:count]
         return Stretch(status, factor, closed[:m], marginal[:m], *events, motion, solves, nodes)
+
+    def follow_history(self, factors: np.ndarray, at_limit: str, most: int) -> History:
+        """Put on the dead loads and go through load factors in turn, by the path itself.
+
+        Parameters
+        ----------
+        factors : numpy.ndarray
+            Load factors.
+        at_limit : {"stop", "jump", "follow"}
+            What to do where the load cannot go on.
+        most : int
+            Stretches after which the path is cut off.
+
+        Returns
+        -------
+        History
+
+        Raises
+        ------
+        EngineError
+            More kinks at one factor than can be tried, or numbers out of range.
+        """
+        sizes, status, message = _engine.gbhist(self.handle, factors, AT_LIMIT[at_limit], most)
+        check_status(status, message)
+        count, limits, ending, solves = sizes.tolist()
+        along, about, closed, kinks, where, which, motion = _engine.gbhget(
+            self.handle, self.links, self.supports + 1, count + 1, limits + 1
+        )
+        return History(
+            along.T[:count], about.T[:count], closed.T[:count, :-1], np.moveaxis(kinks, 2, 0)[:count, :, :-1], where[:limits],
+            which.T[:limits], ENDINGS[ending], motion if motion.any() else None, solves,
+        )  # fmt: skip
 
     def recover(self, factor: float, solution: Solution) -> np.ndarray:
         """Fields at the left end of every piece.
@@ -420,10 +486,11 @@ class Beam:
         return (*(values[:cases] for values in found), solves[:cases], status[:cases])
 
 
-def _made_of(columns: Columns, factors: np.ndarray | None) -> Beam:
+def _made_of(columns: Columns, factors: np.ndarray | None, kinks: np.ndarray | None) -> Beam:
     """Make a beam that was pickled again."""
     beam = Beam(columns)
-    return beam if factors is None else beam.with_factors(factors)
+    beam = beam if factors is None else beam.with_factors(factors)
+    return beam if kinks is None or np.array_equal(kinks, beam.kinks) else beam.with_kinks(kinks)
 
 
 def _state(factor: float, solution: Solution) -> tuple[Any, ...]:

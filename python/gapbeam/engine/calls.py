@@ -162,11 +162,14 @@ def parts(count: int) -> Iterator[slice]:
 
 gbsize = _engine.gbsize
 gbnumb = _engine.gbnumb
+gbhget = _engine.gbhget
 gbmake = interruptible(_engine.gbmake, lambda span, hinge, section, codes, support, *_: span.shape[1] + support.shape[1])
 gbcopy = interruptible(_engine.gbcopy)
 gbplac = interruptible(_engine.gbplac, lambda beam, pieces, *_: pieces)
 gbsolv = interruptible(_engine.gbsolv, lambda beam, links, *_: links)
 gbpath = interruptible(_engine.gbpath)
+gbhist = interruptible(_engine.gbhist)
+gblaws = interruptible(_engine.gblaws)
 gbreco = interruptible(_engine.gbreco, lambda beam, pieces, *_: pieces)
 gbcert = interruptible(_engine.gbcert, lambda beam, factor, closed, w, *_: 3 * len(w))
 gbfind = interruptible(_engine.gbfind, lambda beam, x, *_: len(x))

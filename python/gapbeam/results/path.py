@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..engine.arrays import Stretch
-from ..engine.beam import CLOSES, NO_EQUILIBRIUM, OPENS, TURNS
+from ..engine.beam import CLOSES, NO_EQUILIBRIUM, OPENS, TURNS, Beam
+from .kinks import pieces, what_happens
 
 if TYPE_CHECKING:
     from .result import Result
@@ -32,7 +33,8 @@ class Event:
         Its place.
     event : str
         ``opens``, ``closes``, or ``turns``: the beam has lost its hold and turns, at constant load, until this support
-        holds it. What opens and closes with that is listed beside it, at the same factor.
+        holds it. What opens and closes with that is listed beside it, at the same factor. Of a support with a law also
+        ``yields``, ``hardens``, ``softens``, ``breaks`` and ``unloads``.
     """
 
     factor: float
@@ -75,16 +77,18 @@ class Path:
         Time of these.
     """
 
-    def __init__(self, closed: np.ndarray, pieces: list[Stretch], solves: int, seconds: float):
+    def __init__(self, beam: Beam, closed: np.ndarray, stretches: list[Stretch], solves: int, seconds: float):
+        self._beam = beam
         self._closed = closed
-        self._factors = np.concatenate([piece.factors for piece in pieces])
-        self._supports = np.concatenate([piece.supports for piece in pieces])
-        self._events = np.concatenate([piece.events for piece in pieces])
-        self.solves = solves + sum(piece.solves for piece in pieces)
-        self.nodes = sum(piece.nodes for piece in pieces)
+        self._factors = np.concatenate([piece.factors for piece in stretches])
+        self._supports = np.concatenate([piece.supports for piece in stretches])
+        self._events = np.concatenate([piece.events for piece in stretches])
+        self.solves = solves + sum(piece.solves for piece in stretches)
+        self.nodes = sum(piece.nodes for piece in stretches)
         self.seconds = seconds
         self.events: list[Event] = []
-        self.segments = self._between(pieces[-1].factor)
+        self.segments = self._between(stretches[-1].factor)
+        self._name_events()
 
     def _between(self, end: float) -> list[Segment]:
         counts = np.flatnonzero(np.append(np.diff(self._factors) > 0.0, True)) + 1 if len(self._factors) else []
@@ -129,21 +133,44 @@ class Path:
         """
         return self.closed([segment for segment in self.segments if segment.start <= max(factor, 0.0)][-1])
 
-    def name_events(self, result: Result) -> None:
-        """List the events.
+    def find(self, factor: float) -> Segment | None:
+        """Find the segment that a load factor belongs to.
 
         Parameters
         ----------
-        result : Result
-            Knows where the supports are.
+        factor : float
+            Load factor.
+
+        Returns
+        -------
+        Segment or None
+            The one that begins there, where two meet; None if the path does not pass it.
         """
-        beam = result.beam
+        there = [segment for segment in self.segments if segment.start <= factor <= segment.stop]
+        return there[-1] if there else None
+
+    def beam(self, _: Segment) -> Beam:
+        """Give the beam as it is on a segment: always the same."""
+        return self._beam
+
+    def _name_events(self) -> None:
+        """List the events."""
+        beam = self._beam
+        laws = {k for k, *_ in beam.laws} if beam.has_laws else set()
+        closed = self._closed.copy()
         places, numbers = beam.node_x[beam.places.support_nodes].tolist(), beam.numbers.tolist()
         columns = (self._factors.tolist(), self._supports.tolist(), self._events.tolist())
         for factor, k, event in zip(*columns, strict=True):
             # What changes at factor 0 is no event, unless the beam turns there
-            if factor > 0.0 or event == TURNS:
-                self.events.append(Event(factor, numbers[k], places[k], NAMES[event]))
+            name = NAMES[event]
+            if event != TURNS:
+                if numbers[k] in laws:
+                    before = pieces(beam, closed, beam.kinks)[numbers[k]]
+                closed[k] ^= 1
+                if numbers[k] in laws:
+                    name = what_happens(before, pieces(beam, closed, beam.kinks)[numbers[k]])
+            if (factor > 0.0 or event == TURNS) and name:
+                self.events.append(Event(factor, numbers[k], places[k], name))
 
 
 def follow(result: Result, rule: str, closed: np.ndarray) -> Path | None:
@@ -173,14 +200,12 @@ def follow(result: Result, rule: str, closed: np.ndarray) -> Path | None:
     if solution.status == NO_EQUILIBRIUM:
         result.refuse("at load factor 0", solution.motion)
         return None
-    factor, scheme, marginal, pieces = 0.0, solution.closed, solution.undecided, []
+    factor, scheme, marginal, stretches = 0.0, solution.closed, solution.undecided, []
     while factor < 1.0:
         piece = beam.follow(factor, scheme, marginal, EVENTS_AT_A_TIME)
-        pieces.append(piece)
+        stretches.append(piece)
         factor, scheme, marginal = piece.factor, piece.closed, piece.marginal
         if piece.status == NO_EQUILIBRIUM:
             result.refuse(f"above load factor {factor:.16g}", piece.motion)
             break
-    path = Path(solution.closed, pieces, solution.solves, perf_counter() - begin)
-    path.name_events(result)
-    return path
+    return Path(beam, solution.closed, stretches, solution.solves, perf_counter() - begin)

@@ -25,6 +25,7 @@ from .step import Step, solve_step
 from .steps import LoadSteps, Steps
 
 if TYPE_CHECKING:
+    from .branches import BranchPath, Limit
     from .path import Event, Path, Segment
 
 BYTES_PER_PLACE = 120
@@ -120,16 +121,16 @@ class Result(Pickled):
     scene : Scene
         What was solved.
     status : str
-        ``solved`` or ``no-equilibrium``.
+        ``solved``, ``no-equilibrium``, or ``limit-load``: supports soften or yield, and the load cannot grow to the end.
     reason : str or None
-        Why there is no equilibrium.
+        Why there is no equilibrium, or which limit there is.
     motion : list of (float, float) or None
         The free motion then: x and displacement (positive downward, largest 1), straight lines between.
     steps : sequence of Step
         The load steps up to there; following events, the states at every event and at the end. What is kept of a step is
         its scheme; its values are solved for when it is looked at.
-    path : Path or None
-        Following events, the schemes along the load.
+    path : Path, BranchPath or None
+        Following events, the schemes along the load; with supports whose state depends on it always.
     """
 
     __hash__ = None
@@ -142,7 +143,7 @@ class Result(Pickled):
         self.steps: Steps = LoadSteps(beam, rule, np.ones(beam.supports, dtype=np.int32), 0)
         self.beam = beam
         self.rule = rule
-        self.path: Path | None = None
+        self.path: Path | BranchPath | None = None
 
     def __eq__(self, other: object) -> bool:
         """Whether scene, outcome, events and all steps are equal."""
@@ -166,6 +167,11 @@ class Result(Pickled):
     def segments(self) -> list[Segment]:
         """The stretches between the events, following events."""
         return [] if self.path is None else self.path.segments
+
+    @property
+    def limits(self) -> list[Limit]:
+        """Where the load could not go on, with supports that soften or yield."""
+        return getattr(self.path, "limits", [])
 
     @property
     def solves(self) -> int:
@@ -194,6 +200,30 @@ class Result(Pickled):
         self.reason = f"no equilibrium {where}: {describe_motion(self.beam, motion)}"
         self.motion = list(zip(self.beam.node_x.tolist(), motion.tolist(), strict=True))
 
+    def refuse_limit(self, path: BranchPath) -> None:
+        """Note that the load cannot go to its last factor.
+
+        Parameters
+        ----------
+        path : BranchPath
+            As far as it goes.
+        """
+        self.path = path
+        limit = path.limits[0]
+        self.status = "limit-load"
+        what = {
+            "limit": "the load cannot grow beyond load factor",
+            "bifurcation": "several ways go on, none of them stable, at load factor",
+            "mechanism": "nothing more resists the load beyond load factor",
+        }[limit.kind]
+        causes = ", ".join(f"support {support} {event}" for support, event in limit.causes)
+        self.reason = f"limit load: {what} {limit.factor:.12g}" + (f", where {causes}" if causes else "")
+        if limit.leg < 0:
+            self.reason += ", while the dead loads are put on (they count from 0 to 1)"
+        if path.motion is not None:
+            self.motion = list(zip(self.beam.node_x.tolist(), path.motion.tolist(), strict=True))
+            self.reason += f"; {describe_motion(self.beam, path.motion)}"
+
     def state(self, factor: float) -> Step:
         """Solve the exact state at any load factor.
 
@@ -213,9 +243,13 @@ class Result(Pickled):
             Where there is no equilibrium at that factor, or it is no finite number.
         """
         factor = finite("factor", factor)
+        segment = self.path.find(factor) if self.path is not None else None
+        if segment is not None:
+            return Step(self.path.beam(segment), factor, GIVEN, self.path.closed(segment))
+        if self.beam.depends_on_path:
+            raise ValueError(f"factor: the path of the load does not come to load factor {factor:g}")
         closed = self.path.at(factor) if self.segments else self.steps.nearest(factor)
-        known = self.segments and 0.0 <= factor <= self.segments[-1].stop
-        step = solve_step(self.beam, factor, GIVEN if known else self.rule, closed)
+        step = solve_step(self.beam, factor, self.rule, closed)
         if isinstance(step, Solution):
             raise ValueError(f"factor: there is no equilibrium at load factor {factor:g}")
         return step

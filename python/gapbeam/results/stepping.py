@@ -14,6 +14,7 @@ from ..scene.reading import read_beam
 from ..scene.structs import Scene
 from ..scene.wording import shown
 from .arguments import scheme
+from .branches import follow_branches
 from .path import follow
 from .result import Result
 from .steps import LoadSteps, PathSteps
@@ -64,6 +65,8 @@ def solve(
     rule = choose_rule(scene, rule)
     closed = _starting_scheme(beam, start)
     result = Result(scene, beam, rule)
+    if beam.depends_on_path or scene.analysis.history != [1.0]:
+        return _on_path(result)
     if scene.analysis.follow == "events":
         result.path = follow(result, rule, closed)
         if result.segments:
@@ -74,6 +77,20 @@ def solve(
     if fallen is not None:
         factor, motion = fallen
         result.refuse(f"at load factor {factor:g}", motion)
+    return result
+
+
+def _on_path(result: Result) -> Result:
+    """Solve a scene whose state depends on the way of the load."""
+    analysis = result.scene.analysis
+    by_steps = analysis.follow == "steps"
+    if by_steps and analysis.at_limit == "follow":
+        raise SceneError("analysis.at_limit", '"follow" needs follow = "events": with falling load there is no state by steps')
+    if by_steps and analysis.history != [1.0]:
+        raise SceneError("analysis.history", 'a history needs follow = "events"')
+    result.path = follow_branches(result)
+    factors = [(k + 1) / analysis.steps for k in range(analysis.steps)] if by_steps else None
+    result.steps = PathSteps(result.beam, result.rule, result.path, factors)
     return result
 
 

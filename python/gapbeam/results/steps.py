@@ -15,7 +15,8 @@ from ..engine.beam import GIVEN, Beam
 from .step import Known, Step, name_states, solve_step
 
 if TYPE_CHECKING:
-    from .path import Path
+    from .branches import BranchPath
+    from .path import Path, Segment
 
 
 class Steps(Pickled, Sequence[Step]):
@@ -223,31 +224,52 @@ class LoadSteps(Steps):
 
 
 class PathSteps(Steps):
-    """The states at every event and at the end of a path.
+    """The states at every event and at the end of a path; or at given load factors on it.
 
     Parameters
     ----------
     beam, rule
         As for `Steps`.
-    path : Path
+    path : Path or BranchPath
         Knows the schemes.
+    factors : sequence of float, optional
+        Load factors, as far as the path comes to them in a stable state.
     """
 
-    def __init__(self, beam: Beam, rule: str, path: Path):
+    def __init__(self, beam: Beam, rule: str, path: Path | BranchPath, factors: Sequence[float] | None = None):
         super().__init__(beam, rule)
         self._path = path
+        if factors is None:
+            self._at = [(segment.stop, segment) for segment in path.segments]
+        else:
+            found = ((factor, path.find(factor)) for factor in factors)
+            self._at = [(factor, segment) for factor, segment in found if segment is not None]
 
     def __len__(self) -> int:
-        """Count the stretches between events."""
-        return len(self._path.segments)
+        """Count the states."""
+        return len(self._at)
 
     def factor(self, k: int) -> float:
         """Give the load factor of a step, as in `Steps`."""
-        return self._path.segments[k].stop
+        return self._at[k][0]
+
+    def segment(self, k: int) -> Segment:
+        """Give the segment of the path on which a step lies.
+
+        Parameters
+        ----------
+        k : int
+            Number of the step, from 0.
+
+        Returns
+        -------
+        Segment
+        """
+        return self._at[k][1]
 
     def closed(self, k: int) -> np.ndarray:
         """Give the working scheme of a step, as in `Steps`."""
-        return read_only(self._path.closed(self._path.segments[k]))
+        return read_only(self._path.closed(self.segment(k)))
 
     def _make(self, k: int) -> Step:
-        return Step(self._beam, self.factor(k), GIVEN, self.closed(k))
+        return Step(self._path.beam(self.segment(k)), self.factor(k), GIVEN, self.closed(k))
