@@ -146,6 +146,10 @@ class BranchPath(Pickled):
                 at_start = factor == 0.0 and self._leg_begins(k) and leg == 1
                 found += [Event(factor, i, places[i], what) for i, what in changes if not at_start]
             before = k
+        if passed and self._history.limits.size:
+            # The path ends at a limit: what happens there is all that happens
+            limit = self.limits[-1]
+            found += [Event(limit.factor, i, places[i], what) for i, what in limit.causes]
         return found
 
     def _leg_begins(self, k: int) -> bool:

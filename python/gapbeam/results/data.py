@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import Any
 
+from .branches import BranchPath
 from .result import Fields, Result
+from .step import Step
 
 
 def result_data(
@@ -46,6 +48,8 @@ def result_data(
     if result.status != "solved":
         data["reason"] = result.reason
         data["motion"] = None if result.motion is None else [list(pair) for pair in result.motion]
+    if result.limits:
+        data["limit"] = limit_data(result)
     if scene.analysis.follow == "events":
         data["events"] = [
             {"factor": e.factor, "support": e.support, "x": e.x, "event": e.event} for e in result.events
@@ -56,6 +60,64 @@ def result_data(
             name: {which: list(pair) for which, pair in row.items()} for name, row in result.extremes().items()
         }
     return data
+
+
+def limit_data(result: Result) -> dict[str, Any]:
+    """Give the first limit of the load as plain data.
+
+    Parameters
+    ----------
+    result : Result
+        One with a limit.
+
+    Returns
+    -------
+    dict
+        In the form of the JSON output.
+    """
+    limit = result.limits[0]
+    landing = limit.landing
+    x = result.scene.positions(result.scene.supports).tolist()
+    return {
+        "factor": limit.factor,
+        "kind": limit.kind,
+        "landing": None if landing is None else {"factor": landing.factor, "supports": support_data(result, landing, x)},
+    }
+
+
+def support_data(result: Result, step: Step, x: list[float]) -> list[dict[str, Any]]:
+    """Give the supports of a state as plain data.
+
+    Parameters
+    ----------
+    result : Result
+        What `gapbeam.solve` returned.
+    step : Step
+        The state.
+    x : list of float
+        Places of the supports.
+
+    Returns
+    -------
+    list of dict
+    """
+    columns = (step.deflection, step.reaction, step.opening, step.couple, step.set)
+    return [
+        {
+            "x": x[k],
+            "side": support.side,
+            "direction": support.direction,
+            "deflection": w,
+            "reaction": reaction,
+            "couple": couple,
+            "state": step.state[k],
+            "opening": opening,
+            **({"set": left} if support.unloading == "plastic" else {}),
+        }
+        for k, (support, w, reaction, opening, couple, left) in enumerate(
+            zip(result.scene.supports, *(column.tolist() for column in columns), strict=True)
+        )
+    ]
 
 
 def step_data(result: Result) -> Iterator[dict[str, Any]]:
@@ -71,30 +133,19 @@ def step_data(result: Result) -> Iterator[dict[str, Any]]:
     dict
         A step in the form of the JSON output.
     """
-    scene = result.scene
-    x = scene.positions(scene.supports).tolist()
-    for step in result.steps:
-        columns = (step.deflection, step.reaction, step.opening, step.couple)
-        rows = [
-            {
-                "x": x[k],
-                "side": support.side,
-                "direction": support.direction,
-                "deflection": w,
-                "reaction": reaction,
-                "couple": couple,
-                "state": step.state[k],
-                "opening": opening,
-            }
-            for k, (support, w, reaction, opening, couple) in enumerate(
-                zip(scene.supports, *(column.tolist() for column in columns), strict=True)
-            )
-        ]
+    x = result.scene.positions(result.scene.supports).tolist()
+    on_path = result.steps if isinstance(result.path, BranchPath) else None
+    for k, step in enumerate(result.steps):
+        where = {}
+        if on_path is not None:
+            segment = on_path.segment(k)
+            where = {"path": segment.path - abs(segment.stop - step.factor), "stable": segment.stable}
         yield {
             "factor": step.factor,
+            **where,
             "solves": step.solves,
             "seconds": step.seconds,
-            "supports": rows,
+            "supports": support_data(result, step, x),
             "undecided": list(step.undecided),
             "indifferent": step.indifferent,
             "certificate": step.certificate,

@@ -11,11 +11,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..base.records import Pickled
+from ..base.records import Pickled, read_only
 from ..engine.arrays import Solution
 from ..engine.beam import SOLVED, Beam
-from ..engine.units import bound_in_scene
+from ..engine.units import bound_in_scene, scaled
 
+PLASTIC = 1
+"""Unloading, as in gapbeam_scene."""
 BOUNDED = ("deflection", "rotation", "moment", "shear", "reaction")
 """What has error bounds."""
 
@@ -111,6 +113,22 @@ class Step(Pickled):
     def couple(self) -> np.ndarray:
         """Couple of each support on the beam, positive clockwise; a rotational restraint acts at open supports too."""
         return self.solution.at_supports[3]
+
+    @cached_property
+    def set(self) -> np.ndarray:
+        """Permanent set of each support with plastic unloading (length, in the direction in which it gives way), else 0."""
+        beam = self._beam
+        found = np.zeros(beam.scene_supports)
+        which = np.flatnonzero(beam.columns.support_codes[3, :-1] == PLASTIC)
+        if len(which):
+            first = np.searchsorted(beam.numbers, which)
+            side, (_, gap, settlement) = beam.sides[which], beam.columns.support[1:4, which]
+            contact = scaled(beam.kinks[0, first], beam.units.deflection)
+            slope = scaled(beam.kinks[2, first], beam.units.force - beam.units.deflection)
+            yielded = self.closed[first] + self.closed[np.minimum(first + 1, len(self.closed) - 1)] > 1
+            now = np.where(yielded, self.deflection[which] - self.reaction[which] / slope, contact)
+            found[which] = side * (now - settlement) - gap
+        return read_only(found + 0.0)
 
     @cached_property
     def state(self) -> tuple[str, ...]:
