@@ -60,11 +60,12 @@ class Curve:
         u, v = self.pieces[k][1]
         return v / u if u else math.copysign(math.inf, v)
 
-    def find(self, d):
-        """A place with displacement d (the first one along the curve)."""
-        for k, ((d0, _), (u, _)) in enumerate(self.pieces):
-            t = (d - d0) / u if u else (ZERO if d == d0 else None)
-            if t is not None and (t <= 0 or k > 0) and (t >= 0 or k == 0) and (t <= 1 or k == self.last):
+    def find(self, d, r=None):
+        """The first place along the curve with displacement d (and push r, if given)."""
+        for k, ((d0, r0), (u, v)) in enumerate(self.pieces):
+            t = (d - d0) / u if u else ZERO if r is None else (r - r0) / v
+            fits = d0 + t * u == d and (r is None or r0 + t * v == r)
+            if fits and (t <= 0 or k > 0) and (t >= 0 or k == 0) and (t <= 1 or k in (0, self.last)):
                 return k, t
         raise ValueError(f"the curve does not reach {d}")
 
@@ -135,6 +136,10 @@ class Columns:
             return Columns((*self.steps, (None, column, ())))
         p = left[0]
         return Columns((*self.steps, (p, column, [(row, column[row] / column[p]) for row in left[1:]])))
+
+    def solve(self, right):
+        """The combination of the columns that gives `right`."""
+        return self.add([-x for x in right]).null_lines()[0][:-1]
 
     def null_lines(self):
         """Basis of the null space."""

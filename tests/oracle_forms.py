@@ -123,7 +123,6 @@ class Reading:
                 total += max(abs(Fraction(v)) for v in q) * (load["end"] - load["start"])
         return total
 
-
     @cached_property
     def bodies(self):
         """The rigid bodies between hinges, from left to right."""

@@ -10,7 +10,11 @@ Conventions where the documents leave the choice open:
   plus one for every vertical drop that is being passed; `drops` says how many these are.
 * Of several ways on: index 0 with the load rising first; then the least index; then the load rising before standing
   still before falling; then the way on which the first of the supports at a kink (order of the scene) goes forward.
-  At the beginning of a leg ways with a falling load come last.
+  At the beginning of a leg ways with a falling load come last, and are no ways at all where they are stable (they
+  belong to the reversed load).
+* Where a whole family of motions is possible at once ("loose") and no stable way with rising load leads on, the path
+  goes on from the state just above the factor, if there is exactly one of index 0 (in all cells, compared as pairs of
+  value and rate); the motion between is a segment without a way.
 """
 
 from dataclasses import dataclass, field
@@ -106,13 +110,20 @@ class Special:
 
 @dataclass
 class Path:
-    """A path; `status` is "solved", "ray" (load falling without end), "mechanism", "end", "loose" or "cycle"."""
+    """A path.
+
+    Its `status` is "solved", "ray" (load falling without end), "mechanism", "end", "loose" or "cycle".
+
+    `end` is the state at factor 1 of the last leg that got there. `loose_points` counts kinks with cells of several
+    directions ("loose": where no stable way with rising load led on, so the path stops without an answer).
+    """
 
     problem: Problem = field(repr=False)
     status: str = "solved"
     segments: list = field(default_factory=list)
     specials: list = field(default_factory=list)
     loose_points: int = 0
+    end: State | None = None
 
     @property
     def limits(self):
@@ -132,7 +143,7 @@ class Path:
 def crossing(problem, segment, factor):
     """State on a segment at a load factor, or None."""
     a, b, way = segment.start, segment.end, segment.way
-    if way.rate == 0:
+    if way is None or way.rate == 0:
         return a if a.factor == factor else None
     s = (factor - a.factor) / way.rate
     if s < 0 or (b is not None and (factor - b.factor) * way.rate > 0):
@@ -177,20 +188,15 @@ def states(scene, factor, dead=ONE):
     problem = scene if isinstance(scene, Problem) else Problem(scene)
     load = [dead * a + Fraction(factor) * b for a, b in zip(*problem.g, strict=True)]
     curves = problem.curves
-    choices = [[(k, ZERO, 0) for k in range(len(curve.pieces))] for curve in curves]
     found, singular = {}, 0
-    for picked, columns in problem.cells(choices, curves):
+    for picked, columns in problem.cells(every_piece(curves), curves):
         chosen = [picked[i][0] for i in range(len(curves))]
         if any(pivot is None for pivot, _, _ in columns.steps):
             singular += 1
             continue
-        rest = list(load)
-        for i, (curve, k) in enumerate(zip(curves, chosen, strict=True)):
-            d, r = curve.pieces[k][0]
-            rest = [x - d * p[i] - r * q[i] for x, p, q in zip(rest, problem.P, problem.Q, strict=True)]
-        line = columns.add([-x for x in rest]).null_lines()[0]
-        places = [(picked[i][0], t) for i, t in sorted(zip(picked, line[:-1], strict=True))]
-        if all(inside(curve, place) for curve, place in zip(curves, places, strict=True)):
+        values = in_order(picked, columns.solve(offset(problem, chosen, load)))
+        places = list(zip(chosen, values, strict=True))
+        if all(map(inside, curves, places)):
             index, null, drops = problem.inertia(chosen)
             state = make_state(problem, curves, places, Fraction(factor), 1)
             state.index, state.drops, state.null = index, drops, null
@@ -198,10 +204,11 @@ def states(scene, factor, dead=ONE):
     return list(found.values()), singular
 
 
-def inside(curve, place):
-    """Whether a parameter is within its piece."""
+def inside(curve, place, rate=ZERO):
+    """Whether a parameter is within its piece, and stays there for a moment at this rate."""
     k, t = place
-    return (t <= 0 or k > 0) and (t >= 0 or k == 0) and (t <= 1 or k in (0, curve.last))
+    low, high = (t, rate) >= (0, 0), (t - curve.end(k), rate) <= (0, 0)
+    return (low or k == 0) and (high or k == curve.last)
 
 
 def follow(scene, choose=None, most=2000):
@@ -221,12 +228,13 @@ def follow(scene, choose=None, most=2000):
     """
     problem = scene if isinstance(scene, Problem) else Problem(scene)
     path = Path(problem)
-    places = [curve.find(ZERO) for curve in problem.curves]
+    places = [curve.find(ZERO, ZERO) for curve in problem.curves]
     for leg in (0, 1):
         if any(problem.g[leg]):
             places = follow_leg(path, places, leg, choose or first, most)
             if path.status != "solved":
                 break
+        path.end = make_state(problem, problem.curves, places, ONE, leg)
     for special in path.specials:
         if special.loses:
             special.landing = landing(path, special)
@@ -241,15 +249,29 @@ def first(ways, start):
 def follow_leg(path, places, leg, choose, most):
     """Follow one leg from factor 0 to 1; returns the places at its end."""
     problem, curves, factor = path.problem, path.problem.curves, ZERO
-    before, seen = None, set()
+    before, seen, turned = None, set(), set()
     while True:
-        ways, loose = problem.ways(places, problem.g[leg], before and before.way.heading)
+        back = before.way.heading if before and before.way else None
+        ways, loose = problem.ways(places, problem.g[leg], back)
         path.loose_points += loose
         here = make_state(problem, curves, places, factor, leg)
+        if before is None:
+            ways = [way for way in ways if way.rate >= 0 or way.index]
         way = choose(ways, before is None) if ways else None
+        if loose and (way is None or way.index or way.rate <= 0):
+            after = None if factor in turned else just_above(problem, factor, leg)
+            if after is not None:
+                turned.add(factor)
+                end = make_state(problem, curves, after, factor, leg)
+                path.segments.append(Segment(leg, here, end, 0, 0, 0, 1, None))
+                places, before = after, path.segments[-1]
+                continue
+            note_special(path, leg, here, before, None, [])
+            path.status = "loose"
+            return places
         note_special(path, leg, here, before, way, ways)
-        if way is None or (loose and (way.index or way.rate <= 0)):
-            path.status = "loose" if loose else "end"
+        if way is None:
+            path.status = "end"
             return places
         if (way.pieces, way.heading) in seen or len(path.segments) >= most:
             path.status = "cycle"
@@ -258,6 +280,46 @@ def follow_leg(path, places, leg, choose, most):
         places, factor, before = take(path, way, factor, leg)
         if places is None or factor == 1:
             return places
+
+
+def just_above(problem, factor, leg):
+    """Places of the only state of index 0 just above a factor, in the limit; None if there is none or several."""
+    curves = problem.curves
+    fixed = [ZERO] * len(curves) if leg == 0 else problem.g[0]
+    load = [a + factor * b for a, b in zip(fixed, problem.g[leg], strict=True)]
+    found = {}
+    for picked, columns in problem.cells(every_piece(curves), curves):
+        chosen = [picked[i][0] for i in range(len(curves))]
+        if any(pivot is None for pivot, _, _ in columns.steps):
+            continue
+        values = in_order(picked, columns.solve(offset(problem, chosen, load)))
+        rates = in_order(picked, columns.solve(problem.g[leg]))
+        if (
+            all(map(inside, curves, zip(chosen, values, strict=True), rates))
+            and problem.inertia(chosen)[0] == 0
+        ):
+            places = list(zip(chosen, values, strict=True))
+            found[tuple(curve.at(place) for curve, place in zip(curves, places, strict=True))] = places
+    return next(iter(found.values())) if len(found) == 1 else None
+
+
+def every_piece(curves):
+    """All pieces of all curves, as choices for `Problem.cells`."""
+    return [[(k, ZERO, 0) for k in range(len(curve.pieces))] for curve in curves]
+
+
+def offset(problem, chosen, load):
+    """Right side less what belongs to the base points of pieces."""
+    rest = list(load)
+    for i, (curve, k) in enumerate(zip(problem.curves, chosen, strict=True)):
+        d, r = curve.pieces[k][0]
+        rest = [x - d * p[i] - r * q[i] for x, p, q in zip(rest, problem.P, problem.Q, strict=True)]
+    return rest
+
+
+def in_order(picked, values):
+    """Values in the order of elimination, brought into the order of the supports."""
+    return [x for _, x in sorted(zip(picked, values, strict=True))]
 
 
 def take(path, way, factor, leg):
