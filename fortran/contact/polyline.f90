@@ -13,7 +13,8 @@ module gapbeam_polyline
     use gapbeam_kinds, only: wp
     implicit none
     private
-    public :: node_support_type, piece_that_acts, piece_force, kink_margin, is_watched, open_beyond, coincide, last_kink
+    public :: node_support_type, piece_that_acts, piece_force, kink_margin, is_watched
+    public :: open_beyond, coincide, last_kink, join_pieces
 
     !> A support at a node, or a kink of its law
     type :: node_support_type
@@ -52,7 +53,7 @@ contains
                 if (s%more) acts = .not. closed(k + 1)
             else
                 slope = s%before
-                acts = s%kink == 1 .and. abs(s%before) > 0.0_wp
+                acts = s%kink == 1 .and. (abs(s%before) > 0.0_wp .or. abs(s%force) > 0.0_wp)
             end if
         end associate
     end subroutine piece_that_acts
@@ -175,6 +176,24 @@ contains
             last = last + 1
         end do
     end function last_kink
+
+    !> Slopes from the kinks they lead to, so that pieces rounded to less precision join again
+    pure subroutine join_pieces(supports)
+        type(node_support_type), intent(inout) :: supports(:)
+        real(wp) :: width
+        integer :: k
+
+        do k = 1, size(supports) - 1
+            if (.not. supports(k)%more) cycle
+            associate (a => supports(k), b => supports(k + 1))
+                width = a%side*(b%contact - a%contact)
+                if (.not. width > 0.0_wp .or. .not. abs(a%stiffness) <= huge(width)) cycle
+                ! Both sides of a kink that was passed may be one line
+                if (abs(a%stiffness) > 0.0_wp) a%stiffness = (b%force - a%force)/width
+                b%before = a%stiffness
+            end associate
+        end do
+    end subroutine join_pieces
 
     !> Are a kink and the next one of its law the same point, so that they are passed together
     pure function coincide(supports, k) result(same)

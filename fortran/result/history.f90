@@ -1,7 +1,7 @@
 !> The load followed through factors in turn, by the path itself: past limit points, with supports that soften, break or keep a set
 module gapbeam_history
     use gapbeam_kinds, only: wp, qp
-    use gapbeam_error, only: error_type, gapbeam_solved, no_memory
+    use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_not_converged, no_memory
     use gapbeam_memory, only: for_following_closely
     use gapbeam_polyline, only: node_support_type, last_kink
     use gapbeam_polyline_quad, only: fine_support_type => node_support_type
@@ -263,7 +263,11 @@ contains
         if (to < 0.0_qp) call reverse_live(mirrored)
         call find_cell(mirrored, 0.0_qp, abs(to), closed, cell, outcome, error)
         history%solves = history%solves + cell%solves
-        if (allocated(error)) return
+        if (allocated(error)) then
+            ! Only that the search does not know its way among falling forces: every combination is tried instead
+            if (error%code == gapbeam_not_converged) deallocate (error)
+            return
+        end if
         if (outcome%status == gapbeam_solved) then
             closed(:) = cell%closed
         else
@@ -304,7 +308,7 @@ contains
         end do
     end function has_dead_loads
 
-    !> Where supports are before any load: laws on their first piece, all others closed
+    !> Where supports are before any load: on the piece on which the straight beam is
     subroutine find_rest(lowered, closed)
         type(lowered_type), intent(in) :: lowered
         logical, intent(out) :: closed(:)
@@ -314,7 +318,11 @@ contains
         do while (k <= size(closed))
             last = last_kink(lowered%beam%supports, k)
             middle = 1
-            if (lowered%model%supports(lowered%normal(k))%side == gapbeam_both) middle = max(1, (last - k + 1)/2)
+            if (lowered%model%supports(lowered%normal(k))%side == gapbeam_both) then
+                middle = max(1, (last - k + 1)/2)
+            else if (lowered%beam%supports(k)%side*lowered%beam%supports(k)%contact > 0.0_wp) then
+                middle = 0
+            end if
             closed(k:last) = .false.
             closed(k:k + middle - 1) = .true.
             k = last + 1

@@ -26,6 +26,7 @@ module gapbeam_referee
     use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type, new_fine_workspace => new_workspace, &
         set_fine_loads => set_loads
     use gapbeam_law_quad, only: is_watched_in, find_margins
+    use gapbeam_polyline_quad, only: join_pieces
     use gapbeam_sensitivity_quad, only: sensitivity_type, prepare_sensitivity, movement_of_support
     use gapbeam_system_quad, only: solve_fine_scheme => solve_scheme, refine_fine_scheme => refine_scheme
     use gapbeam_search_quad, only: rule_block
@@ -320,6 +321,7 @@ contains
             fine%supports%more = s%more
             fine%supports%force = s%force
             fine%supports%before = s%before
+            call join_pieces(fine%supports)
         end associate
     end subroutine refine_beam
 
