@@ -125,12 +125,17 @@ contains
         type(error_type), allocatable, intent(out) :: error
         type(way_type), allocatable :: ways(:)
         logical, allocatable :: reached(:)
-        integer :: w, best
+        integer :: w, best, came
+        logical :: breaks
 
-        call rewrite_laws(branch)
         reached = at_hand
-        call find_ways(branch%beam, branch%factor, branch%way%closed, merge(turn, branch%way%direction, wanted /= turn), wanted, &
-                       branch%deflection, reached, branch%lines, ways, error)
+        call break_supports(branch, reached, breaks)
+        call rewrite_laws(branch)
+        came = branch%way%direction
+        ! What is gone leaves the same line, to go either way
+        if (wanted /= turn .or. breaks) came = turn
+        call find_ways(branch%beam, branch%factor, branch%way%closed, came, wanted, branch%deflection, reached, branch%lines, &
+                       ways, error)
         outcome = no_way_on
         if (allocated(error)) return
         branch%ways = size(ways)
@@ -223,7 +228,34 @@ contains
         branch%deflection(:) = branch%lines%dead%answers%deflection + branch%factor*branch%lines%live%answers%deflection
     end subroutine note_place
 
-    !> Write the laws of supports that have a memory anew, from where they are
+    !> Break supports that stay broken at the end of a drop of their force: what lies before it is gone
+    subroutine break_supports(branch, at_hand, breaks)
+        type(branch_type), intent(inout) :: branch
+        !> Kinks that are reached in, without those out
+        logical, intent(inout) :: at_hand(:)
+        !> Does any
+        logical, intent(out) :: breaks
+        integer :: k, first
+
+        breaks = .false.
+        do k = 1, size(at_hand)
+            associate (s => branch%beam%supports)
+                if (.not. at_hand(k) .or. branch%way%closed(k) .or. branch%unloading(k) /= stays_broken) cycle
+                if (.not. s(k)%before < -huge(1.0_wp)) cycle
+                breaks = .true.
+                at_hand(k) = .false.
+                branch%way%closed(k) = .true.
+                ! One line, on both sides of its kinks
+                first = k - s(k)%kink + 1
+                s(first:k)%contact = s(k)%contact
+                s(first:k)%force = s(k)%force
+                s(first:k)%before = s(k)%stiffness
+                s(first:k)%stiffness = s(k)%stiffness
+            end associate
+        end do
+    end subroutine break_supports
+
+    !> Write the laws of supports that keep a set anew, from where they are
     subroutine rewrite_laws(branch)
         type(branch_type), intent(inout) :: branch
         real(wp) :: deflection, force, slope
@@ -234,17 +266,7 @@ contains
         do while (k <= size(branch%way%closed))
             last = last_kink(branch%beam%supports, k)
             top = k - 1 + count(branch%way%closed(k:last))
-            if (branch%unloading(k) == stays_broken .and. top > k) then
-                associate (s => branch%beam%supports)
-                    if (s(top)%before < -huge(slope)) then
-                        ! What lies before the drop is gone: one line, on both sides of its kinks
-                        s(k:top)%contact = s(top)%contact
-                        s(k:top)%force = s(top)%force
-                        s(k:top)%stiffness = s(top)%stiffness
-                        s(k:top)%before = s(top)%stiffness
-                    end if
-                end associate
-            else if (branch%unloading(k) == parallel .and. top > k) then
+            if (branch%unloading(k) == parallel .and. top > k) then
                 associate (s => branch%beam%supports, work => branch%lines)
                     call piece_that_acts(s, branch%way%closed, top, acts, slope)
                     deflection = branch%deflection(s(k)%node)

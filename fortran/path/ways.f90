@@ -118,7 +118,7 @@ contains
 
         allocate (closed(size(before)), more(size(before)))
         do
-            call find_units(beam, at_hand, first, last)
+            call find_units(beam, before, at_hand, first, last)
             number = size(first)
             if (number > most_at_once) then
                 call fatal_error(error, gapbeam_not_converged, "so many supports reach a kink of their law at once that not "// &
@@ -232,16 +232,18 @@ contains
     end subroutine try_motion
 
     !> Kinks that are passed together: first and last of each unit
-    pure subroutine find_units(beam, at_hand, first, last)
+    pure subroutine find_units(beam, closed, at_hand, first, last)
         type(beam_type), intent(in) :: beam
-        logical, intent(in) :: at_hand(:)
+        logical, intent(in) :: closed(:), at_hand(:)
         integer, allocatable, intent(out) :: first(:), last(:)
         integer :: k, begin
 
         allocate (first(0), last(0))
         begin = 1
         do k = 1, size(at_hand)
-            if (coincide(beam%supports, k)) cycle
+            if (coincide(beam%supports, k)) then
+                if (closed(k) .eqv. closed(k + 1)) cycle
+            end if
             if (any(at_hand(begin:k))) then
                 first = [first, begin]
                 last = [last, k]
