@@ -136,8 +136,8 @@ contains
                 if (.not. is_nested(beam%supports, closed)) cycle
                 call solve_lines(beam, closed, lines)
                 if (.not. lines%regular) then
-                    call try_motion(beam, closed, mask == 0, came, deflection, at_hand, lines, way, leads)
-                    if (leads .and. wanted == turn) ways = [ways, way]
+                    call try_motion(beam, closed, mask == 0, came, deflection, at_hand, lines, way, leads, more)
+                    if (leads) ways = [ways, way]
                     cycle
                 end if
                 do direction = rise, fall, -2
@@ -187,7 +187,7 @@ contains
     end subroutine look_into
 
     !> A cell without a unique solution: does the beam move freely, and into it
-    subroutine try_motion(beam, closed, as_before, came, deflection, at_hand, lines, way, leads)
+    subroutine try_motion(beam, closed, as_before, came, deflection, at_hand, lines, way, leads, more)
         type(beam_type), intent(in) :: beam
         logical, intent(in) :: closed(:)
         !> Is it the scheme that led here
@@ -198,33 +198,50 @@ contains
         type(lines_type), intent(in) :: lines
         type(way_type), intent(out) :: way
         logical, intent(out) :: leads
+        !> What else is at zero and would be passed
+        logical, intent(inout) :: more(:)
         type(motion_type), allocatable :: motions(:)
         real(wp), allocatable :: y(:), none(:)
-        real(wp) :: margin, rounding
+        logical, allocatable :: touched(:)
+        real(wp) :: speed, margin, rounding
         integer :: k, sign
-        logical :: moves
+        logical :: moves, by_force
 
         leads = .false.
         if (as_before .and. came == turn) return
         call free_motions(beam, closed, motions)
         if (size(motions) /= 1) return
-        allocate (y(0:ubound(deflection, 1)), none(size(closed)))
+        allocate (y(0:ubound(deflection, 1)), none(size(closed)), touched(size(closed)))
         none(:) = 0.0_wp
         do sign = 1, -1, -2
             y(:) = 0.0_wp
             y(motions(1)%first:motions(1)%last) = sign*motions(1)%displacement
             leads = .true.
             moves = .false.
+            touched(:) = .false.
             do k = 1, size(closed)
-                if (.not. at_hand(k) .or. .not. is_watched_in(beam%supports, closed, k)) cycle
-                call margin_in_scheme(lines%incremental%supports, closed, k, y(beam%supports(k)%node), 0.0_wp, none, none, margin, &
-                                      rounding)
-                leads = leads .and. margin >= 0.0_wp
-                moves = moves .or. margin > 0.0_wp
+                if (.not. is_watched_in(beam%supports, closed, k)) cycle
+                associate (node => beam%supports(k)%node)
+                    call margin_in_scheme(lines%incremental%supports, closed, k, y(node), 0.0_wp, none, none, speed, rounding, &
+                                          by_force)
+                    if (by_force) cycle
+                    if (at_hand(k)) then
+                        leads = leads .and. speed >= 0.0_wp
+                        moves = moves .or. speed > 0.0_wp
+                    else
+                        call margin_in_scheme(beam%supports, closed, k, deflection(node), abs(deflection(node)), none, none, &
+                                              margin, rounding)
+                        touched(k) = speed < 0.0_wp .and. margin <= 64*rounding
+                    end if
+                end associate
             end do
             leads = leads .and. moves
             if (leads) exit
         end do
+        if (leads .and. any(touched)) then
+            more(:) = more .or. touched
+            leads = .false.
+        end if
         if (.not. leads) return
         way%closed = closed
         way%direction = turn

@@ -4,6 +4,8 @@ module gapbeam_lower_laws
     use gapbeam_scene, only: model_type, support_type, law_point_type, gapbeam_both, gapbeam_below, gapbeam_infinity, &
         gapbeam_elastic
     use gapbeam_model, only: node_support_type
+    use gapbeam_law, only: always_closed
+    use gapbeam_kinematics, only: free_motions, motion_type
     use gapbeam_lowered, only: lowered_type
     implicit none
     private
@@ -29,15 +31,24 @@ contains
     end subroutine find_laws
 
     !> Does a state depend on the way of the load to it: a force may fall, or a support unloads otherwise than along its law
-    pure function depends_on_path(lowered) result(depends)
+    function depends_on_path(lowered) result(depends)
         type(lowered_type), intent(in) :: lowered
         logical :: depends
+        type(motion_type), allocatable :: motions(:)
 
         associate (s => lowered%beam%supports)
             depends = any(s%kink > 0 .and. (s%stiffness < 0.0_wp .or. s%before < 0.0_wp))
         end associate
         if (size(lowered%model%law) == 0) return
         depends = depends .or. any(lowered%model%supports(lowered%model%law%support)%unloading /= gapbeam_elastic)
+        if (depends) return
+        ! What yields may let go of a beam that nothing else holds: only its path tells at which load
+        associate (s => lowered%beam%supports)
+            if (.not. any(s%kink > 0 .and. abs(s%force) > 0.0_wp .and. &
+                          .not. (abs(s%stiffness) > 0.0_wp .and. abs(s%before) > 0.0_wp))) return
+        end associate
+        call free_motions(lowered%beam, always_closed(lowered%beam%supports), motions)
+        depends = size(motions) > 0
     end function depends_on_path
 
     !> Number of kinks of a support: those of its law, or one
