@@ -136,11 +136,38 @@ def law_scene(rng, family, *, laws=None, alone=True):
             support["stiffness"] = eighths(rng, 1, 64)
         supports.append(support)
     made["supports"] = sorted(supports, key=lambda s: place(made, s))
-    made["loads"] = _loads(rng, made, alone)
+    made["loads"] = _loads(rng, made, alone, 3 if family == "softening" else 1)
     made["analysis"] = {"follow": "events", "at_limit": "follow"}
     if history:
         made["analysis"]["history"] = list(HISTORY)
     return made
+
+
+def symmetric_scene(rng, family):
+    """A beam on bilateral ends with two or three supports with laws, symmetric like its loads: ties at every kink.
+
+    Parameters
+    ----------
+    rng : random.Random or int
+    family : str
+
+    Returns
+    -------
+    dict
+    """
+    rng = random.Random(f"symmetric {family} {rng}") if isinstance(rng, int) else rng
+    span = eighths(rng, 1, 4)
+    a, law = eighths(rng, 0.25, span - 0.25), random_law(rng, family)
+    side = rng.choice(("below", "both")) if family in ("hardening", "softening") else "below"
+    supports = [{"node": 0}, *({"x": x, "side": side, "law": law} for x in (a, 2 * span - a)), {"node": 2}]
+    if rng.random() < 0.5:
+        supports.insert(2, {"node": 1, "side": side, "law": random_law(rng, family)})
+    F = 2 * eighths(rng, 4, 64)
+    loads = [force(a, F), force(2 * span - a, F)] if rng.random() < 0.5 else [uniform(F)]
+    if family in ("plastic", "broken"):
+        supports = [{**s, "unloading": family} if "law" in s else s for s in supports]
+    analysis = {"follow": "events", "at_limit": "follow"}
+    return scene([span, span], supports, loads, EI=eighths(rng, 2, 64), analysis=analysis)
 
 
 def _places(rng, made):
@@ -176,10 +203,10 @@ def _side(rng, alone, both):
     )
 
 
-def _loads(rng, made, alone):
+def _loads(rng, made, alone, times):
     """One to four live loads, and often dead ones; the first acts downward."""
     length = nodes_of(made)[-1]
-    loads = [force(eighths(rng, 0.125, length), eighths(rng, 4, 64))]
+    loads = [force(eighths(rng, 0.125, length), times * eighths(rng, 4, 64))]
     for _ in range(rng.choice((0, 1, 1, 2, 3))):
         loads.append(_load(rng, length, 32))
     if not alone or rng.random() < 0.4:
@@ -199,6 +226,3 @@ def _load(rng, length, size):
         return uniform(sign * eighths(rng, 0.25, size / 4), **{"from": a, "to": b})
     make = force if kind == "force" else moment
     return make(eighths(rng, 0, length), sign * eighths(rng, 0.5, size))
-
-
-__all__ = ["FAMILIES", "HISTORY", "law_scene", "random_law"]

@@ -244,6 +244,30 @@ class Problem:
             tuple(x / size for x in heading),
         )
 
+    def starts(self, ways, load):
+        """The ways a leg can begin with, from a state that is taken to be stable.
+
+        Falling loads are no ways where they are stable (they belong to the reversed load), and motions at constant
+        load only if the load does work along them.
+        """
+        found = []
+        for way in ways:
+            motion = way.heading[1::2]
+            if (
+                way.rate > 0
+                or (way.rate < 0 and way.index)
+                or (way.rate == 0 and dot(self.force(load), motion) > 0)
+            ):
+                found.append(way)
+        return found
+
+    def force(self, load):
+        """The loads as forces on the supports held, to their sides; the supports must be able to move one by one."""
+        rows, pivots = reduce_rows([[*q, g] for q, g in zip(self.Q, load, strict=True)], len(self.which))
+        if len(pivots) < len(self.which):
+            raise Loose
+        return [row[-1] for row in rows]
+
     def displacements(self, points, weights):
         """Deflections (down) of the supports `which` from their (d, r); weights of dead and live loads."""
         found = []
@@ -268,7 +292,7 @@ class Problem:
         if len(self.basis) < m:
             return None
         load = [dot((a, b), weights) for a, b in zip(*self.g, strict=True)]
-        f = [row[-1] for row in reduce_rows([[*q, g] for q, g in zip(self.Q, load, strict=True)], m)[0]]
+        f = self.force(load)
         d = [x for x, _ in points]
         total = dot(d, [dot(row, d) for row in self.stiffness]) / 2 - dot(f, d)
         return total + sum((curve.work(x) for curve, x in zip(self.curves, d, strict=True)), ZERO)

@@ -26,7 +26,8 @@ from oracle_laws import Segment, first, make_state
 
 @dataclass
 class History:
-    """A history; `status` is "solved", "mechanism", "ray", "end" or "loose".
+    """A history; `status` is "solved", "mechanism", "ray", "end", "loose" or "heals" (a support that
+    has shed part of its force in a drop would get it back, because others broke meanwhile: no meaning is given to that).
 
     Attributes
     ----------
@@ -98,6 +99,10 @@ class Brittle(Elastic):
             raise ValueError("broken: laws with one vertical drop to 0 only")
         self.drop = drops[0]
 
+    def heals(self, k, rate):
+        """Whether the support gets back force it has shed already."""
+        return not self.broken and k == self.drop and rate < 0
+
     def moved(self, place):
         """Lay the support aside at the bottom of its drop."""
         k, t = place
@@ -163,10 +168,16 @@ def run(found, supports, places, load, leg, most):
         curves = [support.curve for support in supports]
         ways, loose = problem.ways(places, load, back, curves)
         if back is None:
-            ways = [way for way in ways if way.rate >= 0 or way.index]
-        way = first(ways, back is None) if ways else None
+            ways = problem.starts(ways, load)
+        way = first(ways, back is None, 1) if ways else None
         if way is None or (loose and (way.index or way.rate <= 0)) or len(found.segments) >= most:
             found.status = "loose" if loose else "end"
+            return places
+        if any(
+            isinstance(s, Brittle) and s.heals(*pair)
+            for s, *pair in zip(supports, way.pieces, way.rates, strict=True)
+        ):
+            found.status = "heals"
             return places
         parts = list(zip(curves, way.pieces, way.places, way.rates, strict=True))
         lengths = [

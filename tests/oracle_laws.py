@@ -8,10 +8,13 @@ Conventions where the documents leave the choice open:
   the other loads. Positive gaps are there from the start. A leg without loads is skipped.
 * The index of a segment counts the negative eigenvalues of the tangent stiffness, supports on vertical pieces held,
   plus one for every vertical drop that is being passed; `drops` says how many these are.
-* Of several ways on: index 0 with the load rising first; then the least index; then the load rising before standing
-  still before falling; then the way on which the first of the supports at a kink (order of the scene) goes forward.
+* The sense of a path is 1 where the load rises at an even index and falls at an odd one, else -1: away from ties it
+  never changes (index theorem), and a path that keeps it at ties, too, does not turn back.
+* Of several ways on: index 0 with the load rising first; then those that keep the sense; of these the least index;
+  then the load rising before standing still before falling; then the way on which the first of the supports at a
+  kink (order of the scene) goes forward.
   At the beginning of a leg ways with a falling load come last, and are no ways at all where they are stable (they
-  belong to the reversed load).
+  belong to the reversed load), nor motions at constant load along which the new load does no work.
 * Where a whole family of motions is possible at once ("loose") and no stable way with rising load leads on, the path
   goes on from the state just above the factor, if there is exactly one of index 0 (in all cells, compared as pairs of
   value and rate); the motion between is a segment without a way.
@@ -163,10 +166,16 @@ def make_state(problem, curves, places, factor, leg, way=None):
     return State(factor, weights, points, w, reaction, pieces, *more)
 
 
-def order_of(way, start=False):
-    """Sort key of the choice between ways."""
+def order_of(way, start=False, sense=1):
+    """Sort key of the choice between ways; `sense` is that of the path so far."""
     sign = (way.rate > 0) - (way.rate < 0)
-    return (start and sign < 0, not (way.index == 0 and sign > 0), way.index, -sign, [-t for t in way.turns])
+    best, strange = way.index == 0 and sign > 0, sense_of(way, sense) != sense
+    return (start and sign < 0, not best, strange, way.index, -sign, [-t for t in way.turns])
+
+
+def sense_of(way, before=1):
+    """1 where the load rises at an even index and falls at an odd one, else -1; `before` where it stands still."""
+    return before if way is None or way.rate == 0 else (-1 if way.rate < 0 else 1) * (-1) ** way.index
 
 
 def states(scene, factor, dead=ONE):
@@ -218,7 +227,7 @@ def follow(scene, choose=None, most=2000):
     ----------
     scene : dict or Problem
     choose : callable, optional
-        (ways, start of a leg) -> the way taken; default: the first in `order_of`.
+        (ways, start of a leg, sense) -> the way taken; default: the first in `order_of`.
     most : int
         Segments after which it gives up ("cycle"), as it does when a cell is entered twice in the same direction.
 
@@ -241,23 +250,23 @@ def follow(scene, choose=None, most=2000):
     return path
 
 
-def first(ways, start):
+def first(ways, start, sense):
     """The first way in the order of the module's conventions."""
-    return min(ways, key=lambda way: order_of(way, start))
+    return min(ways, key=lambda way: order_of(way, start, sense))
 
 
 def follow_leg(path, places, leg, choose, most):
     """Follow one leg from factor 0 to 1; returns the places at its end."""
     problem, curves, factor = path.problem, path.problem.curves, ZERO
-    before, seen, turned = None, set(), set()
+    before, seen, turned, sense = None, set(), set(), 1
     while True:
         back = before.way.heading if before and before.way else None
         ways, loose = problem.ways(places, problem.g[leg], back)
         path.loose_points += loose
         here = make_state(problem, curves, places, factor, leg)
         if before is None:
-            ways = [way for way in ways if way.rate >= 0 or way.index]
-        way = choose(ways, before is None) if ways else None
+            ways = problem.starts(ways, problem.g[leg])
+        way = choose(ways, before is None, sense) if ways else None
         if loose and (way is None or way.index or way.rate <= 0):
             after = None if factor in turned else just_above(problem, factor, leg)
             if after is not None:
@@ -277,6 +286,7 @@ def follow_leg(path, places, leg, choose, most):
             path.status = "cycle"
             return places
         seen.add((way.pieces, way.heading))
+        sense = sense_of(way, sense)
         places, factor, before = take(path, way, factor, leg)
         if places is None or factor == 1:
             return places
@@ -356,7 +366,8 @@ def note_special(path, leg, here, before, way, ways):
     loses = (before is None or before.stable) and (way is None or way.index > 0)
     turn = "none" if rate * came >= 0 else ("max" if came > 0 else "min")
     endless = way is None or (rate == 0 and endless_motion(path.problem, way))
-    several = len([w for w in ways if before or w.rate > 0]) > 1
+    moving = way is not None and way.rate != 0
+    several = sum(w.rate > 0 if before is None else w.rate != 0 or not moving for w in ways) > 1
     kind = "mechanism" if endless else "bifurcation" if several else "limit"
     if endless or loses or turn != "none" or several:
         rest = sorted((w for w in ways if w is not way), key=order_of)
