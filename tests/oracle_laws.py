@@ -115,7 +115,8 @@ class Special:
 class Path:
     """A path.
 
-    Its `status` is "solved", "ray" (load falling without end), "mechanism", "end", "loose" or "cycle".
+    Its `status` is "solved", "ray" (load falling without end), "mechanism", "end", "loose",
+    "loop" (back at the beginning of its leg: a closed curve of states) or "long" (given up).
 
     `end` is the state at factor 1 of the last leg that got there. `loose_points` counts kinks with cells of several
     directions ("loose": where no stable way with rising load led on, so the path stops without an answer).
@@ -229,7 +230,7 @@ def follow(scene, choose=None, most=2000):
     choose : callable, optional
         (ways, start of a leg, sense) -> the way taken; default: the first in `order_of`.
     most : int
-        Segments after which it gives up ("cycle"), as it does when a cell is entered twice in the same direction.
+        Segments after which it gives up ("long").
 
     Returns
     -------
@@ -283,7 +284,7 @@ def follow_leg(path, places, leg, choose, most):
             path.status = "end"
             return places
         if (way.pieces, way.heading) in seen or len(path.segments) >= most:
-            path.status = "cycle"
+            path.status = "loop" if (way.pieces, way.heading) in seen else "long"
             return places
         seen.add((way.pieces, way.heading))
         sense = sense_of(way, sense)

@@ -178,6 +178,16 @@ def test_definition_holds(family):
             assert all((s.rate, s.index) == (1, 0) for s in path.segments), seed
 
 
+def test_path_that_closes():
+    """It comes back to where the live loads began, along the line it left on."""
+    path = follow(law_scene(182, "softening", alone=False))
+    live = [s for s in path.segments if s.leg == 1]
+    assert path.status == "loop"
+    assert (live[-1].rate, live[-1].end.pieces) == (1, (0, 0, 2, 1))
+    assert live[-1].end.factor < 0  # the next kink leads into the first cell, before factor 0
+    assert live[0].start.pieces == (1, 0, 2, 1)
+
+
 @pytest.mark.parametrize("seed", range(25))
 def test_path_is_among_the_states(seed):
     problem = Problem(law_scene(seed, "softening", laws=2))
@@ -238,7 +248,7 @@ def test_beams_that_do_not_stand_alone_end_somehow(family):
             status = follow(made).status if family in ("hardening", "softening") else history(made).status
         except Loose:
             continue
-        assert status in ("solved", "mechanism", "end", "loose", "heals", "ray", "cycle")
+        assert status in ("solved", "mechanism", "end", "loose", "heals", "ray", "loop")
 
 
 def test_uniform_load_on_a_law_in_the_middle():
