@@ -37,6 +37,8 @@ module gapbeam_branch
         real(wp), allocatable :: deflection(:)
         !> Ways on there were at the last kink
         integer :: ways = 0
+        !> Direction of the load times (-1)**index: it stays along the path (Eaves and Scarf 1976)
+        integer :: sense = 0
     end type branch_type
 
     !> A stretch of the path on which all pieces stay the same
@@ -145,6 +147,7 @@ contains
             if (preference(ways(w)) < preference(ways(best))) best = w
         end do
         branch%way = ways(best)
+        if (branch%way%direction /= turn) branch%sense = sense_of(branch%way)
         call solve_lines(branch%beam, branch%way%closed, branch%lines)
         outcome = goes_on
 
@@ -159,7 +162,17 @@ contains
             last = 3*way%index
             if (way%direction == turn) last = last + 1
             if (way%direction == -leg) last = last + 2
+            ! The others might lead back to where the path came from
+            if (last > 0 .and. way%direction /= turn .and. branch%sense*sense_of(way) < 0) last = last + huge(last)/2
         end function preference
+
+        !> Direction of the load times (-1)**index
+        pure function sense_of(way) result(sense)
+            type(way_type), intent(in) :: way
+            integer :: sense
+
+            sense = way%direction*merge(1, -1, modulo(way%index, 2) == 0)
+        end function sense_of
 
     end subroutine go_on
 

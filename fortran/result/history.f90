@@ -133,7 +133,8 @@ contains
             integer :: way, outcome, index, direction, ways
             logical :: stable
             real(qp) :: target
-            logical :: acting(size(closed))
+            logical :: acting(size(closed)), first(size(closed))
+            integer :: first_direction
             type(fine_support_type) :: laws_before(size(closed))
 
             way = merge(rise, fall, to > from)
@@ -145,6 +146,8 @@ contains
             call start_branch(beam, unloading, closed, from, way, branch, outcome, error)
             if (.not. allocated(error) .and. outcome /= goes_on) call note_limit(mechanism, leg, real(from, wp))
             if (outcome /= goes_on) history%ending = mechanism
+            first(:) = branch%way%closed
+            first_direction = branch%way%direction
             do while (.not. allocated(error) .and. outcome == goes_on)
                 if (history%number >= most) then
                     history%ending = cut_off
@@ -166,6 +169,10 @@ contains
                 if (outcome == never_ends) then
                     if (direction == turn) history%motion = real(branch%way%motion, wp)
                 else if (abs(segment%to - segment%from) > 0.0_qp .or. direction == turn) then
+                    if (outcome == goes_on .and. all(unloading == gapbeam_elastic) .and. direction /= turn) then
+                        ! No cell is crossed twice, but a path without end may come round to where it began
+                        if (branch%way%direction == first_direction .and. all(branch%way%closed .eqv. first)) outcome = never_ends
+                    end if
                     call add(leg, segment, direction, index, ways, acting, laws_before)
                     if (is_jumping() .and. stable) call look_for_landing(way)
                 end if
