@@ -85,6 +85,8 @@ class HardeningLaw(_Law, tag="hardening"):
         d = self.limit / self.stiffness
         if not self.slope:
             return PlasticLaw(stiffness=self.stiffness, limit=self.limit).points()
+        if self.slope == inf:
+            return [(d, self.limit), (d, 2 * self.limit)] if d else [(d, self.limit)]
         way = max(d, self.limit / self.slope)
         rise = self.slope * way if way else self.limit
         return [(d, self.limit), (d + way, self.limit + rise)]
