@@ -30,6 +30,8 @@ module gapbeam_polyline
         integer :: kink = 0
         !> Is the next support the next kink of the same law
         logical :: more = .false.
+        !> Are both sides of it one line, so that nothing happens there
+        logical :: passed = .false.
         !> Force at the kink, in the direction in which the support pushes, and slope of the piece that ends there
         real(wp) :: force = 0.0_wp, before = 0.0_wp
     end type node_support_type
@@ -93,6 +95,7 @@ contains
         margin = 0.0_wp
         rounding = 0.0_wp
         by_force = .false.
+        if (supports(k)%passed) return
         call look_around(supports, closed, k, beside, from, here, there)
         associate (s => supports(k))
             if (.not. beside) then
@@ -151,7 +154,7 @@ contains
         integer :: from
 
         call look_around(supports, closed, k, watched, from, here, there)
-        watched = watched .or. abs(here) <= huge(here)
+        watched = (watched .or. abs(here) <= huge(here)) .and. .not. supports(k)%passed
     end function is_watched
 
     !> Open the kinks of a law beyond its first open one
@@ -184,7 +187,7 @@ contains
         integer :: k
 
         do k = 1, size(supports) - 1
-            if (.not. supports(k)%more) cycle
+            if (.not. supports(k)%more .or. supports(k)%passed) cycle
             associate (a => supports(k), b => supports(k + 1))
                 width = a%side*(b%contact - a%contact)
                 if (.not. width > 0.0_wp .or. .not. abs(a%stiffness) <= huge(width)) cycle

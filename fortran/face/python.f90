@@ -475,6 +475,7 @@ subroutine gblaws(beam, ns, laws, copy, status, message)
         s%force = laws(2, :ns - 1)
         s%stiffness = laws(3, :ns - 1)
         s%before = laws(4, :ns - 1)
+        s%passed = s%kink > 0 .and. .not. abs(s%stiffness - s%before) > 0.0d0
     end associate
 end subroutine gblaws
 

@@ -264,6 +264,7 @@ contains
                 s(first:k)%force = s(k)%force
                 s(first:k)%before = s(k)%stiffness
                 s(first:k)%stiffness = s(k)%stiffness
+                s(first:k)%passed = .true.
             end associate
         end do
     end subroutine break_supports

@@ -319,6 +319,7 @@ contains
                           s%node, s%side, real(s%stiffness, qp), real(s%contact, qp), fine)
             fine%supports%kink = s%kink
             fine%supports%more = s%more
+            fine%supports%passed = s%passed
             fine%supports%force = s%force
             fine%supports%before = s%before
             call join_pieces(fine%supports)

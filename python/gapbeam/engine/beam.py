@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -33,6 +33,16 @@ HINGE, RESTRAINED = 1, 2
 FIELDS = ("deflection", "rotation", "moment", "shear", "axial_force", "axial_displacement")
 
 
+class Curve(Protocol):
+    """A smooth law."""
+
+    def force_and_slope(self, d: float) -> tuple[float, float]:
+        """Give force and slope at a displacement past the gap, 0 or more."""
+
+    def displacement(self, force: float) -> float | None:
+        """Give the displacement at a force above 0, where that is what tells the point on the curve; else None."""
+
+
 class RefusalError(Exception):
     """A number makes no sense: codes of the Fortran layer, for which `gapbeam.scene.refusals` has the words."""
 
@@ -48,6 +58,8 @@ class Beam:
     ----------
     columns : Columns
         What it is made of.
+    curves : tuple of (int, Curve), optional
+        Supports with a smooth law, of which the columns have a polyline.
 
     Attributes
     ----------
@@ -74,8 +86,8 @@ class Beam:
 
     __hash__ = None
 
-    def __init__(self, columns: Columns):
-        self.columns = columns
+    def __init__(self, columns: Columns, curves: tuple[tuple[int, Curve], ...] = ()):
+        self.columns, self.curves = columns, curves
         self._factors: np.ndarray | None = None
         c = columns
         handle, status, reason, table, entry, partner, key, message = _engine.gbmake(
@@ -118,7 +130,7 @@ class Beam:
         handle, status, message = _engine.gbcopy(self.handle, np.append(factors, 0.0))
         check_status(status, message)
         beam = object.__new__(type(self))
-        beam.columns, beam._factors = self.columns, factors
+        beam.columns, beam.curves, beam._factors = self.columns, self.curves, factors
         beam._take(handle)
         return beam
 
@@ -137,14 +149,14 @@ class Beam:
         handle, status, message = _engine.gblaws(self.handle, np.column_stack((kinks, np.zeros(4))))
         check_status(status, message)
         beam = object.__new__(type(self))
-        beam.columns, beam._factors = self.columns, self._factors
+        beam.columns, beam.curves, beam._factors = self.columns, self.curves, self._factors
         beam._take(handle)
         return beam
 
     def __reduce__(self) -> tuple:
         """Pickle by what it is made of."""
         kinks = self.kinks if self.has_laws else None
-        return _made_of, (self.columns, self._factors, kinks)
+        return _made_of, (self.columns, self.curves, self._factors, kinks)
 
     def __eq__(self, other: object) -> bool:
         """Whether they are made of the same numbers."""
@@ -185,14 +197,22 @@ class Beam:
         return self._numbered[1]
 
     @cached_property
-    def laws(self) -> list[tuple[int, int, int]]:
-        """Supports of the scene with a law: number; kinks below the middle of the law; its piece there, 0 if it is open."""
+    def laws(self) -> dict[int, tuple[slice, int, int]]:
+        """Supports of the scene with a law: its kinks, kinks below the middle of the law, piece there, 0 if it is open."""
         which = np.unique(self.columns.law_supports[:-1]) - 1
-        kinks = np.bincount(self.numbers, minlength=self.scene_supports)[which]
+        first, last = (np.searchsorted(self.numbers, which, side=side) for side in ("left", "right"))
+        kinks = last - first
         both, gap = self.sides[which] == 0, self.columns.support[2, which]
         one_piece = both & (np.bincount(self.columns.law_supports[:-1], minlength=1)[which + 1] == 1) & (gap == 0.0)
         middle = np.where(one_piece, 1, np.where(both, kinks // 2, 0))
-        return list(zip(which.tolist(), middle.tolist(), (both & (gap == 0.0)).astype(int).tolist(), strict=True))
+        at_middle = (both & (gap == 0.0)).astype(int)
+        rows = zip(map(slice, first.tolist(), last.tolist()), middle.tolist(), at_middle.tolist(), strict=True)
+        return dict(zip(which.tolist(), rows, strict=True))
+
+    @cached_property
+    def smooth(self) -> frozenset[int]:
+        """Supports of the scene with a smooth law."""
+        return frozenset(number for number, _ in self.curves)
 
     @cached_property
     def across(self) -> np.ndarray:
@@ -486,9 +506,11 @@ class Beam:
         return (*(values[:cases] for values in found), solves[:cases], status[:cases])
 
 
-def _made_of(columns: Columns, factors: np.ndarray | None, kinks: np.ndarray | None) -> Beam:
+def _made_of(
+    columns: Columns, curves: tuple[tuple[int, Curve], ...], factors: np.ndarray | None, kinks: np.ndarray | None
+) -> Beam:
     """Make a beam that was pickled again."""
-    beam = Beam(columns)
+    beam = Beam(columns, curves)
     beam = beam if factors is None else beam.with_factors(factors)
     return beam if kinks is None or np.array_equal(kinks, beam.kinks) else beam.with_kinks(kinks)
 

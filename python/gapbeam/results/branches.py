@@ -13,7 +13,7 @@ from ..base.errors import EngineError, Status
 from ..base.records import Pickled, read_only
 from ..engine.arrays import History
 from ..engine.beam import ENDINGS, GIVEN, Beam
-from .kinks import pieces, what_happens
+from .kinks import piece_of, what_happens
 from .path import Event, Segment
 from .step import Step
 
@@ -158,13 +158,15 @@ class BranchPath(Pickled):
     def _changes(self, before: int, after: int) -> list[tuple[int, str]]:
         """Supports to which something happens between two stretches."""
         beam, h = self._beam, self._history
-        old, new = pieces(beam, h.closed[before], h.kinks[before]), pieces(beam, h.closed[after], h.kinks[after])
-        found = [(i, what) for i in old if (what := what_happens(old[i], new[i]))]
-        changed = np.flatnonzero(h.closed[before] != h.closed[after]).tolist()
-        found += [
-            (int(beam.numbers[j]), "closes" if h.closed[after, j] else "opens") for j in changed if beam.numbers[j] not in old
-        ]
-        return sorted(found)
+        found = {}
+        for j in np.flatnonzero(h.closed[before] != h.closed[after]).tolist():
+            i = int(beam.numbers[j])
+            if i in beam.laws:
+                old, new = (piece_of(beam, i, h.closed[k], h.kinks[k]) for k in (before, after))
+                found[i] = what_happens(old, new)
+            else:
+                found[i] = "closes" if h.closed[after, j] else "opens"
+        return sorted((i, what) for i, what in found.items() if what)
 
     @cached_property
     def limits(self) -> list[Limit]:

@@ -27,32 +27,33 @@ class Piece(NamedTuple):
     way: int
 
 
-def pieces(beam: Beam, closed: np.ndarray, kinks: np.ndarray) -> dict[int, Piece]:
-    """Give the acting pieces of all laws.
+def piece_of(beam: Beam, support: int, closed: np.ndarray, kinks: np.ndarray) -> Piece:
+    """Give the acting piece of a law.
 
     Parameters
     ----------
     beam : Beam
         The beam.
+    support : int
+        Number of the support in the scene, one of `Beam.laws`.
     closed : numpy.ndarray of int
-        Its scheme.
+        Scheme of the beam.
     kinks : numpy.ndarray
         As `Beam.kinks`, the laws as they have become.
 
     Returns
     -------
-    dict
-        By number of the support in the scene.
+    Piece
+        A smooth law has one piece only.
     """
-    found = {}
-    first = np.searchsorted(beam.numbers, np.arange(beam.scene_supports + 1))
-    for k, middle, at_middle in beam.laws:
-        begin, end = int(first[k]), int(first[k + 1])
-        count = int(closed[begin:end].sum())
-        slope = kinks[2, begin + count - 1] if count else kinks[3, begin]
-        number = abs(count - middle) + at_middle
-        found[k] = Piece(number, float(slope) if number else 0.0, 1 if count >= middle else -1)
-    return found
+    where, middle, at_middle = beam.laws[support]
+    count = int(closed[where].sum())
+    number = abs(count - middle) + at_middle
+    way = 1 if count >= middle else -1
+    if support in beam.smooth:
+        return Piece(min(number, 1), float(bool(number)), way)
+    slope = kinks[2, where.start + count - 1] if count else kinks[3, where.start]
+    return Piece(number, float(slope) if number else 0.0, way)
 
 
 def what_happens(before: Piece, after: Piece) -> str:

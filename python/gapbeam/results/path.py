@@ -10,7 +10,8 @@ import numpy as np
 
 from ..engine.arrays import Stretch
 from ..engine.beam import CLOSES, NO_EQUILIBRIUM, OPENS, TURNS, Beam
-from .kinks import pieces, what_happens
+from .kinks import piece_of, what_happens
+from .smooth import factor_on_curves
 
 if TYPE_CHECKING:
     from .result import Result
@@ -87,11 +88,16 @@ class Path:
         self.nodes = sum(piece.nodes for piece in stretches)
         self.seconds = seconds
         self.events: list[Event] = []
-        self.segments = self._between(stretches[-1].factor)
-        self._name_events()
+        counted = self._name_events()
+        self.segments = self._between(stretches[-1].factor, counted)
 
-    def _between(self, end: float) -> list[Segment]:
-        counts = np.flatnonzero(np.append(np.diff(self._factors) > 0.0, True)) + 1 if len(self._factors) else []
+    def _between(self, end: float, counted: np.ndarray) -> list[Segment]:
+        """Segments between the changes that count; all of them do but those along smooth laws."""
+        ends = np.append(np.diff(self._factors) > 0.0, True) if len(self._factors) else np.zeros(0, bool)
+        counts = np.flatnonzero(ends) + 1
+        if not counted.all():
+            first = np.append(0, counts[:-1])
+            counts = counts[[counted[a:b].any() for a, b in zip(first, counts, strict=True)]]
         starts = {0.0: 0} | {float(self._factors[count - 1]): int(count) for count in counts}
         stops = [*list(starts)[1:], end]
         return [
@@ -153,24 +159,33 @@ class Path:
         """Give the beam as it is on a segment: always the same."""
         return self._beam
 
-    def _name_events(self) -> None:
-        """List the events."""
+    def _name_events(self) -> np.ndarray:
+        """List the events, and tell which changes are any."""
         beam = self._beam
-        laws = {k for k, *_ in beam.laws} if beam.has_laws else set()
+        laws = beam.laws if beam.has_laws else {}
+        counted = np.ones(len(self._factors), dtype=bool)
         closed = self._closed.copy()
         places, numbers = beam.node_x[beam.places.support_nodes].tolist(), beam.numbers.tolist()
         columns = (self._factors.tolist(), self._supports.tolist(), self._events.tolist())
-        for factor, k, event in zip(*columns, strict=True):
+        for i, (factor, k, event) in enumerate(zip(*columns, strict=True)):
             # What changes at factor 0 is no event, unless the beam turns there
             name = NAMES[event]
             if event != TURNS:
                 if numbers[k] in laws:
-                    before = pieces(beam, closed, beam.kinks)[numbers[k]]
+                    before = piece_of(beam, numbers[k], closed, beam.kinks)
+                if beam.curves and factor > 0.0:
+                    factor = factor_on_curves(beam, factor, closed, k)
                 closed[k] ^= 1
                 if numbers[k] in laws:
-                    name = what_happens(before, pieces(beam, closed, beam.kinks)[numbers[k]])
+                    name = what_happens(before, piece_of(beam, numbers[k], closed, beam.kinks))
+                counted[i] = bool(name)
+                if name:
+                    self._factors[i] = factor
             if (factor > 0.0 or event == TURNS) and name:
                 self.events.append(Event(factor, numbers[k], places[k], name))
+        # What is between two events along smooth laws happens at no factor of its own
+        self._factors = np.maximum.accumulate(np.where(counted, self._factors, 0.0)) if beam.curves else self._factors
+        return counted
 
 
 def follow(result: Result, rule: str, closed: np.ndarray) -> Path | None:

@@ -15,6 +15,8 @@ from ..base.records import Pickled, read_only
 from ..engine.arrays import Solution
 from ..engine.beam import SOLVED, Beam
 from ..engine.units import bound_in_scene, scaled
+from .kinks import piece_of
+from .smooth import solve_on_curves
 
 PLASTIC = 1
 """Unloading, as in gapbeam_scene."""
@@ -59,15 +61,17 @@ class Step(Pickled):
         )
 
     @cached_property
-    def _solved(self) -> tuple[Solution, float]:
+    def _solved(self) -> tuple[Beam, Solution, float]:
         begin = perf_counter()
-        solution = self._beam.solve(self.factor, self._rule, self._start)
-        return solution, perf_counter() - begin
+        beam, solution = self._beam, self._beam.solve(self.factor, self._rule, self._start)
+        if beam.curves and solution.status == SOLVED:
+            beam, solution = solve_on_curves(beam, self.factor, solution)
+        return beam, solution, perf_counter() - begin
 
     @property
     def solution(self) -> Solution:
         """What the engine found."""
-        return self._solved[0]
+        return self._solved[1]
 
     @property
     def closed(self) -> np.ndarray:
@@ -77,7 +81,7 @@ class Step(Pickled):
     @property
     def seconds(self) -> float:
         """Time it took to find the working scheme."""
-        return self._solved[1] if self._known is None else self._known.seconds
+        return self._solved[2] if self._known is None else self._known.seconds
 
     @property
     def solves(self) -> int:
@@ -137,7 +141,8 @@ class Step(Pickled):
 
     @cached_property
     def _certified(self) -> tuple[np.ndarray, np.ndarray, bool]:
-        return self._beam.certify(self.factor, self.solution)
+        beam, solution, _ = self._solved
+        return beam.certify(self.factor, solution)
 
     @property
     def error_bounds(self) -> dict[str, float | None]:
@@ -211,8 +216,8 @@ def name_states(beam: Beam, closed: np.ndarray) -> tuple[str, ...]:
     acting = np.zeros(beam.scene_supports, dtype=np.int64)
     np.add.at(acting, beam.numbers, closed)
     states = np.where(beam.sides == 0, "bilateral", np.where(acting > 0, "closed", "open")).tolist()
-    for k, middle, at_middle in beam.laws if beam.has_laws else ():
-        piece = abs(int(acting[k]) - middle) + at_middle
+    for k in beam.laws if beam.has_laws else ():
+        piece = piece_of(beam, k, closed, beam.kinks).number
         states[k] = f"branch {piece}" if piece else "open"
     return tuple(states)
 

@@ -123,6 +123,8 @@ def choose_rule(scene: Scene, rule: str | None) -> str:
 def _starting_scheme(beam: Beam, start: Sequence[bool] | None) -> np.ndarray:
     closed = np.ones(beam.supports, dtype=np.int32)
     if start is None:
+        for kinks, middle, _ in beam.laws.values() if beam.has_laws else ():
+            closed[kinks.start + max(middle, 1) : kinks.stop] = 0  # on its first piece
         return closed
     one_sided = np.flatnonzero(beam.sides)
     of_all = np.ones(beam.scene_supports, dtype=np.int32)

@@ -10,7 +10,8 @@ import numpy as np
 
 from ..base.errors import SceneError
 from ..engine.arrays import Columns
-from .laws import law_points
+from ..engine.beam import Curve
+from .laws import is_smooth, law_points
 from .structs import AxialLoad, CurvatureLoad, ForceLoad, LinearLoad, MomentLoad, Scene, UniformLoad
 from .tables import Table
 from .wording import number, shown
@@ -70,6 +71,25 @@ def columns(scene: Scene) -> Columns:
     law_supports, law = _laws(scene.supports)
     load_codes, load_values = _loads(scene.loads)
     return Columns(span, hinge, _sections(scene.sections), codes, values, law_supports, law, load_codes, load_values)
+
+
+def curves(scene: Scene) -> tuple[tuple[int, Curve], ...]:
+    """Take the smooth laws of a scene.
+
+    Parameters
+    ----------
+    scene : Scene
+        Keys and types are right.
+
+    Returns
+    -------
+    tuple of (int, Curve)
+        Number of the support, and its law.
+    """
+    if isinstance(scene.supports, Table):
+        return ()
+    laws = map(attrgetter("law"), scene.supports)
+    return tuple((i, law) for i, law in enumerate(laws) if law is not None and is_smooth(law))
 
 
 def _empty(rows: int, count: int, kind: type = float) -> np.ndarray:

@@ -105,6 +105,10 @@ class _Curve(_Law):
         """Give force and slope at a displacement, 0 or more."""
         raise NotImplementedError
 
+    def displacement(self, _: float) -> float | None:
+        """Give the displacement at a force; None, as the curve is followed by displacements."""
+        return None
+
     def points(self) -> list[tuple[float, float]]:
         """Give a polyline through points of the curve, closer where it bends."""
         ways = self.scale() * np.geomspace(2.0**-20, 2.0**20, PIECES)
@@ -212,6 +216,10 @@ class PowerLaw(_Curve, tag="power"):
         force = self.limit * (d / self.d0) ** self.n
         return force, self.n * force / d
 
+    def displacement(self, force: float) -> float | None:
+        """Give the displacement at a force, where the curve begins steep."""
+        return self.d0 * (force / self.limit) ** (1.0 / self.n) if self.n < 1.0 else None
+
 
 LawTable = PlasticLaw | BrittleLaw | HardeningLaw | CubicLaw | HyperbolicLaw | TanhLaw | PowerLaw
 Law = list[tuple[float, float]] | LawTable
@@ -240,6 +248,11 @@ def wrong_parameter(law: Any) -> tuple[str, float, str] | None:
             more = "a number" if rigid else "a finite number"
             return key, value, f"{more} {'of 0 or more' if least else 'above 0'}"
     return None
+
+
+def is_smooth(law: Law) -> bool:
+    """Whether a law is a curve."""
+    return not isinstance(law, list) and law.smooth
 
 
 def law_points(law: Law) -> list[tuple[float, float]]:

@@ -11,7 +11,7 @@ from typing import Any
 
 from ..base.errors import EngineError, SceneError
 from ..engine.beam import Beam, RefusalError
-from .columns import columns
+from .columns import columns, curves
 from .files import read_file
 from .laws import wrong_parameter
 from .refusals import refusal
@@ -83,7 +83,7 @@ def read_beam(source: Scene | Mapping[str, Any] | str | os.PathLike) -> tuple[Sc
 
 def _prepared(scene: Scene) -> Beam:
     try:
-        return Beam(columns(scene))
+        return Beam(columns(scene), curves(scene))
     except RefusalError as refused:
         raise refusal(scene, *refused.codes) from None
 

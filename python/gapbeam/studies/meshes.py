@@ -229,5 +229,5 @@ def mesh(source: Mapping[str, Any] | Scene | str, parts: int, name: str = "") ->
         (bool(clamps[0]), bool(clamps[-1])),
         scene,
         x,
-        arrays.supports[order[stiffness[at[order]] > 0.0]],
+        beam.numbers[order[stiffness[at[order]] > 0.0]],
     )

@@ -1,0 +1,68 @@
+"""Smooth laws of supports, beside roots in many digits."""
+
+import gapbeam
+import mpmath as mp
+import numpy as np
+import pytest
+from test_laws import midspan
+
+CURVES = {
+    "cubic": ({"type": "cubic", "k1": 100.0, "k3": 1e5}, lambda d: 100 * d + 100000 * d**3),
+    "without k1": ({"type": "cubic", "k1": 0.0, "k3": 1e5}, lambda d: 100000 * d**3),
+    "hyperbolic": ({"type": "hyperbolic", "stiffness": 1000.0, "limit": 2.0}, lambda d: 1000 * d / (1 + 500 * d)),
+    "tanh": ({"type": "tanh", "stiffness": 1000.0, "limit": 2.0}, lambda d: 2 * mp.tanh(500 * d)),
+    "cube root": ({"type": "power", "d0": 0.015625, "limit": 2.0, "n": 1 / 3}, lambda d: 2 * (64 * d) ** mp.mpf(1 / 3)),
+    "power 3": ({"type": "power", "d0": 0.015625, "limit": 2.0, "n": 3.0}, lambda d: 2 * (64 * d) ** 3),
+}
+
+
+def root(function, high):
+    """Root of a rising function between 0 and `high`, to 40 digits."""
+    with mp.workdps(40):
+        return mp.findroot(function, (mp.mpf(0), 2 * mp.mpf(high)), solver="bisect", tol=mp.mpf(10) ** -80, maxsteps=2000, verify=False)
+
+
+@pytest.mark.parametrize("name", CURVES)
+@pytest.mark.parametrize("load", [1e-6, 0.5, 3.0, 1e4])
+@pytest.mark.parametrize(("side", "sign", "gap"), [("below", 1, 0.0), ("above", -1, 0.001), ("both", -1, 0.0), ("both", 1, 0.001)])
+def test_a_curve_beside_a_beam(name, load, side, sign, gap):
+    law, curve = CURVES[name]
+    expected = root(lambda w: 48 * w + (curve(w - gap) if w > gap else 0) - load, load / 48)
+    for follow in ("steps", "events"):
+        step = gapbeam.solve(midspan(law, load * sign, side=side, gap=gap, analysis={"follow": follow})).steps[-1]
+        assert sign * step.deflection[1] == pytest.approx(float(expected), rel=2e-15)
+        assert sign * step.reaction[1] == pytest.approx(float(load - 48 * expected), rel=1e-12, abs=1e-15)
+        assert step.state[1] == ("branch 1" if expected > gap else "open")
+        assert step.certificate["error_bound"] < 1e-11
+
+
+def test_factors_of_events_are_those_on_the_curve():
+    """A rigid stop at 0.01 beside a spring that is a curve: only contact is an event."""
+    law, curve = CURVES["tanh"]
+    scene = midspan(law, 3.0)
+    scene["supports"].insert(2, {"x": 0.25, "side": "below", "gap": 0.0078125})
+    result = gapbeam.solve(scene)
+    # Deflection at the quarter is 11/16 of that in the middle, as there is a force in the middle only
+    middle = mp.mpf(0.0078125) * 16 / 11
+    expected = (48 * middle + curve(middle)) / 3
+    assert [(e.support, e.event) for e in result.events] == [(2, "closes")]
+    assert result.events[0].factor == pytest.approx(float(expected), rel=1e-14)
+    assert len(result.segments) == 2
+    assert result.state(0.3).deflection[1] == pytest.approx(float(root(lambda w: 48 * w + curve(w) - 0.9, 0.1)), rel=2e-15)
+
+
+def test_a_pile_on_curves_of_growing_strength():
+    """Ten curves of one kind: equilibrium of every support with its own law, and of all with the loads."""
+    supports = [
+        {"x": float(i), "side": "both", "law": {"type": "power", "d0": 0.01, "limit": 2.0 * (i + 1), "n": 1 / 3}} for i in range(10)
+    ]
+    scene = {
+        "beam": {"spans": [9.0], "EI": 2e4},
+        "supports": supports,
+        "loads": [{"type": "force", "x": 0.0, "F": 12.0}],
+    }
+    step = gapbeam.solve(scene).steps[-1]
+    laws = [np.sign(w) * 2.0 * (i + 1) * (abs(w) / 0.01) ** (1 / 3) for i, w in enumerate(step.deflection)]
+    assert step.reaction == pytest.approx(np.array(laws), rel=1e-12)
+    assert step.reaction.sum() == pytest.approx(12.0, rel=1e-12)
+    assert (step.reaction * np.arange(10)).sum() == pytest.approx(0.0, abs=1e-11)
