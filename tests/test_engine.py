@@ -22,7 +22,10 @@ def test_no_single_precision(name):
 
 
 def test_all_routines_are_there():
-    names = "gbmake gbcopy gbdrop gbsize gbplac gbsolv gbpath gbcert gbreco gbfind gbvalu gbextr gblarg gbshar gbcase"
+    names = (
+        "gbmake gbcopy gbdrop gbsize gbnumb gbplac gbsolv gbpath gbhist gbhget gblaws gbcert gbreco gbfind gbvalu gbextr gblarg "
+        "gbshar gbcase"
+    )
     assert set(ROUTINES) == set(names.split())
 
 

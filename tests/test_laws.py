@@ -306,3 +306,32 @@ def test_a_path_that_never_ends_is_cut_off(monkeypatch):
     monkeypatch.setattr(gapbeam.results.branches, "MOST_STRETCHES", 500)
     with pytest.raises(EngineError, match="more than 500 stretches"):
         gapbeam.solve(scene)
+
+
+def test_prepared_cases():
+    rubber = [[0.01, 1.0], [0.02, 4.0]]
+    scene = midspan(rubber, 1.0, side="below", gap=0.005)
+    scene["supports"].append({"x": 0.25, "side": "both", "law": {"type": "plastic", "stiffness": 20.0, "limit": 0.5}})
+    scene["loads"].append({"type": "force", "x": 0.25, "F": 1.0})
+    prepared = gapbeam.prepare(scene)
+    factors = [[0.1, 0.0], [3.0, 1.0], [-3.0, 2.0], [0.0, 0.0]]
+    cases = prepared.solve(factors)
+    for row, case in enumerate(factors):
+        step = prepared.result(case).steps[-1]
+        assert cases.reaction[row] == pytest.approx(step.reaction, rel=1e-13, abs=1e-15)
+        assert cases.closed[row].tolist() == [int(state != "open") for state in step.state]
+    with pytest.raises(SceneError, match="one of them is a curve"):
+        gapbeam.prepare(midspan({"type": "tanh", "stiffness": 1.0, "limit": 2.0}))
+    with pytest.raises(SceneError, match="depends on the way of the load"):
+        gapbeam.prepare(snap())
+    with pytest.raises(SceneError, match="has no load factor"):
+        gapbeam.solve(snap(history=[]))
+    with pytest.raises(SceneError, match="expected a finite number, got inf"):
+        gapbeam.solve(snap(history=[1.0, math.inf]))
+
+
+def test_the_report_says_the_limit_first():
+    lines = gapbeam.report.text.report_text(gapbeam.solve({**snap(), "title": "Snap"})).splitlines()
+    assert lines[:2] == ["Snap", "limit load at load factor 0.5: support 1 softens"]
+    text = " ".join(" ".join(lines).split())
+    assert "The next stable state along the path at this load factor (dynamics may lead elsewhere): support 1 branch 3" in text

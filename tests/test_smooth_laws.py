@@ -19,7 +19,8 @@ CURVES = {
 def root(function, high):
     """Root of a rising function between 0 and `high`, to 40 digits."""
     with mp.workdps(40):
-        return mp.findroot(function, (mp.mpf(0), 2 * mp.mpf(high)), solver="bisect", tol=mp.mpf(10) ** -80, maxsteps=2000, verify=False)
+        between = mp.mpf(0), 2 * mp.mpf(high)
+        return mp.findroot(function, between, solver="bisect", tol=mp.mpf(10) ** -80, maxsteps=2000, verify=False)
 
 
 @pytest.mark.parametrize("name", CURVES)

@@ -49,10 +49,12 @@ module gapbeam_branch
 contains
 
     !> Begin at a load factor
-    subroutine start_branch(beam, unloading, closed, factor, direction, branch, outcome, error)
+    subroutine start_branch(beam, unloading, settling, closed, factor, direction, branch, outcome, error)
         !> The beam, and how each of its supports unloads
         type(beam_type), intent(in) :: beam
         integer, intent(in) :: unloading(:)
+        !> How fast each of them moves itself with the factor
+        real(wp), intent(in) :: settling(:)
         !> Its scheme there
         logical, intent(in) :: closed(:)
         real(wp), intent(in) :: factor
@@ -68,6 +70,7 @@ contains
         branch%first_slope = beam%supports%stiffness
         branch%factor = factor
         call new_lines(beam, branch%lines)
+        branch%lines%settling(:) = settling
         allocate (branch%deflection(0:size(beam%links)))
         branch%deflection(:) = 0.0_wp
         call solve_lines(branch%beam, closed, branch%lines)
@@ -130,7 +133,8 @@ contains
         integer :: w, best, came
         logical :: breaks
 
-        reached = at_hand
+        allocate (reached(size(at_hand)))
+        reached(:) = at_hand
         call break_supports(branch, reached, breaks)
         call rewrite_laws(branch)
         came = branch%way%direction
@@ -163,7 +167,7 @@ contains
             if (way%direction == turn) last = last + 1
             if (way%direction == -leg) last = last + 2
             ! The others might lead back to where the path came from
-            if (last > 0 .and. way%direction /= turn .and. branch%sense*sense_of(way) < 0) last = last + huge(last)/2
+            if (last > 0 .and. way%direction /= turn .and. branch%sense*sense_of(way) < 0) last = last + 2**20
         end function preference
 
         !> Direction of the load times (-1)**index
@@ -220,11 +224,13 @@ contains
             way(:) = huge(way)
             do k = 1, size(closed)
                 if (.not. is_watched_in(supports, closed, k)) cycle
-                call margin_in_scheme(branch%lines%incremental%supports, closed, k, motion(supports(k)%node), 0.0_wp, none, none, &
-                                      speed, rounding, by_force)
-                if (by_force .or. .not. speed < 0.0_wp) cycle
-                call margin_in_scheme(supports, closed, k, branch%deflection(supports(k)%node), 0.0_wp, none, none, margin, &
-                                      rounding, by_force)
+                associate (settling => branch%lines%settling(k), node => supports(k)%node)
+                    call margin_in_scheme(branch%lines%incremental%supports, closed, k, motion(node) + settling, 0.0_wp, none, &
+                                          none, speed, rounding, by_force)
+                    if (by_force .or. .not. speed < 0.0_wp) cycle
+                    call margin_in_scheme(supports, closed, k, branch%deflection(node) - branch%factor*settling, 0.0_wp, none, &
+                                          none, margin, rounding, by_force)
+                end associate
                 way(k) = max(0.0_wp, margin)/(-speed)
             end do
             at_hand(:) = way < huge(way)
@@ -283,7 +289,8 @@ contains
             if (branch%unloading(k) == parallel .and. top > k) then
                 associate (s => branch%beam%supports, work => branch%lines)
                     call piece_that_acts(s, branch%way%closed, top, acts, slope)
-                    deflection = branch%deflection(s(k)%node)
+                    ! Beside its own movement, which goes on
+                    deflection = branch%deflection(s(k)%node) - branch%factor*work%settling(k)
                     if (abs(slope) > huge(slope)) then
                         deflection = s(top)%contact
                         force = s(k)%side*(work%dead%reaction(top) + branch%factor*work%live%reaction(top))

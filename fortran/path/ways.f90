@@ -34,6 +34,8 @@ module gapbeam_ways
         type(beam_type) :: incremental
         type(workspace_type) :: dead, live
         type(line_type), allocatable :: line(:)
+        !> How fast supports move themselves with the factor (while settlements grow with the dead loads), shape (size(supports))
+        real(wp), allocatable :: settling(:)
         !> Is there a unique solution
         logical :: regular = .false.
         !> Linear solves
@@ -63,7 +65,8 @@ contains
         call new_workspace(lines%incremental, lines%live)
         call set_loads(beam, 0.0_wp, lines%dead)
         call set_loads(lines%incremental, 1.0_wp, lines%live)
-        allocate (lines%line(size(beam%supports)))
+        allocate (lines%line(size(beam%supports)), lines%settling(size(beam%supports)))
+        lines%settling(:) = 0.0_wp
     end subroutine new_lines
 
     !> Solve a cell
@@ -76,7 +79,7 @@ contains
 
         associate (s => lines%incremental%supports)
             s = beam%supports
-            s%contact = 0.0_wp
+            s%contact = lines%settling
             s%force = 0.0_wp
         end associate
         call solve_scheme(beam, closed, lines%dead, state, place)
@@ -136,7 +139,7 @@ contains
                 if (.not. is_nested(beam%supports, closed)) cycle
                 call solve_lines(beam, closed, lines)
                 if (.not. lines%regular) then
-                    call try_motion(beam, closed, mask == 0, came, deflection, at_hand, lines, way, leads, more)
+                    call try_motion(beam, closed, factor, mask == 0, came, deflection, at_hand, lines, way, leads, more)
                     if (leads) ways = [ways, way]
                     cycle
                 end if
@@ -187,9 +190,10 @@ contains
     end subroutine look_into
 
     !> A cell without a unique solution: does the beam move freely, and into it
-    subroutine try_motion(beam, closed, as_before, came, deflection, at_hand, lines, way, leads, more)
+    subroutine try_motion(beam, closed, factor, as_before, came, deflection, at_hand, lines, way, leads, more)
         type(beam_type), intent(in) :: beam
         logical, intent(in) :: closed(:)
+        real(wp), intent(in) :: factor
         !> Is it the scheme that led here
         logical, intent(in) :: as_before
         integer, intent(in) :: came
@@ -222,15 +226,15 @@ contains
             do k = 1, size(closed)
                 if (.not. is_watched_in(beam%supports, closed, k)) cycle
                 associate (node => beam%supports(k)%node)
-                    call margin_in_scheme(lines%incremental%supports, closed, k, y(node), 0.0_wp, none, none, speed, rounding, &
-                                          by_force)
+                    call margin_in_scheme(lines%incremental%supports, closed, k, y(node) + lines%settling(k), 0.0_wp, none, none, &
+                                          speed, rounding, by_force)
                     if (by_force) cycle
                     if (at_hand(k)) then
                         leads = leads .and. speed >= 0.0_wp
                         moves = moves .or. speed > 0.0_wp
                     else
-                        call margin_in_scheme(beam%supports, closed, k, deflection(node), abs(deflection(node)), none, none, &
-                                              margin, rounding)
+                        call margin_in_scheme(beam%supports, closed, k, deflection(node) - factor*lines%settling(k), &
+                                              abs(deflection(node)), none, none, margin, rounding)
                         touched(k) = speed < 0.0_wp .and. margin <= 64*rounding
                     end if
                 end associate

@@ -73,7 +73,7 @@ module gapbeam_history
 
 contains
 
-    !> Put on the dead loads, then go through load factors in turn
+    !> Put on the dead loads, and with them settlements and lacks of fit, then go through load factors in turn
     subroutine follow_history(lowered, factors, at_limit, most, history, error)
         !> The beam
         type(lowered_type), intent(in), target :: lowered
@@ -91,6 +91,7 @@ contains
         type(fine_support_type), allocatable :: laws(:)
         logical, allocatable :: closed(:)
         integer, allocatable :: unloading(:)
+        real(qp), allocatable :: settling(:)
         real(qp) :: factor
         integer :: leg
 
@@ -101,10 +102,15 @@ contains
         unloading(:) = lowered%model%supports(lowered%normal)%unloading
         laws = beam%supports
         call find_rest(lowered, closed)
-        if (has_dead_loads(beam)) then
+        allocate (settling(size(laws)))
+        call find_movements(lowered, settling)
+        if (has_dead_loads(beam) .or. any(abs(settling) > 0.0_qp)) then
             call drop_live(beam, dead)
+            laws%contact = laws%contact - settling
             call go_leg(dead, 0, 0.0_qp, 1.0_qp)
             if (allocated(error) .or. history%ending /= no_limit) return
+            laws%contact = laws%contact + settling
+            settling(:) = 0.0_qp
         end if
         factor = 0.0_qp
         do leg = 1, size(factors)
@@ -143,7 +149,7 @@ contains
                 call find_beginning(beam, to, closed, history, error)
                 if (allocated(error) .or. history%ending /= no_limit) return
             end if
-            call start_branch(beam, unloading, closed, from, way, branch, outcome, error)
+            call start_branch(beam, unloading, settling, closed, from, way, branch, outcome, error)
             if (.not. allocated(error) .and. outcome /= goes_on) call note_limit(mechanism, leg, real(from, wp))
             if (outcome /= goes_on) history%ending = mechanism
             first(:) = branch%way%closed
@@ -283,6 +289,20 @@ contains
             history%ending = mechanism
         end if
     end subroutine find_beginning
+
+    !> Settlements and lacks of fit, in the engine's units
+    pure subroutine find_movements(lowered, movement)
+        type(lowered_type), intent(in) :: lowered
+        !> Of the supports of the engine
+        real(qp), intent(out) :: movement(:)
+        integer :: k
+
+        do k = 1, size(movement)
+            associate (s => lowered%model%supports(lowered%normal(k)))
+                movement(k) = scale(s%settlement + s%side*min(s%gap, 0.0_wp), -lowered%units%deflection)
+            end associate
+        end do
+    end subroutine find_movements
 
     !> Let the live loads act the other way
     subroutine reverse_live(beam)

@@ -17,7 +17,7 @@ contains
         logical :: have(size(model%supports))
 
         have(:) = .false.
-        have(model%law%support) = .true.
+        if (allocated(model%law)) have(model%law%support) = .true.
     end function have_laws
 
     !> All laws
@@ -92,15 +92,15 @@ contains
             do j = 1, size(points)
                 associate (d => points(j)%displacement, f => points(j)%force)
                     if (.not. (abs(d) <= huge(d) .and. abs(f) <= huge(f))) then
-                        call say("expected finite numbers, got "//point(d, f))
+                        call say("expected finite numbers, got "//trim(point(d, f)))
                     else if (d < before(1)) then
-                        call say("the displacements go back at "//point(d, f)//", after "//trim(shown(before(1)))// &
+                        call say("the displacements go back at "//trim(point(d, f))//", after "//trim(shown(before(1)))// &
                                  "; give them in ascending order")
                     else if (f < 0.0_wp) then
-                        call say("the force is below zero at "//point(d, f)//"; a support that pushes cannot pull: "// &
+                        call say("the force is below zero at "//trim(point(d, f))//"; a support that pushes cannot pull: "// &
                                  "end the law at 0")
                     else if (.not. (abs(d - before(1)) > 0.0_wp .or. abs(f - before(2)) > 0.0_wp)) then
-                        call say("the point "//point(d, f)//" stands there twice, or at the origin; leave it out")
+                        call say("the point "//trim(point(d, f))//" stands there twice, or at the origin; leave it out")
                     else if (.not. abs(d - before(1)) > 0.0_wp .and. j > 1) then
                         if (is_vertical(points(:j - 1))) call say("there are two vertical pieces at "//trim(shown(d))// &
                                                                   "; give the outer points only")
@@ -112,8 +112,8 @@ contains
                         slope = f - before(2)
                     end if
                     if (j == size(points) .and. slope < 0.0_wp) then
-                        call say("it ends falling, so its force would become negative beyond "//point(d, f)// &
-                                 "; add a point from which on it stays, such as "//point(d + max(d, 1.0_wp), f))
+                        call say("it ends falling, so its force would become negative beyond "//trim(point(d, f))// &
+                                 "; add a point from which on it stays, such as "//trim(point(d + max(d, 1.0_wp), f)))
                         return
                     end if
                     before(:) = [d, f]
@@ -135,7 +135,7 @@ contains
         !> A point as text
         pure function point(displacement, force) result(text)
             real(wp), intent(in) :: displacement, force
-            character(len=:), allocatable :: text
+            character(len=52) :: text
 
             text = "["//trim(shown(displacement))//", "//trim(shown(force))//"]"
         end function point

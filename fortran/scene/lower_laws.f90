@@ -39,6 +39,7 @@ contains
         associate (s => lowered%beam%supports)
             depends = any(s%kink > 0 .and. (s%stiffness < 0.0_wp .or. s%before < 0.0_wp))
         end associate
+        if (.not. allocated(lowered%model%law)) return
         if (size(lowered%model%law) == 0) return
         depends = depends .or. any(lowered%model%supports(lowered%model%law%support)%unloading /= gapbeam_elastic)
         if (depends) return

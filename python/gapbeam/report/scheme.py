@@ -1,6 +1,7 @@
 """The history of the working scheme (which supports act) over the load, as rows of text."""
 
 from collections.abc import Iterable, Sequence
+from string import ascii_lowercase
 
 from ..results.formatting import number, ranges
 
@@ -24,7 +25,10 @@ def symbol(state: str, plain: bool = False) -> str:
     >>> symbol("open", plain=True), symbol("branch 2")
     ('o', '2')
     """
-    return SYMBOLS[state][plain] if state in SYMBOLS else state[-1:]
+    if state in SYMBOLS:
+        return SYMBOLS[state][plain]
+    number = int(state.removeprefix("branch "))
+    return str(number) if number < 10 else ascii_lowercase[min(number - 10, 25)]
 
 
 def legend(states: Sequence[str], plain: bool = False) -> str:
@@ -36,7 +40,7 @@ def legend(states: Sequence[str], plain: bool = False) -> str:
     '# closed  o open'
     """
     seen = [state for state in SYMBOLS if state in states]
-    seen += sorted(set(states) - set(SYMBOLS))
+    seen += sorted(set(states) - set(SYMBOLS), key=lambda state: (len(state), state))
     return "  ".join(f"{symbol(state, plain)} {state}" for state in seen)
 
 

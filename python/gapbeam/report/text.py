@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from ..results.result import Result
+    from ..results.step import Step
     from ..scene.structs import Scene
     from .writer import Writer
 
@@ -38,8 +39,9 @@ LEFT_OUT = {
 }
 
 
-MOST_EVENTS = 40
-"""Events that the report lists."""
+MOST_EVENTS, MOST_LIMITS = 40, 5
+"""Events and limits of the load that the report lists."""
+LIMITS = {"limit": "limit load", "bifurcation": "bifurcation", "mechanism": "limit load (mechanism)"}
 
 
 def print_report(result: "Result", console: "Console | None" = None) -> None:
@@ -209,6 +211,11 @@ def _csv(rows: Iterable[Sequence]) -> str:
 
 def _headline(say: "Writer", result: "Result") -> None:
     say.line(fmt.title(result.scene), "bold")
+    for limit in result.limits[:MOST_LIMITS]:
+        causes = ", ".join(f"support {support} {event}" for support, event in limit.causes)
+        say.line(f"{LIMITS[limit.kind]} at load factor {fmt.number(limit.factor, 10)}" + (f": {causes}" if causes else ""))
+    if len(result.limits) > MOST_LIMITS:
+        say.line(f"... and {len(result.limits) - MOST_LIMITS} more limits.")
     if result.status != "solved":
         return
     way = fmt.count(len(result.steps), "load step") if result.path is None else fmt.count(len(result.events), "event")
@@ -241,12 +248,22 @@ def _no_solution(say: "Writer", result: "Result") -> None:
     title = "No equilibrium" if result.status == "no-equilibrium" else result.status.replace("-", " ").capitalize()
     say.heading(title)
     say.line(fmt.sentence(result.reason), "red")
+    if result.limits and result.limits[-1].landing is not None:
+        _landing(say, result, result.limits[-1].landing)
     if result.motion:
         scene = result.scene
         say.line()
         say.line("The beam moves freely along this line (straight between the points, scale arbitrary):")
         points = [fmt.column(values) for values in zip(*result.motion, strict=True)]
         say.table([fmt.with_unit(scene, "x"), "displacement, downward"], list(zip(*points, strict=True)))
+
+
+def _landing(say: "Writer", result: "Result", landing: "Step") -> None:
+    """Where the beam would be next."""
+    which = [k for k, support in enumerate(result.scene.supports) if support.law is not None]
+    texts = [f"support {k} {landing.state[k]}, deflection {fmt.number(landing.deflection[k])}" for k in which[:10]]
+    more = f", and {len(which) - 10} more" if len(which) > 10 else ""
+    say.line(f"The next stable state along the path at this load factor (dynamics may lead elsewhere): {'; '.join(texts)}{more}.")
 
 
 def _history(say: "Writer", result: "Result") -> None:
@@ -276,6 +293,8 @@ def _supports(say: "Writer", result: "Result", at: str) -> None:
         del quantities["couple"]
     if any(state != "bilateral" for state in step.state):
         quantities["opening"] = step.opening
+    if any(step.set):
+        quantities["set"] = step.set
     for digits in (6, 5, 4, 3):
         columns = [
             ("", [str(index) for index in range(len(sides))]),
@@ -365,9 +384,13 @@ def _doubts(say: "Writer", result: "Result") -> None:
         say.line(f"Error bounds at the last step, relative to the largest of each kind: {listed}.")
     if step.undecided:
         x = result.scene.positions(result.scene.supports)
-        names = ", ".join(f"{k} (x = {x[k]:g})" for k in step.undecided[:10])
-        more = f" and {len(step.undecided) - 10} more" if len(step.undecided) > 10 else ""
-        say.line(f"Reaction or opening zero, so neither closed nor open: support {names}{more}.")
+        words = {False: "Reaction or opening zero, so neither closed nor open", True: "Exactly at a kink of its law"}
+        for with_law, what in words.items():
+            which = [k for k in step.undecided if (result.scene.supports[k].law is not None) == with_law]
+            names = ", ".join(f"{k} (x = {x[k]:g})" for k in which[:10])
+            more = f" and {len(which) - 10} more" if len(which) > 10 else ""
+            if which:
+                say.line(f"{what}: support {names}{more}.")
     if step.indifferent:
         say.line("The beam can move freely without work of the loads: forces are unique, its position is not.")
 

@@ -15,14 +15,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..base.errors import Status
+from ..base.errors import SceneError, Status
 from ..base.records import Pickled, Record, read_only
 from ..engine.beam import Beam
 from ..scene.reading import read_beam
 from ..scene.structs import Scene
 from .arguments import numbers, scheme
 from .result import Result
-from .stepping import choose_rule
+from .stepping import choose_rule, starting_scheme
 from .steps import LoadSteps
 
 
@@ -121,21 +121,31 @@ class Prepared(Pickled):
         many = factors if factors.ndim == 2 else factors[None]
         carries = np.searchsorted(self.supports, self._beam.numbers)
         closed: Any = 1
-        if start is not None:
+        if start is None:
+            closed = starting_scheme(self._beam)
+        else:
             closed = scheme(start, len(self.supports), "support across the beam")[carries]
         w, left, right, reaction, closed, solves, status = self._beam.solve_cases(many, self._rule, closed)
-        if len(carries) < len(self.supports):
-            closed = self._with_idle(closed, carries, np.zeros(len(many), dtype=np.int32))
-            reaction = self._with_idle(reaction, carries, np.where(status == Status.SOLVED, 0.0, np.nan))
+        if len(np.unique(carries)) < len(self.supports) or len(carries) > len(self.supports):
+            closed = self._by_supports(closed, carries, np.zeros(len(many), dtype=np.int32))
+            reaction = self._by_supports(reaction, carries, np.where(status == Status.SOLVED, 0.0, np.nan))
+            for k in self._beam.laws if self._beam.has_laws else ():
+                closed[:, np.searchsorted(self.supports, k)] = self._acts(k, closed[:, np.searchsorted(self.supports, k)])
         if factors.ndim == 2:
             return Cases(status, closed, reaction, w, left, right, solves)
         return Cases(status[0], closed[0], reaction[0], w[0], left[0], right[0], solves[0])
 
-    def _with_idle(self, values: np.ndarray, carries: np.ndarray, idle: np.ndarray) -> np.ndarray:
-        """Add the columns of supports that can carry nothing."""
+    def _by_supports(self, values: np.ndarray, carries: np.ndarray, idle: np.ndarray) -> np.ndarray:
+        """Add up the columns of the kinks of laws, and add those of supports that can carry nothing."""
         columns = np.repeat(idle[:, None], len(self.supports), axis=1)
-        columns[:, carries] = values
+        columns[:, carries] = 0
+        np.add.at(columns, (slice(None), carries), values)
         return columns
+
+    def _acts(self, support: int, kinks: np.ndarray) -> np.ndarray:
+        """Whether a support with a law acts, from the number of closed kinks."""
+        _, middle, at_middle = self._beam.laws[support]
+        return (np.abs(kinks - middle) + at_middle > 0).astype(np.int32)
 
     def _checked(self, factors: ArrayLike | None) -> np.ndarray:
         count = len(self.scene.loads)
@@ -173,7 +183,7 @@ class Prepared(Pickled):
             raise ValueError("factors: expected one case")
         beam = self._beam.with_factors(factors)
         result = Result(self.scene, beam, self._rule)
-        result.steps = LoadSteps(beam, self._rule, np.ones(beam.supports, dtype=np.int32), 1)
+        result.steps = LoadSteps(beam, self._rule, starting_scheme(beam), 1)
         fallen = result.steps.solve_all()
         if fallen is not None:
             result.refuse("in this load case", fallen[1])
@@ -198,7 +208,11 @@ def prepare(source: Scene | Mapping[str, Any] | str | os.PathLike, *, rule: str 
     Raises
     ------
     SceneError
-        The scene is not valid.
+        The scene is not valid; or the state of a support depends on the way of the load to it, or its law is a curve, so that
+        each case is more than one solve.
     """
     scene, beam = read_beam(source)
+    if beam.depends_on_path or beam.curves:
+        what = "its state depends on the way of the load" if beam.depends_on_path else "one of them is a curve"
+        raise SceneError("supports", f"cases cannot be prepared with these laws, as {what}; use gapbeam.solve for each case")
     return Prepared(scene, beam, choose_rule(scene, rule))

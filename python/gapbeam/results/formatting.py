@@ -182,7 +182,7 @@ def unit(scene: Scene, quantity: str) -> str:
     force, length = visible(scene.units.force), visible(scene.units.length)
     if quantity == "rotation":
         return "rad"
-    if quantity in ("x", "deflection", "opening", "gap", "axial_displacement"):
+    if quantity in ("x", "deflection", "opening", "set", "gap", "axial_displacement"):
         return length
     if quantity in ("reaction", "force", "shear", "axial_force"):
         return force
@@ -238,6 +238,7 @@ def supports_in_words(scene: Scene) -> str:
         (sum(support.gap > 0 for support in normal), "with a gap"),
         (sum(support.gap < 0 for support in normal), "with lack of fit"),
         (sum(math.isfinite(support.stiffness) for support in normal), "elastic"),
+        (sum(support.law is not None for support in normal), "with a law"),
         (sum(support.settlement != 0 for support in normal), "settling"),
         (sum(support.rotation == "fixed" for support in normal), "clamped"),
     ]

@@ -63,7 +63,7 @@ def solve(
     """
     scene, beam = read_beam(source)
     rule = choose_rule(scene, rule)
-    closed = _starting_scheme(beam, start)
+    closed = starting_scheme(beam, start)
     result = Result(scene, beam, rule)
     if beam.depends_on_path or scene.analysis.history != [1.0]:
         return _on_path(result)
@@ -120,7 +120,20 @@ def choose_rule(scene: Scene, rule: str | None) -> str:
     return rule
 
 
-def _starting_scheme(beam: Beam, start: Sequence[bool] | None) -> np.ndarray:
+def starting_scheme(beam: Beam, start: Sequence[bool] | None = None) -> np.ndarray:
+    """Give the scheme from which the first search starts.
+
+    Parameters
+    ----------
+    beam : Beam
+        The beam.
+    start : sequence of bool, optional
+        As for `solve`; default all closed, laws on their first piece.
+
+    Returns
+    -------
+    numpy.ndarray of int
+    """
     closed = np.ones(beam.supports, dtype=np.int32)
     if start is None:
         for kinks, middle, _ in beam.laws.values() if beam.has_laws else ():

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from contextlib import suppress
+from math import isfinite
 from operator import attrgetter
 from pathlib import Path
 from typing import Any
@@ -103,6 +104,11 @@ def _structured(source: Scene | Mapping[str, Any] | str | os.PathLike) -> Scene:
         raise SceneError("foundation[0]", "foundations are not available in this version; use elastic supports")
     if scene.analysis.steps < 1:
         raise SceneError("analysis.steps", f"expected a whole number, 1 or more, got {shown(scene.analysis.steps)}")
+    if not scene.analysis.history:
+        raise SceneError("analysis.history", "has no load factor; give one at least, for example [1.0]")
+    for i, factor in enumerate(scene.analysis.history):
+        if not isfinite(factor):
+            raise SceneError(f"analysis.history[{i}]", f"expected a finite number, got {number(factor)}")
     return scene
 
 
