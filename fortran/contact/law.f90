@@ -190,6 +190,7 @@ contains
                 k = order(j)
                 reaction(k) = 0.0_wp
                 reaction_error(k) = 0.0_wp
+                if (.not. acting(k) .and. supports(k)%kink == 0) cycle
                 call force_by_spring(supports, acting, k, answers(i)%deflection, deflection_size(i), acts, rigid, by_spring, &
                                      spring_error)
                 if (.not. acts) cycle
@@ -203,6 +204,7 @@ contains
             if (company == 0) cycle
             do j = first(i), first(i + 1) - 1
                 k = order(j)
+                if (.not. acting(k) .and. supports(k)%kink == 0) cycle
                 call force_by_spring(supports, acting, k, answers(i)%deflection, deflection_size(i), acts, rigid, by_spring, &
                                      spring_error)
                 if (.not. acts) cycle
@@ -390,8 +392,13 @@ contains
 
         do k = 1, size(closed)
             associate (i => supports(k)%node)
-                call margin_in_scheme(supports, closed, k, answers(i)%deflection, deflection_size(i), reaction, reaction_error, &
-                                      margin, rounding)
+                if (supports(k)%kink == 0) then
+                    call margin_of(supports(k), closed(k), answers(i)%deflection, deflection_size(i), reaction(k), &
+                                   reaction_error(k), margin, rounding)
+                else
+                    call margin_in_scheme(supports, closed, k, answers(i)%deflection, deflection_size(i), reaction, &
+                                          reaction_error, margin, rounding)
+                end if
             end associate
             wrong(k) = margin < -width*rounding
         end do
@@ -417,8 +424,13 @@ contains
             doubtful(k) = .false.
             if (.not. is_watched_in(supports, closed, k)) cycle
             associate (i => supports(k)%node)
-                call margin_in_scheme(supports, closed, k, answers(i)%deflection, deflection_size(i), reaction, reaction_error, &
-                                      margin, rounding)
+                if (supports(k)%kink == 0) then
+                    call margin_of(supports(k), closed(k), answers(i)%deflection, deflection_size(i), reaction(k), &
+                                   reaction_error(k), margin, rounding)
+                else
+                    call margin_in_scheme(supports, closed, k, answers(i)%deflection, deflection_size(i), reaction, &
+                                          reaction_error, margin, rounding)
+                end if
             end associate
             doubtful(k) = abs(margin) <= width*rounding
             in_doubt = in_doubt .or. (doubtful(k) .and. rounding > 0.0_wp)

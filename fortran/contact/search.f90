@@ -61,6 +61,8 @@ module gapbeam_search
         !> Which are wrong in the scheme solved last, how many, and the least number so far
         logical, allocatable :: wrong(:)
         integer :: wrong_now = 0, fewest = 0
+        !> Has any support a law
+        logical :: with_laws = .false.
         !> Rounding errors beyond which a sign counts
         real(wp) :: width = first_width
         !> The scheme solved last, if its solution can be kept up to date
@@ -101,22 +103,21 @@ contains
         !> Rounds of parts, if this is a part itself
         integer, intent(in), optional :: rounds
         type(search_type) :: search
-        logical :: with_laws
 
         allocate (search%wrong(size(closed)))
         search%rounds = part_rounds
         if (present(rounds)) search%rounds = rounds
         search%next_rounds = search%rounds/2
         ! Parts and interior points know of ordinary supports only
-        with_laws = has_laws(beam%supports)
-        if (.not. with_laws) search%margin = least_margin(beam)
+        search%with_laws = has_laws(beam%supports)
+        if (.not. search%with_laws) search%margin = least_margin(beam)
         settled = .false.
         if (rule == rule_single) call change_single(beam, closed, work, search, settled)
         if (.not. settled .and. search%state == band_ok) then
             search%fewest = huge(0)
             call change_all(beam, merge(patience, warm_patience, all(closed)), closed, work, search, settled)
         end if
-        if (.not. settled .and. search%state /= band_mechanism .and. .not. with_laws) then
+        if (.not. settled .and. search%state /= band_mechanism .and. .not. search%with_laws) then
             call change_by_interior_point(beam, closed, work, search, settled)
         end if
         if (settled .or. may_float) return
@@ -225,20 +226,20 @@ contains
             call look(beam, closed, .true., work, search, settled)
             if (settled .or. search%state /= band_ok) return
             call keep_worst_pull(closed, work, search%wrong)
-            call change(beam, search%wrong, closed)
+            call change(beam, search, closed)
             work%came_back = came_back(mark, closed)
             if (work%came_back) return
         end do
     end subroutine change_single
 
     !> Change the states that are wrong
-    pure subroutine change(beam, wrong, closed)
+    pure subroutine change(beam, search, closed)
         type(beam_type), intent(in) :: beam
-        logical, intent(in) :: wrong(:)
+        type(search_type), intent(in) :: search
         logical, intent(inout) :: closed(:)
 
-        closed(:) = closed .neqv. wrong
-        if (has_laws(beam%supports)) call open_beyond(beam%supports, closed)
+        closed(:) = closed .neqv. search%wrong
+        if (search%with_laws) call open_beyond(beam%supports, closed)
     end subroutine change
 
     !> Begin to watch for a scheme that comes back
@@ -298,7 +299,7 @@ contains
                     call keep_local_worst(beam, closed, work, search%wrong)
                 end if
             end if
-            call change(beam, search%wrong, closed)
+            call change(beam, search, closed)
         end do
     end subroutine change_all
 
@@ -439,7 +440,7 @@ contains
                 if (settled .or. search%state /= band_ok) return
                 if (search%wrong_now < search%fewest) exit
                 call keep_least_index(search%wrong)
-                call change(beam, search%wrong, closed)
+                call change(beam, search, closed)
                 if (came_back(mark, closed)) then
                     search%width = 16*search%width
                     if (search%width > last_width) return

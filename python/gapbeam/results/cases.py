@@ -77,6 +77,8 @@ class Prepared(Pickled):
         self._rule = rule
         self.node_x = beam.node_x
         self.supports = read_only(np.flatnonzero(beam.across))
+        # Columns of the supports of the engine; None if these are the same, one by one
+        self._carries = None if np.array_equal(beam.numbers, self.supports) else np.searchsorted(self.supports, beam.numbers)
         beam.split_loads()
 
     def __setstate__(self, state: dict[str, Any]) -> None:
@@ -119,14 +121,15 @@ class Prepared(Pickled):
         """
         factors = self._checked(factors)
         many = factors if factors.ndim == 2 else factors[None]
-        carries = np.searchsorted(self.supports, self._beam.numbers)
+        carries = self._carries
         closed: Any = 1
         if start is None:
             closed = starting_scheme(self._beam)
         else:
-            closed = scheme(start, len(self.supports), "support across the beam")[carries]
+            closed = scheme(start, len(self.supports), "support across the beam")
+            closed = closed if carries is None else closed[carries]
         w, left, right, reaction, closed, solves, status = self._beam.solve_cases(many, self._rule, closed)
-        if len(np.unique(carries)) < len(self.supports) or len(carries) > len(self.supports):
+        if carries is not None:
             closed = self._by_supports(closed, carries, np.zeros(len(many), dtype=np.int32))
             reaction = self._by_supports(reaction, carries, np.where(status == Status.SOLVED, 0.0, np.nan))
             for k in self._beam.laws if self._beam.has_laws else ():

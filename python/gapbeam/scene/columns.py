@@ -73,23 +73,24 @@ def columns(scene: Scene) -> Columns:
     return Columns(span, hinge, _sections(scene.sections), codes, values, law_supports, law, load_codes, load_values)
 
 
-def curves(scene: Scene) -> tuple[tuple[int, Curve], ...]:
+def curves(scene: Scene, taken: Columns) -> tuple[tuple[int, Curve], ...]:
     """Take the smooth laws of a scene.
 
     Parameters
     ----------
     scene : Scene
         Keys and types are right.
+    taken : Columns
+        Its numbers.
 
     Returns
     -------
     tuple of (int, Curve)
         Number of the support, and its law.
     """
-    if isinstance(scene.supports, Table):
-        return ()
-    laws = map(attrgetter("law"), scene.supports)
-    return tuple((i, law) for i, law in enumerate(laws) if law is not None and is_smooth(law))
+    with_law = np.unique(taken.law_supports[:-1]) - 1
+    laws = ((i, scene.supports[i].law) for i in with_law.tolist())
+    return tuple((i, law) for i, law in laws if is_smooth(law))
 
 
 def _empty(rows: int, count: int, kind: type = float) -> np.ndarray:
@@ -114,7 +115,11 @@ def _supports(items: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
     for row, key in enumerate(("stiffness", "gap", "settlement"), 1):
         found[row, :-1] = _numbers(items, key)
     found[4, :-1] = _rotations(items)
-    codes[3, :-1] = _words(items, "unloading", UNLOADING)
+    unloading = _column(items, "unloading")
+    elastic = unloading == "elastic" if isinstance(unloading, str) else isinstance(unloading, list) and (
+        unloading.count("elastic") == len(unloading)
+    )
+    codes[3, :-1] = 0 if elastic else _words(items, "unloading", UNLOADING)
     return codes, found
 
 

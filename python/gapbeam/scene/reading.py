@@ -84,7 +84,8 @@ def read_beam(source: Scene | Mapping[str, Any] | str | os.PathLike) -> tuple[Sc
 
 def _prepared(scene: Scene) -> Beam:
     try:
-        return Beam(columns(scene), curves(scene))
+        taken = columns(scene)
+        return Beam(taken, curves(scene, taken))
     except RefusalError as refused:
         raise refusal(scene, *refused.codes) from None
 
