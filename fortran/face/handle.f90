@@ -3,7 +3,7 @@ module gapbeam_handle
     use, intrinsic :: iso_fortran_env, only: int64
     use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer, c_null_ptr
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, no_memory
+    use gapbeam_error, only: error_type, no_memory, gapbeam_solved
     use gapbeam_scene, only: model_type
     use gapbeam_lowered, only: lowered_type
     use gapbeam_lower, only: lower_model
@@ -12,7 +12,7 @@ module gapbeam_handle
     use gapbeam_history, only: history_type
     implicit none
     private
-    public :: handle_type, new_handle, copy_handle, handle_of, drop_handle, state_of
+    public :: handle_type, new_handle, copy_handle, handle_of, drop_handle, state_of, report
 
     !> What a handle stands for
     type :: handle_type
@@ -116,5 +116,20 @@ contains
         state%shear(:) = shear
         state%reaction(:) = react(:size(state%reaction))
     end subroutine state_of
+
+    !> What Python is told of an error
+    pure subroutine report(error, status, message)
+        !> Not allocated where there is none
+        type(error_type), allocatable, intent(in) :: error
+        !> Its code, or gapbeam_solved; its message, or blank
+        integer, intent(out) :: status
+        character(len=240), intent(out) :: message
+
+        status = gapbeam_solved
+        message = " "
+        if (.not. allocated(error)) return
+        status = error%code
+        message = error%message
+    end subroutine report
 
 end module gapbeam_handle

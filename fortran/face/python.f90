@@ -10,10 +10,10 @@
 ! Prepare a beam
 subroutine gbmake(mspan, mhinge, msect, msup, mlaw, mload, span, hinge, sect, isup, sup, ilaw, alaw, iload, aload, &
                   beam, status, reason, table, entry, partner, key, message)
-    use gapbeam_error, only: error_type, gapbeam_solved
+    use gapbeam_error, only: error_type
     use gapbeam_scene, only: model_type
     use gapbeam_arrays, only: model_from_arrays
-    use gapbeam_handle, only: new_handle
+    use gapbeam_handle, only: new_handle, report
     implicit none
     ! One more than there are
     integer, intent(in) :: mspan, mhinge, msect, msup, mlaw, mload
@@ -37,24 +37,21 @@ subroutine gbmake(mspan, mhinge, msect, msup, mlaw, mload, span, hinge, sect, is
     type(error_type), allocatable :: error
 
     beam = 0
-    status = gapbeam_solved
     reason = 0
     table = 0
     entry = 0
     partner = 0
     key = " "
-    message = " "
     call model_from_arrays(span(:, :mspan - 1), hinge(:mhinge - 1), sect(:, :msect - 1), isup(:, :msup - 1), sup(:, :msup - 1), &
                            ilaw(:mlaw - 1), alaw(:, :mlaw - 1), iload(:, :mload - 1), aload(:, :mload - 1), model, error)
     if (.not. allocated(error)) call new_handle(model, beam, error)
+    call report(error, status, message)
     if (.not. allocated(error)) return
-    status = error%code
     reason = error%reason
     table = error%table
     entry = error%entry
     partner = error%partner
     key = error%key
-    message = error%message
 end subroutine gbmake
 
 ! Free a beam
@@ -68,8 +65,8 @@ end subroutine gbdrop
 
 ! Another beam: the loads of a case, all live, each times its factor, and nothing dead
 subroutine gbcopy(beam, nd, factor, copy, status, message)
-    use gapbeam_error, only: error_type, gapbeam_solved
-    use gapbeam_handle, only: handle_type, handle_of, copy_handle, drop_handle
+    use gapbeam_error, only: error_type
+    use gapbeam_handle, only: handle_type, handle_of, copy_handle, drop_handle, report
     use gapbeam_cases, only: take_case
     implicit none
     integer(8), intent(in) :: beam
@@ -84,18 +81,14 @@ subroutine gbcopy(beam, nd, factor, copy, status, message)
     type(handle_type), pointer :: handle
     type(error_type), allocatable :: error
 
-    status = gapbeam_solved
-    message = " "
     call copy_handle(beam, copy, error)
     if (.not. allocated(error)) then
         handle => handle_of(copy)
         call take_case(factor(:nd - 1), handle%lowered, error)
         if (allocated(error)) call drop_handle(copy)
     end if
-    if (.not. allocated(error)) return
-    copy = 0
-    status = error%code
-    message = error%message
+    call report(error, status, message)
+    if (allocated(error)) copy = 0
 end subroutine gbcopy
 
 ! Sizes of a beam, and its units
@@ -209,7 +202,7 @@ end subroutine gbplac
 subroutine gbsolv(beam, nl, ns, nm, nb, factor, rule, closed, undec, w, ml, mr, shear, react, motion, u, pull, &
                   values, counts, status, message)
     use gapbeam_error, only: error_type, gapbeam_solved
-    use gapbeam_handle, only: handle_type, handle_of
+    use gapbeam_handle, only: handle_type, handle_of, report
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_state, only: solve_state
     use gapbeam_query, only: support_values
@@ -254,17 +247,13 @@ subroutine gbsolv(beam, nl, ns, nm, nb, factor, rule, closed, undec, w, ml, mr, 
     pull = 0.0d0
     values = 0.0d0
     counts = 0
-    message = " "
     call new_state(handle%lowered, state, error)
     if (.not. allocated(error)) then
         state%closed(:) = closed(:ns) /= 0
         call solve_state(handle%lowered, factor, rule, state, error)
     end if
-    if (allocated(error)) then
-        status = error%code
-        message = error%message
-        return
-    end if
+    call report(error, status, message)
+    if (allocated(error)) return
     status = state%status
     counts = [state%solves, state%method, merge(1, 0, state%indifferent), merge(1, 0, state%came_back), merge(1, 0, state%slides)]
     motion = state%motion
@@ -286,7 +275,7 @@ end subroutine gbsolv
 subroutine gbpath(most, beam, nl, ns, limit, factor, closed, margin, events, at, which, what, motion, solves, nodes, status, &
                   message)
     use gapbeam_error, only: error_type
-    use gapbeam_handle, only: handle_type, handle_of
+    use gapbeam_handle, only: handle_type, handle_of, report
     use gapbeam_memory, only: for_following
     use gapbeam_scheme, only: outcome_type
     use gapbeam_referee, only: reserve_for
@@ -324,7 +313,6 @@ subroutine gbpath(most, beam, nl, ns, limit, factor, closed, margin, events, at,
     which = 0
     what = 0
     motion = 0.0d0
-    message = " "
     solves = 0
     nodes = 0
     associate (lowered => handle%lowered)
@@ -337,11 +325,8 @@ subroutine gbpath(most, beam, nl, ns, limit, factor, closed, margin, events, at,
             call name_range(lowered, error)
         end if
     end associate
-    if (allocated(error)) then
-        status = error%code
-        message = error%message
-        return
-    end if
+    call report(error, status, message)
+    if (allocated(error)) return
     closed(:ns) = merge(1, 0, acting)
     margin(:ns) = merge(1, 0, zero)
     events = path%count
@@ -481,8 +466,8 @@ end subroutine gblaws
 
 ! Check a solved state
 subroutine gbcert(beam, nl, ns, factor, closed, w, ml, mr, shear, react, residu, bound, known, status, message)
-    use gapbeam_error, only: error_type, gapbeam_solved
-    use gapbeam_handle, only: handle_type, handle_of, state_of
+    use gapbeam_error, only: error_type
+    use gapbeam_handle, only: handle_type, handle_of, state_of, report
     use gapbeam_solution, only: state_type
     use gapbeam_certificate, only: certificate_type
     use gapbeam_state, only: certify_state
@@ -512,15 +497,10 @@ subroutine gbcert(beam, nl, ns, factor, closed, w, ml, mr, shear, react, residu,
     residu = 0.0d0
     bound = 0.0d0
     known = 0
-    status = gapbeam_solved
-    message = " "
     call state_of(handle%lowered, factor, closed, w, ml, mr, shear, react, state, error)
     if (.not. allocated(error)) call certify_state(handle%lowered, state, found, error)
-    if (allocated(error)) then
-        status = error%code
-        message = error%message
-        return
-    end if
+    call report(error, status, message)
+    if (allocated(error)) return
     residu = [found%compatibility, found%equilibrium, found%complementarity]
     bound = [found%of_nodes, found%reaction, found%deflection, found%rotation, found%moment, found%shear]
     known = merge(1, 0, found%known)
@@ -528,8 +508,8 @@ end subroutine gbcert
 
 ! Fields at the left end of every piece
 subroutine gbreco(beam, np, nl, ns, factor, closed, w, ml, mr, shear, react, start, status, message)
-    use gapbeam_error, only: error_type, gapbeam_solved
-    use gapbeam_handle, only: handle_type, handle_of, state_of
+    use gapbeam_error, only: error_type
+    use gapbeam_handle, only: handle_type, handle_of, state_of, report
     use gapbeam_solution, only: state_type
     use gapbeam_query, only: make_starts
     implicit none
@@ -553,15 +533,10 @@ subroutine gbreco(beam, np, nl, ns, factor, closed, w, ml, mr, shear, react, sta
 
     handle => handle_of(beam)
     start = 0.0d0
-    status = gapbeam_solved
-    message = " "
     call state_of(handle%lowered, factor, closed, w, ml, mr, shear, react, state, error)
     if (.not. allocated(error)) call make_starts(handle%lowered, state, error)
-    if (allocated(error)) then
-        status = error%code
-        message = error%message
-        return
-    end if
+    call report(error, status, message)
+    if (allocated(error)) return
     do j = 1, np
         associate (s => state%starts(j))
             start(:, j) = [s%deflection, s%rotation, s%moment, s%shear]
@@ -571,8 +546,8 @@ end subroutine gbreco
 
 ! Fields at NX places of the scene, in its units; where they jump right (LEFT = 0) or left of the place
 subroutine gbfind(beam, nx, x, left, piece, dist, status, message)
-    use gapbeam_error, only: error_type, gapbeam_solved
-    use gapbeam_handle, only: handle_type, handle_of
+    use gapbeam_error, only: error_type
+    use gapbeam_handle, only: handle_type, handle_of, report
     use gapbeam_query, only: find_pieces
     implicit none
     integer(8), intent(in) :: beam
@@ -594,14 +569,9 @@ subroutine gbfind(beam, nx, x, left, piece, dist, status, message)
     handle => handle_of(beam)
     piece = 0
     dist = 0.0d0
-    status = gapbeam_solved
-    message = " "
     call find_pieces(handle%lowered, x, left /= 0, pieces, distances, error)
-    if (allocated(error)) then
-        status = error%code
-        message = error%message
-        return
-    end if
+    call report(error, status, message)
+    if (allocated(error)) return
     piece = pieces
     dist = distances
 end subroutine gbfind
@@ -609,9 +579,9 @@ end subroutine gbfind
 ! Fields at distances from the left ends of pieces (from 1), in the scene's units
 subroutine gbvalu(beam, np, nb, nx, factor, start, u, pull, piece, dist, value, status, message)
     use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
-    use gapbeam_error, only: error_type, gapbeam_solved
+    use gapbeam_error, only: error_type
     use gapbeam_element, only: field_type
-    use gapbeam_handle, only: handle_type, handle_of
+    use gapbeam_handle, only: handle_type, handle_of, report
     use gapbeam_query, only: fields_in_pieces
     implicit none
     integer(8), intent(in) :: beam
@@ -636,21 +606,17 @@ subroutine gbvalu(beam, np, nb, nx, factor, start, u, pull, piece, dist, value, 
 
     handle => handle_of(beam)
     value = 0.0d0
-    status = gapbeam_solved
-    message = " "
     call c_f_pointer(c_loc(start), starts, [np])
     call fields_in_pieces(handle%lowered, factor, starts, u, pull(:nb), piece, dist, value, error)
-    if (.not. allocated(error)) return
-    status = error%code
-    message = error%message
+    call report(error, status, message)
 end subroutine gbvalu
 
 ! Maximum and minimum of all fields and their places, in the scene's units
 subroutine gbextr(beam, np, nb, factor, start, u, pull, value, x, status, message)
     use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
-    use gapbeam_error, only: error_type, gapbeam_solved
+    use gapbeam_error, only: error_type
     use gapbeam_element, only: field_type
-    use gapbeam_handle, only: handle_type, handle_of
+    use gapbeam_handle, only: handle_type, handle_of, report
     use gapbeam_query, only: extremes_of_pieces
     implicit none
     integer(8), intent(in) :: beam
@@ -670,13 +636,9 @@ subroutine gbextr(beam, np, nb, factor, start, u, pull, value, x, status, messag
     type(error_type), allocatable :: error
 
     handle => handle_of(beam)
-    status = gapbeam_solved
-    message = " "
     call c_f_pointer(c_loc(start), starts, [np])
     call extremes_of_pieces(handle%lowered, factor, starts, u, pull(:nb), value, x, error)
-    if (.not. allocated(error)) return
-    status = error%code
-    message = error%message
+    call report(error, status, message)
 end subroutine gbextr
 
 ! Largest absolute values of deflection, rotation, moment, shear, in the engine's units
