@@ -136,31 +136,30 @@ def _laws(items: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
 
 def _loads(items: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
     codes, found = _empty(3, len(items), np.int32), _empty(4, len(items))
-    if isinstance(items, Table):
-        groups: dict[type, Any] = {items.struct: slice(None)}
-    else:
-        types = list(map(type, items))
-        groups = {one: slice(None) for one in types[:1]}
-        if any(one is not types[0] for one in types):
-            numbers = {one: k for k, one in enumerate(KINDS)}
-            of = np.fromiter(map(numbers.__getitem__, types), np.int8, len(types))
-            groups = {one: some for one, k in numbers.items() if len(some := np.flatnonzero(of == k))}
-    codes[1, :-1] = _words(items, "case", CASES)
-    for one, some in groups.items():
+    (kinds, cases, nodes), (left, right, values, values_to) = codes[:, :-1], found[:, :-1]
+    cases[:] = _words(items, "case", CASES)
+    for one, some in _groups(items).items():
         group = items if isinstance(some, slice) else [items[k] for k in some.tolist()]
         kind, key = KINDS[one]
-        codes[0, :-1][some] = kind
+        kinds[some] = kind
         if kind in (DISTRIBUTED, CURVATURE):
-            codes[2, :-1][some] = BY_X
-            found[0, :-1][some] = _numbers(group, "from_")
-            found[1, :-1][some] = _optional(group, "to")
+            nodes[some], left[some], right[some] = BY_X, _numbers(group, "from_"), _optional(group, "to")
         else:
-            index = range(len(items)) if isinstance(some, slice) else some
-            codes[2, :-1][some], found[0, :-1][some] = _places("loads", group, index)
-            found[1, :-1][some] = 0.0
-        values = _numbers(group, key)
-        found[2, :-1][some], found[3, :-1][some] = values.T if values.ndim == 2 else (values, values)
+            nodes[some], left[some] = _places("loads", group, np.arange(len(items))[some])
+            right[some] = 0.0
+        given = _numbers(group, key)
+        values[some], values_to[some] = given.T if given.ndim == 2 else (given, given)
     return codes, found
+
+
+def _groups(items: Sequence[Any]) -> dict[type, Any]:
+    """Index of the loads of every type."""
+    types = [items.struct] if isinstance(items, Table) else list(map(type, items))
+    if len(found := set(types)) < 2:
+        return dict.fromkeys(found, slice(None))
+    numbers = {one: k for k, one in enumerate(KINDS) if one in found}
+    of = np.fromiter(map(numbers.__getitem__, types), np.int8, len(types))
+    return {one: np.flatnonzero(of == k) for one, k in numbers.items()}
 
 
 def _column(items: Sequence[Any], key: str) -> Any:
@@ -209,28 +208,26 @@ def _optional(items: Sequence[Any], key: str) -> Any:
 def _places(name: str, items: Sequence[Any], index: Sequence[int]) -> tuple[Any, Any]:
     """Nodes, BY_X where there is none, and x, NOT_GIVEN where there is none."""
     x, node = _optional(items, "x"), _nodes(name, _column(items, "node"), index)
-    both = np.logical_and(node != BY_X, x != NOT_GIVEN)
-    for row in np.flatnonzero(np.broadcast_to(both, len(items)))[:1] if np.any(both) else ():
-        item = items[row]
-        there = f"node = {number(item.node)} and x = {number(item.x)}"
+    both = np.broadcast_to((node != BY_X) & (x != NOT_GIVEN), len(items))
+    if both.any():
+        row = int(both.argmax())
+        there = f"node = {number(items[row].node)} and x = {number(items[row].x)}"
         raise SceneError(f"{name}[{index[row]}]", f"has both {there}; give one of the two")
     return node, x
 
 
 def _nodes(name: str, values: Any, index: Sequence[int]) -> Any:
+    """Nodes, BY_X where there is none; those below 0 less 1, so that none is taken for BY_X."""
     if isinstance(values, list):
         missing = values.count(None)
         if missing == len(values):
             return BY_X
         if missing:
-            values = [-0.5 if value is None else value for value in values]
+            values = [-0.5 if value is None else value for value in values]  # less 1 and cut off this is BY_X
         if min(values) < -(2**31):  # msgspec minds only integers that are too large
             row = next(row for row, value in enumerate(values) if value < -(2**31))
             raise SceneError(f"{name}[{index[row]}].node", f"expected a whole number, got {shown(values[row])}")
-        if not missing and min(values) >= 0:
-            return np.array(values)
     if values is None:
         return BY_X
     found = np.asarray(values, dtype=float)
-    # One less than a node below 0, so that it is not taken for BY_X
-    return np.where(found == -0.5, BY_X, np.where(found < 0, np.maximum(found - 1, -(2**31)), found)).astype(np.int32)
+    return np.maximum(found - (found < 0), -(2**31)).astype(np.int32)

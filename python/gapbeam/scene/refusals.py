@@ -6,6 +6,7 @@ from math import isfinite, isnan
 from typing import Any
 
 from ..base.errors import SceneError
+from .columns import KINDS, SIDES
 from .structs import Scene
 from .wording import number, shown
 
@@ -26,7 +27,6 @@ AXIAL = {
     "gap": "an axial support has no gap; remove it",
     "rotation": "an axial support holds no rotation; a normal one here can do that",
 }
-VALUE = {"force": "F", "moment": "M", "axial": "F", "uniform": "q", "linear": "q", "curvature": "kappa"}
 
 
 def refusal(scene: Scene, reason: int, table: int, entry: int, partner: int, key: str, message: str) -> SceneError:
@@ -104,7 +104,7 @@ def _wrong_number(item: Any, table: int, path: str, key: str) -> SceneError:
     if table == HINGES:
         return SceneError(path, "expected a number, got nan")
     if table == LOADS and key in ("value", "value_to"):
-        key = VALUE[item.__struct_config__.tag]
+        key = KINDS[type(item)][1]
     value = getattr(item, "from_" if key == "from" else key)
     expected = EXPECTED.get(key, "a finite number")
     if table == SECTIONS:
@@ -148,4 +148,4 @@ def contact_level(support: Any) -> float:
     float
         Length, positive downward: settlement + gap (below), settlement - gap (above), settlement (both).
     """
-    return support.settlement + {"both": 0.0, "below": 1.0, "above": -1.0}[support.side] * support.gap
+    return support.settlement + SIDES[support.side] * support.gap
