@@ -8,7 +8,9 @@ program test_api
         get_motion, get_certificate, count_supports, count_nodes, gapbeam_infinity, gapbeam_below, gapbeam_above, &
         gapbeam_axial, gapbeam_dead, gapbeam_closed, gapbeam_bilateral, gapbeam_rule_single, gapbeam_solved, &
         gapbeam_no_equilibrium, gapbeam_bad_input, gapbeam_not_finite, gapbeam_not_prepared, gapbeam_indeterminate, &
-        gapbeam_status_message
+        gapbeam_status_message, law_point_type, history_type, follow_history, solve_on_path, gapbeam_plastic, gapbeam_branch, &
+        gapbeam_open, gapbeam_yields, gapbeam_breaks, gapbeam_unloads, gapbeam_opens, gapbeam_limit_stop, gapbeam_limit_jump, &
+        gapbeam_limit_follow, gapbeam_arrived, gapbeam_limit_point, gapbeam_path_ended, gapbeam_mechanism
     implicit none
     integer :: status
 
@@ -20,6 +22,10 @@ program test_api
     call clearance()
     call slides_away()
     call extreme_units()
+    call hardening_law()
+    call brittle_law()
+    call plastic_law()
+    call mechanism_at_limit()
     call finish(status)
     if (status /= 0) stop 1, quiet=.true.
 
@@ -357,5 +363,166 @@ contains
             call check_close(value(:, 3), usual_value(:, 3), "moments in other units", relative=4*epsilon(1.0_wp))
         end do
     end subroutine extreme_units
+
+    !> A simple beam of stiffness 1 in the middle over a support with a law from below, a load of 2.2 on it
+    subroutine over_law(points, model)
+        !> Displacements and forces, shape (2, n)
+        real(wp), intent(in) :: points(:, :)
+        type(model_type), intent(out) :: model
+        integer :: i
+
+        model%spans = [span_type(2.0_wp, EI=4/3.0_wp), span_type(2.0_wp, EI=4/3.0_wp)]
+        model%supports = [support_type(node=0), support_type(node=1, side=gapbeam_below), support_type(node=2)]
+        model%law = [(law_point_type(2, points(1, i), points(2, i)), i=1, size(points, 2))]
+        model%loads = [point_force(2.2_wp, node=1)]
+    end subroutine over_law
+
+    !> A law that only hardens is solved as any beam, with its piece as condition
+    subroutine hardening_law()
+        type(model_type) :: model
+        type(prepared_type) :: beam
+        type(result_type) :: result
+        type(error_type), allocatable :: error
+        type(event_type), allocatable :: events(:)
+        real(wp) :: reaction(3), deflection(3), opening(3), couple(3)
+        integer :: condition(3)
+
+        call over_law(reshape([0.1_wp, 1.0_wp, 1.1_wp, 5.0_wp], [2, 2]), model)
+        call prepare_model(model, beam, error)
+        call solve_beam(beam, 1.0_wp, options_type(), result, error)
+        call get_supports(beam, result, reaction, deflection, opening, couple, condition, error)
+        call check_close(deflection(2), 0.32_wp, "on the second piece")
+        call check_close(reaction(2), 1.88_wp, "its force")
+        call check(condition(2) == gapbeam_branch + 2 .and. condition(1) == gapbeam_bilateral, "its number")
+        call follow_load(beam, 1.0_wp, options_type(), events, result, error)
+        call check(size(events) == 1, "one event")
+        call check_close(events(1)%factor, 0.5_wp, "its factor")
+        call check(events(1)%state == gapbeam_branch + 2 .and. events(1)%change == gapbeam_yields, "the support yields")
+        model%law(2)%displacement = 0.05_wp
+        call refuse(model, 3, 2, "go back")
+        model%law(2)%displacement = 1.1_wp
+        model%law(2)%support = 4
+        call refuse(model, 3, 1, "does not exist")
+    end subroutine hardening_law
+
+    !> A support that breaks: the load stops, the beam falls on to a state beyond, or the path is followed
+    subroutine brittle_law()
+        type(model_type) :: model
+        type(prepared_type) :: beam, other
+        type(result_type) :: result
+        type(history_type) :: history, none
+        type(certificate_type) :: certificate
+        type(error_type), allocatable :: error
+        type(event_type), allocatable :: events(:)
+        real(wp) :: reaction(3), deflection(3), opening(3), couple(3)
+        integer :: condition(3)
+        logical :: undecided(3)
+
+        call over_law(reshape([0.1_wp, 1.0_wp, 0.1_wp, 0.0_wp, 1.0_wp, 0.0_wp], [2, 3]), model)
+        call prepare_model(model, beam, error)
+        call solve_beam(beam, 0.1_wp, options_type(), result, error)
+        call check(error%code == gapbeam_bad_input .and. index(error%message, "follow_history") > 0, "solve_beam names the way")
+        call follow_load(beam, 0.1_wp, options_type(), events, result, error)
+        call check(error%code == gapbeam_bad_input, "and so does follow_load")
+        call solve_on_path(beam, none, 0.1_wp, result, error)
+        call check(error%code == gapbeam_not_prepared, "no history")
+        call follow_history(beam, [1.0_wp], 3, history, error)
+        call check(error%code == gapbeam_bad_input, "no such way at limits")
+        call follow_history(beam, [1.0_wp, gapbeam_infinity], gapbeam_limit_stop, history, error)
+        call check(error%code == gapbeam_bad_input, "no finite factor")
+        call follow_history(beam, [real(wp) ::], gapbeam_limit_stop, history, error)
+        call check(error%code == gapbeam_bad_input, "no factor")
+
+        call follow_history(beam, [1.0_wp], gapbeam_limit_stop, history, error)
+        call check(.not. allocated(error) .and. history%ending == gapbeam_path_ended, "the load stops")
+        call check(size(history%limits) == 1, "at one limit")
+        call check_close(history%limits(1)%factor, 0.5_wp, "its factor")
+        call check(history%limits(1)%kind == gapbeam_limit_point .and. history%limits(1)%stretch == 1, "its kind and place")
+        call check(history%events(1)%support == 2 .and. history%events(1)%change == gapbeam_breaks &
+                   .and. history%events(1)%state == gapbeam_branch + 2, "the support breaks")
+        call check(history%stretches(1)%stable .and. .not. history%stretches(2)%stable, "before it the beam is stable")
+        call solve_on_path(beam, history, 0.25_wp, result, error)
+        call get_supports(beam, result, reaction, deflection, opening, couple, condition, error)
+        call check_close(reaction(2), 0.5_wp, "half way to the limit")
+        call check(condition(2) == gapbeam_branch + 1, "on the first piece")
+        call get_certificate(beam, result, certificate, undecided, error)
+        call check(.not. allocated(error) .and. certificate%known .and. certificate%reaction_bound < 1e-12_wp, "certified")
+        call solve_on_path(beam, history, 0.75_wp, result, error)
+        call check(error%code == gapbeam_bad_input, "not beyond it")
+        call solve_on_path(beam, history, 0.5_wp, result, error, stretch=history%limits(1)%landing)
+        call get_supports(beam, result, reaction, deflection, opening, couple, condition, error)
+        call check_close(deflection(2), 1.1_wp, "the landing")
+        call solve_on_path(beam, history, 0.5_wp, result, error, stretch=99)
+        call check(error%code == gapbeam_bad_input, "no such stretch")
+
+        call follow_history(beam, [1.0_wp], gapbeam_limit_jump, history, error)
+        call check(history%ending == gapbeam_arrived, "after a jump it goes on")
+        call solve_on_path(beam, history, 1.0_wp, result, error)
+        call get_supports(beam, result, reaction, deflection, opening, couple, condition, error)
+        call check_close(deflection(2), 2.2_wp, "to the end")
+        call check(condition(2) == gapbeam_branch + 3, "without the support")
+        call follow_history(beam, [1.0_wp], gapbeam_limit_follow, history, error)
+        call check(history%stretches(2)%direction == -1 .and. .not. any(history%stretches%skipped), "the load falls and rises")
+        model%loads(1)%value = 2.3_wp
+        call prepare_model(model, other, error)
+        call solve_on_path(other, history, 0.25_wp, result, error)
+        call check(error%code == gapbeam_not_prepared, "the history of another beam")
+    end subroutine brittle_law
+
+    !> A support that keeps a set: loaded, and unloaded
+    subroutine plastic_law()
+        type(model_type) :: model
+        type(prepared_type) :: beam
+        type(result_type) :: result
+        type(history_type) :: history
+        type(certificate_type) :: certificate
+        type(error_type), allocatable :: error
+        real(wp) :: reaction(3), deflection(3), opening(3), couple(3)
+        integer :: condition(3), k
+        logical :: undecided(3)
+
+        call over_law(reshape([0.1_wp, 1.0_wp, 1.0_wp, 1.0_wp], [2, 2]), model)
+        model%supports(2)%unloading = gapbeam_plastic
+        call prepare_model(model, beam, error)
+        call follow_history(beam, [1.0_wp, 0.0_wp], gapbeam_limit_stop, history, error)
+        call check(history%ending == gapbeam_arrived .and. size(history%limits) == 0, "there and back")
+        call check(all(history%events%change == [gapbeam_yields, gapbeam_unloads, gapbeam_opens]), "yields, unloads, opens")
+        call check_close(history%events%factor, [0.5_wp, 1.0_wp, 0.5_wp], "at these factors")
+        k = history%events(2)%stretch
+        call check(history%stretches(k)%leg == 2 .and. history%stretches(k)%direction == -1, "on the way back")
+        call solve_on_path(beam, history, 0.75_wp, result, error, stretch=k)
+        call get_supports(beam, result, reaction, deflection, opening, couple, condition, error)
+        call check_close(reaction(2), 0.5_wp, "along the first slope")
+        call check_close(deflection(2), 1.15_wp, "from where it was")
+        call get_certificate(beam, result, certificate, undecided, error)
+        call check(.not. allocated(error) .and. certificate%complementarity < 1e-14_wp, "certified with its set")
+        call solve_on_path(beam, history, 0.25_wp, result, error, stretch=size(history%stretches))
+        call get_supports(beam, result, reaction, deflection, opening, couple, condition, error)
+        call check_close(opening(2), 0.55_wp, "a gap is left")
+        call check(condition(2) == gapbeam_open, "it is open")
+        call solve_on_path(beam, history, 0.25_wp, result, error, stretch=1)
+        call get_supports(beam, result, reaction, deflection, opening, couple, condition, error)
+        call check_close(reaction(2), 0.5_wp, "on the way there it had none")
+    end subroutine plastic_law
+
+    !> A rigid lever that a yielding support holds: the path ends in a motion
+    subroutine mechanism_at_limit()
+        type(model_type) :: model
+        type(prepared_type) :: beam
+        type(history_type) :: history
+        type(error_type), allocatable :: error
+
+        model%spans = [span_type(2.0_wp, EI=gapbeam_infinity)]
+        model%supports = [support_type(node=0), support_type(x=1.0_wp, side=gapbeam_below)]
+        model%law = [law_point_type(2, 0.1_wp, 1.0_wp), law_point_type(2, 1.0_wp, 1.0_wp)]
+        model%loads = [point_force(1.0_wp, node=1)]
+        call prepare_model(model, beam, error)
+        call follow_history(beam, [1.0_wp], gapbeam_limit_stop, history, error)
+        call check(.not. allocated(error) .and. size(history%limits) == 1, "one limit")
+        call check(history%limits(1)%kind == gapbeam_mechanism .and. history%ending == gapbeam_mechanism, "a mechanism")
+        call check_close(history%limits(1)%factor, 0.5_wp, "when the support yields")
+        call check(allocated(history%motion), "with its motion")
+        if (allocated(history%motion)) call check_close(history%motion, history%x/2, "turning")
+    end subroutine mechanism_at_limit
 
 end program test_api

@@ -15,6 +15,7 @@ module gapbeam_api
     use gapbeam_units, only: bound_outside, moment_unit, rotation_unit
     use gapbeam_lower, only: lower_model
     use gapbeam_lower_loads, only: lower_loads
+    use gapbeam_lower_laws, only: depends_on_path
     use gapbeam_check, only: check_loads
     use gapbeam_words, only: shown
     use gapbeam_certificate, only: found_type => certificate_type
@@ -26,6 +27,8 @@ module gapbeam_api
     public :: prepared_type, options_type, result_type, certificate_type
     public :: prepare_model, replace_loads, count_supports, count_nodes
     public :: solve_beam, follow_load, get_supports, get_fields, get_extremes, get_motion, get_certificate
+    ! For gapbeam_api_history
+    public :: require_beam, make_state, summarise
 
     !> A prepared beam: opaque
     type :: prepared_type
@@ -196,7 +199,8 @@ contains
     end function count_nodes
 
     !> Solve at one load factor. Where `result` holds an earlier result of this beam, the search starts from its scheme: that
-    !> changes the number of solves, not the answer
+    !> changes the number of solves, not the answer. Beams whose state depends on the way of the load are refused: they have
+    !> support laws that fall, keep a set, or may let go of the beam; follow_history and solve_on_path are for these
     subroutine solve_beam(beam, factor, options, result, error)
         !> Prepared
         type(prepared_type), intent(in) :: beam
@@ -205,8 +209,8 @@ contains
         type(options_type), intent(in) :: options
         !> The new state; result%status says whether there is equilibrium
         type(result_type), intent(inout) :: result
-        !> gapbeam_bad_input, gapbeam_indeterminate, gapbeam_not_converged, gapbeam_not_finite, gapbeam_no_memory or
-        !> gapbeam_not_prepared; result%status is then -1
+        !> gapbeam_bad_input, also of beams whose state depends on the way of the load, gapbeam_indeterminate,
+        !> gapbeam_not_converged, gapbeam_not_finite, gapbeam_no_memory or gapbeam_not_prepared; result%status is then -1
         type(error_type), allocatable, intent(out) :: error
         type(ieee_status_type) :: environment
 
@@ -215,6 +219,7 @@ contains
         call ieee_set_rounding_mode(ieee_nearest)
         result%status = -1
         call require_beam(beam, error)
+        if (.not. allocated(error)) call require_no_path(beam, error)
         if (.not. allocated(error)) call check_call(factor, options, error)
         if (.not. allocated(error)) call make_state(beam, result, error)
         if (.not. allocated(error)) call solve_state(beam%lowered, factor, options%rule, result%state, error)
@@ -222,7 +227,8 @@ contains
         call ieee_set_status(environment)
     end subroutine solve_beam
 
-    !> Follow the load from factor 0 upwards: every change of the working scheme at its exact load factor
+    !> Follow the load from factor 0 upwards: every change of the working scheme at its exact load factor; not of beams that
+    !> solve_beam refuses
     subroutine follow_load(beam, factor, options, events, result, error)
         !> Prepared
         type(prepared_type), intent(in) :: beam
@@ -244,6 +250,7 @@ contains
         call ieee_set_rounding_mode(ieee_nearest)
         result%status = -1
         call require_beam(beam, error)
+        if (.not. allocated(error)) call require_no_path(beam, error)
         if (.not. allocated(error)) call check_call(factor, options, error)
         if (.not. allocated(error) .and. .not. factor > 0.0_wp) then
             call fatal_error(error, gapbeam_bad_input, "factor: expected a number above 0, got "//trim(shown(factor)))
@@ -277,7 +284,8 @@ contains
         real(wp), intent(out) :: opening(:)
         !> Couple on the beam, clockwise
         real(wp), intent(out) :: couple(:)
-        !> gapbeam_open, gapbeam_closed or gapbeam_bilateral
+        !> gapbeam_open, gapbeam_closed or gapbeam_bilateral; of a support with a law gapbeam_open, or gapbeam_branch plus the
+        !> number of its piece, from 1
         integer, intent(out) :: condition(:)
         !> gapbeam_not_prepared, or gapbeam_bad_input for arrays of another size
         type(error_type), allocatable, intent(out) :: error
@@ -422,6 +430,16 @@ contains
         end if
     end subroutine require_beam
 
+    !> Refuse a beam whose state depends on the way of the load
+    subroutine require_no_path(beam, error)
+        type(prepared_type), intent(in) :: beam
+        type(error_type), allocatable, intent(out) :: error
+
+        if (.not. depends_on_path(beam%lowered)) return
+        call fatal_error(error, gapbeam_bad_input, "the state of this beam depends on the way of the load, since the law of a "// &
+                         "support falls, keeps a set, or may let go of the beam: use follow_history and solve_on_path")
+    end subroutine require_no_path
+
     !> Refuse a result of another beam or of another status
     subroutine require_result(beam, result, status, error)
         type(prepared_type), intent(in) :: beam
@@ -487,6 +505,7 @@ contains
         integer :: stat
 
         if (allocated(result%state)) then
+            if (allocated(result%state%laws)) deallocate (result%state%laws)
             if (fits(beam, result%state)) return
             deallocate (result%state)
         end if

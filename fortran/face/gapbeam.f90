@@ -13,6 +13,13 @@
 !>     call solve_beam(beam, 1d0, options_type(), result, error)                 ! at every load factor
 !>     call get_fields(beam, result, [3d0], fields, error)                       ! and what it says
 !>
+!> A support may follow a law instead of a stiffness: a polyline of its force over the displacement, which may harden, yield,
+!> soften and break. Where a force falls, or a support keeps a set, the state depends on the way of the load to it:
+!>
+!>     model%law = [law_point_type(2, 0.02d0, 40d0), law_point_type(2, 0.05d0, 10d0), law_point_type(2, 1d0, 10d0)]
+!>     call follow_history(beam, [1d0], gapbeam_limit_stop, history, error)      ! every event, and the limit of the load
+!>     call solve_on_path(beam, history, 0.5d0, result, error)                   ! the state at a factor on it
+!>
 !> Units: any consistent set. Signs: x to the right, deflections, settlements and loads down, reactions up, moments sagging,
 !> couples and rotations clockwise, axial forces on the beam to the right. Supports and loads count from 1, nodes from 0.
 !> Errors: `error` is allocated where something failed, with one of the codes of gapbeam_error and a message. That a beam has
@@ -23,17 +30,22 @@ module gapbeam
         gapbeam_status_message => status_text
     use gapbeam_version, only: gapbeam_version_major, gapbeam_version_minor, gapbeam_version_patch, gapbeam_version_string
     use gapbeam_search, only: gapbeam_rule_block => rule_block, gapbeam_rule_single => rule_single
-    use gapbeam_scene, only: span_type, section_type, support_type, load_type, model_type, &
+    use gapbeam_scene, only: span_type, section_type, support_type, law_point_type, load_type, model_type, &
         point_force, point_couple, uniform_load, linear_load, imposed_curvature, axial_force, &
         gapbeam_infinity, gapbeam_by_x, gapbeam_unchanged, gapbeam_right_end, &
         gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_normal, gapbeam_axial, &
         gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, &
-        gapbeam_live, gapbeam_dead
+        gapbeam_live, gapbeam_dead, gapbeam_elastic, gapbeam_plastic, gapbeam_broken
     use gapbeam_state, only: event_type
-    use gapbeam_query, only: gapbeam_open, gapbeam_closed, gapbeam_bilateral, gapbeam_turns
+    use gapbeam_pieces, only: gapbeam_open, gapbeam_closed, gapbeam_bilateral, gapbeam_branch, &
+        gapbeam_opens, gapbeam_closes, gapbeam_turns, gapbeam_yields, gapbeam_hardens, gapbeam_softens, gapbeam_breaks, &
+        gapbeam_unloads
     use gapbeam_api, only: prepared_type, options_type, result_type, certificate_type, &
         prepare_model, replace_loads, count_supports, count_nodes, &
         solve_beam, follow_load, get_supports, get_fields, get_extremes, get_motion, get_certificate
+    use gapbeam_api_history, only: history_type, stretch_type, limit_type, follow_history, solve_on_path, &
+        gapbeam_limit_stop, gapbeam_limit_jump, gapbeam_limit_follow, &
+        gapbeam_arrived, gapbeam_limit_point, gapbeam_bifurcation, gapbeam_mechanism, gapbeam_path_ended
     implicit none
     public
 end module gapbeam

@@ -367,6 +367,7 @@ contains
         laws%before = real(fine%before, wp)
         laws%contact = real(fine%contact, wp)
         laws%force = real(fine%force, wp)
+        laws%passed = like%kink > 0 .and. .not. (laws%stiffness < laws%before .or. laws%stiffness > laws%before)
     end function rounded
 
     !> The laws of a stretch

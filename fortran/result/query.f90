@@ -13,22 +13,16 @@ module gapbeam_query
     use gapbeam_lower_units, only: name_farthest
     use gapbeam_words, only: shown
     use gapbeam_refusal, only: refuse_range
-    use gapbeam_path, only: event_opens, event_closes, event_turns
     use gapbeam_memory, only: reserve_memory, for_fields
     use gapbeam_solution, only: state_type, couple_at_node, way_to_contact
+    use gapbeam_pieces, only: acting_type, acting_piece, gapbeam_open, gapbeam_closed, gapbeam_bilateral
     use gapbeam_state, only: recover_state
     implicit none
     private
     public :: make_starts, find_pieces, fields_in_pieces, extremes_of_pieces
     public :: support_values, find_undecided, fields_at_places, extremes_of_fields, motion_of_nodes, node_places
-    public :: gapbeam_open, gapbeam_closed, gapbeam_bilateral, gapbeam_branch, gapbeam_turns, field_count
+    public :: field_count
 
-    !> States of a support
-    integer, parameter :: gapbeam_open = event_opens, gapbeam_closed = event_closes, gapbeam_bilateral = 2
-    !> Plus the number of the piece, from 1: of a support with a law
-    integer, parameter :: gapbeam_branch = 10
-    !> An event: the beam has lost its hold and turns, at constant load, until the support holds it
-    integer, parameter :: gapbeam_turns = event_turns
     !> Fields: deflection, rotation, moment, shear, axial force, axial displacement
     integer, parameter :: field_count = 6
     character(len=*), parameter :: field_names(field_count) = [character(len=18) :: "deflection", "rotation", "moment", "shear", &
@@ -77,9 +71,14 @@ contains
                         reaction(k) = scale(sum(state%reaction(j:last)), units%force)
                     end if
                     if (j > 0 .and. (last > j .or. beam%supports(max(j, 1))%kink > 0)) then
-                        condition(k) = piece_of(beam%supports(j:last), s%side, state%closed(j:last))
-                        if (condition(k) == gapbeam_open) opening(k) = scale(way_to_law(beam%supports(j:last), s%side, &
-                                                                                        state%deflection(node)), units%deflection)
+                        if (allocated(state%laws)) then
+                            call look_at_law(state%laws(j:last), s%side, state%closed(j:last), state%deflection(node), &
+                                             condition(k), opening(k))
+                        else
+                            call look_at_law(beam%supports(j:last), s%side, state%closed(j:last), state%deflection(node), &
+                                             condition(k), opening(k))
+                        end if
+                        opening(k) = scale(opening(k), units%deflection)
                     else if (s%side /= both) then
                         condition(k) = gapbeam_open
                         if (j > 0) condition(k) = merge(gapbeam_closed, gapbeam_open, state%closed(j))
@@ -94,21 +93,23 @@ contains
         end associate
     end subroutine support_values
 
-    !> Piece of a law that acts, as a condition
-    pure function piece_of(kinks, side, closed) result(condition)
+    !> Which piece of a law acts, as a condition, and how far it is open
+    pure subroutine look_at_law(kinks, side, closed, deflection, condition, opening)
         type(node_support_type), intent(in) :: kinks(:)
         !> Side of the support, and the scheme of its kinks
         integer, intent(in) :: side
         logical, intent(in) :: closed(:)
-        integer :: condition, middle, way
+        !> Of its node
+        real(wp), intent(in) :: deflection
+        integer, intent(out) :: condition
+        real(wp), intent(out) :: opening
+        type(acting_type) :: acting
 
-        middle = 0
-        if (side == both) middle = size(kinks)/2
-        way = abs(count(closed) - middle)
-        if (side == both .and. abs(kinks(middle)%stiffness) > 0.0_wp) way = way + 1
-        condition = gapbeam_open
-        if (way > 0) condition = gapbeam_branch + way
-    end function piece_of
+        acting = acting_piece(kinks, side, closed)
+        condition = acting%condition
+        opening = 0.0_wp
+        if (condition == gapbeam_open) opening = way_to_law(kinks, side, deflection)
+    end subroutine look_at_law
 
     !> How far a law is open
     pure function way_to_law(kinks, side, deflection) result(way)

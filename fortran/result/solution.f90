@@ -3,7 +3,7 @@ module gapbeam_solution
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_element, only: field_type
-    use gapbeam_polyline, only: last_kink
+    use gapbeam_polyline, only: node_support_type, last_kink
     use gapbeam_words, only: shown
     use gapbeam_refusal, only: refuse_range
     use gapbeam_units, only: moment_unit
@@ -31,6 +31,8 @@ module gapbeam_solution
         logical :: came_back = .false.
         !> The scheme: which supports act, and whose reaction or opening is zero, so that they may be closed or open
         logical, allocatable :: closed(:), undecided(:)
+        !> The laws of the supports as they have become, where they are not those of the beam
+        type(node_support_type), allocatable :: laws(:)
         !> Deflections and moments left and right of the nodes; the free motion where there is no equilibrium
         real(wp), allocatable :: deflection(:), moment_left(:), moment_right(:), motion(:)
         !> Shear of every link beside that of the simple bar

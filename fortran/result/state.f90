@@ -4,12 +4,15 @@ module gapbeam_state
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_no_equilibrium, &
         gapbeam_indeterminate, gapbeam_not_finite
     use gapbeam_element, only: field_type
+    use gapbeam_model, only: beam_type
+    use gapbeam_polyline, only: last_kink
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_recover, only: recover_beam
     use gapbeam_scheme, only: outcome_type
     use gapbeam_referee, only: rule_given, decide_scheme, detail_type, reserve_for
     use gapbeam_certificate, only: certificate_type, certify
     use gapbeam_path, only: follow_path, path_type, event_turns
+    use gapbeam_pieces, only: acting_type, acting_piece, what_happens, nothing
     use gapbeam_axial, only: solve_axial, axial_slides, axial_indeterminate
     use gapbeam_words, only: shown
     use gapbeam_lowered, only: lowered_type, point_x
@@ -29,9 +32,14 @@ module gapbeam_state
         real(wp) :: factor
         !> Number of the support in the model, from 1
         integer :: support
-        !> gapbeam_closed or gapbeam_open: what the support is from here on; gapbeam_turns: the beam has lost its hold and turns
-        !> at constant load until this support holds it
+        !> gapbeam_closed or gapbeam_open, or gapbeam_branch plus the number of the piece of its law: what the support is from here
+        !> on; gapbeam_turns: the beam has lost its hold and turns at constant load until this support holds it
         integer :: state
+        !> gapbeam_opens, gapbeam_closes, gapbeam_turns; of a support with a law also gapbeam_yields, gapbeam_hardens,
+        !> gapbeam_softens, gapbeam_breaks, gapbeam_unloads
+        integer :: change = nothing
+        !> Of a history: the stretch that begins with it
+        integer :: stretch = 0
     end type event_type
 
 contains
@@ -50,6 +58,7 @@ contains
         type(error_type), allocatable, intent(out) :: error
         type(workspace_type) :: work
         type(outcome_type) :: outcome
+        type(beam_type) :: changed
         logical, allocatable :: acting(:)
         integer :: stat
 
@@ -66,7 +75,21 @@ contains
         acting(:) = state%closed
         call solve_along_axis(lowered, state, error)
         if (allocated(error)) return
-        associate (beam => lowered%beam)
+        if (allocated(state%laws)) then
+            changed = lowered%beam
+            changed%supports(:) = state%laws
+            call settle(changed)
+        else
+            call settle(lowered%beam)
+        end if
+        if (.not. allocated(error) .and. state%status == gapbeam_solved) call check_range(lowered, state, error)
+
+    contains
+
+        !> Find the scheme of a beam, and take its solution
+        subroutine settle(beam)
+            type(beam_type), intent(in) :: beam
+
             call new_workspace(beam, work)
             call set_loads(beam, factor, work)
             call decide_scheme(beam, detail_of(lowered), factor, rule, acting, work, outcome, error)
@@ -92,8 +115,8 @@ contains
             state%moment_right(:) = work%answers%moment_right
             state%shear(:) = work%shear
             state%reaction(:) = work%reaction
-        end associate
-        call check_range(lowered, state, error)
+        end subroutine settle
+
     end subroutine solve_state
 
     !> Say what it was where the engine left the range of double precision
@@ -165,13 +188,21 @@ contains
         !> No memory
         type(error_type), allocatable, intent(out) :: error
         type(field_type), allocatable :: starts(:)
+        type(beam_type) :: changed
 
         call reserve_for(for_certifying, lowered%beam, detail_of(lowered), error)
         if (allocated(error)) return
         allocate (starts(size(lowered%pieces)))
         call recover_state(lowered, state, starts)
-        call certify(lowered%beam, detail_of(lowered), state%factor, state%closed, state%deflection, state%moment_left, &
-                     state%moment_right, state%reaction, starts, certificate, error)
+        if (allocated(state%laws)) then
+            changed = lowered%beam
+            changed%supports(:) = state%laws
+            call certify(changed, detail_of(lowered), state%factor, state%closed, state%deflection, state%moment_left, &
+                         state%moment_right, state%reaction, starts, certificate, error)
+        else
+            call certify(lowered%beam, detail_of(lowered), state%factor, state%closed, state%deflection, state%moment_left, &
+                         state%moment_right, state%reaction, starts, certificate, error)
+        end if
     end subroutine certify_state
 
     !> Follow the load from factor 0 to `factor`: every change of the working scheme at its load factor. The state is that at
@@ -192,11 +223,12 @@ contains
         type(error_type), allocatable, intent(out) :: error
         type(outcome_type) :: outcome
         type(path_type) :: path
+        logical, allocatable :: now(:)
         real(wp) :: at
         integer :: solves, k, stat
 
         number = 0
-        allocate (events(2*size(state%closed) + 8), stat=stat)
+        allocate (events(2*size(state%closed) + 8), now(size(state%closed)), stat=stat)
         if (stat /= 0) then
             call no_memory(error)
             return
@@ -205,6 +237,7 @@ contains
         call solve_state(lowered, 0.0_wp, rule, state, error)
         if (allocated(error) .or. state%status /= gapbeam_solved) return
         at = 0.0_wp
+        now(:) = state%closed
         solves = state%solves
         do while (at < factor)
             call reserve_for(for_following, lowered%beam, detail_of(lowered), error)
@@ -240,8 +273,15 @@ contains
             real(wp), intent(in) :: when
             integer, intent(in) :: which, what
             type(event_type), allocatable :: longer(:)
+            type(acting_type) :: before, after
+            integer :: change
 
-            if (.not. when > 0.0_wp .and. what /= event_turns) return
+            before = now_acts(which)
+            if (what /= event_turns) now(which) = .not. now(which)
+            after = now_acts(which)
+            change = what
+            if (lowered%beam%supports(which)%kink > 0 .and. what /= event_turns) change = what_happens(before, after)
+            if (change == nothing .or. (.not. when > 0.0_wp .and. what /= event_turns)) return
             if (number == size(events)) then
                 allocate (longer(2*number), stat=stat)
                 if (stat /= 0) then
@@ -252,8 +292,23 @@ contains
                 call move_alloc(longer, events)
             end if
             number = number + 1
-            events(number) = event_type(when, lowered%normal(which), what)
+            events(number) = event_type(when, lowered%normal(which), merge(what, after%condition, what == event_turns), change)
         end subroutine note
+
+        !> What acts of a support of the beam, which may be a kink of a law
+        pure function now_acts(which) result(acting)
+            integer, intent(in) :: which
+            type(acting_type) :: acting
+            integer :: first
+
+            associate (supports => lowered%beam%supports)
+                first = which - max(supports(which)%kink - 1, 0)
+                associate (last => last_kink(supports, which))
+                    acting = acting_piece(supports(first:last), lowered%model%supports(lowered%normal(which))%side, &
+                                          now(first:last))
+                end associate
+            end associate
+        end function now_acts
 
     end subroutine follow_events
 

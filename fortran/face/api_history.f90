@@ -1,0 +1,426 @@
+!> Histories of the load, for Fortran: the path through limit points to load factors in turn, of beams whose supports may soften,
+!> break, or keep a set; what gapbeam_api says of all procedures holds here too
+module gapbeam_api_history
+    use, intrinsic :: ieee_arithmetic, only: ieee_status_type, ieee_get_status, ieee_set_status, ieee_set_halting_mode, &
+        ieee_set_rounding_mode, ieee_nearest, ieee_all, ieee_is_finite
+    use gapbeam_kinds, only: wp
+    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input, gapbeam_not_converged, gapbeam_not_prepared
+    use gapbeam_polyline, only: last_kink
+    use gapbeam_referee, only: rule_given
+    use gapbeam_words, only: shown, whole
+    use gapbeam_lowered, only: lowered_type
+    use gapbeam_pieces, only: acting_type, acting_piece, what_happens, nothing, gapbeam_turns, gapbeam_opens, &
+        gapbeam_closes
+    use gapbeam_state, only: event_type, solve_state, name_range
+    use gapbeam_history, only: path_type => history_type, found_type => stretch_type, follow_path_through => follow_history, &
+        gapbeam_limit_stop => at_limit_stop, gapbeam_limit_jump => at_limit_jump, gapbeam_limit_follow => at_limit_follow, &
+        gapbeam_limit_point => limit_point, gapbeam_bifurcation => bifurcation, gapbeam_mechanism => mechanism, &
+        gapbeam_path_ended => ended, gapbeam_arrived => no_limit, cut_off
+    use gapbeam_query, only: node_places
+    use gapbeam_api, only: prepared_type, result_type, require_beam, make_state, summarise
+    implicit none
+    private
+    public :: history_type, stretch_type, limit_type, follow_history, solve_on_path
+    public :: gapbeam_limit_stop, gapbeam_limit_jump, gapbeam_limit_follow
+    public :: gapbeam_arrived, gapbeam_limit_point, gapbeam_bifurcation, gapbeam_mechanism, gapbeam_path_ended
+
+    !> Stretches after which a path is cut off; without plastic and broken supports there are finitely many
+    integer, parameter :: most_stretches = 20000
+
+    !> A stretch of a path on which all supports stay on their piece
+    type :: stretch_type
+        !> Number of the load factor that is gone to, from 1; 0 while the dead loads are put on, their factor from 0 to 1
+        integer :: leg
+        !> Load factors at its ends
+        real(wp) :: from, to
+        !> Does the load rise (1), fall (-1), or does the beam turn at constant load until something holds it (0)
+        integer :: direction
+        !> Would the beam stay there under this load
+        logical :: stable
+        !> In how many independent ways the beam gives way by itself; ways on there were at its beginning
+        integer :: index, ways
+        !> Is it passed in a jump, or beyond the limit at which the load stops
+        logical :: skipped
+    end type stretch_type
+
+    !> Where the load cannot go on
+    type :: limit_type
+        !> Load factor
+        real(wp) :: factor
+        !> gapbeam_limit_point: the load must fall; gapbeam_bifurcation: several ways go on, none of them stable;
+        !> gapbeam_mechanism: none does
+        integer :: kind
+        !> As in stretch_type; last stretch before it, 0 if none; stretch on which the beam lands: the next stable state on
+        !> the path at this load factor, 0 if none; dynamics may lead elsewhere
+        integer :: leg, stretch, landing
+    end type limit_type
+
+    !> The way of the load
+    type :: history_type
+        !> Its stretches in their order
+        type(stretch_type), allocatable :: stretches(:)
+        !> What happens to the supports, but while the dead loads are put on
+        type(event_type), allocatable :: events(:)
+        !> Where the load could not go on
+        type(limit_type), allocatable :: limits(:)
+        !> gapbeam_arrived at the last factor, gapbeam_mechanism, or gapbeam_path_ended: at a limit, or there is no further event,
+        !> however far the path is followed
+        integer :: ending = gapbeam_arrived
+        !> Linear solves, in quadruple precision
+        integer :: solves = 0
+        !> Places of the nodes and how they move, down, largest 1, where the path ends in a free motion of rigid parts; else not
+        !> allocated
+        real(wp), allocatable :: x(:), motion(:)
+        !> Opaque
+        type(path_type), allocatable :: path
+        integer :: fingerprint = 0
+    end type history_type
+
+contains
+
+    !> Put on the dead loads, then go through load factors in turn, by the exact path
+    subroutine follow_history(beam, factors, at_limit, history, error)
+        !> Prepared
+        type(prepared_type), intent(in) :: beam
+        !> Load factors to go to, from factor 0; one at least
+        real(wp), intent(in) :: factors(:)
+        !> Where the load cannot go on: gapbeam_limit_stop: end there; gapbeam_limit_jump: go on from the landing;
+        !> gapbeam_limit_follow: follow the path, also with falling load
+        integer, intent(in) :: at_limit
+        !> The way of the load; that it does not come to the last factor is no error
+        type(history_type), intent(out) :: history
+        !> gapbeam_bad_input; gapbeam_not_converged where the path has too many stretches, or too many supports change at once;
+        !> gapbeam_not_finite, gapbeam_no_memory, gapbeam_not_prepared
+        type(error_type), allocatable, intent(out) :: error
+        type(ieee_status_type) :: environment
+        integer :: stat
+
+        call ieee_get_status(environment)
+        call ieee_set_halting_mode(ieee_all, .false.)
+        call ieee_set_rounding_mode(ieee_nearest)
+        call require_beam(beam, error)
+        if (.not. allocated(error)) call check_call(factors, at_limit, error)
+        if (.not. allocated(error)) then
+            allocate (history%path, stat=stat)
+            if (stat /= 0) call no_memory(error)
+        end if
+        if (.not. allocated(error)) then
+            call follow_path_through(beam%lowered, factors, at_limit, most_stretches, history%path, error)
+            call name_range(beam%lowered, error)
+        end if
+        if (.not. allocated(error)) then
+            if (history%path%ending == cut_off) then
+                call fatal_error(error, gapbeam_not_converged, "the path has more than "//trim(whole(most_stretches))// &
+                                 " stretches: shorten the history, or follow it in parts")
+            else
+                call describe(beam%lowered, factors, history, stat)
+                if (stat /= 0) call no_memory(error)
+            end if
+        end if
+        call ieee_set_status(environment)
+    end subroutine follow_history
+
+    !> The state at a load factor on a path, for the procedures of gapbeam_api
+    subroutine solve_on_path(beam, history, factor, result, error, stretch)
+        !> Prepared, and its history
+        type(prepared_type), intent(in) :: beam
+        type(history_type), intent(in) :: history
+        !> Load factor, on the stretch
+        real(wp), intent(in) :: factor
+        !> The state there
+        type(result_type), intent(inout) :: result
+        !> gapbeam_bad_input where the path, or the stretch, does not pass the factor, or the beam turns on the stretch or is not
+        !> loaded yet; gapbeam_not_prepared; or as for solve_beam
+        type(error_type), allocatable, intent(out) :: error
+        !> Number of the stretch; default, or 0: the last one with the factor that is not skipped, a stable one if there is any
+        integer, intent(in), optional :: stretch
+        type(ieee_status_type) :: environment
+        integer :: k, stat
+
+        call ieee_get_status(environment)
+        call ieee_set_halting_mode(ieee_all, .false.)
+        call ieee_set_rounding_mode(ieee_nearest)
+        result%status = -1
+        k = 0
+        if (present(stretch)) k = stretch
+        call require_beam(beam, error)
+        if (.not. allocated(error)) call require_history(beam, history, error)
+        if (.not. allocated(error)) call find_stretch(history%stretches, factor, k, error)
+        if (.not. allocated(error)) call make_state(beam, result, error)
+        if (.not. allocated(error)) then
+            associate (state => result%state, s => history%path%stretches(k))
+                state%closed(:) = s%closed
+                if (differ(s, beam%lowered)) then
+                    allocate (state%laws(size(s%laws)), stat=stat)
+                    if (stat == 0) state%laws(:) = s%laws
+                    if (stat /= 0) call no_memory(error)
+                end if
+                if (.not. allocated(error)) call solve_state(beam%lowered, factor, rule_given, state, error)
+            end associate
+        end if
+        if (.not. allocated(error)) call summarise(result)
+        call ieee_set_status(environment)
+    end subroutine solve_on_path
+
+    !> Are the laws on a stretch not those of the beam any more
+    pure function differ(stretch, lowered) result(they_do)
+        type(found_type), intent(in) :: stretch
+        type(lowered_type), intent(in) :: lowered
+        logical :: they_do
+
+        they_do = allocated(stretch%laws)
+        if (.not. they_do) return
+        associate (a => stretch%laws, b => lowered%beam%supports)
+            they_do = any(a%contact < b%contact .or. a%contact > b%contact .or. a%force < b%force .or. a%force > b%force &
+                          .or. a%stiffness < b%stiffness .or. a%stiffness > b%stiffness &
+                          .or. a%before < b%before .or. a%before > b%before)
+        end associate
+    end function differ
+
+    !> Refuse factors and limits that make no sense
+    subroutine check_call(factors, at_limit, error)
+        real(wp), intent(in) :: factors(:)
+        integer, intent(in) :: at_limit
+        type(error_type), allocatable, intent(out) :: error
+        integer :: i
+
+        if (size(factors) == 0) then
+            call fatal_error(error, gapbeam_bad_input, "factors: give at least one")
+        else if (at_limit < gapbeam_limit_stop .or. at_limit > gapbeam_limit_follow) then
+            call fatal_error(error, gapbeam_bad_input, "at_limit: expected 0 (stop), 1 (jump) or 2 (follow), got "// &
+                             trim(whole(at_limit)))
+        end if
+        do i = 1, size(factors)
+            if (ieee_is_finite(factors(i)) .or. allocated(error)) cycle
+            call fatal_error(error, gapbeam_bad_input, "factors: expected finite numbers, got "//trim(shown(factors(i))))
+        end do
+    end subroutine check_call
+
+    !> Refuse a history of another beam
+    subroutine require_history(beam, history, error)
+        type(prepared_type), intent(in) :: beam
+        type(history_type), intent(in) :: history
+        type(error_type), allocatable, intent(out) :: error
+
+        if (.not. allocated(history%path) .or. .not. allocated(history%stretches)) then
+            call fatal_error(error, gapbeam_not_prepared, "nothing is followed: call follow_history first")
+        else if (history%fingerprint /= beam%lowered%fingerprint) then
+            call fatal_error(error, gapbeam_not_prepared, "the history belongs to another beam, or to other loads")
+        end if
+    end subroutine require_history
+
+    !> The stretch that a load factor belongs to
+    subroutine find_stretch(stretches, factor, number, error)
+        type(stretch_type), intent(in) :: stretches(:)
+        real(wp), intent(in) :: factor
+        !> Its number; 0 in: the best one
+        integer, intent(inout) :: number
+        type(error_type), allocatable, intent(out) :: error
+        integer :: k
+        logical :: there
+
+        if (number < 0 .or. number > size(stretches)) then
+            call fatal_error(error, gapbeam_bad_input, "stretch: expected 0 to "//trim(whole(size(stretches)))//", got "// &
+                             trim(whole(number)))
+            return
+        end if
+        if (number > 0) then
+            there = has(stretches(number))
+        else
+            do k = 1, size(stretches)
+                if (stretches(k)%skipped .or. .not. has(stretches(k))) cycle
+                if (number > 0) then
+                    if (stretches(number)%stable .and. .not. stretches(k)%stable) cycle
+                end if
+                number = k
+            end do
+            there = number > 0
+        end if
+        if (there) return
+        if (number > 0) then
+            call fatal_error(error, gapbeam_bad_input, "there is no state at load factor "//trim(shown(factor))// &
+                             " on stretch "//trim(whole(number)))
+        else
+            call fatal_error(error, gapbeam_bad_input, "the path does not come to load factor "//trim(shown(factor)))
+        end if
+
+    contains
+
+        !> Has a stretch a state of its own at the factor
+        pure function has(stretch)
+            type(stretch_type), intent(in) :: stretch
+            logical :: has
+
+            has = stretch%leg > 0 .and. stretch%direction /= 0 .and. factor >= min(stretch%from, stretch%to) &
+                .and. factor <= max(stretch%from, stretch%to)
+        end function has
+
+    end subroutine find_stretch
+
+    !> What users look at
+    subroutine describe(lowered, factors, history, stat)
+        type(lowered_type), intent(in) :: lowered
+        real(wp), intent(in) :: factors(:)
+        !> The path in, the rest out
+        type(history_type), intent(inout) :: history
+        !> Not 0 where memory is at an end
+        integer, intent(out) :: stat
+        integer :: k, way, nodes
+
+        associate (path => history%path)
+            history%ending = path%ending
+            history%solves = path%solves
+            history%fingerprint = lowered%fingerprint
+            allocate (history%stretches(path%number), history%limits(size(path%limits)), history%events(0), stat=stat)
+            if (stat /= 0) return
+            do k = 1, path%number
+                associate (s => path%stretches(k))
+                    way = 1
+                    if (s%leg == 1) way = merge(1, -1, factors(1) > 0.0_wp)
+                    if (s%leg > 1) way = merge(1, -1, factors(s%leg) > factors(s%leg - 1))
+                    history%stretches(k) = stretch_type(s%leg, s%from, s%to, s%direction, s%index == 0 .and. s%direction == way, &
+                                                        s%index, s%ways, s%skipped)
+                end associate
+            end do
+            do k = 1, size(path%limits)
+                associate (limit => path%limits(k))
+                    history%limits(k) = limit_type(limit%factor, limit%kind, limit%leg, limit%stretch, limit%landing)
+                end associate
+            end do
+            if (allocated(path%motion)) then
+                nodes = size(lowered%node_point)
+                allocate (history%x(nodes), history%motion(nodes), stat=stat)
+                if (stat /= 0) return
+                call node_places(lowered, history%x)
+                history%motion(:) = path%motion
+            end if
+        end associate
+        call find_events(lowered, history, stat)
+    end subroutine describe
+
+    !> What happens to the supports from stretch to stretch
+    subroutine find_events(lowered, history, stat)
+        type(lowered_type), intent(in) :: lowered
+        type(history_type), intent(inout) :: history
+        !> Not 0 where memory is at an end
+        integer, intent(out) :: stat
+        type(event_type), allocatable :: events(:)
+        integer :: k, j, number, pending
+        logical :: begins
+
+        stat = 0
+        number = 0
+        allocate (events(16), stat=stat)
+        ! Events from here on are passed in a jump and happen where it begins
+        pending = 0
+        associate (s => history%stretches, path => history%path)
+            do k = 1, size(s)
+                if (stat /= 0) return
+                if (s(k)%skipped) then
+                    if (k > 1) call note_changes(k - 1, k, s(k)%leg > 0)
+                    cycle
+                end if
+                if (s(k)%direction == 0 .and. k < size(s) .and. s(k)%leg > 0) then
+                    j = findloc(path%stretches(k + 1)%closed .and. .not. path%stretches(k)%closed, .true., 1)
+                    if (j > 0) call add(event_type(s(k)%from, lowered%normal(j), gapbeam_turns, gapbeam_turns, k))
+                end if
+                if (k > 1 .and. s(k)%leg > 0) then
+                    begins = s(k)%leg == 1 .and. s(k - 1)%leg /= 1 .and. .not. abs(s(k)%from) > 0.0_wp
+                    call note_changes(k - 1, k, .not. begins)
+                    do j = number - pending + 1, number
+                        events(j)%factor = s(k)%from
+                        events(j)%stretch = k
+                    end do
+                end if
+                pending = 0
+            end do
+            if (stat /= 0) return
+            if (pending > 0) call end_at_limit()
+        end associate
+        if (stat /= 0) return
+        deallocate (history%events)
+        allocate (history%events(number), stat=stat)
+        if (stat == 0) history%events(:) = events(:number)
+
+    contains
+
+        !> What happens to every support between two stretches
+        subroutine note_changes(one, other, wanted)
+            integer, intent(in) :: one, other
+            !> Is it to be noted
+            logical, intent(in) :: wanted
+            type(acting_type) :: before, after
+            integer :: i, first, change
+
+            if (.not. wanted) return
+            associate (a => history%path%stretches(one), b => history%path%stretches(other))
+                do i = 1, size(lowered%model%supports)
+                    first = lowered%beam_support(i)
+                    if (first == 0) cycle
+                    before = acts_on(a, i)
+                    after = acts_on(b, i)
+                    change = nothing
+                    if (lowered%beam%supports(first)%kink > 0) then
+                        change = what_happens(before, after)
+                    else if (a%closed(first) .neqv. b%closed(first)) then
+                        change = merge(gapbeam_closes, gapbeam_opens, b%closed(first))
+                    end if
+                    if (change == nothing) cycle
+                    pending = pending + 1
+                    call add(event_type(history%stretches(other)%from, i, after%condition, change, other))
+                end do
+            end associate
+        end subroutine note_changes
+
+        !> What acts of a support of the model on a stretch
+        pure function acts_on(stretch, support) result(acting)
+            type(found_type), intent(in) :: stretch
+            integer, intent(in) :: support
+            type(acting_type) :: acting
+            integer :: first, last
+
+            first = lowered%beam_support(support)
+            last = last_kink(lowered%beam%supports, first)
+            associate (side => lowered%model%supports(support)%side)
+                if (allocated(stretch%laws)) then
+                    acting = acting_piece(stretch%laws(first:last), side, stretch%closed(first:last))
+                else
+                    acting = acting_piece(lowered%beam%supports(first:last), side, stretch%closed(first:last))
+                end if
+            end associate
+        end function acts_on
+
+        !> Keep an event
+        subroutine add(event)
+            type(event_type), intent(in) :: event
+            type(event_type), allocatable :: longer(:)
+
+            if (stat /= 0) return
+            if (number == size(events)) then
+                allocate (longer(2*number), stat=stat)
+                if (stat /= 0) return
+                longer(:number) = events
+                call move_alloc(longer, events)
+            end if
+            number = number + 1
+            events(number) = event
+        end subroutine add
+
+        !> The path ends at a limit: what happens there is all that happens
+        subroutine end_at_limit()
+            integer :: before, j
+
+            number = number - pending
+            pending = 0
+            if (size(history%limits) == 0) return
+            before = history%limits(size(history%limits))%stretch
+            if (before < 1 .or. before >= size(history%stretches)) return
+            call note_changes(before, before + 1, .true.)
+            do j = number - pending + 1, number
+                events(j)%factor = history%limits(size(history%limits))%factor
+            end do
+        end subroutine end_at_limit
+
+    end subroutine find_events
+
+end module gapbeam_api_history

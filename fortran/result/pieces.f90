@@ -1,0 +1,89 @@
+!> What a support does, and what happens to it, as codes: states of supports, pieces of laws, events
+module gapbeam_pieces
+    use gapbeam_kinds, only: wp
+    use gapbeam_polyline, only: node_support_type
+    use gapbeam_law, only: both
+    use gapbeam_path, only: event_opens, event_closes, event_turns
+    implicit none
+    private
+    public :: acting_type, acting_piece, what_happens, nothing
+    public :: gapbeam_open, gapbeam_closed, gapbeam_bilateral, gapbeam_branch
+    public :: gapbeam_opens, gapbeam_closes, gapbeam_turns, gapbeam_yields, gapbeam_hardens, gapbeam_softens, gapbeam_breaks, &
+        gapbeam_unloads
+
+    !> States of a support
+    integer, parameter :: gapbeam_open = event_opens, gapbeam_closed = event_closes, gapbeam_bilateral = 2
+    !> Plus the number of the piece, from 1: of a support with a law
+    integer, parameter :: gapbeam_branch = 10
+    !> Events. The beam has lost its hold and turns, at constant load, until the support holds it
+    integer, parameter :: gapbeam_opens = event_opens, gapbeam_closes = event_closes, gapbeam_turns = event_turns
+    !> Of supports with a law: on to a piece that is flatter, or steeper; on which the force falls, or drops at once; back
+    integer, parameter :: gapbeam_yields = 4, gapbeam_hardens = 5, gapbeam_softens = 6, gapbeam_breaks = 7, gapbeam_unloads = 8
+    !> No event
+    integer, parameter :: nothing = -1
+
+    !> What acts of a support
+    type :: acting_type
+        !> gapbeam_open, gapbeam_closed, gapbeam_bilateral, or gapbeam_branch plus the number of the piece
+        integer :: condition
+        !> Of the piece of a law: force per length, and the side of the middle of the law it is on, 1 or -1; else 0
+        real(wp) :: slope
+        integer :: way
+    end type acting_type
+
+contains
+
+    !> What acts of a support
+    pure function acting_piece(kinks, side, closed) result(acting)
+        !> The support as the engine has it: the kinks of its law, or one entry
+        type(node_support_type), intent(in) :: kinks(:)
+        !> Its side, and its part of the scheme
+        integer, intent(in) :: side
+        logical, intent(in) :: closed(:)
+        type(acting_type) :: acting
+        integer :: middle, number
+
+        acting = acting_type(gapbeam_bilateral, 0.0_wp, 0)
+        if (kinks(1)%kink == 0) then
+            if (side /= both) acting%condition = merge(gapbeam_closed, gapbeam_open, closed(1))
+            return
+        end if
+        middle = 0
+        if (side == both) middle = size(kinks)/2
+        number = abs(count(closed) - middle)
+        if (side == both) then
+            if (abs(kinks(middle)%stiffness) > 0.0_wp) number = number + 1
+        end if
+        acting%condition = gapbeam_open
+        acting%way = merge(1, -1, count(closed) >= middle)
+        if (number == 0) return
+        acting%condition = gapbeam_branch + number
+        acting%slope = kinks(1)%before
+        if (any(closed)) acting%slope = kinks(count(closed))%stiffness
+    end function acting_piece
+
+    !> The event between two pieces of a law, or none
+    pure function what_happens(before, after) result(event)
+        type(acting_type), intent(in) :: before, after
+        !> gapbeam_opens, gapbeam_closes, gapbeam_yields, gapbeam_hardens, gapbeam_softens, gapbeam_breaks, gapbeam_unloads or
+        !> nothing
+        integer :: event
+        logical :: same_slope
+
+        same_slope = .not. (before%slope < after%slope .or. before%slope > after%slope)
+        if (before%condition == after%condition .and. before%way == after%way .and. same_slope) then
+            event = nothing
+        else if (before%condition == gapbeam_open .or. after%condition == gapbeam_open) then
+            event = merge(gapbeam_opens, gapbeam_closes, after%condition == gapbeam_open)
+        else if (same_slope) then
+            event = nothing
+        else if (after%condition < before%condition) then
+            event = gapbeam_unloads
+        else if (after%slope < 0.0_wp) then
+            event = merge(gapbeam_breaks, gapbeam_softens, after%slope < -huge(1.0_wp))
+        else
+            event = merge(gapbeam_hardens, gapbeam_yields, after%slope > before%slope)
+        end if
+    end function what_happens
+
+end module gapbeam_pieces
