@@ -303,6 +303,132 @@ static void all_loads(void)
     }
 }
 
+/* A simple beam of stiffness 1 in the middle over a support that breaks at a displacement of 0.1 and a force of 1, a load of 2.2 on
+ * it */
+static gapbeam_model over_law(void)
+{
+    static const double ei[] = {4.0 / 3.0, 4.0 / 3.0}, load[] = {2.2}, displacement[] = {0.1, 0.1, 1.0}, force[] = {1.0, 0.0, 0.0};
+    static const int kind[] = {GAPBEAM_FORCE}, support[] = {1, 1, 1};
+    gapbeam_model model = two_spans();
+
+    model.EI = ei;
+    model.support_gap = NULL;
+    model.load_kind = kind;
+    model.load_x = &x3[1];
+    model.load_value = load;
+    model.law_points = 3;
+    model.law_support = support;
+    model.law_displacement = displacement;
+    model.law_force = force;
+    return model;
+}
+
+/* The load stops where the support breaks, or jumps on; a support that keeps a set; the structure of version 0.2 */
+static void laws_and_histories(void)
+{
+    const double one[] = {1.0, 0.0}, yield_d[] = {0.1, 1.0}, yield_f[] = {1.0, 1.0};
+    const int plastic[] = {GAPBEAM_ELASTIC, GAPBEAM_PLASTIC, GAPBEAM_ELASTIC};
+    gapbeam_model model = over_law();
+    gapbeam_beam *beam = NULL;
+    gapbeam_state *state = NULL;
+    gapbeam_history *history = (gapbeam_history *)&model;
+    gapbeam_history_info info = {.size = sizeof info - 4};
+    char message[400];
+    double factor[8], w[3], r[3], gap_left[3], from[8], to[8], x[3];
+    int what[8], change[8], support[8], stretch[8], kind[1], landing[1], before[1], leg[8], direction[8], stable[8], skipped[8];
+    int condition[3];
+
+    check(prepare(&model, &beam) == GAPBEAM_SOLVED && gapbeam_new_state(&state) == GAPBEAM_SOLVED, "a support that breaks");
+    check(gapbeam_solve(beam, 0.1, NULL, state, message, sizeof message) == GAPBEAM_BAD_INPUT, "solve refuses it");
+    check(strstr(message, "follow_history") != NULL, "and says what to call");
+    check(gapbeam_follow_history(NULL, 1, one, 0, &history, NULL, 0) == GAPBEAM_NOT_PREPARED && !history, "no beam");
+    check(gapbeam_follow_history(beam, 1, one, 0, NULL, NULL, 0) == GAPBEAM_BAD_INPUT, "no handle");
+    check(gapbeam_follow_history(beam, 0, one, 0, &history, NULL, 0) == GAPBEAM_BAD_INPUT, "no factors");
+    check(gapbeam_follow_history(beam, 1, NULL, 0, &history, NULL, 0) == GAPBEAM_BAD_INPUT, "nor where they are");
+    check(gapbeam_follow_history(beam, 1, one, 7, &history, message, sizeof message) == GAPBEAM_BAD_INPUT, "no such limit");
+    check(strstr(message, "got 7") != NULL, "names the value");
+    check(gapbeam_get_history_info(NULL, &info) == GAPBEAM_OTHER_VERSION, "info of another size");
+    info.size = sizeof info;
+    check(gapbeam_get_history_info(NULL, &info) == GAPBEAM_NOT_PREPARED, "info of nothing");
+    check(gapbeam_get_history_info(NULL, NULL) == GAPBEAM_BAD_INPUT, "no info");
+    check(gapbeam_get_stretches(NULL, from, to, leg, direction, stable, NULL, NULL, skipped) == GAPBEAM_NOT_PREPARED
+              && gapbeam_get_events(NULL, factor, support, what, change, stretch) == GAPBEAM_NOT_PREPARED
+              && gapbeam_get_limits(NULL, factor, kind, leg, before, landing) == GAPBEAM_NOT_PREPARED
+              && gapbeam_get_history_motion(NULL, x, w) == GAPBEAM_NOT_PREPARED, "nothing of no history");
+    check(gapbeam_solve_on_path(beam, NULL, -1, 0.5, state, NULL, 0) == GAPBEAM_NOT_PREPARED, "no state on it");
+
+    check(gapbeam_follow_history(beam, 1, one, GAPBEAM_LIMIT_STOP, &history, NULL, 0) == GAPBEAM_SOLVED, "followed");
+    check(gapbeam_get_history_info(history, &info) == GAPBEAM_SOLVED && info.ending == GAPBEAM_PATH_ENDED, "it stops");
+    check(info.limits == 1 && info.events == 1 && info.nodes == 0 && info.solves > 0, "at one limit");
+    check(gapbeam_get_limits(history, factor, kind, leg, before, landing) == GAPBEAM_SOLVED, "limits");
+    check_close(factor[0], 0.5, "its factor");
+    check(kind[0] == GAPBEAM_LIMIT_POINT && leg[0] == 0 && before[0] == 0 && landing[0] > 0, "what it is");
+    check(gapbeam_get_events(history, factor, support, what, change, stretch) == GAPBEAM_SOLVED, "events");
+    check_close(factor[0], 0.5, "the support breaks there");
+    check(support[0] == 1 && what[0] == GAPBEAM_BRANCH + 2 && change[0] == GAPBEAM_BREAKS && stretch[0] == 1, "that one");
+    check(gapbeam_get_history_motion(history, x, w) == GAPBEAM_NOT_PREPARED, "no free motion");
+    check(gapbeam_get_stretches(history, from, to, leg, direction, stable, NULL, NULL, skipped) == GAPBEAM_SOLVED, "stretches");
+    check(from[0] == 0.0 && fabs(to[0] - 0.5) < 1e-15 && leg[0] == 0 && direction[0] == 1 && stable[0] && !skipped[0], "the first");
+    check(direction[1] == -1 && !stable[1] && skipped[1], "the second");
+    check(gapbeam_solve_on_path(beam, history, landing[0], 0.5, state, NULL, 0) == GAPBEAM_SOLVED, "the landing");
+    gapbeam_get_supports(beam, state, r, w, NULL, NULL, condition);
+    check_close(w[1], 1.1, "without the support");
+    check(condition[1] == GAPBEAM_BRANCH + 3 && r[1] == 0.0, "which is broken");
+    check(gapbeam_solve_on_path(beam, history, 99, 0.5, state, NULL, 0) == GAPBEAM_BAD_INPUT, "no such stretch");
+    check(gapbeam_solve_on_path(beam, history, -1, 0.9, state, message, sizeof message) == GAPBEAM_BAD_INPUT, "not on the path");
+    check(strstr(message, "0.9") != NULL, "names the factor");
+    gapbeam_free_history(history);
+    check(gapbeam_follow_history(beam, 1, one, GAPBEAM_LIMIT_JUMP, &history, NULL, 0) == GAPBEAM_SOLVED, "jumps");
+    check(gapbeam_solve_on_path(beam, history, -1, 1.0, state, NULL, 0) == GAPBEAM_SOLVED, "to the end");
+    gapbeam_get_supports(beam, state, NULL, w, NULL, NULL, NULL);
+    check_close(w[1], 2.2, "the beam alone");
+    check(gapbeam_replace_loads(beam, &model, NULL, 0) == GAPBEAM_SOLVED, "the same loads again");
+    check(gapbeam_solve_on_path(beam, history, -1, 1.0, state, NULL, 0) == GAPBEAM_SOLVED, "change nothing");
+    model.load_value = three;
+    check(gapbeam_replace_loads(beam, &model, NULL, 0) == GAPBEAM_SOLVED, "other loads");
+    check(gapbeam_solve_on_path(beam, history, -1, 1.0, state, NULL, 0) == GAPBEAM_NOT_PREPARED, "have another history");
+    gapbeam_free_history(history);
+    gapbeam_free_history(NULL);
+    gapbeam_free_beam(beam);
+
+    model = over_law();
+    model.law_points = 2;
+    model.law_displacement = yield_d;
+    model.law_force = yield_f;
+    model.support_unloading = plastic;
+    check(prepare(&model, &beam) == GAPBEAM_SOLVED, "a support that keeps a set");
+    check(gapbeam_follow_history(beam, 2, one, GAPBEAM_LIMIT_STOP, &history, NULL, 0) == GAPBEAM_SOLVED, "there and back");
+    gapbeam_get_history_info(history, &info);
+    check(info.ending == GAPBEAM_ARRIVED && info.events == 3 && info.limits == 0, "three events");
+    gapbeam_get_events(history, NULL, NULL, NULL, change, stretch);
+    check(change[0] == GAPBEAM_YIELDS && change[1] == GAPBEAM_UNLOADS && change[2] == GAPBEAM_OPENS, "their names");
+    check(gapbeam_solve_on_path(beam, history, stretch[2], 0.25, state, NULL, 0) == GAPBEAM_SOLVED, "on the way back");
+    gapbeam_get_supports(beam, state, r, w, gap_left, NULL, condition);
+    check_close(gap_left[1], 0.55, "a gap is left");
+    check(condition[1] == GAPBEAM_OPEN && r[1] == 0.0, "open");
+    gapbeam_free_history(history);
+    gapbeam_free_state(state);
+    gapbeam_free_beam(beam);
+
+    model.law_force = NULL;
+    check(gapbeam_prepare(&model, &beam, message, sizeof message) == GAPBEAM_BAD_INPUT, "a law without forces");
+    model.law_force = yield_d;
+    model.law_support = &side[2];
+    model.law_points = -1;
+    check(gapbeam_prepare(&model, &beam, message, sizeof message) == GAPBEAM_BAD_INPUT, "fewer points than none");
+
+    /* As compiled with the header of version 0.2: nothing behind its structure is written or read */
+    const size_t old_size = offsetof(gapbeam_model, support_unloading);
+    gapbeam_model *old = malloc(old_size);
+    check(old && gapbeam_model_init(old, old_size) == GAPBEAM_SOLVED && old->spans == 0, "the structure of version 0.2");
+    model = two_spans();
+    model.size = old_size;
+    memcpy(old, &model, old_size);
+    check(prepare(old, &beam) == GAPBEAM_SOLVED && gapbeam_count_supports(beam) == 3, "goes on");
+    gapbeam_free_beam(beam);
+    free(old);
+}
+
 /* The caller's traps, rounding and flags survive, also where numbers leave the range; nothing is raised in between */
 static void environment(void)
 {
@@ -344,9 +470,10 @@ static void names_and_sizes(void)
     check(!strcmp(gapbeam_status_message(-5), "unknown status"), "an unknown one");
     check(isinf(gapbeam_infinity()) && gapbeam_infinity() > 0.0, "infinity");
     /* The init functions compare the sizes of two structures, the get functions those of the others */
-    _Static_assert(sizeof(gapbeam_model) == 200 || sizeof(void *) != 8, "gapbeam_model is part of the ABI");
+    _Static_assert(sizeof(gapbeam_model) == 240 || sizeof(void *) != 8, "gapbeam_model is part of the ABI");
     _Static_assert(sizeof(gapbeam_options) == 16 || sizeof(void *) != 8, "gapbeam_options is part of the ABI");
     _Static_assert(sizeof(gapbeam_info) == 40 || sizeof(void *) != 8, "gapbeam_info is part of the ABI");
+    _Static_assert(sizeof(gapbeam_history_info) == 32 || sizeof(void *) != 8, "gapbeam_history_info is part of the ABI");
     _Static_assert(sizeof(gapbeam_certificate) == 88 || sizeof(void *) != 8, "gapbeam_certificate is part of the ABI");
 }
 
@@ -357,6 +484,7 @@ int main(void)
     counts_after_other_loads();
     no_equilibrium();
     all_loads();
+    laws_and_histories();
     environment();
     names_and_sizes();
     printf("1..%d\n", checks);

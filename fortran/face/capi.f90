@@ -9,10 +9,12 @@ module gapbeam_capi
     use gapbeam_state, only: event_type
     use gapbeam_api, only: prepared_type, options_type, result_type, certificate_type, prepare_model, replace_loads, &
         count_supports, count_nodes, solve_beam, follow_load, get_supports, get_fields, get_extremes, get_motion, get_certificate
-    use gapbeam_capi_model, only: c_model, model_from_c, loads_from_c
+    use gapbeam_capi_model, only: c_model, is_model_size, empty_model, model_from_c, loads_from_c
     implicit none
     private
     public :: c_options, c_info, c_certificate
+    ! For gapbeam_capi_history
+    public :: beam_handle, state_handle, get_beam, get_both, report
 
     !> Mirrors of the header's structures; tests/test_capi.c compares their sizes
     type, bind(c) :: c_options
@@ -96,8 +98,8 @@ contains
         status = gapbeam_bad_input
         if (.not. present(model)) return
         status = gapbeam_other_version
-        if (size /= c_sizeof(model)) return
-        model = c_model(size)
+        if (.not. is_model_size(size)) return
+        call empty_model(model, size)
         status = gapbeam_solved
     end function c_model_init
 

@@ -1,11 +1,12 @@
 !> The model of the C interface, pointers to plain arrays, as the library's own
 module gapbeam_capi_model
-    use, intrinsic :: iso_c_binding, only: c_int, c_double, c_size_t, c_ptr, c_null_ptr, c_associated, c_f_pointer, c_sizeof
+    use, intrinsic :: iso_c_binding, only: c_int, c_double, c_size_t, c_signed_char, c_ptr, c_null_ptr, c_associated, c_f_pointer, &
+        c_loc, c_sizeof
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input, gapbeam_other_version
     use gapbeam_scene, only: model_type, load_type
     implicit none
     private
-    public :: c_model, model_from_c, loads_from_c
+    public :: c_model, is_model_size, empty_model, model_from_c, loads_from_c
 
     !> Mirror of the header's structure; tests/test_capi.c compares the sizes
     type, bind(c) :: c_model
@@ -21,9 +22,58 @@ module gapbeam_capi_model
         integer(c_int) :: loads = 0
         type(c_ptr) :: load_kind = c_null_ptr, load_case = c_null_ptr, load_x = c_null_ptr, load_node = c_null_ptr
         type(c_ptr) :: load_to = c_null_ptr, load_value = c_null_ptr, load_value_to = c_null_ptr
+        ! Not in the structure of version 0.2
+        type(c_ptr) :: support_unloading = c_null_ptr
+        integer(c_int) :: law_points = 0
+        type(c_ptr) :: law_support = c_null_ptr, law_displacement = c_null_ptr, law_force = c_null_ptr
     end type c_model
+    !> Mirror of what was added to it
+    type, bind(c) :: c_laws
+        type(c_ptr) :: support_unloading
+        integer(c_int) :: law_points
+        type(c_ptr) :: law_support, law_displacement, law_force
+    end type c_laws
 
 contains
+
+    !> Is a size that of the structure, now or in version 0.2, without laws
+    pure function is_model_size(size) result(is_size)
+        integer(c_size_t), intent(in) :: size
+        logical :: is_size
+
+        is_size = size == now_size() .or. size == old_size()
+    end function is_model_size
+
+    !> Size of the structure
+    pure function now_size() result(size)
+        integer(c_size_t) :: size
+        type(c_model) :: c
+
+        size = c_sizeof(c)
+    end function now_size
+
+    !> Its size in version 0.2
+    pure function old_size() result(size)
+        integer(c_size_t) :: size
+        type(c_laws) :: laws
+
+        size = now_size() - c_sizeof(laws)
+    end function old_size
+
+    !> Make a model empty
+    subroutine empty_model(c, size)
+        !> Nothing beyond its size is touched
+        type(c_model), intent(inout), target :: c
+        !> One of its sizes
+        integer(c_size_t), intent(in) :: size
+        type(c_model), target :: empty
+        integer(c_signed_char), pointer :: bytes(:), empty_bytes(:)
+
+        empty = c_model(size)
+        call c_f_pointer(c_loc(c), bytes, [size])
+        call c_f_pointer(c_loc(empty), empty_bytes, [size])
+        bytes(:) = empty_bytes
+    end subroutine empty_model
 
     !> Copy a model; what is NULL keeps its default
     subroutine model_from_c(c, model, error)
@@ -34,9 +84,18 @@ contains
         type(error_type), allocatable, intent(out) :: error
         real(c_double), pointer :: reals(:)
         integer(c_int), pointer :: integers(:)
-        integer :: stat
+        logical :: with_laws
+        integer :: points, stat
 
         call check_size(c, error)
+        if (allocated(error)) return
+        with_laws = c%size == now_size()
+        points = 0
+        if (with_laws) then
+            points = c%law_points
+            call check_array("law points", c%law_points, c_associated(c%law_support) .and. c_associated(c%law_displacement) &
+                             .and. c_associated(c%law_force), "law_support, law_displacement and law_force are needed", error)
+        end if
         if (.not. allocated(error)) call check_array("spans", c%spans, c_associated(c%length) .and. c_associated(c%EI), &
                                                      "length and EI are needed", error)
         if (.not. allocated(error)) call check_array("hinges", c%hinges, c_associated(c%hinge_x), "hinge_x is needed", error)
@@ -45,7 +104,8 @@ contains
                                                      error)
         if (.not. allocated(error)) call loads_from_c(c, model%loads, error)
         if (allocated(error)) return
-        allocate (model%spans(c%spans), model%hinges(c%hinges), model%supports(c%supports), stat=stat)
+        allocate (model%spans(c%spans), model%hinges(c%hinges), model%supports(c%supports), model%law(points), &
+                  stat=stat)
         if (stat /= 0) then
             call no_memory(error)
             return
@@ -66,6 +126,14 @@ contains
             if (has_reals(c%support_settlement, n, reals)) s%settlement = reals
             if (has_reals(c%support_rotation, n, reals)) s%rotation = reals
             if (has_integers(c%support_direction, n, integers)) s%direction = integers
+            if (.not. with_laws) return
+            if (has_integers(c%support_unloading, n, integers)) s%unloading = integers
+        end associate
+        if (points == 0) return
+        associate (law => model%law, n => c%law_points)
+            if (has_integers(c%law_support, n, integers)) law%support = integers + 1
+            if (has_reals(c%law_displacement, n, reals)) law%displacement = reals
+            if (has_reals(c%law_force, n, reals)) law%force = reals
         end associate
     end subroutine model_from_c
 
@@ -109,7 +177,7 @@ contains
         type(c_model), intent(in) :: c
         type(error_type), allocatable, intent(out) :: error
 
-        if (c%size /= c_sizeof(c)) then
+        if (.not. is_model_size(c%size)) then
             call fatal_error(error, gapbeam_other_version, "model: size is not the library's; use gapbeam_model_init")
         end if
     end subroutine check_size

@@ -1,0 +1,233 @@
+!> Histories of the load in the C interface: marshalling only. include/gapbeam.h says what every function does.
+module gapbeam_capi_history
+    use, intrinsic :: iso_c_binding, only: c_int, c_double, c_char, c_size_t, c_ptr, c_loc, c_f_pointer, c_associated, &
+        c_null_ptr, c_sizeof
+    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_bad_input, gapbeam_not_prepared, &
+        gapbeam_other_version
+    use gapbeam_api_history, only: history_type, follow_history, solve_on_path
+    use gapbeam_capi, only: beam_handle, state_handle, get_beam, get_both, report
+    implicit none
+    private
+    public :: c_history_info
+
+    !> Mirror of the header's structure; tests/test_capi.c compares the sizes
+    type, bind(c) :: c_history_info
+        integer(c_size_t) :: size
+        integer(c_int) :: stretches, events, limits, ending, solves, nodes
+    end type c_history_info
+
+    !> What a handle points to
+    integer, parameter :: history_tag = 1195528264
+    type :: history_handle
+        integer :: tag = history_tag
+        type(history_type) :: history
+    end type history_handle
+
+contains
+
+    !> See the header
+    function c_follow_history(beam, count, factors, at_limit, history, message, message_size) result(status) &
+        bind(c, name="gapbeam_follow_history")
+        type(c_ptr), intent(in), value :: beam
+        integer(c_int), intent(in), value :: count, at_limit
+        real(c_double), intent(in), optional :: factors(*)
+        type(c_ptr), intent(out), optional :: history
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), intent(in), value :: message_size
+        integer(c_int) :: status
+        type(beam_handle), pointer :: prepared
+        type(history_handle), pointer :: handle
+        type(error_type), allocatable :: error
+        integer :: stat
+
+        if (present(history)) history = c_null_ptr
+        call get_beam(beam, prepared)
+        if (.not. associated(prepared)) then
+            call fatal_error(error, gapbeam_not_prepared, "beam is no prepared beam")
+        else if (.not. present(history)) then
+            call fatal_error(error, gapbeam_bad_input, "history is NULL")
+        else if (count < 1 .or. .not. present(factors)) then
+            call fatal_error(error, gapbeam_bad_input, "factors: give at least one")
+        else
+            allocate (handle, stat=stat)
+            if (stat /= 0) then
+                call no_memory(error)
+            else
+                call follow_history(prepared%beam, factors(1:count), int(at_limit), handle%history, error)
+                if (allocated(error)) then
+                    deallocate (handle)
+                else
+                    history = c_loc(handle)
+                end if
+            end if
+        end if
+        call report(error, status, message, message_size)
+    end function c_follow_history
+
+    !> See the header
+    subroutine c_free_history(history) bind(c, name="gapbeam_free_history")
+        type(c_ptr), intent(in), value :: history
+        type(history_handle), pointer :: handle
+
+        call get_history(history, handle)
+        if (.not. associated(handle)) return
+        handle%tag = 0
+        deallocate (handle)
+    end subroutine c_free_history
+
+    !> See the header
+    function c_get_history_info(history, info) result(status) bind(c, name="gapbeam_get_history_info")
+        type(c_ptr), intent(in), value :: history
+        type(c_history_info), intent(inout), optional :: info
+        integer(c_int) :: status
+        type(history_handle), pointer :: handle
+        integer :: nodes
+
+        status = gapbeam_bad_input
+        if (.not. present(info)) return
+        status = gapbeam_other_version
+        if (info%size /= c_sizeof(info)) return
+        status = gapbeam_not_prepared
+        call get_history(history, handle)
+        if (.not. associated(handle)) return
+        associate (h => handle%history)
+            nodes = 0
+            if (allocated(h%motion)) nodes = size(h%motion)
+            info = c_history_info(info%size, size(h%stretches), size(h%events), size(h%limits), h%ending, h%solves, nodes)
+        end associate
+        status = gapbeam_solved
+    end function c_get_history_info
+
+    !> See the header
+    function c_get_stretches(history, from, to, leg, direction, stable, index, ways, skipped) result(status) &
+        bind(c, name="gapbeam_get_stretches")
+        type(c_ptr), intent(in), value :: history
+        real(c_double), intent(inout), optional :: from(*), to(*)
+        integer(c_int), intent(inout), optional :: leg(*), direction(*), stable(*), index(*), ways(*), skipped(*)
+        integer(c_int) :: status
+        type(history_handle), pointer :: handle
+        integer :: k
+
+        status = gapbeam_not_prepared
+        call get_history(history, handle)
+        if (.not. associated(handle)) return
+        do k = 1, size(handle%history%stretches)
+            associate (s => handle%history%stretches(k))
+                if (present(from)) from(k) = s%from
+                if (present(to)) to(k) = s%to
+                if (present(leg)) leg(k) = s%leg - 1
+                if (present(direction)) direction(k) = s%direction
+                if (present(stable)) stable(k) = merge(1, 0, s%stable)
+                if (present(index)) index(k) = s%index
+                if (present(ways)) ways(k) = s%ways
+                if (present(skipped)) skipped(k) = merge(1, 0, s%skipped)
+            end associate
+        end do
+        status = gapbeam_solved
+    end function c_get_stretches
+
+    !> See the header
+    function c_get_events(history, factor, support, condition, change, stretch) result(status) bind(c, name="gapbeam_get_events")
+        type(c_ptr), intent(in), value :: history
+        real(c_double), intent(inout), optional :: factor(*)
+        integer(c_int), intent(inout), optional :: support(*), condition(*), change(*), stretch(*)
+        integer(c_int) :: status
+        type(history_handle), pointer :: handle
+        integer :: k
+
+        status = gapbeam_not_prepared
+        call get_history(history, handle)
+        if (.not. associated(handle)) return
+        do k = 1, size(handle%history%events)
+            associate (event => handle%history%events(k))
+                if (present(factor)) factor(k) = event%factor
+                if (present(support)) support(k) = event%support - 1
+                if (present(condition)) condition(k) = event%state
+                if (present(change)) change(k) = event%change
+                if (present(stretch)) stretch(k) = event%stretch - 1
+            end associate
+        end do
+        status = gapbeam_solved
+    end function c_get_events
+
+    !> See the header
+    function c_get_limits(history, factor, kind, leg, stretch, landing) result(status) bind(c, name="gapbeam_get_limits")
+        type(c_ptr), intent(in), value :: history
+        real(c_double), intent(inout), optional :: factor(*)
+        integer(c_int), intent(inout), optional :: kind(*), leg(*), stretch(*), landing(*)
+        integer(c_int) :: status
+        type(history_handle), pointer :: handle
+        integer :: k
+
+        status = gapbeam_not_prepared
+        call get_history(history, handle)
+        if (.not. associated(handle)) return
+        do k = 1, size(handle%history%limits)
+            associate (limit => handle%history%limits(k))
+                if (present(factor)) factor(k) = limit%factor
+                if (present(kind)) kind(k) = limit%kind
+                if (present(leg)) leg(k) = limit%leg - 1
+                if (present(stretch)) stretch(k) = limit%stretch - 1
+                if (present(landing)) landing(k) = limit%landing - 1
+            end associate
+        end do
+        status = gapbeam_solved
+    end function c_get_limits
+
+    !> See the header
+    function c_get_history_motion(history, x, motion) result(status) bind(c, name="gapbeam_get_history_motion")
+        type(c_ptr), intent(in), value :: history
+        real(c_double), intent(inout), optional :: x(*), motion(*)
+        integer(c_int) :: status
+        type(history_handle), pointer :: handle
+
+        status = gapbeam_not_prepared
+        call get_history(history, handle)
+        if (.not. associated(handle)) return
+        if (.not. allocated(handle%history%motion)) return
+        associate (h => handle%history)
+            if (present(x)) x(1:size(h%x)) = h%x
+            if (present(motion)) motion(1:size(h%motion)) = h%motion
+        end associate
+        status = gapbeam_solved
+    end function c_get_history_motion
+
+    !> See the header
+    function c_solve_on_path(beam, history, stretch, factor, state, message, message_size) result(status) &
+        bind(c, name="gapbeam_solve_on_path")
+        type(c_ptr), intent(in), value :: beam, history, state
+        integer(c_int), intent(in), value :: stretch
+        real(c_double), intent(in), value :: factor
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), intent(in), value :: message_size
+        integer(c_int) :: status
+        type(beam_handle), pointer :: prepared
+        type(state_handle), pointer :: solved
+        type(history_handle), pointer :: handle
+        type(error_type), allocatable :: error
+
+        call get_both(beam, state, prepared, solved, error)
+        call get_history(history, handle)
+        if (.not. allocated(error) .and. .not. associated(handle)) then
+            call fatal_error(error, gapbeam_not_prepared, "history is none: make one with gapbeam_follow_history")
+        end if
+        if (.not. allocated(error)) then
+            call solve_on_path(prepared%beam, handle%history, factor, solved%result, error, stretch + 1)
+        end if
+        call report(error, status, message, message_size)
+        if (.not. allocated(error)) status = solved%result%status
+    end function c_solve_on_path
+
+    !> The history behind a handle
+    subroutine get_history(handle, history)
+        type(c_ptr), intent(in) :: handle
+        !> Null where it is no handle of a history
+        type(history_handle), pointer, intent(out) :: history
+
+        nullify (history)
+        if (.not. c_associated(handle)) return
+        call c_f_pointer(handle, history)
+        if (history%tag /= history_tag) nullify (history)
+    end subroutine get_history
+
+end module gapbeam_capi_history
