@@ -9,6 +9,7 @@ C     Compiled with -std=legacy.
       CALL REFUSE
       CALL CLOSED
       CALL TIPPED
+      CALL LAWS
       WRITE (*, '(A, I2)') '1..', NCHECK
       IF (NFAIL .GT. 0) STOP 1
       END
@@ -271,4 +272,141 @@ C     A load beyond the last support lifts the beam off the first
       CALL GBMOTN(WORK, IWORK, STATE, ISTATE, 4, NN, X, D, INFO)
       CALL CHECK(NN .EQ. 3 .AND. D(1) .LT. 0.0D0 .AND. D(3) .GT. 0.0D0,
      +           'its right end goes down')
+      END
+C
+C     A simple beam of stiffness 1 in the middle over a support with
+C     a law, a load of 2.2 on it: one that breaks, one that yields and
+C     keeps a set
+      SUBROUTINE LAWS
+      DOUBLE PRECISION SPAN(4,2), SUP(5,3), ALOAD(4,1), HINGE(1)
+      DOUBLE PRECISION WORK(700), STATE(200), V(4,3), ALAW(2,3)
+      DOUBLE PRECISION FACT(2), SF(2,9), EF(9), XL(2), Q(1), C(9)
+      INTEGER ISUP(3,3), ILOAD(3,1), IWORK(400), ISTATE(200), ILAW(3)
+      INTEGER IUNL(3), IS(6,9), IE(4,9), IL(4,2), N(5), K(3), IQ(1)
+      INTEGER INFO, LW, LI, LS, LT, KNOWN, IU(3)
+      EXTERNAL GBPRLW, GBHIST, GBHSOL, GBSOLV, GBEVNT, GBSUPP, GBCERT
+      CALL TWO(SPAN, ISUP, SUP, ILOAD, ALOAD)
+      SPAN(2,1) = 4/3.0D0
+      SPAN(2,2) = 4/3.0D0
+      SUP(3,2) = 0.0D0
+      ILOAD(1,1) = 1
+      ALOAD(1,1) = 2.0D0
+      ALOAD(3,1) = 2.2D0
+      DO 10 INFO = 1, 3
+         ILAW(INFO) = 2
+         IUNL(INFO) = 0
+   10 CONTINUE
+      ALAW(1,1) = 0.1D0
+      ALAW(2,1) = 1.0D0
+      ALAW(1,2) = 0.1D0
+      ALAW(2,2) = 0.0D0
+      ALAW(1,3) = 1.0D0
+      ALAW(2,3) = 0.0D0
+      FACT(1) = 1.0D0
+      FACT(2) = 0.0D0
+      CALL GBPRLW(2, SPAN, 0, HINGE, 3, ISUP, SUP, 1, ILOAD, ALOAD,
+     +            -1, ILAW, ALAW, IUNL, WORK, 700, IWORK, 400, INFO)
+      CALL EXPECT(INFO, -11, 'NLAW = -1')
+      CALL GBPRLW(2, SPAN, 0, HINGE, 3, ISUP, SUP, 1, ILOAD, ALOAD,
+     +            2, ILAW, ALAW, IUNL, WORK, 700, IWORK, 400, INFO)
+      CALL EXPECT(INFO, -12, 'a law that ends falling')
+      CALL EXPECT(IWORK(1), 2, 'of support 2')
+      SUP(2,2) = 3.0D0
+      CALL GBPRLW(2, SPAN, 0, HINGE, 3, ISUP, SUP, 1, ILOAD, ALOAD,
+     +            3, ILAW, ALAW, IUNL, WORK, 700, IWORK, 400, INFO)
+      CALL EXPECT(INFO, -12, 'a law and a stiffness')
+      SUP(2,2) = SUP(2,1)
+      IUNL(1) = 1
+      CALL GBPRLW(2, SPAN, 0, HINGE, 3, ISUP, SUP, 1, ILOAD, ALOAD,
+     +            3, ILAW, ALAW, IUNL, WORK, 700, IWORK, 400, INFO)
+      CALL EXPECT(INFO, -14, 'unloading without a law')
+      CALL EXPECT(IWORK(1), 1, 'of support 1')
+      IUNL(1) = 0
+      CALL GBPRLW(2, SPAN, 0, HINGE, 3, ISUP, SUP, 1, ILOAD, ALOAD,
+     +            3, ILAW, ALAW, IUNL, Q, -1, IQ, -1, INFO)
+      LW = INT(Q(1))
+      LI = IQ(1)
+      CALL CHECK(LW .LE. 700 .AND. LI .LE. 400, 'lengths')
+      CALL GBPRLW(2, SPAN, 0, HINGE, 3, ISUP, SUP, 1, ILOAD, ALOAD,
+     +            3, ILAW, ALAW, IUNL, WORK, LW - 1, IWORK, LI, INFO)
+      CALL EXPECT(INFO, -16, 'WORK too short')
+      CALL GBPRLW(2, SPAN, 0, HINGE, 3, ISUP, SUP, 1, ILOAD, ALOAD,
+     +            3, ILAW, ALAW, IUNL, WORK, LW, IWORK, LI - 1, INFO)
+      CALL EXPECT(INFO, -18, 'IWORK too short')
+      CALL GBPRLW(2, SPAN, 0, HINGE, 3, ISUP, SUP, 1, ILOAD, ALOAD,
+     +            3, ILAW, ALAW, IUNL, WORK, LW, IWORK, LI, INFO)
+      CALL EXPECT(INFO, 0, 'a support that breaks')
+      CALL GBSOLV(WORK, IWORK, 0.1D0, 0, 0, STATE, 200, ISTATE, 200,
+     +            INFO)
+      CALL EXPECT(INFO, -1, 'depends on the way of the load')
+      CALL GBEVNT(WORK, IWORK, 0.1D0, 0, 9, STATE, 200, ISTATE, 200,
+     +            N(1), EF, IE, INFO)
+      CALL EXPECT(INFO, -1, 'and again')
+      CALL GBHIST(WORK, IWORK, 0, FACT, 0, 9, SF, IS, 9, EF, IE, 2, XL,
+     +            IL, N, INFO)
+      CALL EXPECT(INFO, -3, 'NFACT = 0')
+      CALL GBHIST(WORK, IWORK, 1, FACT, 3, 9, SF, IS, 9, EF, IE, 2, XL,
+     +            IL, N, INFO)
+      CALL EXPECT(INFO, -5, 'LIMIT = 3')
+      CALL GBHIST(WORK, IWORK, 1, FACT, 0, -1, SF, IS, 9, EF, IE, 2, XL,
+     +            IL, N, INFO)
+      CALL EXPECT(INFO, -6, 'MAXST = -1')
+      CALL GBHIST(ALAW, ILAW, 1, FACT, 0, 9, SF, IS, 9, EF, IE, 2, XL,
+     +            IL, N, INFO)
+      CALL EXPECT(INFO, -1, 'no beam')
+      CALL GBHIST(WORK, IWORK, 1, FACT, 0, 9, SF, IS, 9, EF, IE, 2, XL,
+     +            IL, N, INFO)
+      CALL EXPECT(INFO, 0, 'followed')
+      CALL CHECK(N(2) .EQ. 1 .AND. N(3) .EQ. 1 .AND. N(4) .EQ. 4,
+     +           'one event, one limit')
+      CALL CLOSE(XL(1), 0.5D0, 'its factor')
+      CALL CHECK(IL(1,1) .EQ. 1 .AND. IL(2,1) .EQ. 1 .AND.
+     +           IL(3,1) .EQ. 1, 'what it is')
+      CALL CHECK(IE(1,1) .EQ. 2 .AND. IE(2,1) .EQ. 12 .AND.
+     +           IE(3,1) .EQ. 7 .AND. IE(4,1) .EQ. 2, 'it breaks')
+      CALL CHECK(IS(3,1) .EQ. 1 .AND. IS(3,2) .EQ. 0 .AND.
+     +           IS(6,2) .EQ. 1, 'stable before')
+      CALL GBHSOL(WORK, IWORK, 1, FACT, 0, 0, 0.5D0, Q, -1, IQ, -1,
+     +            INFO)
+      LS = INT(Q(1))
+      LT = IQ(1)
+      CALL CHECK(LS .LE. 200 .AND. LT .LE. 200, 'lengths of states')
+      CALL GBHSOL(WORK, IWORK, 1, FACT, 0, 0, 0.5D0, STATE, LS - 1,
+     +            ISTATE, LT, INFO)
+      CALL EXPECT(INFO, -9, 'STATE too short')
+      CALL GBHSOL(WORK, IWORK, 1, FACT, 0, 0, 0.5D0, STATE, LS,
+     +            ISTATE, LT - 1, INFO)
+      CALL EXPECT(INFO, -11, 'ISTATE too short')
+      CALL GBHSOL(WORK, IWORK, 1, FACT, 0, 9, 0.5D0, STATE, LS,
+     +            ISTATE, LT, INFO)
+      CALL EXPECT(INFO, -6, 'no such stretch')
+      CALL GBHSOL(WORK, IWORK, 1, FACT, 0, 0, 0.7D0, STATE, LS,
+     +            ISTATE, LT, INFO)
+      CALL EXPECT(INFO, -7, 'not on the path')
+      CALL GBHSOL(WORK, IWORK, 1, FACT, 0, IL(4,1), 0.5D0, STATE, LS,
+     +            ISTATE, LT, INFO)
+      CALL EXPECT(INFO, 0, 'the landing')
+      CALL GBSUPP(WORK, IWORK, STATE, ISTATE, V, K, INFO)
+      CALL CLOSE(V(2,2), 1.1D0, 'without the support')
+      CALL CHECK(K(2) .EQ. 13, 'which is broken')
+      ALAW(1,2) = 1.0D0
+      ALAW(2,2) = 1.0D0
+      IUNL(2) = 1
+      CALL GBPRLW(2, SPAN, 0, HINGE, 3, ISUP, SUP, 1, ILOAD, ALOAD,
+     +            2, ILAW, ALAW, IUNL, WORK, LW, IWORK, LI, INFO)
+      CALL EXPECT(INFO, 0, 'a support that keeps a set')
+      CALL GBHIST(WORK, IWORK, 2, FACT, 0, 0, SF, IS, 9, EF, IE, 0, XL,
+     +            IL, N, INFO)
+      CALL CHECK(N(2) .EQ. 3 .AND. N(3) .EQ. 0 .AND. N(4) .EQ. 0,
+     +           'there and back')
+      CALL CHECK(IE(3,1) .EQ. 4 .AND. IE(3,2) .EQ. 8 .AND.
+     +           IE(3,3) .EQ. 0, 'yields, unloads, opens')
+      CALL GBHSOL(WORK, IWORK, 2, FACT, 0, IE(4,3), 0.25D0, STATE, 200,
+     +            ISTATE, 200, INFO)
+      CALL EXPECT(INFO, 0, 'on the way back')
+      CALL GBSUPP(WORK, IWORK, STATE, ISTATE, V, K, INFO)
+      CALL CLOSE(V(3,2), 0.55D0, 'a gap is left')
+      CALL CHECK(K(2) .EQ. 0, 'open')
+      CALL GBCERT(WORK, IWORK, STATE, ISTATE, C, KNOWN, IU, INFO)
+      CALL CHECK(INFO .EQ. 0 .AND. C(3) .LT. 1.0D-14, 'certified')
       END

@@ -9,26 +9,29 @@
 !     ILOAD(3, NLOAD)   kind: 1 force, 2 couple, 3 distributed, 4 curvature, 5 axial force; case: 0 live, 1 dead; node, or -1
 !     ALOAD(4, NLOAD)   x, or left end of the stretch; right end; value; of kind 3 the value at the right end
 !
+! and for GBPRLW the laws that supports have instead of a stiffness, polylines from (0, 0) through points, in which equal
+! displacements are a vertical piece, and whose last slope goes on; a support that holds both ways has it both ways:
+!
+!     ILAW(NLAW)        support of every point; those of one stand beside each other, in order
+!     ALAW(2, NLAW)     displacement past the gap, not below that of the point before; force, 0 or more
+!     IUNL(NSUP)        unloading of supports with a law: 0 along it, 1 parallel to its first piece so that a set stays, 2 along it,
+!                       but not at all once its force has dropped; not looked at where NLAW is 0
+!
 ! WORK(LWORK), IWORK(LIWORK) hold the prepared beam, STATE(LSTATE), ISTATE(LISTAT) a solved state. With LWORK, LIWORK,
 ! LSTATE or LISTAT = -1 a routine does nothing but return the lengths it needs in WORK(1) and IWORK(1), or STATE(1) and ISTATE(1).
 !
 ! INFO  0   solved, or done
-!      -i   the i-th argument has an illegal value; from GBPREP IWORK(1) is then the number of the entry (column) of that array,
-!           or 0, and the work arrays hold no beam any more; after GBLOAD they hold the old one
+!      -i   the i-th argument has an illegal value; from GBPREP and GBPRLW IWORK(1) is then the number of the entry (column) of
+!           that array, or 0, and the work arrays hold no beam any more; after GBLOAD they hold the old one
 !       1   no equilibrium: GBMOTN gives the motion
 !     >10   an error, see gapbeam_error: 12 indeterminate, 13 not converged, 14 not finite, 15 no memory, 16 nothing solved
 ! Nothing but INFO (and IWORK(1)) is written where INFO is not 0 or 1.
 !
-! A beam in WORK is only read by all but GBPREP and GBLOAD: threads may share it, each with its own STATE.
+! A beam in WORK is only read by all but GBPREP, GBPRLW and GBLOAD: threads may share it, each with its own STATE.
 
 ! Prepare a beam
 subroutine gbprep(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, work, lwork, iwork, liwork, info)
-    use, intrinsic :: iso_fortran_env, only: int64
-    use gapbeam_error, only: error_type, gapbeam_no_memory, gapbeam_bad_input
-    use gapbeam_scene, only: model_type
-    use gapbeam_api, only: prepared_type, prepare_model
-    use gapbeam_arrays, only: model_from_arrays
-    use gapbeam_work, only: sizes_of_beam, put_beam
+    use gapbeam_work, only: prepare_beam
     implicit none
     ! Sizes; NSPAN 1 or more, the others 0 or more
     integer, intent(in) :: nspan, nhinge, nsup, nload
@@ -42,49 +45,40 @@ subroutine gbprep(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, alo
     integer, intent(inout) :: iwork(*)
     ! -1, -2, -4, -6 or -7, -9 or -10: bad input; -12, -14: too short; 14, 15
     integer, intent(out) :: info
-    type(model_type) :: model
-    type(prepared_type) :: beam
-    type(error_type), allocatable :: error
-    integer(int64) :: reals, integers
-    ! The argument that an array of the model is; of a pair of arrays the first, which has the number of entries
-    integer, parameter :: argument(0:4) = [1, 2, 4, 6, 9]
-    double precision :: no_sections(5, 0), no_points(2, 0)
-    integer :: no_laws(0)
-    logical :: fits
+    double precision :: no_points(2, 1)
+    integer :: no_laws(1)
 
-    info = 0
-    if (nspan < 1) info = -1
-    if (nhinge < 0) info = -3
-    if (nsup < 0) info = -5
-    if (nload < 0) info = -8
-    if (info /= 0) return
-    call sizes_of_beam(nspan, nhinge, nsup, nload, reals, integers)
-    if (max(reals, integers) > huge(info)) info = gapbeam_no_memory
-    if (info /= 0) return
-    if (lwork == -1 .or. liwork == -1) then
-        work(1) = real(reals, kind(work))
-        iwork(1) = int(integers)
-        return
-    end if
-    if (lwork < reals) info = -12
-    if (liwork < integers) info = -14
-    if (info /= 0) return
-    iwork(1) = 0
-    call model_from_arrays(span(:, 1:nspan), hinge(1:nhinge), no_sections, isup(:, 1:nsup), sup(:, 1:nsup), &
-                           no_laws, no_points, iload(:, 1:nload), aload(:, 1:nload), model, error)
-    if (.not. allocated(error)) call prepare_model(model, beam, error)
-    if (allocated(error)) then
-        info = error%code
-        if (error%code == gapbeam_bad_input) info = -argument(error%table)
-        iwork(1) = error%entry
-        return
-    end if
-    call put_beam(beam, work, lwork, iwork, liwork, fits)
-    if (.not. fits) info = -12
+    call prepare_beam(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, 0, no_laws, no_points, no_laws, &
+                      work, lwork, iwork, liwork, info)
+    ! The places of LWORK and LIWORK
+    if (info == -16 .or. info == -18) info = info + 4
 end subroutine gbprep
 
-! Take other loads for a prepared beam. The work arrays must have room for the largest NLOAD to come: ask GBPREP for their
-! lengths with that. States solved before belong to the old loads, and are not taken until solved anew. Where places of loads
+! Prepare a beam whose supports may follow laws
+subroutine gbprlw(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, nlaw, ilaw, alaw, iunl, &
+                  work, lwork, iwork, liwork, info)
+    use gapbeam_work, only: prepare_beam
+    implicit none
+    ! Sizes; NSPAN 1 or more, the others 0 or more; NLAW is the number of points of all laws together
+    integer, intent(in) :: nspan, nhinge, nsup, nload, nlaw
+    ! See above; the stiffness of a support with a law is GBINF()
+    double precision, intent(in) :: span(4, *), hinge(*), sup(5, *), aload(4, *), alaw(2, *)
+    integer, intent(in) :: isup(3, *), iload(3, *), ilaw(*), iunl(*)
+    ! Lengths, or -1
+    integer, intent(in) :: lwork, liwork
+    ! The beam
+    double precision, intent(inout) :: work(*)
+    integer, intent(inout) :: iwork(*)
+    ! -1 to -10 as from GBPREP; -11; -12 or -13: a law is impossible, IWORK(1) is its support; -14: so is IUNL(IWORK(1)); -16,
+    ! -18: too short; 14, 15
+    integer, intent(out) :: info
+
+    call prepare_beam(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, nlaw, ilaw, alaw, iunl, &
+                      work, lwork, iwork, liwork, info)
+end subroutine gbprlw
+
+! Take other loads for a prepared beam. The work arrays must have room for the largest NLOAD to come: ask GBPREP or GBPRLW for
+! their lengths with that. States solved before belong to the old loads, and are not taken until solved anew. Where places of loads
 ! change, so may the lengths of states (ask GBSOLV again) and the number of nodes in GBMOTN
 subroutine gbload(nload, iload, aload, work, lwork, iwork, liwork, info)
     use gapbeam_error, only: error_type, gapbeam_no_memory, gapbeam_bad_input
@@ -128,7 +122,7 @@ end subroutine gbload
 
 ! Solve at one load factor
 subroutine gbsolv(work, iwork, factor, rule, start, state, lstate, istate, listat, info)
-    use gapbeam_error, only: error_type, gapbeam_no_memory
+    use gapbeam_error, only: error_type, gapbeam_bad_input, gapbeam_no_memory
     use gapbeam_api, only: prepared_type, result_type, options_type, solve_beam
     use gapbeam_work, only: begin_result, put_result, take_result
     implicit none
@@ -144,7 +138,8 @@ subroutine gbsolv(work, iwork, factor, rule, start, state, lstate, istate, lista
     ! The state
     double precision, intent(inout) :: state(*)
     integer, intent(inout) :: istate(*)
-    ! -1: no beam in WORK; -3, -4, -5; -6: START is 1 and there is no state; -7, -9: too short; 1, 12 to 15
+    ! -1: no beam in WORK, or one whose state depends on the way of the load (GBHIST); -3, -4, -5; -6: START is 1 and there is no
+    ! state; -7, -9: too short; 1, 12 to 15
     integer, intent(out) :: info
     type(prepared_type) :: beam
     type(result_type) :: result
@@ -161,7 +156,7 @@ subroutine gbsolv(work, iwork, factor, rule, start, state, lstate, istate, lista
     end if
     call solve_beam(beam, factor, options_type(rule), result, error)
     if (allocated(error)) then
-        info = error%code
+        info = merge(-1, error%code, error%code == gapbeam_bad_input)
         return
     end if
     call put_result(result, state, lstate, istate, listat, fits)
@@ -170,7 +165,7 @@ end subroutine gbsolv
 
 ! Follow the load from factor 0: every change of the working scheme at its exact load factor
 subroutine gbevnt(work, iwork, factor, rule, maxev, state, lstate, istate, listat, nev, evfact, ievent, info)
-    use gapbeam_error, only: error_type
+    use gapbeam_error, only: error_type, gapbeam_bad_input
     use gapbeam_state, only: event_type
     use gapbeam_api, only: prepared_type, result_type, options_type, follow_load
     use gapbeam_work, only: begin_result, put_result
@@ -189,11 +184,11 @@ subroutine gbevnt(work, iwork, factor, rule, maxev, state, lstate, istate, lista
     integer, intent(inout) :: istate(*)
     ! Number of events, which may be more than MAXEV
     integer, intent(inout) :: nev
-    ! The first MAXEV of them: load factor; support, and what it is from there on, 0 open or 1 closed; 3: the
-    ! beam has lost its hold and turns at constant load until this support holds it
+    ! The first MAXEV of them: load factor; support, and what it is from there on, 0 open or 1 closed, or 10 plus the number of the
+    ! piece of its law; 3: the beam has lost its hold and turns at constant load until this support holds it
     double precision, intent(inout) :: evfact(*)
     integer, intent(inout) :: ievent(2, *)
-    ! -1: no beam in WORK; -3, -4, -5; -7, -9: too short; 1, 12 to 15
+    ! -1: no beam in WORK, or one whose state depends on the way of the load (GBHIST); -3, -4, -5; -7, -9: too short; 1, 12 to 15
     integer, intent(out) :: info
     type(prepared_type) :: beam
     type(result_type) :: result
@@ -208,7 +203,7 @@ subroutine gbevnt(work, iwork, factor, rule, maxev, state, lstate, istate, lista
     if (info /= 0 .or. lstate == -1 .or. listat == -1) return
     call follow_load(beam, factor, options_type(rule), events, result, error)
     if (allocated(error)) then
-        info = error%code
+        info = merge(-1, error%code, error%code == gapbeam_bad_input)
         return
     end if
     nev = size(events)
@@ -220,6 +215,145 @@ subroutine gbevnt(work, iwork, factor, rule, maxev, state, lstate, istate, lista
     call put_result(result, state, lstate, istate, listat, fits)
     info = result%status
 end subroutine gbevnt
+
+! Put on the dead loads, then go through load factors in turn, from factor 0, by the exact path: through every event, past limits of
+! the load, with supports that soften, break or keep a set
+subroutine gbhist(work, iwork, nfact, factor, limit, maxst, stfact, istrch, maxev, evfact, ievent, maxlim, lmfact, ilimit, &
+                  number, info)
+    use gapbeam_error, only: error_type, gapbeam_no_memory
+    use gapbeam_api, only: prepared_type
+    use gapbeam_api_history, only: history_type, follow_history
+    use gapbeam_work, only: take_beam, check_history
+    implicit none
+    ! Beam
+    double precision, intent(in) :: work(*)
+    integer, intent(in) :: iwork(*)
+    ! Load factors, 1 or more
+    integer, intent(in) :: nfact
+    double precision, intent(in) :: factor(*)
+    ! Where the load cannot go on: 0 end there; 1 go on from the next stable state on the path at this factor; 2 follow the
+    ! path, also with falling load
+    integer, intent(in) :: limit
+    ! Room for stretches, events and limits, 0 or more
+    integer, intent(in) :: maxst, maxev, maxlim
+    ! The first MAXST stretches: load factors at their ends; factor that is gone to, from 1, 0 while the dead loads are put on;
+    ! 1 the load rises, -1 it falls, 0 the beam turns; 1 stable, 0 not; in how many independent ways the beam gives way by
+    ! itself; ways on there were at its beginning; 1 passed in a jump, or beyond the limit at which the load stops
+    double precision, intent(inout) :: stfact(2, *)
+    integer, intent(inout) :: istrch(6, *)
+    ! The first MAXEV events: load factor; support; what it is from there on, as from GBEVNT; what happens, 0 opens, 1 closes,
+    ! 3 turns, 4 yields, 5 hardens, 6 softens, 7 breaks, 8 unloads; stretch that begins with it
+    double precision, intent(inout) :: evfact(*)
+    integer, intent(inout) :: ievent(4, *)
+    ! The first MAXLIM limits: load factor; kind, 1 limit point, 2 bifurcation, 3 mechanism; factor that is gone to; last stretch
+    ! before it; stretch on which the beam lands at the same factor, 0 if none
+    double precision, intent(inout) :: lmfact(*)
+    integer, intent(inout) :: ilimit(4, *)
+    ! Numbers of stretches, events and limits, which may be more than there is room for; how the path ends, 0 at the last factor, 3
+    ! in a mechanism, 4 otherwise; linear solves in quadruple precision
+    integer, intent(inout) :: number(5)
+    ! -1: no beam in WORK; -3, -4, -5, -6, -9, -12; 13 to 15
+    integer, intent(out) :: info
+    type(prepared_type) :: beam
+    type(history_type) :: history
+    type(error_type), allocatable :: error
+    integer :: k
+
+    info = check_history(nfact, factor, limit)
+    if (maxst < 0) info = -6
+    if (maxev < 0) info = -9
+    if (maxlim < 0) info = -12
+    if (info /= 0) return
+    call take_beam(work, iwork, beam, error)
+    if (allocated(error)) then
+        info = merge(error%code, -1, error%code == gapbeam_no_memory)
+        return
+    end if
+    call follow_history(beam, factor(1:nfact), limit, history, error)
+    if (allocated(error)) then
+        info = error%code
+        return
+    end if
+    number = [size(history%stretches), size(history%events), size(history%limits), history%ending, history%solves]
+    do k = 1, min(maxst, number(1))
+        associate (s => history%stretches(k))
+            stfact(:, k) = [s%from, s%to]
+            istrch(:, k) = [s%leg, s%direction, merge(1, 0, s%stable), s%index, s%ways, merge(1, 0, s%skipped)]
+        end associate
+    end do
+    do k = 1, min(maxev, number(2))
+        associate (event => history%events(k))
+            evfact(k) = event%factor
+            ievent(:, k) = [event%support, event%state, event%change, event%stretch]
+        end associate
+    end do
+    do k = 1, min(maxlim, number(3))
+        associate (found => history%limits(k))
+            lmfact(k) = found%factor
+            ilimit(:, k) = [found%kind, found%leg, found%stretch, found%landing]
+        end associate
+    end do
+end subroutine gbhist
+
+! The state at a load factor on the path of GBHIST, which is followed again for that
+subroutine gbhsol(work, iwork, nfact, factor, limit, nstrch, at, state, lstate, istate, listat, info)
+    use gapbeam_error, only: error_type, gapbeam_bad_input
+    use gapbeam_search, only: rule_block
+    use gapbeam_api, only: prepared_type, result_type
+    use gapbeam_api_history, only: history_type, follow_history, solve_on_path
+    use gapbeam_work, only: begin_result, put_result, check_history
+    implicit none
+    ! Beam, and factors and limit as for GBHIST
+    double precision, intent(in) :: work(*)
+    integer, intent(in) :: iwork(*), nfact
+    double precision, intent(in) :: factor(*)
+    integer, intent(in) :: limit
+    ! Number of the stretch; 0: the last one with AT that is not passed in a jump, a stable one if there is any
+    integer, intent(in) :: nstrch
+    ! Load factor on the stretch
+    double precision, intent(in) :: at
+    ! Lengths, or -1
+    integer, intent(in) :: lstate, listat
+    ! The state
+    double precision, intent(inout) :: state(*)
+    integer, intent(inout) :: istate(*)
+    ! -1: no beam in WORK; -3, -4, -5; -6: no such stretch; -7: no state at AT on it, or on the path; -9, -11: too short;
+    ! 1, 12 to 15
+    integer, intent(out) :: info
+    type(prepared_type) :: beam
+    type(result_type) :: result
+    type(history_type) :: history
+    type(error_type), allocatable :: error
+    logical :: fits
+
+    call begin_result(work, iwork, at, rule_block, state, lstate, istate, listat, beam, info)
+    ! The places of AT, LSTATE and LISTAT
+    select case (info)
+    case (-3)
+        info = -7
+    case (-7, -9)
+        info = info - 2
+    end select
+    if (info /= 0 .or. lstate == -1 .or. listat == -1) return
+    info = check_history(nfact, factor, limit)
+    if (info /= 0) return
+    call follow_history(beam, factor(1:nfact), limit, history, error)
+    if (allocated(error)) then
+        info = error%code
+        return
+    end if
+    if (nstrch < 0 .or. nstrch > size(history%stretches)) then
+        info = -6
+        return
+    end if
+    call solve_on_path(beam, history, at, result, error, nstrch)
+    if (allocated(error)) then
+        info = merge(-7, error%code, error%code == gapbeam_bad_input)
+        return
+    end if
+    call put_result(result, state, lstate, istate, listat, fits)
+    info = result%status
+end subroutine gbhsol
 
 ! What a state says in a few numbers
 subroutine gbinfo(state, istate, factor, ninfo, info)
@@ -260,7 +394,7 @@ subroutine gbsupp(work, iwork, state, istate, supval, kstate, info)
     integer, intent(in) :: iwork(*), istate(*)
     ! Reaction, deflection, opening (negative: the beam has gone past a support without stiffness), couple of every support
     double precision, intent(inout) :: supval(4, *)
-    ! 0 open, 1 closed, 2 bilateral
+    ! 0 open, 1 closed, 2 bilateral, 10 plus the number of the piece of a law
     integer, intent(inout) :: kstate(*)
     ! -1: no beam; -3: nothing solved, or not of this beam; 15
     integer, intent(out) :: info

@@ -96,6 +96,7 @@ contains
         call exchange(tape, state%displacement, 0)
         call exchange(tape, state%axial_reaction, 0)
         call exchange(tape, state%tension, 1)
+        call exchange_node_supports(tape, state%laws)
         call exchange(tape, state%has_starts)
         number = 0
         if (allocated(state%starts)) number = size(state%starts)
@@ -157,6 +158,22 @@ contains
                 call exchange(tape, s%settlement)
                 call exchange(tape, s%rotation)
                 call exchange(tape, s%direction)
+                call exchange(tape, s%unloading)
+            end associate
+        end do
+        number = 0
+        if (allocated(model%law)) number = size(model%law)
+        call exchange_size(tape, allocated(model%law), number)
+        if (tape%mode == reading) then
+            allocate (model%law(max(number, 0)), stat=stat)
+            if (stat /= 0) tape%stat = stat
+            if (stat /= 0) return
+        end if
+        do i = 1, number
+            associate (point => model%law(i))
+                call exchange(tape, point%support)
+                call exchange(tape, point%displacement)
+                call exchange(tape, point%force)
             end associate
         end do
         number = 0
@@ -272,6 +289,11 @@ contains
                 call exchange(tape, s%side)
                 call exchange(tape, s%stiffness)
                 call exchange(tape, s%contact)
+                call exchange(tape, s%kink)
+                call exchange(tape, s%more)
+                call exchange(tape, s%passed)
+                call exchange(tape, s%force)
+                call exchange(tape, s%before)
             end associate
         end do
     end subroutine exchange_node_supports

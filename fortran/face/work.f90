@@ -3,33 +3,96 @@ module gapbeam_work
     use, intrinsic :: iso_fortran_env, only: int64
     use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_no_memory, gapbeam_not_prepared
+    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input, gapbeam_no_memory, gapbeam_not_prepared
     use gapbeam_search, only: rule_block, rule_single
     use gapbeam_solution, only: state_type, new_state
-    use gapbeam_api, only: prepared_type, result_type
+    use gapbeam_scene, only: model_type, gapbeam_elastic
+    use gapbeam_api, only: prepared_type, result_type, prepare_model
+    use gapbeam_arrays, only: model_from_arrays
     use gapbeam_tape, only: tape_type, writing, reading
     use gapbeam_pack, only: exchange_beam, exchange_state
     implicit none
     private
-    public :: sizes_of_beam, sizes_of_state, put_beam, take_beam, put_result, take_result, begin_result, take_both
+    public :: prepare_beam, put_beam, take_beam, put_result, take_result, begin_result, check_history, take_both
 
     !> Marks of what a pair of work arrays holds, in the first integer; the next two are the lengths used
     integer, parameter :: beam_mark = 770042, state_mark = 770043, header = 3
 
 contains
 
+    !> What GBPREP and GBPRLW do, with the arguments of the latter
+    subroutine prepare_beam(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, nlaw, ilaw, alaw, iunl, &
+                            work, lwork, iwork, liwork, info)
+        integer, intent(in) :: nspan, nhinge, nsup, nload, nlaw
+        real(wp), intent(in) :: span(4, *), hinge(*), sup(5, *), aload(4, *), alaw(2, *)
+        integer, intent(in) :: isup(3, *), iload(3, *), ilaw(*), iunl(*)
+        integer, intent(in) :: lwork, liwork
+        real(wp), intent(inout) :: work(*)
+        integer, intent(inout) :: iwork(*)
+        integer, intent(out) :: info
+        type(model_type) :: model
+        type(prepared_type) :: beam
+        type(error_type), allocatable :: error
+        integer(int64) :: reals, integers
+        ! The argument that an array of the model is; of a pair of arrays the first, which has the number of entries
+        integer, parameter :: argument(0:4) = [1, 2, 4, 6, 9]
+        real(wp) :: no_sections(5, 0)
+        logical :: fits
+
+        info = 0
+        if (nspan < 1) info = -1
+        if (nhinge < 0) info = -3
+        if (nsup < 0) info = -5
+        if (nload < 0) info = -8
+        if (nlaw < 0) info = -11
+        if (info /= 0) return
+        call sizes_of_beam(nspan, nhinge, nsup, nlaw, nload, reals, integers)
+        if (max(reals, integers) > huge(info)) info = gapbeam_no_memory
+        if (info /= 0) return
+        if (lwork == -1 .or. liwork == -1) then
+            work(1) = real(reals, wp)
+            iwork(1) = int(integers)
+            return
+        end if
+        if (lwork < reals) info = -16
+        if (liwork < integers) info = -18
+        if (info /= 0) return
+        iwork(1) = 0
+        call model_from_arrays(span(:, 1:nspan), hinge(1:nhinge), no_sections, isup(:, 1:nsup), sup(:, 1:nsup), &
+                               ilaw(1:nlaw), alaw(:, 1:nlaw), iload(:, 1:nload), aload(:, 1:nload), model, error)
+        if (.not. allocated(error)) then
+            if (nlaw > 0) model%supports%unloading = iunl(1:nsup)
+            call prepare_model(model, beam, error)
+        end if
+        if (allocated(error)) then
+            info = error%code
+            if (error%code == gapbeam_bad_input) then
+                info = -argument(error%table)
+                if (error%key == "law") info = -12
+                if (error%key == "unloading") info = -14
+            end if
+            iwork(1) = error%entry
+            return
+        end if
+        call put_beam(beam, work, lwork, iwork, liwork, fits)
+        if (.not. fits) info = -16
+    end subroutine prepare_beam
+
     !> Lengths that are enough for any beam of these sizes
-    pure subroutine sizes_of_beam(spans, hinges, supports, loads, reals, integers)
-        integer, intent(in) :: spans, hinges, supports, loads
+    pure subroutine sizes_of_beam(spans, hinges, supports, laws, loads, reals, integers)
+        !> Numbers of entries; of laws that of their points
+        integer, intent(in) :: spans, hinges, supports, laws, loads
         !> Lengths of the two work arrays
         integer(int64), intent(out) :: reals, integers
-        integer(int64) :: points, nodes
+        integer(int64) :: points, nodes, kinks
 
         ! No more points than places given, no more nodes than hinges, supports and places of loads beside the two ends
         points = 1_int64 + spans + hinges + supports + 2_int64*loads
         nodes = min(points, 2_int64 + hinges + supports + 2_int64*loads)
-        reals = 5_int64*spans + hinges + 8_int64*supports + 4_int64*loads + 25*points + 27*nodes + 16
-        integers = header + 2_int64*spans + 11_int64*supports + 5_int64*loads + 4*points + 3*nodes + 60
+        ! A support that holds both ways has every point of its law twice
+        kinks = supports + 2_int64*laws
+        reals = 5_int64*spans + hinges + 6_int64*supports + 4*kinks + 2_int64*laws + 4_int64*loads + 25*points + 27*nodes + 16
+        integers = header + 2_int64*spans + 8_int64*supports + 7*kinks + laws + 5_int64*loads + 4*points + 3*nodes + 60
     end subroutine sizes_of_beam
 
     !> Lengths that a state of a beam takes
@@ -40,11 +103,21 @@ contains
         type(error_type), allocatable, intent(out) :: error
         type(tape_type) :: tape
         type(state_type) :: state
+        integer :: stat
 
         reals = 0
         integers = 0
         call new_state(beam%lowered, state, error)
         if (allocated(error)) return
+        ! Laws that keep a set are kept with the state
+        if (any(beam%lowered%model%supports%unloading /= gapbeam_elastic)) then
+            allocate (state%laws(size(beam%lowered%beam%supports)), stat=stat)
+            if (stat /= 0) then
+                call no_memory(error)
+                return
+            end if
+            state%laws(:) = beam%lowered%beam%supports
+        end if
         call exchange_state(tape, state)
         reals = tape%reals
         integers = tape%integers + header
@@ -183,6 +256,22 @@ contains
             info = -9
         end if
     end subroutine begin_result
+
+    !> INFO for arguments 3 to 5 of GBHIST and GBHSOL
+    pure function check_history(nfact, factor, limit) result(info)
+        integer, intent(in) :: nfact, limit
+        real(wp), intent(in) :: factor(*)
+        !> 0, -3, -4 or -5
+        integer :: info
+
+        info = 0
+        if (limit < 0 .or. limit > 2) info = -5
+        if (nfact < 1) then
+            info = -3
+        else if (.not. all(abs(factor(1:nfact)) <= huge(1.0_wp))) then
+            info = -4
+        end if
+    end function check_history
 
     !> Beam and state, for the routines that have them as their first four arguments
     subroutine take_both(work, iwork, state, istate, beam, result, info)

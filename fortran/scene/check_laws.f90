@@ -45,6 +45,8 @@ contains
                     call say("its points must stand beside each other")
                 else if (model%supports(k)%direction == gapbeam_axial) then
                     call say("an axial support has a stiffness only")
+                else if (.not. model%supports(k)%stiffness > huge(1.0_wp)) then
+                    call say("it stands instead of a stiffness; leave that out")
                 else
                     call check_points(model%law(first:i))
                 end if
