@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 
 #: State -> fill of its symbol; in this order in the legend
 FACES = {"closed": "black", "open": "white", "bilateral": "0.7", "one-sided": "0.88"}
+#: The same for the branches of a support law; from the last on all are alike
+BRANCHES = ("black", "0.4", "0.6", "0.8")
 
 #: Half the depth of the beam, points
 HALF = 2.5
@@ -85,7 +87,7 @@ class SupportLanes:
             self.size = 6.0
             below += 4.0 + 11.0 * len(self.rows)
         elif supports:
-            elastic = any(math.isfinite(support.stiffness) for support in supports)
+            elastic = any(map(_is_elastic, supports))
             gap = any(support.gap > 0 for support in supports)
             depth = self.size * (1.5 + elastic) + OFF * gap
             below += depth if any(support.side != "above" for support in supports) else 2.0
@@ -153,18 +155,35 @@ def draw_contacts(axes: Axes, scene: "Scene", states: tuple[str, ...], largest: 
                 groups[state, sign].append((float(x), y))
     for (state, sign), points in groups.items():
         x, y = np.transpose(points)
-        axes.scatter(x, y, marker=_turned(_TRIANGLE, sign), s=_area(5.0), facecolors=FACES.get(state, "0.5"),
+        axes.scatter(x, y, marker=_turned(_TRIANGLE, sign), s=_area(5.0), facecolors=_face(state),
                      edgecolors="black", linewidths=0.6, zorder=4, label=f"contact {state}")  # fmt: skip
     return [point for points in groups.values() for point in points]
+
+
+def known_states(states: tuple[str, ...]) -> list[str]:
+    """List the states that occur as the legend does."""
+    return [state for state in FACES if state in states] + sorted({state for state in states if state not in FACES})
 
 
 def legend_handles(states: tuple[str, ...]) -> list[Line2D]:
     """Make the entries of the legend for the states that occur."""
     return [
-        Line2D([], [], linestyle="none", marker="^", markersize=5.5, markerfacecolor=face, markeredgecolor="black",
+        Line2D([], [], linestyle="none", marker="^", markersize=5.5, markerfacecolor=_face(state), markeredgecolor="black",
                markeredgewidth=0.8, label=state)
-        for state, face in FACES.items() if state in states
+        for state in known_states(states)
     ]  # fmt: skip
+
+
+def _face(state: str) -> str:
+    """Give the fill of a state."""
+    if state in FACES:
+        return FACES[state]
+    return BRANCHES[min(int(state.rpartition(" ")[2]), len(BRANCHES)) - 1]
+
+
+def _is_elastic(support: "Support") -> bool:
+    """Whether a support is drawn as a spring."""
+    return support.law is not None or math.isfinite(support.stiffness)
 
 
 def _group(support: "Support", state: str) -> str:
@@ -230,13 +249,13 @@ def _symbols(axes: Axes, scene: "Scene", states: tuple[str, ...], lanes: Support
             label = f"{state} {'below' if sign > 0 else 'above'}"
             symbols[label, sign].append((x, -sign * y))
             y += lanes.size
-            if math.isfinite(support.stiffness):
+            if _is_elastic(support):
                 springs[sign].append((x, -sign * y))
                 y += lanes.size
             ground[sign].append((x, -sign * y))
     for (label, sign), points in symbols.items():
         x, y = np.transpose(points)
-        axes.scatter(x, y, marker=_turned(_TRIANGLE, sign), s=_area(lanes.size), facecolors=FACES[label.rpartition(" ")[0]],
+        axes.scatter(x, y, marker=_turned(_TRIANGLE, sign), s=_area(lanes.size), facecolors=_face(label.rpartition(" ")[0]),
                      edgecolors="black", linewidths=0.8, zorder=5, label=label)  # fmt: skip
     for name, path, sets in (("springs", _SPRING, springs), ("ground", _GROUND, ground)):
         for sign, points in sets.items():

@@ -1,8 +1,9 @@
-"""The path over the load factor: reactions and openings, straight from one change of the working scheme to the next."""
+"""The path over the load factor: reactions and openings or deflections, straight from one change to the next."""
 
 from __future__ import annotations
 
 import os
+import textwrap
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -10,22 +11,30 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..results import formatting as fmt
+from ..results.branches import BranchPath
+from .branches import KINK, MARKERS, Trace, draw_trace, name_limits
 from .result import LEFT, WIDTH, outcome
 from .save import literal, save
 
 if TYPE_CHECKING:
     from ..results.result import Result
+    from ..results.step import Step
 
 #: Inches: height of a panel and of what is above it, the space below for the load factor and on the right for names
 PANEL, GAP, FOOT, NAMES = 2.1, 0.25, 0.5, 0.95
 #: Points: height of a name; length of the sample of a line beside it, and how far it is from the axes
 NAME, SAMPLE, OFF = 9.5, 24.0, 8.0
 
+PANELS = (("reaction", "reaction, upward positive"), ("opening", "opening"))
+OF_LAWS = (PANELS[0], ("deflection", "deflection, downward positive"))
+"""Quantities and words; a support with a law is hardly ever open."""
+
 MOST_LINES = 12
 """Supports in a panel; of more those with the largest values."""
 MOST_DOTS = 40
 """Load steps that are drawn each; of more those at which the working scheme changes, between which nothing bends."""
 DASHES = ((), (5, 2), (1, 1.5), (7, 2, 1, 2), (10, 3), (6, 2, 1, 2, 1, 2))
+NO_DOTS = tuple(pattern for pattern in DASHES if pattern != (1, 1.5))
 SHADES = ("0.0", "0.35", "0.5", "0.65")
 """Every line of a picture has a pattern and a shade of its own: twice `MOST_LINES` of them."""
 
@@ -54,8 +63,9 @@ def path_figure(result: Result) -> Figure:
     Returns
     -------
     matplotlib.figure.Figure
-        Two panels, each line named at its right end. Following events the lines are exact; by load steps they are
-        straight between the steps, which are dots where they are few.
+        Two panels, each line named at its right end; with support laws deflections instead of openings. Following events
+        the lines are exact, and go where the load goes, back and forth; by load steps they are straight between the
+        steps, which are dots where they are few.
 
     Raises
     ------
@@ -66,39 +76,72 @@ def path_figure(result: Result) -> Figure:
         raise ValueError(f"there is no path to draw: {result.reason}")
     scene = result.scene
     dots = result.path is None and len(result.steps) <= MOST_DOTS
+    trace = Trace(result) if isinstance(result.path, BranchPath) else None
+    states = _states(result, dots) if trace is None else trace.states
+    factors = np.array([step.factor for step in states])
+    end = len(factors) - 1 if trace is None else trace.end()
+    note = "dots: load steps" if dots else _note(result) if trace is None else trace.note()
+    lines = [] if trace is None else textwrap.wrap(note, 110)
+    foot = FOOT + 0.15 * len(lines)
+    height = (0.35 if result.status == "solved" else 0.65) + 2 * (GAP + PANEL) + foot
+    picture = Figure(figsize=(WIDTH, height), dpi=200)
+    picture.text(0.02, 1 - 0.22 / height, fmt.title(scene), fontsize=11, fontweight="bold", va="center")
+    if result.status != "solved":
+        picture.text(0.02, 1 - 0.36 / height, outcome(result), fontsize=8, va="top", color="0.3", linespacing=1.3)
+    normal = [k for k, support in enumerate(scene.supports) if support.direction == "normal"]
+    folded = bool((np.diff(factors) < 0.0).any())
+    panels = OF_LAWS if any(support.law is not None for support in scene.supports) else PANELS
+    tables = {name: np.array([getattr(step, name) for step in states]) for name, _ in panels}
+    drawn = {name: _largest(table, normal) for name, table in tables.items()}
+    shown = {k for supports in drawn.values() for k in supports}
+    if trace is None:
+        styles = {k: _style(order) for order, k in enumerate(sorted(shown))}
+    else:
+        laws = {k for k in shown if scene.supports[k].law is not None}
+        # Dots are for what is unstable; what the picture is about is drawn through
+        styles = {k: _style(order, NO_DOTS) for order, k in enumerate([*sorted(laws), *sorted(shown - laws)])}
+    for row, (name, words) in enumerate(panels):
+        bottom, width = foot + (1 - row) * (PANEL + GAP), WIDTH - LEFT - NAMES
+        axes = picture.add_axes((LEFT / WIDTH, bottom / height, width / WIDTH, PANEL / height))
+        axes.set_xlim(min(0.0, factors.min()), factors.max() or 1.0)
+        table = tables[name]
+        for k in drawn[name]:
+            if trace is not None:
+                draw_trace(axes, trace, k, table[:, k], styles[k], arrows=k in laws and folded)
+                continue
+            axes.plot(factors, table[:, k], linewidth=1.3, marker="." if dots else None, markersize=4.5, clip_on=False,
+                      label=f"support {k}", **styles[k])  # fmt: skip
+            _mark_events(axes, result, k, factors, table[:, k])
+        _frame(axes, fmt.with_unit(scene, name, words), last=row == 1)
+        _name_lines(axes, {k: float(table[end, k]) for k in drawn[name]}, styles)
+        moving = int((np.abs(table[:, normal]).max(axis=0, initial=0.0) > 0.0).sum())
+        if moving > len(drawn[name]):
+            axes.set_title(f"the {len(drawn[name])} largest of {moving}", loc="right", fontsize=8, color="0.3")
+    if trace is None:
+        axes.set_xlabel("load factor" + (f" ({note})" if note else ""), fontsize=9)
+    else:
+        name_limits(picture.axes[0], trace)
+        axes.set_xlabel("load factor", fontsize=9)
+        picture.text(LEFT / WIDTH, 0.05 / height, "\n".join(lines), fontsize=8, va="bottom", color="0.3")
+    return literal(picture)
+
+
+def _states(result: Result, dots: bool) -> list[Step]:
+    """Choose states of rising load factor between which all lines are straight."""
     states = [result.steps[k] for k in (range(len(result.steps)) if dots else _bends(result))]
     if result.segments:
         states.insert(0, result.state(0.0))
         # Where the beam turns it is in two places at one load factor
         turns = {event.factor for event in result.events if event.event == "turns"} - {0.0, states[-1].factor}
         states = sorted([*states, *map(result.state, turns)], key=lambda step: step.factor)
-    factors = np.array([step.factor for step in states])
-    height = (0.35 if result.status == "solved" else 0.65) + 2 * (GAP + PANEL) + FOOT
-    picture = Figure(figsize=(WIDTH, height), dpi=200)
-    picture.text(0.02, 1 - 0.22 / height, fmt.title(scene), fontsize=11, fontweight="bold", va="center")
-    if result.status != "solved":
-        picture.text(0.02, 1 - 0.36 / height, outcome(result), fontsize=8, va="top", color="0.3", linespacing=1.3)
-    normal = [k for k, support in enumerate(scene.supports) if support.direction == "normal"]
-    tables = {name: np.array([getattr(step, name) for step in states]) for name in ("reaction", "opening")}
-    drawn = {name: _largest(table, normal) for name, table in tables.items()}
-    styles = {k: _style(order) for order, k in enumerate(sorted({k for lines in drawn.values() for k in lines}))}
-    for row, (name, words) in enumerate((("reaction", "reaction, upward positive"), ("opening", "opening"))):
-        bottom, width = FOOT + (1 - row) * (PANEL + GAP), WIDTH - LEFT - NAMES
-        axes = picture.add_axes((LEFT / WIDTH, bottom / height, width / WIDTH, PANEL / height))
-        axes.set_xlim(0.0, factors[-1] or 1.0)
-        table = tables[name]
-        for k in drawn[name]:
-            axes.plot(factors, table[:, k], linewidth=1.3, marker="." if dots else None, markersize=4.5, clip_on=False,
-                      label=f"support {k}", **styles[k])  # fmt: skip
-            _mark_events(axes, result, k, factors, table[:, k])
-        _frame(axes, fmt.with_unit(scene, name, words), last=row == 1)
-        _name_lines(axes, {k: float(table[-1, k]) for k in drawn[name]}, styles)
-        moving = int((np.abs(table[:, normal]).max(axis=0, initial=0.0) > 0.0).sum())
-        if moving > len(drawn[name]):
-            axes.set_title(f"the {len(drawn[name])} largest of {moving}", loc="right", fontsize=8, color="0.3")
-    note = "dots: load steps" if dots else "circles: filled, the support closes; open, it opens" if result.events else ""
-    axes.set_xlabel("load factor" + (f" ({note})" if note else ""), fontsize=9)
-    return literal(picture)
+    return states
+
+
+def _note(result: Result) -> str:
+    """Say what the marks of events mean."""
+    kinds = {event.event for event in result.events}
+    law = "squares, it passes a kink of its law" if kinds - {"closes", "opens", "turns"} else ""
+    return "; ".join(filter(None, ["circles: filled, the support closes; open, it opens" if result.events else "", law]))
 
 
 def _bends(result: Result) -> list[int]:
@@ -114,17 +157,17 @@ def _largest(table: np.ndarray, supports: list[int]) -> list[int]:
     return sorted(sorted((k for k in supports if size[k] > 0.0), key=lambda k: -size[k])[:MOST_LINES])
 
 
-def _style(order: int) -> dict:
-    pattern = DASHES[order % len(DASHES)]
-    return {"color": SHADES[order // len(DASHES)], "linestyle": (0, pattern) if pattern else "-"}
+def _style(order: int, dashes: tuple[tuple[float, ...], ...] = DASHES) -> dict:
+    pattern = dashes[order % len(dashes)]
+    return {"color": SHADES[order // len(dashes) % len(SHADES)], "linestyle": (0, pattern) if pattern else "-"}
 
 
 def _mark_events(axes: Axes, result: Result, k: int, factors: np.ndarray, values: np.ndarray) -> None:
     """Mark where a support opens or closes."""
     for event in result.events:
         if event.support == k and event.event != "turns":
-            face = "white" if event.event == "opens" else "black"
-            axes.plot(event.factor, np.interp(event.factor, factors, values), "o", color="black", markerfacecolor=face,
+            marker, face = MARKERS.get(event.event, KINK)
+            axes.plot(event.factor, np.interp(event.factor, factors, values), marker, color="black", markerfacecolor=face,
                       markersize=5, clip_on=False)  # fmt: skip
 
 

@@ -15,7 +15,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..results import formatting as fmt
-from .beam import FACES, SupportLanes, draw_beam, draw_contacts, legend_handles
+from .beam import SupportLanes, draw_beam, draw_contacts, known_states, legend_handles
 from .loads import LoadLanes, draw_loads
 from .save import literal, save
 from .thin import outline
@@ -74,7 +74,7 @@ def figure(result: "Result", step: int = -1) -> Figure:
         free motion, else the panels are those of the fields.
     """
     scene = result.scene
-    stands = result.status != "no-equilibrium"
+    stands = result.status != "no-equilibrium" and len(result.steps) > 0
     panels = [("motion", "free motion", True)]
     states = tuple("bilateral" if support.side == "both" else "one-sided" for support in scene.supports)
     if stands:
@@ -99,7 +99,7 @@ def figure(result: "Result", step: int = -1) -> Figure:
     axes.set_ylim(supports.bottom, loads.top)  # one unit is one point
     draw_beam(axes, scene, states, supports)
     draw_loads(axes, loads)
-    _headings(picture, result, step, states, len(supports.rows))
+    _headings(picture, result, step if stands else None, states, len(supports.rows))
     bottom = top - beam - SPACE
     for quantity, words, downward in panels:
         bottom -= PANEL
@@ -130,17 +130,21 @@ def _axes(picture: Figure, scene: "Scene", bottom: float, height: float) -> Axes
     return axes
 
 
-def _headings(picture: Figure, result: "Result", step: int, states: tuple[str, ...], rows: int) -> None:
+def _headings(picture: Figure, result: "Result", step: int | None, states: tuple[str, ...], rows: int) -> None:
     height = picture.get_figheight()
     left = LEFT / WIDTH * 0.25
     title = fmt.title(result.scene, "Beam")
     picture.text(left, 1 - 0.22 / height, _cut(title, 95), fontsize=10, fontweight="bold", va="center")
-    if result.status == "no-equilibrium":
+    if step is None:
         text = outcome(result)
     else:
-        counts = Counter(states)
-        text = f"load factor {fmt.number(result.steps[step].factor)}"
-        text += "".join(f", {counts[state]:,} {state}" for state in FACES if counts[state])
+        counts, factor = Counter(states), result.steps[step].factor
+        text = f"load factor {fmt.number(factor)}"
+        if result.status == "limit-load" and result.steps[step] is result.steps[-1]:
+            text += " (limit load)"
+        text += "".join(
+            f", {counts[state]:,} {'on ' if state.startswith('branch') else ''}{state}" for state in known_states(states)
+        )
     picture.text(left, 1 - 0.34 / height, text, fontsize=8, va="top", color="0.3", linespacing=1.4)
     if rows == 0:
         picture.legend(
@@ -150,18 +154,19 @@ def _headings(picture: Figure, result: "Result", step: int, states: tuple[str, .
 
 
 def outcome(result: "Result") -> str:
-    """Say on two lines at most why there is no equilibrium.
+    """Say on two lines at most why there is no equilibrium, or which limit the load has.
 
     Parameters
     ----------
     result : Result
-        Without equilibrium.
+        That is not solved to the end.
 
     Returns
     -------
     str
     """
-    return "\n".join(textwrap.wrap(f"No equilibrium. {fmt.sentence(result.reason)}", 85, max_lines=2))
+    begin = "No equilibrium. " if result.status == "no-equilibrium" else ""
+    return "\n".join(textwrap.wrap(begin + fmt.sentence(result.reason), 85, max_lines=2))
 
 
 def _cut(text: str, most: int) -> str:

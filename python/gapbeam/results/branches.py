@@ -208,6 +208,35 @@ class BranchPath(Pickled):
         """
         return self._beam_at(segment.number)
 
+    def ends(self, segment: BranchSegment) -> tuple[Step, Step]:
+        """Give the states at both ends of a segment.
+
+        Parameters
+        ----------
+        segment : BranchSegment
+            One of the segments.
+
+        Returns
+        -------
+        (Step, Step)
+            The second one need not be at the greater load factor.
+        """
+        return self._step(segment.number, segment.start), self._step(segment.number, segment.stop)
+
+    def jumps_to(self, segment: BranchSegment) -> bool:
+        """Whether a segment begins where a jump has landed.
+
+        Parameters
+        ----------
+        segment : BranchSegment
+            One of the segments.
+
+        Returns
+        -------
+        bool
+        """
+        return segment.number > 0 and bool(self._history.about[segment.number - 1, -1])
+
     def _beam_at(self, k: int) -> Beam:
         kinks = self._history.kinks[k]
         return self._beam if np.array_equal(kinks, self._beam.kinks) else self._beam.with_kinks(kinks)
