@@ -12,15 +12,16 @@ EXAMPLES = Path(__file__).resolve().parent.parent / "examples"
 SCENES = sorted(EXAMPLES.glob("*.toml"))
 
 
-def load_total(scene):
-    """All vertical load."""
+def load_total(scene, factor):
+    """All vertical load at a load factor."""
     total = 0.0
     for load in scene.loads:
+        share = 1.0 if load.case == "dead" else factor
         if hasattr(load, "q"):
             end = scene.span_ends()[-1] if load.to is None else load.to
-            total += float(np.mean(load.q)) * (end - load.from_)
+            total += share * float(np.mean(load.q)) * (end - load.from_)
         elif hasattr(load, "F"):
-            total += load.F
+            total += share * load.F
     return total
 
 
@@ -45,7 +46,7 @@ def test_scene_solves_and_balances(path):
         assert (signs * step.reaction >= -1e-12 * largest).all()
         assert (step.opening >= 0.0).all()
         assert np.abs(step.opening * step.reaction).max() == 0.0
-    assert step.reaction.sum() == pytest.approx(load_total(result.scene), rel=1e-10)
+    assert step.reaction.sum() == pytest.approx(load_total(result.scene, step.factor), rel=1e-10)
 
 
 @pytest.mark.parametrize("path", SCENES, ids=lambda path: path.stem)
@@ -85,6 +86,36 @@ def test_crane_runway_pulls_at_its_bolts():
     schemes, step = states("crane_runway")
     assert [scheme[2:] for scheme in schemes] == [("closed", "open"), ("open", "open"), ("open", "closed")]
     assert step.deflection[3] < -0.005
+
+
+def test_snap_through_has_two_limit_points():
+    result = gapbeam.solve(EXAMPLES / "snap_through.toml")
+    assert [80.0 * event.factor for event in result.events] == pytest.approx([50.0, 35.0])
+    assert result.limits[0].landing.deflection[2] == pytest.approx(0.0325)
+
+
+def test_shear_pin_breaks_and_the_arm_goes_to_both_stops():
+    result = gapbeam.solve(EXAMPLES / "rubber_stops.toml")
+    assert [limit.causes for limit in result.limits] == [((1, "breaks"),)]
+    assert result.state(result.limits[0].factor).reaction[1] == 0.0  # the stable state there is the one after the jump
+    happens = [(event.support, event.event) for event in result.events if event.support > 1]
+    assert happens == [(2, "closes"), (2, "hardens"), (2, "unloads"), (2, "opens"), (3, "closes"), (3, "hardens")]
+    assert result.steps[-1].reaction[1] == 0.0
+
+
+def test_pile_leaves_a_gap():
+    result = gapbeam.solve(EXAMPLES / "pile_head.toml")
+    left = result.steps[-1].set
+    assert 0.02 < left[0] < 0.04
+    assert 0.01 < left[2] < 0.02
+    assert not left[[1, 3]].any()
+    assert not left[4:].any()
+    assert 0.03 < result.at(0.0, factor=1.0).deflection < 0.1
+
+
+def test_jack_up_has_its_kinks():
+    result = gapbeam.solve(EXAMPLES / "shaft_jack_up.toml")
+    assert [(event.support, event.event) for event in result.events] == [(2, "opens"), (4, "opens"), (5, "closes"), (3, "closes")]
 
 
 def test_paper_beam_script(capsys, tmp_path):

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from ..results.step import Step
 
 STABLE, UNSTABLE, JUMP = range(3)
-MOST_ARROWS = 40
+MOST_POINTS = 40
 """Points of a path up to which arrows show its direction."""
 MARKERS = {"closes": ("o", "black"), "opens": ("o", "white"), "breaks": ("X", "black")}
 """Markers and their faces; whatever else happens to a support is a kink of its law."""
@@ -175,7 +175,7 @@ def draw_trace(axes: Axes, trace: Trace, k: int, values: np.ndarray, style: dict
                       label=f"unstable {k}")  # fmt: skip
         else:
             axes.plot(x, y, linewidth=1.3, clip_on=False, label=label, **style)
-    if arrows and len(trace.states) <= MOST_ARROWS:
+    if arrows and len(trace.states) <= MOST_POINTS:
         for j in range(0, len(trace.ways), 2):
             x, y = trace.factors[j : j + 2], values[j : j + 2]
             if abs(x[1] - x[0]) > 0.12 * np.ptp(trace.factors):

@@ -31,6 +31,8 @@ OF_LAWS = (PANELS[0], ("deflection", "deflection, downward positive"))
 
 MOST_LINES = 12
 """Supports in a panel; of more those with the largest values."""
+MOST_ARROWS = 3
+"""Supports on whose lines arrows show which way the load goes."""
 MOST_DOTS = 40
 """Load steps that are drawn each; of more those at which the working scheme changes, between which nothing bends."""
 DASHES = ((), (5, 2), (1, 1.5), (7, 2, 1, 2), (10, 3), (6, 2, 1, 2, 1, 2))
@@ -81,7 +83,7 @@ def path_figure(result: Result) -> Figure:
     factors = np.array([step.factor for step in states])
     end = len(factors) - 1 if trace is None else trace.end()
     note = "dots: load steps" if dots else _note(result) if trace is None else trace.note()
-    lines = [] if trace is None else textwrap.wrap(note, 110)
+    lines = [] if trace is None else textwrap.wrap(note, 105)
     foot = FOOT + 0.15 * len(lines)
     height = (0.35 if result.status == "solved" else 0.65) + 2 * (GAP + PANEL) + foot
     picture = Figure(figsize=(WIDTH, height), dpi=200)
@@ -107,7 +109,7 @@ def path_figure(result: Result) -> Figure:
         table = tables[name]
         for k in drawn[name]:
             if trace is not None:
-                draw_trace(axes, trace, k, table[:, k], styles[k], arrows=k in laws and folded)
+                draw_trace(axes, trace, k, table[:, k], styles[k], arrows=folded and k in _few(table, laws))
                 continue
             axes.plot(factors, table[:, k], linewidth=1.3, marker="." if dots else None, markersize=4.5, clip_on=False,
                       label=f"support {k}", **styles[k])  # fmt: skip
@@ -155,6 +157,11 @@ def _largest(table: np.ndarray, supports: list[int]) -> list[int]:
     """Choose the supports to draw: those with the largest values that are not zero all along."""
     size = {k: float(np.abs(table[:, k]).max()) for k in supports}
     return sorted(sorted((k for k in supports if size[k] > 0.0), key=lambda k: -size[k])[:MOST_LINES])
+
+
+def _few(table: np.ndarray, supports: set[int]) -> list[int]:
+    """Choose those whose direction is shown."""
+    return sorted(supports, key=lambda k: (-float(np.abs(table[:, k]).max()), k))[:MOST_ARROWS]
 
 
 def _style(order: int, dashes: tuple[tuple[float, ...], ...] = DASHES) -> dict:
