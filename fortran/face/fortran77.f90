@@ -333,6 +333,8 @@ subroutine gbhsol(work, iwork, nfact, factor, limit, nstrch, at, state, lstate, 
         info = -7
     case (-7, -9)
         info = info - 2
+    case default
+        continue
     end select
     if (info /= 0 .or. lstate == -1 .or. listat == -1) return
     info = check_history(nfact, factor, limit)

@@ -377,7 +377,7 @@ subroutine gbhist(beam, nf, factor, limit, most, sizes, status, message)
 end subroutine gbhist
 
 ! What GBHIST found
-subroutine gbhget(beam, nl, ns, nh, nk, along, about, closed, laws, where, which, motion)
+subroutine gbhget(beam, nl, ns, nh, nk, along, about, closed, laws, factors, which, motion)
     use gapbeam_handle, only: handle_type, handle_of
     use gapbeam_history, only: laws_at
     use gapbeam_polyline, only: node_support_type
@@ -392,7 +392,7 @@ subroutine gbhget(beam, nl, ns, nh, nk, along, about, closed, laws, where, which
     integer(1), intent(out) :: closed(ns, nh)
     double precision, intent(out) :: laws(4, ns, nh)
     ! Of every limit: load factor; kind, leg, stretch before it, stretch of the landing (from 1, 0 none)
-    double precision, intent(out) :: where(nk)
+    double precision, intent(out) :: factors(nk)
     integer, intent(out) :: which(4, nk)
     ! How the beam moves where the path ended in a mechanism; 0 if it did not
     double precision, intent(out) :: motion(0:nl)
@@ -403,9 +403,9 @@ subroutine gbhget(beam, nl, ns, nh, nk, along, about, closed, laws, where, which
     handle => handle_of(beam)
     along = 0.0d0
     about = 0
-    closed = 0_1
+    closed = int(0, kind(closed))
     laws = 0.0d0
-    where = 0.0d0
+    factors = 0.0d0
     which = 0
     motion = 0.0d0
     if (allocated(handle%history%motion)) motion = handle%history%motion
@@ -413,7 +413,7 @@ subroutine gbhget(beam, nl, ns, nh, nk, along, about, closed, laws, where, which
         associate (s => handle%history%stretches(k))
             along(:, k) = [s%from, s%to]
             about(:, k) = [s%leg, s%direction, s%index, s%ways, merge(1, 0, s%skipped)]
-            closed(:ns - 1, k) = merge(1_1, 0_1, s%closed)
+            closed(:ns - 1, k) = int(merge(1, 0, s%closed), kind(closed))
             now = laws_at(handle%lowered, s)
             laws(1, :ns - 1, k) = now%contact
             laws(2, :ns - 1, k) = now%force
@@ -423,7 +423,7 @@ subroutine gbhget(beam, nl, ns, nh, nk, along, about, closed, laws, where, which
     end do
     do k = 1, nk - 1
         associate (limit => handle%history%limits(k))
-            where(k) = limit%factor
+            factors(k) = limit%factor
             which(:, k) = [limit%kind, limit%leg, limit%stretch, limit%landing]
         end associate
     end do

@@ -145,8 +145,8 @@ contains
             cell%lines(k) = line_of(beam, incremental, cell%closed, k, dead, live)
             ! What only the weak springs press on carries nothing
             associate (line => cell%lines(k))
-                if (cell%closed(k) .and. beam%supports(k)%kink == 0 .and. max(abs(line%v0), abs(line%v1)) <= 2*springs) &
-                    line = line_type()
+                if (beam%supports(k)%kink > 0) cycle
+                if (cell%closed(k) .and. max(abs(line%v0), abs(line%v1)) <= 2*springs) line = line_type()
             end associate
         end do
     end subroutine find_lines

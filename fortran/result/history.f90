@@ -167,9 +167,9 @@ contains
                 stable = index == 0 .and. direction /= -way
                 ! Not at an end while it falls, but where it may have landed
                 target = to
-                if (is_jumping() .and. at_limit /= at_limit_follow .and. .not. (stable .and. direction == way .and. &
-                                                                                way*(branch%factor - to) <= 0.0_qp)) &
-                    target = way*huge(to)
+                if (is_jumping() .and. at_limit /= at_limit_follow) then
+                    if (.not. (stable .and. direction == way .and. way*(branch%factor - to) <= 0.0_qp)) target = way*huge(to)
+                end if
                 call step_branch(branch, target, way, segment, outcome, error)
                 if (allocated(error)) exit
                 if (outcome == never_ends) then
