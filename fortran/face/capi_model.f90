@@ -66,13 +66,10 @@ contains
         type(c_model), intent(inout), target :: c
         !> One of its sizes
         integer(c_size_t), intent(in) :: size
-        type(c_model), target :: empty
-        integer(c_signed_char), pointer :: bytes(:), empty_bytes(:)
+        integer(c_signed_char), pointer :: bytes(:)
 
-        empty = c_model(size)
         call c_f_pointer(c_loc(c), bytes, [size])
-        call c_f_pointer(c_loc(empty), empty_bytes, [size])
-        bytes(:) = empty_bytes
+        bytes(:) = transfer(c_model(size), bytes, int(size))
     end subroutine empty_model
 
     !> Copy a model; what is NULL keeps its default
