@@ -56,8 +56,11 @@ def test_snap_through_stops_jumps_and_follows():
     assert (limit.kind, limit.causes) == ("limit", ((1, "softens"),))
     assert limit.factor == pytest.approx(0.5, rel=1e-12)
     assert limit.landing.deflection[1] == pytest.approx(3.25, rel=1e-12)
+    # Energy (w**2 + what the spring holds) less P w: 2.5 - 5 at w = 1; at 3.25 the spring holds 2 + 3.75 + (1 + 1.75)/2*0.75
+    assert limit.released == pytest.approx((0.5 + 2 - 5) - (3.25**2 / 2 + 2 + 3.75 + 1.03125 - 16.25), rel=1e-12)
     assert [step.factor for step in stopped.steps] == [limit.factor]
     jumped = gapbeam.solve(snap(at_limit="jump"))
+    assert jumped.limits[0].released == pytest.approx(limit.released, rel=1e-12)
     assert jumped.status == "solved"
     assert jumped.steps[-1].deflection[1] == pytest.approx(5.75, rel=1e-12)
     assert [(e.factor, e.event) for e in jumped.events] == [(0.5, "softens"), (0.5, "hardens")]
@@ -149,7 +152,12 @@ def test_peaks_near_each_other():
     scene["loads"] = [{"type": "force", "node": node, "F": 40.0} for node in (1, 2)]
     tied = gapbeam.solve(scene)
     assert tied.limits[0].kind == "bifurcation"
-    assert tied.segments[1].ways == 3  # the first, the second, or both
+    # The first, the second, or both
+    assert tied.segments[1].index == 1
+    assert sorted((way.direction, way.index, way.changes) for way in tied.segments[1].others) == [
+        ("falling", 1, ((2, "breaks"),)),
+        ("falling", 2, ((1, "breaks"), (2, "breaks"))),
+    ]
 
 
 def test_a_mechanism_is_a_limit():

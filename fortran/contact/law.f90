@@ -16,7 +16,8 @@ module gapbeam_law
     use gapbeam_kinds, only: wp
     use gapbeam_require, only: checked, require
     use gapbeam_band, only: node_type, rhs_type, answer_type
-    use gapbeam_polyline, only: node_support_type, piece_that_acts, piece_force, kink_margin, is_watched, open_beyond
+    use gapbeam_polyline, only: node_support_type, piece_that_acts, piece_force, kink_margin, is_watched, open_beyond, &
+        go_one_piece
     implicit none
     private
     public :: node_support_type, below, above, both, nodes_at_a_time
@@ -24,7 +25,7 @@ module gapbeam_law
     public :: add_supports, share_forces
     public :: margin_of, margin_in_scheme, margin_rates, find_margins, find_wrong_states, find_clearly_wrong_states, &
         find_doubtful_states, largest_violations
-    public :: has_laws, is_watched_in, open_beyond, constant_force
+    public :: has_laws, is_watched_in, open_beyond, go_one_piece
     public :: mark_held, outermost, is_blocked, leaves_all, distance_to_contact
     public :: least_stiffness, stiffness_of_changing, find_pairs, find_single
     public :: hold_both_ways, limit_stiffness, drop_level
@@ -255,21 +256,6 @@ contains
             end if
         end associate
     end subroutine force_by_spring
-
-    !> Force of the piece of a law that does not change with the deflection, positive up; 0 if another piece acts
-    pure function constant_force(supports, closed, k) result(force)
-        !> All supports, the scheme, and the number of one of them
-        type(node_support_type), intent(in) :: supports(:)
-        logical, intent(in) :: closed(:)
-        integer, intent(in) :: k
-        real(wp) :: force, slope
-        logical :: acts
-
-        force = 0.0_wp
-        if (supports(k)%kink == 0) return
-        call piece_that_acts(supports, closed, k, acts, slope)
-        if (acts .and. .not. abs(slope) > 0.0_wp) force = supports(k)%side*supports(k)%force
-    end function constant_force
 
     ! Margins
 

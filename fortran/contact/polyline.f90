@@ -14,7 +14,7 @@ module gapbeam_polyline
     implicit none
     private
     public :: node_support_type, piece_that_acts, piece_force, kink_margin, is_watched
-    public :: open_beyond, coincide, last_kink, join_pieces
+    public :: open_beyond, go_one_piece, coincide, last_kink, join_pieces
 
     !> A support at a node, or a kink of its law
     type :: node_support_type
@@ -167,6 +167,30 @@ contains
             if (supports(k)%kink > 1) closed(k) = closed(k) .and. closed(k - 1)
         end do
     end subroutine open_beyond
+
+    !> Let every law go on from one scheme to another by one piece only
+    pure subroutine go_one_piece(supports, before, closed)
+        type(node_support_type), intent(in) :: supports(:)
+        !> The first scheme
+        logical, intent(in) :: before(:)
+        !> The other one in, the one on the way to it out
+        logical, intent(inout) :: closed(:)
+        integer :: k, last, old, new
+
+        call open_beyond(supports, closed)
+        k = 1
+        do while (k <= size(closed))
+            last = last_kink(supports, k)
+            if (last > k) then
+                old = count(before(k:last))
+                new = count(closed(k:last))
+                new = old + max(-1, min(1, new - old))
+                closed(k:last) = .false.
+                closed(k:k + new - 1) = .true.
+            end if
+            k = last + 1
+        end do
+    end subroutine go_one_piece
 
     !> The last kink of the law that begins at a support; the support itself if it has none
     pure function last_kink(supports, k) result(last)

@@ -18,7 +18,7 @@ module gapbeam_search
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, fatal_error, gapbeam_indeterminate, gapbeam_not_converged
     use gapbeam_band, only: band_ok, band_mechanism, band_needs_pivoting
-    use gapbeam_law, only: separate_rigid_pairs, has_laws, open_beyond
+    use gapbeam_law, only: separate_rigid_pairs, has_laws, open_beyond, go_one_piece
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type
     use gapbeam_system, only: solve_deflections, complete_scheme, refine_scheme
@@ -38,6 +38,8 @@ module gapbeam_search
     !> Solves that need not make the number of wrong supports fall: directly from all supports closed, directly from another
     !> scheme, after a guess, between least-index phases
     integer, parameter :: patience = 4, warm_patience = 12, polish_patience = 3, last_patience = 2
+    !> The same with laws, which go on by one piece at a time then
+    integer, parameter :: law_patience = 40
     !> Where fewer are wrong than this, a step that made no progress is followed by one of the paper's rule
     integer, parameter :: few = 8
     !> Links from which on a changed support does not change everything
@@ -61,8 +63,8 @@ module gapbeam_search
         !> Which are wrong in the scheme solved last, how many, and the least number so far
         logical, allocatable :: wrong(:)
         integer :: wrong_now = 0, fewest = 0
-        !> Has any support a law
-        logical :: with_laws = .false.
+        !> Has any support a law; do laws go on by one piece at a time
+        logical :: with_laws = .false., by_pieces = .false.
         !> Rounding errors beyond which a sign counts
         real(wp) :: width = first_width
         !> The scheme solved last, if its solution can be kept up to date
@@ -238,8 +240,17 @@ contains
         type(search_type), intent(in) :: search
         logical, intent(inout) :: closed(:)
 
-        closed(:) = closed .neqv. search%wrong
-        if (search%with_laws) call open_beyond(beam%supports, closed)
+        logical, allocatable :: before(:)
+
+        if (search%with_laws .and. search%by_pieces) then
+            allocate (before(size(closed)))
+            before(:) = closed
+            closed(:) = closed .neqv. search%wrong
+            call go_one_piece(beam%supports, before, closed)
+        else
+            closed(:) = closed .neqv. search%wrong
+            if (search%with_laws) call open_beyond(beam%supports, closed)
+        end if
     end subroutine change
 
     !> Begin to watch for a scheme that comes back
@@ -294,8 +305,10 @@ contains
                 idle = 0
             else
                 idle = idle + 1
-                if (idle > idle_solves) return
-                if (search%wrong_now <= few) then
+                if (idle > merge(law_patience, idle_solves, search%with_laws)) return
+                ! Over several pieces at once laws may go to and fro (Newton without line search)
+                search%by_pieces = search%with_laws
+                if (search%wrong_now <= few .and. .not. search%with_laws) then
                     call keep_local_worst(beam, closed, work, search%wrong)
                 end if
             end if

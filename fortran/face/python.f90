@@ -352,8 +352,8 @@ subroutine gbhist(beam, nf, factor, limit, most, sizes, status, message)
     double precision, intent(in) :: factor(nf)
     ! At a limit: 0 stop, 1 jump, 2 follow the path; stretches after which it is cut off
     integer, intent(in) :: limit, most
-    ! Stretches, limits, how it ended (gapbeam_history), linear solves; kept for GBHGET
-    integer, intent(out) :: sizes(4), status
+    ! Stretches, limits, ways not taken, how it ended (gapbeam_history), linear solves; kept for GBHGET
+    integer, intent(out) :: sizes(5), status
     character(len=240), intent(out) :: message
     !f2py threadsafe
     !f2py integer, intent(hide), depend(factor) :: nf = shape(factor, 0)
@@ -373,18 +373,19 @@ subroutine gbhist(beam, nf, factor, limit, most, sizes, status, message)
         message = error%message
         return
     end if
-    sizes = [handle%history%number, size(handle%history%limits), handle%history%ending, handle%history%solves]
+    sizes = [handle%history%number, size(handle%history%limits), size(handle%history%others), handle%history%ending, &
+             handle%history%solves]
 end subroutine gbhist
 
 ! What GBHIST found
-subroutine gbhget(beam, nl, ns, nh, nk, along, about, closed, laws, factors, which, motion)
+subroutine gbhget(beam, nl, ns, nh, nk, nw, along, about, closed, laws, factors, which, motion, others, scheme)
     use gapbeam_handle, only: handle_type, handle_of
     use gapbeam_history, only: laws_at
     use gapbeam_polyline, only: node_support_type
     implicit none
     integer(8), intent(in) :: beam
-    ! Links; supports of the engine, stretches and limits, one more than there are
-    integer, intent(in) :: nl, ns, nh, nk
+    ! Links; supports of the engine, stretches, limits and ways not taken, one more than there are
+    integer, intent(in) :: nl, ns, nh, nk, nw
     ! Of every stretch: load factors; leg (0 dead loads, then from 1), direction, index, ways, 1 if passed in a jump
     double precision, intent(out) :: along(2, nh)
     integer, intent(out) :: about(5, nh)
@@ -396,6 +397,9 @@ subroutine gbhget(beam, nl, ns, nh, nk, along, about, closed, laws, factors, whi
     integer, intent(out) :: which(4, nk)
     ! How the beam moves where the path ended in a mechanism; 0 if it did not
     double precision, intent(out) :: motion(0:nl)
+    ! Of every way not taken: stretch that was taken instead (from 1), direction, index; scheme
+    integer, intent(out) :: others(3, nw)
+    integer(1), intent(out) :: scheme(ns, nw)
     type(handle_type), pointer :: handle
     type(node_support_type), allocatable :: now(:)
     integer :: k
@@ -425,6 +429,14 @@ subroutine gbhget(beam, nl, ns, nh, nk, along, about, closed, laws, factors, whi
         associate (limit => handle%history%limits(k))
             factors(k) = limit%factor
             which(:, k) = [limit%kind, limit%leg, limit%stretch, limit%landing]
+        end associate
+    end do
+    others = 0
+    scheme = int(0, kind(scheme))
+    do k = 1, nw - 1
+        associate (way => handle%history%others(k))
+            others(:, k) = [way%stretch, way%direction, way%index]
+            scheme(:ns - 1, k) = int(merge(1, 0, way%closed), kind(scheme))
         end associate
     end do
 end subroutine gbhget

@@ -35,8 +35,9 @@ module gapbeam_branch
         type(way_type) :: way
         !> Deflections of the nodes, shape (0:n)
         real(wp), allocatable :: deflection(:)
-        !> Ways on there were at the last kink
-        integer :: ways = 0
+        !> Ways on there were at the last kink, and which is taken
+        type(way_type), allocatable :: ways(:)
+        integer :: taken = 0
         !> Direction of the load times (-1)**index: it stays along the path (Eaves and Scarf 1976)
         integer :: sense = 0
     end type branch_type
@@ -144,13 +145,14 @@ contains
                        ways, error)
         outcome = no_way_on
         if (allocated(error)) return
-        branch%ways = size(ways)
-        if (size(ways) == 0) return
+        call move_alloc(ways, branch%ways)
+        if (size(branch%ways) == 0) return
         best = 1
-        do w = 2, size(ways)
-            if (preference(ways(w)) < preference(ways(best))) best = w
+        do w = 2, size(branch%ways)
+            if (preference(branch%ways(w)) < preference(branch%ways(best))) best = w
         end do
-        branch%way = ways(best)
+        branch%taken = best
+        branch%way = branch%ways(best)
         if (branch%way%direction /= turn) branch%sense = sense_of(branch%way)
         call solve_lines(branch%beam, branch%way%closed, branch%lines)
         outcome = goes_on

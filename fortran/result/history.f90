@@ -10,14 +10,14 @@ module gapbeam_history
     use gapbeam_scheme_quad, only: outcome_type
     use gapbeam_referee, only: refine_beam, reserve_for
     use gapbeam_cell, only: find_cell, cell_type
-    use gapbeam_ways, only: rise, fall, turn
+    use gapbeam_ways, only: way_type, rise, fall, turn
     use gapbeam_branch, only: branch_type, segment_type, start_branch, step_branch, goes_on, arrived, no_way_on, never_ends
     use gapbeam_scene, only: gapbeam_elastic, gapbeam_both
     use gapbeam_lowered, only: lowered_type
     use gapbeam_state, only: detail_of, name_range
     implicit none
     private
-    public :: history_type, stretch_type, limit_type, follow_history, laws_at
+    public :: history_type, stretch_type, limit_type, other_way_type, follow_history, laws_at
     public :: at_limit_stop, at_limit_jump, at_limit_follow
     public :: no_limit, limit_point, bifurcation, mechanism, ended, cut_off
 
@@ -44,6 +44,15 @@ module gapbeam_history
         type(node_support_type), allocatable :: laws(:)
     end type stretch_type
 
+    !> Another way on from a tie
+    type :: other_way_type
+        !> The stretch that was taken instead
+        integer :: stretch
+        !> As in stretch_type
+        integer :: direction, index
+        logical, allocatable :: closed(:)
+    end type other_way_type
+
     !> Where the load cannot go on
     type :: limit_type
         !> limit_point, bifurcation or mechanism
@@ -63,6 +72,8 @@ module gapbeam_history
         integer :: number = 0
         !> Where the load could not go on
         type(limit_type), allocatable :: limits(:)
+        !> Ways that were not taken
+        type(other_way_type), allocatable :: others(:)
         !> How it ended: no_limit at the last factor
         integer :: ending = no_limit
         !> How the beam moves where it ended in a mechanism, if that is a free motion of rigid parts, shape (0:n)
@@ -98,7 +109,8 @@ contains
         call reserve_for(for_following_closely, lowered%beam, detail_of(lowered), error)
         if (allocated(error)) return
         call refine_beam(lowered%beam, detail_of(lowered), beam)
-        allocate (history%stretches(16), history%limits(0), unloading(size(beam%supports)), closed(size(beam%supports)))
+        allocate (history%stretches(16), history%limits(0), history%others(0))
+        allocate (unloading(size(beam%supports)), closed(size(beam%supports)))
         unloading(:) = lowered%model%supports(lowered%normal)%unloading
         laws = beam%supports
         call find_rest(lowered, closed)
@@ -136,7 +148,8 @@ contains
             integer, intent(in) :: leg
             real(qp), intent(in) :: from, to
             type(segment_type) :: segment
-            integer :: way, outcome, index, direction, ways
+            integer :: way, outcome, index, direction, taken
+            type(way_type), allocatable :: ways(:)
             logical :: stable
             real(qp) :: target
             logical :: acting(size(closed)), first(size(closed))
@@ -152,6 +165,7 @@ contains
             call start_branch(beam, unloading, settling, closed, from, way, branch, outcome, error)
             if (.not. allocated(error) .and. outcome /= goes_on) call note_limit(mechanism, leg, real(from, wp))
             if (outcome /= goes_on) history%ending = mechanism
+            allocate (ways(0))
             first(:) = branch%way%closed
             first_direction = branch%way%direction
             do while (.not. allocated(error) .and. outcome == goes_on)
@@ -163,6 +177,7 @@ contains
                 index = branch%way%index
                 direction = branch%way%direction
                 ways = branch%ways
+                taken = branch%taken
                 laws_before(:) = branch%beam%supports
                 stable = index == 0 .and. direction /= -way
                 ! Not at an end while it falls, but where it may have landed
@@ -179,13 +194,14 @@ contains
                         ! No cell is crossed twice, but a path without end may come round to where it began
                         if (branch%way%direction == first_direction .and. all(branch%way%closed .eqv. first)) outcome = never_ends
                     end if
-                    call add(leg, segment, direction, index, ways, acting, laws_before)
+                    call add(leg, segment, direction, index, size(ways), acting, laws_before)
+                    call add_others(ways, taken)
                     if (is_jumping() .and. stable) call look_for_landing(way)
                 end if
                 if (outcome == goes_on) then
                     if (stable .and. (branch%way%index > 0 .or. branch%way%direction == -way)) then
-                        call note_limit(merge(limit_point, bifurcation, branch%way%direction == -way .and. branch%ways == 1), &
-                                        leg, real(segment%to, wp))
+                        call note_limit(merge(limit_point, bifurcation, branch%way%direction == -way .and. &
+                                              size(branch%ways) == 1), leg, real(segment%to, wp))
                     end if
                 else if (outcome == no_way_on .or. outcome == never_ends) then
                     history%ending = merge(ended, mechanism, outcome == never_ends .and. direction /= turn)
@@ -224,6 +240,20 @@ contains
                 if (any(unloading /= gapbeam_elastic)) s%laws = rounded(now, lowered%beam%supports)
             end associate
         end subroutine add
+
+        !> Keep the ways that the last stretch is not
+        subroutine add_others(ways, taken)
+            type(way_type), intent(in) :: ways(:)
+            integer, intent(in) :: taken
+            integer :: w
+
+            do w = 1, size(ways)
+                if (w == taken) cycle
+                associate (way => ways(w))
+                    history%others = [history%others, other_way_type(history%number, way%direction, way%index, way%closed)]
+                end associate
+            end do
+        end subroutine add_others
 
         !> Note a limit, but not while the beam falls from one to its landing
         subroutine note_limit(kind, leg, factor)

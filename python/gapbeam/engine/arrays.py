@@ -156,6 +156,10 @@ class History:
         Where the load could not go on.
     limits : numpy.ndarray of int
         Kind (as an index into ENDINGS), leg, last stretch before it and stretch of the landing, both from 1 (0: none); m by 4.
+    others : numpy.ndarray of int
+        Ways not taken at ties: stretch that was taken instead (from 1), direction, number of ways of giving way; k by 3.
+    other_schemes : numpy.ndarray of int
+        Their schemes, k by supports of the engine.
     ending : str
         How it ended: one of ENDINGS; empty at the last factor.
     motion : numpy.ndarray or None
@@ -170,6 +174,8 @@ class History:
     kinks: np.ndarray
     limit_factors: np.ndarray
     limits: np.ndarray
+    others: np.ndarray
+    other_schemes: np.ndarray
     ending: str
     motion: np.ndarray | None
     solves: int

@@ -313,13 +313,13 @@ class Beam:
         """
         sizes, status, message = _engine.gbhist(self.handle, factors, AT_LIMIT[at_limit], most)
         check_status(status, message)
-        count, limits, ending, solves = sizes.tolist()
-        along, about, closed, kinks, where, which, motion = _engine.gbhget(
-            self.handle, self.links, self.supports + 1, count + 1, limits + 1
+        count, limits, others, ending, solves = sizes.tolist()
+        along, about, closed, kinks, where, which, motion, ways, schemes = _engine.gbhget(
+            self.handle, self.links, self.supports + 1, count + 1, limits + 1, others + 1
         )
         return History(
             along.T[:count], about.T[:count], closed.T[:count, :-1], np.moveaxis(kinks, 2, 0)[:count, :, :-1], where[:limits],
-            which.T[:limits], ENDINGS[ending], motion if motion.any() else None, solves,
+            which.T[:limits], ways.T[:others], schemes.T[:others, :-1], ENDINGS[ending], motion if motion.any() else None, solves,
         )  # fmt: skip
 
     def recover(self, factor: float, solution: Solution) -> np.ndarray:

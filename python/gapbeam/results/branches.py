@@ -13,16 +13,18 @@ from ..base.errors import EngineError, Status
 from ..base.records import Pickled, read_only
 from ..engine.arrays import History
 from ..engine.beam import ENDINGS, GIVEN, Beam
+from .energy import work_of_live_loads
 from .kinks import piece_of, what_happens
 from .path import Event, Segment
 from .step import Step
 
 if TYPE_CHECKING:
+    from ..scene.structs import Scene
     from .result import Result
 
 MOST_STRETCHES = 20_000
 """Stretches after which a path is cut off; without a history there are finitely many."""
-STATES = {"limit": "a limit of the load", "bifurcation": "a bifurcation", "mechanism": "a mechanism"}
+DIRECTIONS = {1: "rising", -1: "falling", 0: "turning"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,6 +43,8 @@ class Limit:
         Supports and what happens to them there.
     landing : Step or None
         The next stable state on the path at the same load factor; dynamics may lead elsewhere.
+    released : float or None
+        By how much the potential energy is less there (force times length).
     """
 
     factor: float
@@ -48,6 +52,26 @@ class Limit:
     leg: int
     causes: tuple[tuple[int, str], ...]
     landing: Step | None
+    released: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class OtherWay:
+    """A way on from a tie that was not taken.
+
+    Attributes
+    ----------
+    direction : str
+        ``rising``, ``falling`` or ``turning``: what the load does along it.
+    index : int
+        In how many independent ways the beam gives way by itself there.
+    changes : tuple of (int, str)
+        Supports, and what happens to them.
+    """
+
+    direction: str
+    index: int
+    changes: tuple[tuple[int, str], ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,8 +90,8 @@ class BranchSegment(Segment):
         Whether the beam would stay there under this load.
     index : int
         In how many independent ways it gives way by itself.
-    ways : int
-        Ways on there were at its beginning.
+    others : tuple of OtherWay
+        Ways on there were at its beginning beside it.
     """
 
     number: int
@@ -75,7 +99,7 @@ class BranchSegment(Segment):
     path: float
     stable: bool
     index: int
-    ways: int
+    others: tuple[OtherWay, ...]
 
 
 class BranchPath(Pickled):
@@ -99,10 +123,11 @@ class BranchPath(Pickled):
         Time of these.
     """
 
-    def __init__(self, beam: Beam, factors: np.ndarray, history: History, seconds: float):
+    def __init__(self, scene: Scene, beam: Beam, history: History, seconds: float):
+        self._scene = scene
         self._beam = beam
         self._history = history
-        self._ways = np.sign(np.diff(factors, prepend=0.0)).tolist()
+        self._ways = np.sign(np.diff(scene.analysis.history, prepend=0.0)).tolist()
         self.ending = history.ending
         self.motion = history.motion
         self.solves, self.nodes, self.seconds = history.solves, 0, seconds
@@ -112,15 +137,25 @@ class BranchPath(Pickled):
     def _segments(self) -> list[BranchSegment]:
         found: list[BranchSegment] = []
         path = 0.0
-        for k, ((start, stop), (leg, direction, index, ways, skipped)) in enumerate(
+        for k, ((start, stop), (leg, direction, index, _, skipped)) in enumerate(
             zip(self._history.along.tolist(), self._history.about.tolist(), strict=True)
         ):
             if skipped or leg == 0 or direction == 0:
                 continue
             path += abs(stop - start)
             stable = index == 0 and direction == self._ways[leg - 1]
-            found.append(BranchSegment(start, stop, 0, k, leg - 1, path, stable, index, ways))
+            found.append(BranchSegment(start, stop, 0, k, leg - 1, path, stable, index, self._others(k)))
         return found
+
+    def _others(self, k: int) -> tuple[OtherWay, ...]:
+        """Ways that were not taken where a stretch begins."""
+        h = self._history
+        before = h.closed[k - 1] if k else h.closed[k]
+        return tuple(
+            OtherWay(DIRECTIONS[direction], index, tuple(self._between(before, h.other_schemes[j], h.kinks[k])))
+            for j, (stretch, direction, index) in enumerate(h.others.tolist())
+            if stretch == k + 1
+        )
 
     def _events(self) -> list[Event]:
         beam, h = self._beam, self._history
@@ -157,15 +192,21 @@ class BranchPath(Pickled):
 
     def _changes(self, before: int, after: int) -> list[tuple[int, str]]:
         """Supports to which something happens between two stretches."""
-        beam, h = self._beam, self._history
-        found = {}
-        for j in np.flatnonzero(h.closed[before] != h.closed[after]).tolist():
+        h = self._history
+        return self._between(h.closed[before], h.closed[after], h.kinks[after], h.kinks[before])
+
+    def _between(
+        self, before: np.ndarray, after: np.ndarray, kinks: np.ndarray, kinks_before: np.ndarray | None = None
+    ) -> list[tuple[int, str]]:
+        """Supports to which something happens between two schemes."""
+        beam, found = self._beam, {}
+        for j in np.flatnonzero(before != after).tolist():
             i = int(beam.numbers[j])
             if i in beam.laws:
-                old, new = (piece_of(beam, i, h.closed[k], h.kinks[k]) for k in (before, after))
-                found[i] = what_happens(old, new)
+                old = piece_of(beam, i, before, kinks if kinks_before is None else kinks_before)
+                found[i] = what_happens(old, piece_of(beam, i, after, kinks))
             else:
-                found[i] = "closes" if h.closed[after, j] else "opens"
+                found[i] = "closes" if after[j] else "opens"
         return sorted((i, what) for i, what in found.items() if what)
 
     @cached_property
@@ -177,7 +218,21 @@ class BranchPath(Pickled):
         ):
             causes = self._changes(before - 1, before) if 0 < before < len(self._history.about) else []
             step = self._step(landing - 1, factor) if landing else None
-            found.append(Limit(factor, ENDINGS[kind], leg - 1, tuple(causes), step))
+            released = self._released(before, landing, factor) if landing else None
+            found.append(Limit(factor, ENDINGS[kind], leg - 1, tuple(causes), step, released))
+        return found
+
+    def _released(self, before: int, landing: int, factor: float) -> float:
+        """Energy that is set free from a limit to the landing: along a path it changes by the work of the loads only."""
+        found = 0.0
+        for k in range(before, landing):
+            # In a jump the landing is said to begin at the factor of the limit
+            start, stop = (float(v) for v in self._history.along[k])
+            if k == landing - 1:
+                start, stop = float(self._history.along[k - 1, 1]), factor
+            if start != stop:
+                ends = [work_of_live_loads(self._scene, self._beam, self._step(k, at)) for at in (start, stop)]
+                found += (stop - start) * sum(ends) / 2
         return found
 
     def closed(self, segment: BranchSegment) -> np.ndarray:
@@ -277,7 +332,7 @@ def follow_branches(result: Result) -> BranchPath:
     analysis = result.scene.analysis
     factors = np.asarray(analysis.history, dtype=float)
     history = result.beam.follow_history(factors, analysis.at_limit, MOST_STRETCHES)
-    path = BranchPath(result.beam, factors, history, perf_counter() - begin)
+    path = BranchPath(result.scene, result.beam, history, perf_counter() - begin)
     if path.ending == "cut off":
         raise EngineError(
             f"the path has more than {MOST_STRETCHES:,} stretches: shorten the history, or follow it in parts", Status.NOT_CONVERGED

@@ -81,7 +81,9 @@ def limit_data(result: Result) -> dict[str, Any]:
     return {
         "factor": limit.factor,
         "kind": limit.kind,
-        "landing": None if landing is None else {"factor": landing.factor, "supports": support_data(result, landing, x)},
+        "landing": None
+        if landing is None
+        else {"factor": landing.factor, "released": limit.released, "supports": support_data(result, landing, x)},
     }
 
 

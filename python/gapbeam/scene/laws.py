@@ -9,7 +9,7 @@ import numpy as np
 
 from .table import NotNegative, Positive, Table
 
-PIECES = 48
+PIECES = 96
 """Pieces of the polyline that a curve is followed with, before it is solved itself."""
 
 

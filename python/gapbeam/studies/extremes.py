@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from fractions import Fraction
+from itertools import pairwise
 from math import inf
 from typing import Any
 
@@ -69,6 +71,12 @@ def cases(largest: int = 10**6) -> Iterator[Case]:
         if count <= largest:
             yield Case("supports, gaps (work A)", f"{count:,}", [_work_a(count)])
             yield Case("supports, front", f"{count:,}", [_front(count)])
+    for slope in (1e-12, 1e-6, 1e-3, 1e3, 1e6, 1e12):
+        yield Case("law, slope to slope", f"{slope:g}", _two_slopes(slope), _law_truth)
+    for apart in (1e-3, 1e-6, 1e-9):
+        yield Case("law, kinks apart by", f"{apart:g}", _near_kinks(apart), _law_truth)
+    for rest in (1e-3, 1e-6, 1e-9, 1e-12):
+        yield Case("law, falls as steeply but for", f"{rest:g}", _nearly_critical(rest), _law_truth, ill_conditioned=True)
     for small in (1e-3, 1e-6, 1e-9, 1e-12):
         yield Case("nearly a mechanism", f"{small:g}", _nearly_mechanisms(small))
     for ratio in (1e5, 1e10, 1e15):
@@ -263,6 +271,41 @@ def _front(count: int) -> dict[str, Any]:
     """Reference problem P2, last: a heavy beam on a rigid one-sided base, its end lifted; 30 m on `count` supports."""
     span = 30.0 / (count - 1)
     return _scene([span] * (count - 1), _below(*range(count)), [_uniform(1.0), _push(0, -1.5)])
+
+
+def _on_law(law: list[list[float]], F: float) -> dict[str, Any]:
+    """A simple beam of length 1 and EI 1 with a law and a force at midspan: stiffness 48 there."""
+    return _scene([0.5, 0.5], [_at(0), _at(1, "below", law=law), _at(2)], [_push(1, F)])
+
+
+def _two_slopes(slope: float) -> list[dict[str, Any]]:
+    """A first slope of 1, and one beyond; on both, and before the kink."""
+    law = [[0.25, 0.25], [0.25 + 1.0 / max(slope, 1.0), 0.25 + min(slope, 1.0)]]
+    return [_on_law(law, F) for F in (6.0, 24.0, 240.0)] + [_on_law([[law[0][0] * slope, law[0][1]], [1e13, 1.0]], 24.0)]
+
+
+def _near_kinks(apart: float) -> list[dict[str, Any]]:
+    """Three kinks near each other: flat, steep, flat."""
+    law = [[0.25, 4.0], [0.25 + apart, 4.0], [0.25 + 2 * apart, 8.0], [1.0, 9.0]]
+    return [_on_law(law, F) for F in (8.0, 12.25, 16.0, 18.0, 40.0)]
+
+
+def _nearly_critical(rest: float) -> list[dict[str, Any]]:
+    """A force that falls with 48 but for a hair, from 48 at a deflection of 1 to 24: the beam takes hardly more load."""
+    return [_on_law([[1.0, 48.0], [1.5, 24.0 * (1.0 + rest)], [3.0, 24.0 * (1.0 + rest)]], 96.0 + 12.0 * rest)]
+
+
+def _law_truth(scene: dict[str, Any]) -> tuple[np.ndarray, np.ndarray]:
+    """Reactions and deflections on the piece on which they fit, in fractions of the scene's own numbers."""
+    law = [(Fraction(0), Fraction(0)), *((Fraction(d), Fraction(r)) for d, r in scene["supports"][1]["law"])]
+    F = Fraction(scene["loads"][0]["F"])
+    for k, ((d0, r0), (d1, r1)) in enumerate(pairwise(law)):
+        slope = (r1 - r0) / (d1 - d0)
+        w = (F - r0 + slope * d0) / (48 + slope)
+        if w <= d1 or k == len(law) - 2:
+            reaction = F - 48 * w
+            return np.array([float(v) for v in (24 * w, reaction, 24 * w)]), np.array([0.0, float(w), 0.0])
+    raise AssertionError(scene)
 
 
 def _nearly_mechanisms(small: float) -> list[dict[str, Any]]:
