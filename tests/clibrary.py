@@ -2,12 +2,18 @@
 
 import ctypes as c
 import math
+from typing import NamedTuple
 
 import numpy as np
 
 SIDES = {"both": 0, "below": 1, "above": -1}
 KINDS = {"force": 1, "moment": 2, "uniform": 3, "linear": 3, "curvature": 4, "axial": 5}
 RULES = {"block": 0, "single": 1}
+UNLOADING = {"elastic": 0, "plastic": 1, "broken": 2}
+AT_LIMIT = {"stop": 0, "jump": 1, "follow": 2}
+CHANGES = {0: "opens", 1: "closes", 3: "turns", 4: "yields", 5: "hardens", 6: "softens", 7: "breaks", 8: "unloads"}
+KINDS_OF_LIMIT = {1: "limit", 2: "bifurcation", 3: "mechanism"}
+ENDINGS = {0: "", 3: "mechanism", 4: "ended"}
 REAL, INTEGER = c.POINTER(c.c_double), c.POINTER(c.c_int)
 
 
@@ -32,6 +38,10 @@ class Model(c.Structure):
         ("load_x", REAL),
         ("load_node", INTEGER),
         *((f"load_{name}", REAL) for name in ("to", "value", "value_to")),
+        ("support_unloading", INTEGER),
+        ("law_points", c.c_int),
+        ("law_support", INTEGER),
+        *((f"law_{name}", REAL) for name in ("displacement", "force")),
     )
 
 
@@ -63,6 +73,38 @@ class Certificate(c.Structure):
     )
 
 
+class HistoryInfo(c.Structure):
+    """gapbeam_history_info of the header."""
+
+    _fields_ = (
+        ("size", c.c_size_t),
+        *((name, c.c_int) for name in ("stretches", "events", "limits", "ending", "solves", "nodes")),
+    )
+
+
+class History(NamedTuple):
+    """A history, as plain lists; everything counts from 0.
+
+    Attributes
+    ----------
+    along : numpy.ndarray
+        Load factors at the ends of the stretches.
+    about : numpy.ndarray of int
+        Leg, direction, stable, index, ways, skipped of every stretch.
+    events : list of (float, int, str)
+        Load factor, support, what happens.
+    limits : list of (float, str, int, int)
+        Load factor, kind, leg, landing.
+    ending : str
+    """
+
+    along: np.ndarray
+    about: np.ndarray
+    events: list
+    limits: list
+    ending: str
+
+
 def columns(scene):
     """The arrays of the C interface for a scene without sections."""
     spans, supports, loads = scene["beam"]["spans"], scene["supports"], scene["loads"]
@@ -78,6 +120,7 @@ def columns(scene):
         value = next(load[key] for key in ("F", "M", "q", "kappa") if key in load)
         return value if isinstance(value, list) else [value, value]
 
+    law = [(k, *point) for k, support in enumerate(supports) for point in support.get("law", ())]
     turns = {"free": 0.0, "fixed": math.inf}
     both = np.array([values(load) for load in loads], dtype=float).reshape(len(loads), 2)
     return {
@@ -99,6 +142,10 @@ def columns(scene):
         "load_to": real(loads, "to", end),
         "load_value": both[:, 0].copy(),
         "load_value_to": both[:, 1].copy(),
+        "support_unloading": np.array([UNLOADING[s.get("unloading", "elastic")] for s in supports], dtype=np.int32),
+        "law_support": np.array([k for k, *_ in law], dtype=np.int32),
+        "law_displacement": np.array([d for _, d, _ in law], dtype=float),
+        "law_force": np.array([f for *_, f in law], dtype=float),
     }
 
 
@@ -115,7 +162,7 @@ class Library:
         self.c.gapbeam_status_message.restype = c.c_char_p
         self.c.gapbeam_version_text.restype = c.c_char_p
         self.c.gapbeam_infinity.restype = c.c_double
-        for name in ("gapbeam_free_beam", "gapbeam_free_state", "gapbeam_count_supports", "gapbeam_count_nodes"):
+        for name in ("gapbeam_free_beam", "gapbeam_free_state", "gapbeam_free_history", "gapbeam_count_supports", "gapbeam_count_nodes"):
             getattr(self.c, name).argtypes = [c.c_void_p]
 
     def model(self, arrays):
@@ -124,7 +171,8 @@ class Library:
         assert self.c.gapbeam_model_init(c.byref(made), c.c_size_t(c.sizeof(made))) == 0
         for name, array in arrays.items():
             setattr(made, name, pointer(array))
-        for name, key in (("spans", "length"), ("hinges", "hinge_x"), ("supports", "support_x"), ("loads", "load_value")):
+        sizes = {"spans": "length", "hinges": "hinge_x", "supports": "support_x", "loads": "load_value", "law_points": "law_force"}
+        for name, key in sizes.items():
             setattr(made, name, len(arrays[key]))
         return made
 
@@ -141,11 +189,12 @@ class CBeam:
 
     def __init__(self, library, handle, supports):
         self.c, self.handle, self.supports = library.c, handle, supports
-        self.state = c.c_void_p()
+        self.state, self.history = c.c_void_p(), c.c_void_p()
         assert self.c.gapbeam_new_state(c.byref(self.state)) == 0
 
     def close(self):
         """Free everything."""
+        self.c.gapbeam_free_history(self.history)
         self.c.gapbeam_free_state(self.state)
         self.c.gapbeam_free_beam(self.handle)
 
@@ -173,6 +222,43 @@ class CBeam:
         )  # fmt: skip
         assert number.value <= room
         return status, message.value.decode(), list(zip(at, which, what, strict=True))[: max(number.value, 0)]
+
+    def follow_history(self, factors, at_limit):
+        """Status, message and the history."""
+        factors, message = np.array(factors, dtype=float), c.create_string_buffer(400)
+        self.c.gapbeam_free_history(self.history)
+        status = self.c.gapbeam_follow_history(
+            self.handle, len(factors), pointer(factors), AT_LIMIT[at_limit], c.byref(self.history), message, c.c_size_t(400)
+        )
+        if status != 0:
+            return status, message.value.decode(), None
+        info = HistoryInfo(c.sizeof(HistoryInfo))
+        assert self.c.gapbeam_get_history_info(self.history, c.byref(info)) == 0
+        n, m, k = info.stretches, info.events, info.limits
+        ends, about = np.empty((2, n)), np.empty((6, n), np.int32)
+        assert self.c.gapbeam_get_stretches(self.history, *map(pointer, (*ends, *about))) == 0
+        at, of_events = np.empty(m), np.empty((4, m), np.int32)
+        assert self.c.gapbeam_get_events(self.history, pointer(at), *map(pointer, of_events)) == 0
+        where, of_limits = np.empty(k), np.empty((4, k), np.int32)
+        assert self.c.gapbeam_get_limits(self.history, pointer(where), *map(pointer, of_limits)) == 0
+        events = [(f, s, CHANGES[e]) for f, s, e in zip(at, of_events[0], of_events[2], strict=True)]
+        limits = [(f, KINDS_OF_LIMIT[a], leg, to) for f, a, leg, _, to in zip(where, *of_limits, strict=True)]
+        return 0, "", History(ends.T, about.T, events, limits, ENDINGS[info.ending])
+
+    def solve_on_path(self, stretch, factor):
+        """Status and message of a solve on the history followed last."""
+        message = c.create_string_buffer(400)
+        status = self.c.gapbeam_solve_on_path(
+            self.handle, self.history, stretch, c.c_double(factor), self.state, message, c.c_size_t(400)
+        )
+        return status, message.value.decode()
+
+    def history_motion(self):
+        """Places of the nodes and their displacements where the history ends in a motion, or None."""
+        n = self.c.gapbeam_count_nodes(self.handle)
+        x, motion = np.empty(n), np.empty(n)
+        status = self.c.gapbeam_get_history_motion(self.history, pointer(x), pointer(motion))
+        return None if status else (x, motion)
 
     def info(self):
         """The structure gapbeam_info."""
@@ -227,12 +313,16 @@ class F77Beam:
         isup = np.array([a[f"support_{n}"] for n in ("side", "direction", "node")], np.int32).T.copy()
         aload = np.array([a[f"load_{n}"] for n in ("x", "to", "value", "value_to")]).T.copy()
         iload = np.array([a[f"load_{n}"] for n in ("kind", "case", "node")], np.int32).T.copy()
-        model = (len(span), span, self.hinges, a["hinge_x"], len(sup), isup, sup, len(aload), iload, aload)
+        model = [len(span), span, self.hinges, a["hinge_x"], len(sup), isup, sup, len(aload), iload, aload]
+        alaw, ilaw = np.array([a["law_displacement"], a["law_force"]]).T.copy(), a["law_support"] + np.int32(1)
+        prepare = "gbprlw" if len(ilaw) else "gbprep"
+        if len(ilaw):
+            model += [len(ilaw), ilaw, alaw, a["support_unloading"]]
         real, integer = np.zeros(1), np.zeros(1, np.int32)
-        self.info_ = self.call("gbprep", *model, real, -1, integer, -1)
+        self.info_ = self.call(prepare, *model, real, -1, integer, -1)
         if self.info_ == 0:
             self.work, self.iwork = np.empty(int(real[0])), np.empty(integer[0], np.int32)
-            self.info_ = self.call("gbprep", *model, self.work, len(self.work), self.iwork, len(self.iwork))
+            self.info_ = self.call(prepare, *model, self.work, len(self.work), self.iwork, len(self.iwork))
         if self.info_ == 0:
             assert self.call("gbsolv", self.work, self.iwork, 1.0, 0, 0, real, -1, integer, -1) == 0
             self.state, self.istate = np.empty(int(real[0])), np.empty(integer[0], np.int32)
@@ -264,6 +354,31 @@ class F77Beam:
         )  # fmt: skip
         n = number[0]
         return info, [(f, k - 1, s) for f, (k, s) in zip(at[:n], which[:n], strict=True)]
+
+    def follow_history(self, factors, at_limit):
+        """INFO and the history."""
+        self.followed = (len(factors), np.array(factors, dtype=float), AT_LIMIT[at_limit])
+        most, sizes = 1000, np.zeros(5, np.int32)
+        ends, about = np.empty((most, 2)), np.empty((most, 6), np.int32)
+        (at, where), (of_events, of_limits) = np.empty((2, most)), np.empty((2, most, 4), np.int32)
+        info = self.call(
+            "gbhist", self.work, self.iwork, *self.followed, most, ends, about, most, at, of_events, most, where, of_limits, sizes
+        )
+        if info != 0:
+            return info, None
+        n, m, k, ending, _ = sizes
+        assert max(n, m, k) <= most
+        about[:, 0] -= 1
+        events = [(f, s - 1, CHANGES[e]) for f, (s, _, e, _) in zip(at[:m], of_events[:m], strict=True)]
+        limits = [(f, KINDS_OF_LIMIT[a], leg - 1, to - 1) for f, (a, leg, _, to) in zip(where[:k], of_limits[:k], strict=True)]
+        return 0, History(ends[:n], about[:n], events, limits, ENDINGS[ending])
+
+    def solve_on_path(self, stretch, factor):
+        """INFO of GBHSOL for the history followed last."""
+        return self.call(
+            "gbhsol", self.work, self.iwork, *self.followed, stretch + 1, float(factor),
+            self.state, len(self.state), self.istate, len(self.istate),
+        )  # fmt: skip
 
     def at_supports(self):
         """As CBeam.at_supports."""

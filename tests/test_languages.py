@@ -10,11 +10,13 @@ import numpy as np
 import pytest
 from clibrary import F77Beam
 from gapbeam.base.errors import EngineError, SceneError
+from gapbeam.results.branches import BranchPath
 from gapbeam.studies.schemes import gapped_spans
+from law_scenes import FAMILIES, law_scene
 from scenes import nodes_of, random_scene
 
 FIELDS = ("deflection", "rotation", "moment", "shear", "axial_force", "axial_displacement")
-CONDITIONS = {"open": 0, "closed": 1, "bilateral": 2}
+CONDITIONS = {"open": 0, "closed": 1, "bilateral": 2} | {f"branch {k}": 10 + k for k in range(1, 10)}
 
 
 def scene_of(seed):
@@ -177,3 +179,67 @@ def test_events_agree(library, first):
             assert f"load factor {beam.info().factor:.16g}" in result.reason
         beam.close()
     assert events > 10
+
+
+def assert_same_history(found, path):
+    """Everything that a history says."""
+    history = path._history
+    np.testing.assert_array_equal(found.along, history.along)
+    np.testing.assert_array_equal(found.about[:, [0, 1, 3, 4, 5]] + [1, 0, 0, 0, 0], history.about)
+    stable = {segment.number: segment.stable for segment in path.segments}
+    assert {k: bool(found.about[k, 2]) for k in stable} == stable
+    assert found.events == [(e.factor, e.support, e.event) for e in path.events]
+    landings = (history.limits[:, 3] - 1).tolist()
+    assert found.limits == [(a.factor, a.kind, a.leg, to) for a, to in zip(path.limits, landings, strict=True)]
+    assert found.ending == path.ending
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+def test_laws_agree(library, family):
+    """Beams whose supports follow laws: histories and every state on them, or events where no way matters."""
+    seen, kinds = set(), set()
+    for seed in range(80):
+        scene = law_scene(seed, family, alone=None)
+        at_limit = ("stop", "jump", "follow")[seed % 3]
+        scene["analysis"]["at_limit"] = at_limit
+        result = python_result(scene)
+        beam, message = library.prepare(scene)
+        assert not message
+        f77 = F77Beam(library, scene)
+        assert f77.info_ == 0
+        if isinstance(result, EngineError):
+            status, message, _ = beam.follow_history(scene["analysis"].get("history", [1.0]), at_limit)
+            assert (status > 10, message) == (True, str(result))
+        elif isinstance(result.path, BranchPath):
+            seen.add(result.path.ending)
+            kinds |= {limit.kind for limit in result.limits}
+            factors = scene["analysis"].get("history", [1.0])
+            status, message, found = beam.follow_history(factors, at_limit)
+            info, found_f77 = f77.follow_history(factors, at_limit)
+            assert (status, message, info) == (0, "", 0)
+            assert_same_history(found, result.path)
+            assert_same_history(found_f77, result.path)
+            motion = beam.history_motion()
+            assert (motion is None) == (result.path.motion is None)
+            if motion is not None:
+                assert list(zip(*motion, strict=True)) == result.motion
+            for step, segment in zip(result.steps, result.path.segments, strict=True):
+                assert beam.solve_on_path(segment.number, step.factor) == (0, "")
+                assert f77.solve_on_path(segment.number, step.factor) == 0
+                np.testing.assert_array_equal(beam.at_supports()[0], step.reaction)
+            if result.steps:
+                assert_same_state(beam, f77, result, scene, random.Random(seed))
+        else:
+            status, message, found = beam.follow(1.0)
+            assert (status, message) == (int(result.status == "no-equilibrium"), "")
+            info, found_f77 = f77.follow(1.0)
+            assert (info, found_f77) == (status, found)
+            assert [(f, k) for f, k, _ in found] == [(e.factor, e.support) for e in result.events]
+            for (*_, condition), event in zip(found, result.events, strict=True):
+                assert {"opens": condition == 0, "turns": condition == 3}.get(event.event, condition in (1, *range(11, 20)))
+            if status == 0:
+                assert_same_state(beam, f77, result, scene, random.Random(seed))
+            seen.add("events")
+        beam.close()
+    assert seen & {"events", ""}
+    assert family == "hardening" or kinds

@@ -317,16 +317,21 @@ contains
             do k = 1, size(s)
                 if (stat /= 0) return
                 if (s(k)%skipped) then
-                    if (k > 1) call note_changes(k - 1, k, s(k)%leg > 0)
+                    if (k > 1) call note_changes(k - 1, k)
                     cycle
                 end if
                 if (s(k)%direction == 0 .and. k < size(s) .and. s(k)%leg > 0) then
                     j = findloc(path%stretches(k + 1)%closed .and. .not. path%stretches(k)%closed, .true., 1)
                     if (j > 0) call add(event_type(s(k)%from, lowered%normal(j), gapbeam_turns, gapbeam_turns, k))
                 end if
-                if (k > 1 .and. s(k)%leg > 0) then
-                    begins = s(k)%leg == 1 .and. s(k - 1)%leg /= 1 .and. .not. abs(s(k)%from) > 0.0_wp
-                    call note_changes(k - 1, k, .not. begins)
+                if (s(k)%leg == 0) cycle
+                begins = .false.
+                if (k > 1) begins = s(k)%leg == 1 .and. s(k - 1)%leg == 0 .and. .not. abs(s(k)%from) > 0.0_wp
+                if (begins) then
+                    ! What happens under the dead loads is no event
+                    number = number - pending
+                else if (k > 1) then
+                    call note_changes(k - 1, k)
                     do j = number - pending + 1, number
                         events(j)%factor = s(k)%from
                         events(j)%stretch = k
@@ -345,24 +350,24 @@ contains
     contains
 
         !> What happens to every support between two stretches
-        subroutine note_changes(one, other, wanted)
+        subroutine note_changes(one, other)
             integer, intent(in) :: one, other
-            !> Is it to be noted
-            logical, intent(in) :: wanted
             type(acting_type) :: before, after
             integer :: i, first, change
 
-            if (.not. wanted) return
             associate (a => history%path%stretches(one), b => history%path%stretches(other))
                 do i = 1, size(lowered%model%supports)
                     first = lowered%beam_support(i)
                     if (first == 0) cycle
+                    associate (last => last_kink(lowered%beam%supports, first))
+                        if (all(a%closed(first:last) .eqv. b%closed(first:last))) cycle
+                    end associate
                     before = acts_on(a, i)
                     after = acts_on(b, i)
                     change = nothing
                     if (lowered%beam%supports(first)%kink > 0) then
                         change = what_happens(before, after)
-                    else if (a%closed(first) .neqv. b%closed(first)) then
+                    else
                         change = merge(gapbeam_closes, gapbeam_opens, b%closed(first))
                     end if
                     if (change == nothing) cycle
@@ -415,7 +420,7 @@ contains
             if (size(history%limits) == 0) return
             before = history%limits(size(history%limits))%stretch
             if (before < 1 .or. before >= size(history%stretches)) return
-            call note_changes(before, before + 1, .true.)
+            call note_changes(before, before + 1)
             do j = number - pending + 1, number
                 events(j)%factor = history%limits(size(history%limits))%factor
             end do

@@ -67,9 +67,11 @@ contains
         !> One of its sizes
         integer(c_size_t), intent(in) :: size
         integer(c_signed_char), pointer :: bytes(:)
+        integer(c_signed_char) :: empty(now_size())
 
+        empty(:) = transfer(c_model(size), empty)
         call c_f_pointer(c_loc(c), bytes, [size])
-        bytes(:) = transfer(c_model(size), bytes, int(size))
+        bytes(:) = empty(:size)
     end subroutine empty_model
 
     !> Copy a model; what is NULL keeps its default

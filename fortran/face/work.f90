@@ -92,7 +92,7 @@ contains
         ! A support that holds both ways has every point of its law twice
         kinks = supports + 2_int64*laws
         reals = 5_int64*spans + hinges + 6_int64*supports + 4*kinks + 2_int64*laws + 4_int64*loads + 25*points + 27*nodes + 16
-        integers = header + 2_int64*spans + 8_int64*supports + 7*kinks + laws + 5_int64*loads + 4*points + 3*nodes + 60
+        integers = header + 2_int64*spans + 9_int64*supports + 7*kinks + laws + 5_int64*loads + 4*points + 3*nodes + 60
     end subroutine sizes_of_beam
 
     !> Lengths that a state of a beam takes

@@ -15,7 +15,7 @@ module gapbeam_query
     use gapbeam_refusal, only: refuse_range
     use gapbeam_memory, only: reserve_memory, for_fields
     use gapbeam_solution, only: state_type, couple_at_node, way_to_contact
-    use gapbeam_pieces, only: acting_type, acting_piece, gapbeam_open, gapbeam_closed, gapbeam_bilateral
+    use gapbeam_pieces, only: acting_type, acting_piece, gapbeam_open, gapbeam_closed, gapbeam_bilateral, gapbeam_branch
     use gapbeam_state, only: recover_state
     implicit none
     private
@@ -55,6 +55,8 @@ contains
                 opening(k) = 0.0_wp
                 couple(k) = 0.0_wp
                 condition(k) = gapbeam_bilateral
+                ! One piece both ways is a spring
+                if (lowered%with_law(k)) condition(k) = gapbeam_branch + 1
                 associate (s => lowered%model%supports(k), node => lowered%node_of_point(lowered%support_point(k)))
                     if (s%direction == gapbeam_axial) then
                         if (.not. allocated(axial%node)) cycle

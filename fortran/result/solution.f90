@@ -12,7 +12,7 @@ module gapbeam_solution
     use gapbeam_lower_units, only: name_farthest
     implicit none
     private
-    public :: state_type, new_state, forget, check_range, couple_at_node, way_to_contact
+    public :: state_type, new_state, close_all, forget, check_range, couple_at_node, way_to_contact
 
     !> A state, in the engine's units and those of the axial system; arrays have one entry per support of the engine's beam, or
     !> per node 0..n
@@ -47,7 +47,7 @@ module gapbeam_solution
 
 contains
 
-    !> A state for a beam, nothing solved, all supports closed
+    !> A state for a beam, nothing solved, all supports closed, those with a law on its first piece
     subroutine new_state(lowered, state, error)
         !> The beam
         type(lowered_type), intent(in) :: lowered
@@ -68,13 +68,32 @@ contains
             call no_memory(error)
             return
         end if
-        state%closed(:) = .true.
+        call close_all(lowered, state%closed)
         state%displacement(:) = 0.0_wp
         state%axial_reaction(:) = 0.0_wp
         state%tension(:) = 0.0_wp
         state%starts(:) = field_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
         call forget(state)
     end subroutine new_state
+
+    !> The scheme that a search starts from: all supports closed, those with a law on its first piece
+    pure subroutine close_all(lowered, closed)
+        type(lowered_type), intent(in) :: lowered
+        !> Shape (size(beam%supports))
+        logical, intent(out) :: closed(:)
+        integer :: k, last, first_piece
+
+        closed(:) = .true.
+        associate (supports => lowered%beam%supports)
+            do k = 1, size(closed)
+                if (supports(k)%kink /= 1) cycle
+                last = last_kink(supports, k)
+                first_piece = 1
+                if (lowered%model%supports(lowered%normal(k))%side == 0) first_piece = max(1, (last - k + 1)/2)
+                closed(k + first_piece:last) = .false.
+            end do
+        end associate
+    end subroutine close_all
 
     !> Numbers of an earlier solve are not to be taken for those of a later one
     pure subroutine forget(state)

@@ -17,7 +17,7 @@ module gapbeam_state
     use gapbeam_words, only: shown
     use gapbeam_lowered, only: lowered_type, point_x
     use gapbeam_lower_units, only: name_farthest
-    use gapbeam_solution, only: state_type, forget, check_range
+    use gapbeam_solution, only: state_type, close_all, forget, check_range
     use gapbeam_memory, only: for_solving, for_following, for_certifying
     implicit none
     private
@@ -233,7 +233,7 @@ contains
             call no_memory(error)
             return
         end if
-        state%closed(:) = .true.
+        call close_all(lowered, state%closed)
         call solve_state(lowered, 0.0_wp, rule, state, error)
         if (allocated(error) .or. state%status /= gapbeam_solved) return
         at = 0.0_wp

@@ -197,7 +197,8 @@ contains
                 if (can_carry(given(k))) m = m + count_kinks(given(k), law(first(k):last(k)))
             end do
             allocate (beam%links(n), beam%kind(0:n), beam%compliance(0:n), beam%force(2, 0:n), beam%couple(2, 0:n), &
-                      lowered%normal(m), lowered%beam_support(size(given)), lowered%couple_share(size(given)), &
+                      lowered%normal(m), lowered%beam_support(size(given)), lowered%with_law(size(given)), &
+                      lowered%couple_share(size(given)), &
                       lowered%turning(0:n), clamped(0:n), supports(m), stat=stat)
             ! order_supports frees and allocates these again
             if (stat == 0) allocate (beam%supports(m), beam%order(m), beam%first(0:n + 1), stat=stat)
@@ -208,6 +209,7 @@ contains
             lowered%turning(:) = 0.0_wp
             clamped(:) = .false.
             lowered%beam_support(:) = 0
+            lowered%with_law(:) = last >= first
             beam%kind(:) = merge(hinge, plain, lowered%hinged(lowered%node_point))
             j = 0
             do k = 1, size(given)

@@ -68,6 +68,8 @@ module gapbeam_lowered
         integer, allocatable :: normal(:)
         !> For every support of the model its place among those of the beam, 0: none
         integer, allocatable :: beam_support(:)
+        !> Which supports of the model have a law
+        logical, allocatable :: with_law(:)
         !> Stiffness of the rotational restraint of every node in the user's units, shape (0:nlink), and the share that every
         !> support of the model has in that of its node
         real(wp), allocatable :: turning(:), couple_share(:)
