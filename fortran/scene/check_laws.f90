@@ -134,10 +134,10 @@ contains
             vertical = .not. points(size(points))%displacement > before
         end function is_vertical
 
-        !> A point as text
+        !> A point as text, blanks behind it; not of deferred length, which gfortran keeps where all threads share it
         pure function point(displacement, force) result(text)
             real(wp), intent(in) :: displacement, force
-            character(len=52) :: text
+            character(len=64) :: text
 
             text = "["//trim(shown(displacement))//", "//trim(shown(force))//"]"
         end function point
