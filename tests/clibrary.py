@@ -162,8 +162,8 @@ class Library:
         self.c.gapbeam_status_message.restype = c.c_char_p
         self.c.gapbeam_version_text.restype = c.c_char_p
         self.c.gapbeam_infinity.restype = c.c_double
-        for name in ("gapbeam_free_beam", "gapbeam_free_state", "gapbeam_free_history", "gapbeam_count_supports", "gapbeam_count_nodes"):
-            getattr(self.c, name).argtypes = [c.c_void_p]
+        for name in ("free_beam", "free_state", "free_history", "count_supports", "count_nodes"):
+            getattr(self.c, f"gapbeam_{name}").argtypes = [c.c_void_p]
 
     def model(self, arrays):
         """A gapbeam_model; the arrays must live as long as it."""

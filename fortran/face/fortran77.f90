@@ -328,14 +328,11 @@ subroutine gbhsol(work, iwork, nfact, factor, limit, nstrch, at, state, lstate, 
 
     call begin_result(work, iwork, at, rule_block, state, lstate, istate, listat, beam, info)
     ! The places of AT, LSTATE and LISTAT
-    select case (info)
-    case (-3)
-        info = -7
-    case (-7, -9)
+    if (info == -7 .or. info == -9) then
         info = info - 2
-    case default
-        continue
-    end select
+    else if (info == -3) then
+        info = -7
+    end if
     if (info /= 0 .or. lstate == -1 .or. listat == -1) return
     info = check_history(nfact, factor, limit)
     if (info /= 0) return
