@@ -420,7 +420,9 @@ static void laws_and_histories(void)
     /* As compiled with the header of version 0.2: nothing behind its structure is written or read */
     const size_t old_size = offsetof(gapbeam_model, support_unloading);
     gapbeam_model *old = malloc(old_size);
-    check(old && gapbeam_model_init(old, old_size) == GAPBEAM_SOLVED && old->spans == 0, "the structure of version 0.2");
+    check(old && gapbeam_model_init(old, old_size) == GAPBEAM_SOLVED, "the structure of version 0.2");
+    memcpy(&model, old, old_size);
+    check(model.size == old_size && model.spans == 0 && !model.load_value_to, "is empty");
     model = two_spans();
     model.size = old_size;
     memcpy(old, &model, old_size);
