@@ -126,3 +126,45 @@ def test_supports_with_laws_are_springs():
     assert "load factor 1, 2 bilateral, 1 on branch 3" in words(picture)
     assert "branch 3" in [text.get_text() for text in picture.legends[0].get_texts()]
     assert "(limit load)" in words(figure(snap_through("stop")))
+
+
+@pytest.mark.parametrize("analysis", [{"follow": "events"}, {"steps": 500}])
+def test_smooth_laws_are_drawn_as_curves(analysis):
+    result = gapbeam.solve({
+        "beam": {"spans": [1.0], "EI": 1.0},
+        "supports": [{"node": 0}, {"node": 1}, {"x": 0.5, "law": {"type": "tanh", "stiffness": 100.0, "limit": 1.0}}],
+        "loads": [{"type": "force", "x": 0.5, "F": 4.0}],
+        "analysis": analysis,
+    })  # fmt: skip
+    reaction, deflection = path_figure(result).axes
+    (factors, forces), (_, w) = (lines(axes, "support 2")[0] for axes in (reaction, deflection))
+    assert 90 < len(factors) < 220
+    assert forces == pytest.approx(np.tanh(100.0 * np.array(w)), abs=1e-12)
+
+
+def test_lines_of_laws_without_limits_are_as_always():
+    """One more panel's words, and squares at the kinks."""
+    law = {"type": "hardening", "stiffness": 100.0, "limit": 1.0, "slope": 400.0}
+    result = gapbeam.solve({
+        "beam": {"spans": [1.0], "EI": 1.0},
+        "supports": [{"node": 0}, {"node": 1}, {"x": 0.5, "side": "below", "gap": 0.001, "law": law}],
+        "loads": [{"type": "force", "x": 0.5, "F": 4.0}],
+        "analysis": {"follow": "events"},
+    })  # fmt: skip
+    picture = path_figure(result)
+    assert picture.axes[1].get_ylabel().startswith("deflection")
+    hardens = next(event.factor for event in result.events if event.event == "hardens")
+    assert marks(picture.axes[0], "s") == [(hardens, pytest.approx(1.0))]
+    assert "squares" in picture.axes[1].get_xlabel()
+
+
+def test_a_mechanism_is_marked_at_its_end():
+    result = gapbeam.solve({
+        "beam": {"spans": [1.0], "EI": 1.0},
+        "supports": [{"node": 0}, {"node": 1, "side": "below", "law": {"type": "plastic", "stiffness": 100.0, "limit": 1.0}}],
+        "loads": [{"type": "force", "x": 0.5, "F": 4.0}],
+        "analysis": {"follow": "events"},
+    })  # fmt: skip
+    picture = path_figure(result)
+    assert marks(picture.axes[1], "^") == [(0.5, pytest.approx(0.01))]
+    assert "nothing more resists the load beyond load factor 0.5" in words(picture)

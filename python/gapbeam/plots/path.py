@@ -33,6 +33,8 @@ MOST_LINES = 12
 """Supports in a panel; of more those with the largest values."""
 MOST_ARROWS = 3
 """Supports on whose lines arrows show which way the load goes."""
+CURVE = 100
+"""Points about of a line that is curved, since a support has a smooth law."""
 MOST_DOTS = 40
 """Load steps that are drawn each; of more those at which the working scheme changes, between which nothing bends."""
 DASHES = ((), (5, 2), (1, 1.5), (7, 2, 1, 2), (10, 3), (6, 2, 1, 2, 1, 2))
@@ -129,13 +131,16 @@ def path_figure(result: Result) -> Figure:
 
 
 def _states(result: Result, dots: bool) -> list[Step]:
-    """Choose states of rising load factor between which all lines are straight."""
+    """Choose states of rising load factor between which all lines are straight, or with smooth laws look like the curve."""
     states = [result.steps[k] for k in (range(len(result.steps)) if dots else _bends(result))]
     if result.segments:
         states.insert(0, result.state(0.0))
         # Where the beam turns it is in two places at one load factor
-        turns = {event.factor for event in result.events if event.event == "turns"} - {0.0, states[-1].factor}
-        states = sorted([*states, *map(result.state, turns)], key=lambda step: step.factor)
+        between = {event.factor for event in result.events if event.event == "turns"}
+        if result.beam.smooth:
+            between |= set(np.linspace(0.0, states[-1].factor, CURVE)[1:].tolist()) - {step.factor for step in states}
+        between -= {0.0, states[-1].factor}
+        states = sorted([*states, *map(result.state, between)], key=lambda step: step.factor)
     return states
 
 
@@ -150,7 +155,8 @@ def _bends(result: Result) -> list[int]:
     """Find the steps at which lines may bend: with another working scheme than the one before or after."""
     schemes = [states for _, states in result.steps.history()]
     last = len(schemes) - 1
-    return [k for k in range(last + 1) if k in (0, last) or not schemes[k - 1] == schemes[k] == schemes[k + 1]]
+    every = max(1, last // CURVE) if result.beam.smooth else last + 1
+    return [k for k in range(last + 1) if k in (0, last) or k % every == 0 or not schemes[k - 1] == schemes[k] == schemes[k + 1]]
 
 
 def _largest(table: np.ndarray, supports: list[int]) -> list[int]:
