@@ -18,13 +18,13 @@ def snap_through(at_limit, **analysis):
     })  # fmt: skip
 
 
-def to_and_fro():
+def to_and_fro(*factors):
     law = {"type": "plastic", "stiffness": 100.0, "limit": 1.0}
     return gapbeam.solve({
         "beam": {"spans": [1.0], "EI": 1.0},
         "supports": [{"node": 0}, {"node": 1}, {"x": 0.5, "side": "below", "law": law, "unloading": "plastic"}],
         "loads": [{"type": "force", "x": 0.5, "F": 4.0}],
-        "analysis": {"follow": "events", "history": [1.0, 0.0, 1.5, -0.5]},
+        "analysis": {"follow": "events", "history": list(factors)},
     })  # fmt: skip
 
 
@@ -93,7 +93,7 @@ def test_points_stand_in_the_order_of_the_path():
 
 
 def test_a_history_goes_to_and_fro():
-    result = to_and_fro()
+    result = to_and_fro(1.0, 0.0, 1.5, -0.5)
     picture = path_figure(result)
     axes = picture.axes[1]
     assert axes.get_xlim() == (-0.5, 1.5)
@@ -168,3 +168,12 @@ def test_a_mechanism_is_marked_at_its_end():
     picture = path_figure(result)
     assert marks(picture.axes[1], "^") == [(0.5, pytest.approx(0.01))]
     assert "nothing more resists the load beyond load factor 0.5" in words(picture)
+
+
+def test_a_long_history_is_drawn_without_marks():
+    result = to_and_fro(*(sign * (1.0 + k / 400) for k in range(150) for sign in (1.0, -1.0)))
+    assert len(result.events) > 300
+    picture = path_figure(result)
+    assert not marks(picture.axes[1], "s") + marks(picture.axes[1], "o")
+    ((factors, _),) = lines(picture.axes[1], "support 2")
+    assert len(factors) == 2 * len(result.segments)

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from ..results.step import Step
 
 STABLE, UNSTABLE, JUMP = range(3)
+MOST_MARKS = 300
+"""Events up to which they are marked."""
 MOST_POINTS = 40
 """Points of a path up to which arrows show its direction."""
 MARKERS = {"closes": ("o", "black"), "opens": ("o", "white"), "breaks": ("X", "black")}
@@ -82,7 +84,8 @@ class Trace:
             self.ways.append(STABLE if segment.stable else UNSTABLE)
         self.limits = _limits(path)
         limits = {mark.point for mark in self.limits}
-        self.marks = [mark for mark in _events(result) if mark.what != "turns" and mark.point not in limits] + self.limits
+        events = _events(result) if len(result.events) <= MOST_MARKS else []
+        self.marks = [mark for mark in events if mark.what != "turns" and mark.point not in limits] + self.limits
         self.lands = bool(path.ending and path.limits) and path.limits[-1].landing is not None
         if self.lands:
             self.states.append(path.limits[-1].landing)
