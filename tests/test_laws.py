@@ -96,6 +96,7 @@ def test_two_brittle_supports():
     assert followed.steps[1].deflection[[1, 2]] == pytest.approx([0.01, 0.0049290061], rel=1e-8)
     assert followed.steps[2].deflection[[1, 2]] == pytest.approx([0.0243456790, 0.012], rel=1e-8)
     assert [limit.kind for limit in followed.limits] == ["limit", "limit"]
+    assert [limit.landing.deflection[1] for limit in followed.limits] == pytest.approx([1331 / 8100, 2243 / 20250], rel=1e-12)
     stopped = gapbeam.solve(thirds())
     landing = stopped.limits[0].landing
     assert landing.deflection[[1, 2]] == pytest.approx([1331 / 8100, 1331 / 8100], rel=1e-12)
@@ -343,3 +344,28 @@ def test_the_report_says_the_limit_first():
     assert lines[:2] == ["Snap", "limit load at load factor 0.5: support 1 softens"]
     text = " ".join(" ".join(lines).split())
     assert "The next stable state along the path at this load factor (dynamics may lead elsewhere): support 1 branch 3" in text
+
+
+@pytest.mark.parametrize("EI", [math.inf, 10.0])
+@pytest.mark.parametrize("count", [2, 5, 40])
+def test_the_limit_of_a_pile_on_plastic_springs(count, EI):
+    """B1 with springs: beyond the spring about which the pile turns all push the other way, whatever its stiffness."""
+    places = [(i + 0.5) / count for i in range(count)]
+    law = {"type": "plastic", "stiffness": 100.0, "limit": 1.0 / count}
+    scene = {
+        "beam": {"spans": [1.0], "EI": EI},
+        "supports": [{"x": x, "side": "both", "law": law} for x in places],
+        "loads": [{"type": "force", "x": 0.0, "F": 1.0}],
+        "analysis": {"follow": "events"},
+    }
+    limits = []
+    for turning in range(count):
+        pushes = np.sign(turning - np.arange(count)) / count
+        at_pivot = -np.dot(pushes, places) / places[turning]
+        if abs(at_pivot) <= 1.0 / count + 1e-15:
+            limits.append(pushes.sum() + at_pivot)
+    result = gapbeam.solve(scene)
+    assert (result.status, result.limits[0].kind) == ("limit-load", "mechanism")
+    assert result.limits[0].factor == pytest.approx(limits[0], rel=1e-12)
+    assert limits == pytest.approx(limits[:1] * len(limits), rel=1e-12)
+    assert count < 40 or limits[0] == pytest.approx(math.sqrt(2.0) - 1.0, rel=1e-3)

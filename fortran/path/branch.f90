@@ -12,7 +12,7 @@ module gapbeam_branch
     use gapbeam_law_quad, only: margin_in_scheme, is_watched_in
     use gapbeam_model_quad, only: beam_type
     use gapbeam_line_quad, only: value_at, width_at, zero_of
-    use gapbeam_ways, only: lines_type, way_type, new_lines, solve_lines, find_ways, rise, fall, turn
+    use gapbeam_ways, only: lines_type, way_type, new_lines, solve_lines, find_ways, rise, fall, turn, from_nowhere
     implicit none
     private
     public :: branch_type, segment_type, start_branch, step_branch, goes_on, arrived, no_way_on, never_ends
@@ -130,19 +130,19 @@ contains
         integer, intent(out) :: outcome
         type(error_type), allocatable, intent(out) :: error
         type(way_type), allocatable :: ways(:)
-        logical, allocatable :: reached(:)
+        logical, allocatable :: reached(:), broken(:)
         integer :: w, best, came
-        logical :: breaks
 
         allocate (reached(size(at_hand)))
         reached(:) = at_hand
-        call break_supports(branch, reached, breaks)
+        allocate (broken(size(at_hand)))
+        call break_supports(branch, reached, broken)
         call rewrite_laws(branch)
         came = branch%way%direction
         ! What is gone leaves the same line, to go either way
-        if (wanted /= turn .or. breaks) came = turn
-        call find_ways(branch%beam, branch%factor, branch%way%closed, came, wanted, branch%deflection, reached, branch%lines, &
-                       ways, error)
+        if (wanted /= turn .or. any(broken)) came = from_nowhere
+        call find_ways(branch%beam, branch%factor, branch%way%closed, came, wanted, branch%deflection, broken, reached, &
+                       branch%lines, ways, error)
         outcome = no_way_on
         if (allocated(error)) return
         call move_alloc(ways, branch%ways)
@@ -250,20 +250,20 @@ contains
     end subroutine note_place
 
     !> Break supports that stay broken at the end of a drop of their force: what lies before it is gone
-    subroutine break_supports(branch, at_hand, breaks)
+    subroutine break_supports(branch, at_hand, broken)
         type(branch_type), intent(inout) :: branch
         !> Kinks that are reached in, without those out
         logical, intent(inout) :: at_hand(:)
-        !> Does any
-        logical, intent(out) :: breaks
+        !> Those of them at which supports break
+        logical, intent(out) :: broken(:)
         integer :: k, first
 
-        breaks = .false.
+        broken(:) = .false.
         do k = 1, size(at_hand)
             associate (s => branch%beam%supports)
                 if (.not. at_hand(k) .or. branch%way%closed(k) .or. branch%unloading(k) /= stays_broken) cycle
                 if (.not. s(k)%before < -huge(1.0_wp)) cycle
-                breaks = .true.
+                broken(k) = .true.
                 at_hand(k) = .false.
                 branch%way%closed(k) = .true.
                 ! One line, on both sides of its kinks

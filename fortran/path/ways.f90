@@ -20,10 +20,12 @@ module gapbeam_ways
     use gapbeam_line_quad, only: line_type, line_of, without_dead_loads, value_at, width_at
     implicit none
     private
-    public :: lines_type, way_type, new_lines, solve_lines, find_ways, rise, fall, turn
+    public :: lines_type, way_type, new_lines, solve_lines, find_ways, rise, fall, turn, from_nowhere
 
     !> Directions of the load factor along a way
     integer, parameter :: rise = 1, fall = -1, turn = 0
+    !> Instead of the direction in which the path came: no way leads back
+    integer, parameter :: from_nowhere = 2
     !> Of more kinks at one factor than these not all combinations are tried
     integer, parameter :: most_at_once = 12
     !> Share of the rates beside it below which a rate is none
@@ -95,7 +97,7 @@ contains
     end subroutine solve_lines
 
     !> Find all ways on
-    subroutine find_ways(beam, factor, before, came, wanted, deflection, at_hand, lines, ways, error)
+    subroutine find_ways(beam, factor, before, came, wanted, deflection, broken, at_hand, lines, ways, error)
         !> The beam and the load factor
         type(beam_type), intent(in) :: beam
         real(wp), intent(in) :: factor
@@ -106,6 +108,8 @@ contains
         integer, intent(in) :: wanted
         !> Of the nodes, shape (0:n)
         real(wp), intent(in) :: deflection(0:)
+        !> Kinks at which supports have just broken: a beam that turns goes on there
+        logical, intent(in) :: broken(:)
         !> Kinks that are reached in, and those that follow from them out
         logical, intent(inout) :: at_hand(:)
         !> Solves are counted there
@@ -139,7 +143,7 @@ contains
                 if (.not. is_nested(beam%supports, closed)) cycle
                 call solve_lines(beam, closed, lines)
                 if (.not. lines%regular) then
-                    call try_motion(beam, closed, factor, mask == 0, came, deflection, at_hand, lines, way, leads, more)
+                    call try_motion(beam, closed, factor, mask == 0, came, deflection, broken, at_hand, lines, way, leads, more)
                     if (leads) ways = [ways, way]
                     cycle
                 end if
@@ -190,7 +194,7 @@ contains
     end subroutine look_into
 
     !> A cell without a unique solution: does the beam move freely, and into it
-    subroutine try_motion(beam, closed, factor, as_before, came, deflection, at_hand, lines, way, leads, more)
+    subroutine try_motion(beam, closed, factor, as_before, came, deflection, broken, at_hand, lines, way, leads, more)
         type(beam_type), intent(in) :: beam
         logical, intent(in) :: closed(:)
         real(wp), intent(in) :: factor
@@ -198,7 +202,7 @@ contains
         logical, intent(in) :: as_before
         integer, intent(in) :: came
         real(wp), intent(in) :: deflection(0:)
-        logical, intent(in) :: at_hand(:)
+        logical, intent(in) :: broken(:), at_hand(:)
         type(lines_type), intent(in) :: lines
         type(way_type), intent(out) :: way
         logical, intent(out) :: leads
@@ -224,6 +228,11 @@ contains
             moves = .false.
             touched(:) = .false.
             do k = 1, size(closed)
+                if (broken(k)) then
+                    speed = beam%supports(k)%side*y(beam%supports(k)%node)
+                    leads = leads .and. speed >= 0.0_wp
+                    moves = moves .or. speed > 0.0_wp
+                end if
                 if (.not. is_watched_in(beam%supports, closed, k)) cycle
                 associate (node => beam%supports(k)%node)
                     call margin_in_scheme(lines%incremental%supports, closed, k, y(node) + lines%settling(k), 0.0_wp, none, none, &

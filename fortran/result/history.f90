@@ -196,7 +196,7 @@ contains
                     end if
                     call add(leg, segment, direction, index, size(ways), acting, laws_before)
                     call add_others(ways, taken)
-                    if (is_jumping() .and. stable) call look_for_landing(way)
+                    if (stable) call look_for_landings(way)
                 end if
                 if (outcome == goes_on) then
                     if (stable .and. (branch%way%index > 0 .or. branch%way%direction == -way)) then
@@ -272,21 +272,26 @@ contains
             if (is_jumping) is_jumping = history%limits(size(history%limits))%landing == 0
         end function is_jumping
 
-        !> Does the last stretch pass the load factor of the limit, and is stable
-        subroutine look_for_landing(way)
+        !> From which limits the beam lands on the last stretch, which is stable and passes their load factors
+        subroutine look_for_landings(way)
             integer, intent(in) :: way
-            integer :: k
+            integer :: j, k
 
-            associate (s => history%stretches(history%number), limit => history%limits(size(history%limits)))
-                if (s%direction /= way .or. s%leg /= limit%leg .or. way*(s%to - limit%factor) < 0.0_wp) return
-                limit%landing = history%number
-                if (at_limit /= at_limit_jump) return
-                s%from = limit%factor
-                do k = limit%stretch + 1, history%number - 1
-                    history%stretches(k)%skipped = .true.
+            associate (s => history%stretches(history%number))
+                do j = 1, size(history%limits)
+                    associate (limit => history%limits(j))
+                        if (limit%landing > 0 .or. s%direction /= way .or. s%leg /= limit%leg) cycle
+                        if (way*(s%to - limit%factor) < 0.0_wp) cycle
+                        limit%landing = history%number
+                        if (at_limit /= at_limit_jump) cycle
+                        s%from = limit%factor
+                        do k = limit%stretch + 1, history%number - 1
+                            history%stretches(k)%skipped = .true.
+                        end do
+                    end associate
                 end do
             end associate
-        end subroutine look_for_landing
+        end subroutine look_for_landings
 
     end subroutine follow_history
 

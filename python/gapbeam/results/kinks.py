@@ -83,6 +83,8 @@ def what_happens(before: Piece, after: Piece) -> str:
         return "closes" if after.number else "opens"
     if after.number < before.number:
         return "unloads"
+    if before.slope == -np.inf:
+        return ""  # the foot of a drop; it has broken at its top
     if after.slope < 0.0:
         return "breaks" if np.isinf(after.slope) else "softens"
     return "hardens" if after.slope > before.slope else "yields"
