@@ -29,7 +29,8 @@ module gapbeam_api_history
 
     !> A stretch of a path on which all supports stay on their piece
     type :: stretch_type
-        !> Number of the load factor that is gone to, from 1; 0 while the dead loads are put on, their factor from 0 to 1
+        !> Number of the load factor that is gone to, from 1; 0 while the dead loads are put on, with settlements and lacks of fit,
+        !> their factor from 0 to 1
         integer :: leg
         !> Load factors at its ends
         real(wp) :: from, to
@@ -78,7 +79,7 @@ module gapbeam_api_history
 
 contains
 
-    !> Put on the dead loads, then go through load factors in turn, by the exact path
+    !> Put on the dead loads, settlements and lacks of fit together, then go through load factors in turn, by the exact path
     subroutine follow_history(beam, factors, at_limit, history, error)
         !> Prepared
         type(prepared_type), intent(in) :: beam

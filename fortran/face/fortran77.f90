@@ -216,8 +216,8 @@ subroutine gbevnt(work, iwork, factor, rule, maxev, state, lstate, istate, lista
     info = result%status
 end subroutine gbevnt
 
-! Put on the dead loads, then go through load factors in turn, from factor 0, by the exact path: through every event, past limits of
-! the load, with supports that soften, break or keep a set
+! Put on the dead loads, settlements and lacks of fit together, then go through load factors in turn, from factor 0, by the exact
+! path: through every event, past limits of the load, with supports that soften, break or keep a set
 subroutine gbhist(work, iwork, nfact, factor, limit, maxst, stfact, istrch, maxev, evfact, ievent, maxlim, lmfact, ilimit, &
                   number, info)
     use gapbeam_error, only: error_type, gapbeam_no_memory
