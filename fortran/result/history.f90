@@ -190,9 +190,9 @@ contains
                 if (outcome == never_ends) then
                     if (direction == turn) history%motion = real(branch%way%motion, wp)
                 else if (abs(segment%to - segment%from) > 0.0_qp .or. direction == turn) then
-                    if (outcome == goes_on .and. all(unloading == gapbeam_elastic) .and. direction /= turn) then
+                    if (outcome == goes_on .and. all(unloading == gapbeam_elastic)) then
                         ! No cell is crossed twice, but a path without end may come round to where it began
-                        if (branch%way%direction == first_direction .and. all(branch%way%closed .eqv. first)) outcome = never_ends
+                        if (branch%way%direction == first_direction .and. all(branch%way%closed .eqv. first)) history%ending = ended
                     end if
                     call add(leg, segment, direction, index, size(ways), acting, laws_before)
                     call add_others(ways, taken)

@@ -79,6 +79,8 @@ contains
             event = nothing
         else if (after%condition < before%condition) then
             event = gapbeam_unloads
+        else if (before%slope < -huge(1.0_wp)) then
+            event = nothing  ! the foot of a drop; it has broken at its top
         else if (after%slope < 0.0_wp) then
             event = merge(gapbeam_breaks, gapbeam_softens, after%slope < -huge(1.0_wp))
         else

@@ -316,7 +316,9 @@ contains
         end if
         associate (s => beam%supports)
             call new_beam(links, beam%kind, fine_reciprocal(beam%compliance), real(beam%force, qp), real(beam%couple, qp), &
-                          s%node, s%side, real(s%stiffness, qp), real(s%contact, qp), fine)
+                          s%node, s%side, real(max(s%stiffness, 0.0_wp), qp), real(s%contact, qp), fine)
+            ! Only of a kink it may be below zero
+            fine%supports%stiffness = s%stiffness
             fine%supports%kink = s%kink
             fine%supports%more = s%more
             fine%supports%passed = s%passed

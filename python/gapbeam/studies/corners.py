@@ -29,7 +29,7 @@ WORDS = (
     "shears, at all supports, loads and section changes and in the middle of every span. The error bound is the largest one of",
     'the certificates; "fails" means that it is less than the true error of a reaction or of the deflection at a support.',
     "inf: not solved, or numbers that are not finite. Loads that cancel are ill conditioned: their answers move about as much as",
-    "the true error when the loads change in their last digits.",
+    "the true error when the loads change in their last digits. So do laws that fall nearly as steeply as the beam is stiff.",
 )
 """What the table shows."""
 
@@ -128,10 +128,11 @@ def _measure(row: Row, source: dict[str, Any], closed_form) -> tuple[float, str]
     bound = nan if bound is None else bound
     row.bound = bound if isnan(row.bound) else max(row.bound, bound)
     if closed_form is not None:
-        reaction, deflection = closed_form(source)
-        error = float(np.abs(step.reaction - reaction).max() / np.abs(reaction).max())
-        row.covered = row.covered and not error > bound
-        return (error, "reaction") if np.array_equal(step.deflection, deflection) else (inf, "deflection")
+        truths = dict(zip(("reaction", "deflection"), closed_form(source), strict=True))
+        errors = {kind: _largest_error(getattr(step, kind), truth) for kind, truth in truths.items()}
+        row.covered = row.covered and not max(errors.values()) > bound
+        kind = max(errors, key=errors.get)
+        return errors[kind], kind
     reference = Reference(scene)
     try:
         right = reference.solve(step.state)
@@ -149,6 +150,12 @@ def _measure(row: Row, source: dict[str, Any], closed_form) -> tuple[float, str]
                 errors[f"{name} {side}"] = reference.error(f"{name}_{side}", getattr(fields, name), inner=inner)
     kind = max(errors, key=errors.get)
     return errors[kind], kind if right else f"{kind} (scheme differs from the exact one)"
+
+
+def _largest_error(found: np.ndarray, truth: np.ndarray) -> float:
+    """Relative to the largest value; infinite where all should be zero, and are not."""
+    error, size = float(np.abs(found - truth).max()), float(np.abs(truth).max())
+    return error / size if size else inf if error else 0.0
 
 
 def table(rows: Iterable[Row]) -> list[list[str]]:
