@@ -154,7 +154,7 @@ contains
         branch%taken = best
         branch%way = branch%ways(best)
         if (branch%way%direction /= turn) branch%sense = sense_of(branch%way)
-        call solve_lines(branch%beam, branch%way%closed, branch%lines)
+        if (any(branch%lines%closed .neqv. branch%way%closed)) call solve_lines(branch%beam, branch%way%closed, branch%lines)
         outcome = goes_on
 
     contains

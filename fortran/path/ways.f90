@@ -38,7 +38,8 @@ module gapbeam_ways
         type(line_type), allocatable :: line(:)
         !> How fast supports move themselves with the factor (while settlements grow with the dead loads), shape (size(supports))
         real(wp), allocatable :: settling(:)
-        !> Is there a unique solution
+        !> The scheme solved last; is there a unique solution
+        logical, allocatable :: closed(:)
         logical :: regular = .false.
         !> Linear solves
         integer :: solves = 0
@@ -69,6 +70,8 @@ contains
         call set_loads(lines%incremental, 1.0_wp, lines%live)
         allocate (lines%line(size(beam%supports)), lines%settling(size(beam%supports)))
         lines%settling(:) = 0.0_wp
+        allocate (lines%closed(size(beam%supports)))
+        lines%closed(:) = .false.
     end subroutine new_lines
 
     !> Solve a cell
@@ -87,6 +90,7 @@ contains
         call solve_scheme(beam, closed, lines%dead, state, place)
         if (state == band_ok) call solve_scheme(lines%incremental, closed, lines%live, state, place)
         lines%solves = lines%solves + 2
+        lines%closed(:) = closed
         lines%regular = state == band_ok
         if (.not. lines%regular) return
         call refine_scheme(beam, closed, lines%dead)
@@ -135,7 +139,8 @@ contains
             if (allocated(ways)) deallocate (ways)
             allocate (ways(0))
             more(:) = .false.
-            do mask = 0, 2**number - 1
+            ! With nothing passed there is the way that led here only
+            do mask = merge(1, 0, number > 0 .and. (came == rise .or. came == fall)), 2**number - 1
                 closed(:) = before
                 do u = 1, number
                     if (btest(mask, u - 1)) closed(first(u):last(u)) = .not. before(first(u))
