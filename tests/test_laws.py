@@ -230,11 +230,11 @@ def test_what_does_not_go_together():
 
 
 def stretches(scene, factors=(1.0,)):
-    """The path of the engine: leg, from, to, direction, index."""
+    """The path of the engine: leg, from, to, direction, index, ways on there were at the beginning."""
     beam = gapbeam.scene.reading.read_beam(scene)[1]
     found = beam.follow_history(np.array(factors), "follow", 2000)
     both = zip(found.along.tolist(), found.about.tolist(), strict=True)
-    rows = [(leg, *ends, direction, index) for ends, (leg, direction, index, *_) in both]
+    rows = [(leg, *ends, direction, index, ways) for ends, (leg, direction, index, ways, _) in both]
     return rows, found.ending
 
 
@@ -244,9 +244,10 @@ def agree(scene):
     if path.status != "solved" or not path.segments:
         return True
     rows, ending = stretches(scene)
+    ties = {special.segment: len(special.ways) for special in path.specials if len(special.ways) > 1}
     expected = [
-        (s.leg, float(s.start.factor), float(s.end.factor), s.rate, s.index)
-        for s in path.segments
+        (s.leg, float(s.start.factor), float(s.end.factor), s.rate, s.index, ties.get(k, 1))
+        for k, s in enumerate(path.segments)
         if s.rate == 0 or s.end.factor != s.start.factor
     ]
     if len(rows) == len(expected) + 1 and rows[-1][1:3] == (0.0, 1.0):
