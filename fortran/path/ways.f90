@@ -28,6 +28,8 @@ module gapbeam_ways
     integer, parameter :: from_nowhere = 2
     !> Of more kinks at one factor than these not all combinations are tried
     integer, parameter :: most_at_once = 12
+    !> Rounding errors within which another kink is at zero too
+    real(wp), parameter :: near = 2.0_wp**10
     !> Share of the rates beside it below which a rate is none
     real(wp), parameter :: no_rate = 2.0_wp**(-70)
 
@@ -188,8 +190,9 @@ contains
             falling(k) = .false.
             if (.not. is_watched_in(beam%supports, closed, k)) cycle
             associate (line => lines%line(k))
-                falling(k) = direction*line%v1 < -max(line%error_of_v1, no_rate*abs(line%v1)) &
-                    .and. value_at(line, factor) <= width_at(line, factor)
+                falling(k) = direction*line%v1 < -max(line%error_of_v1, no_rate*abs(line%v1))
+                ! What is at hand is at zero, whatever this cell has made of it by rounding
+                if (.not. at_hand(k)) falling(k) = falling(k) .and. value_at(line, factor) <= near*width_at(line, factor)
             end associate
         end do
         leads = .not. any(falling .and. at_hand)
