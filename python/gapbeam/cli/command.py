@@ -169,9 +169,8 @@ def _parser() -> argparse.ArgumentParser:
     run.add_argument("--csv", metavar="FILE", help="write the fields along the beam at the last load step as a table "
                      "(.csv); - is standard output, without report")  # fmt: skip
     run.add_argument("--plot", metavar="FILE", help="draw beam, deflection, moment and shear (.png, .pdf or .svg)")
-    run.add_argument("--path", metavar="FILE", help="draw reactions and openings (with laws deflections) over the load factor, every "
-                     "event marked; "
-                     "best with follow = \"events\" (.png, .pdf or .svg)")  # fmt: skip
+    run.add_argument("--path", metavar="FILE", help="draw reactions and openings (with laws deflections) over the load "
+                     "factor, every event marked; best with follow = \"events\" (.png, .pdf or .svg)")  # fmt: skip
     run.add_argument("--quiet", action="store_true", help="print no report")
     run.set_defaults(command=_run)
 
