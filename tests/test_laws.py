@@ -222,6 +222,10 @@ def test_what_does_not_go_together():
         gapbeam.solve({**snap(), "supports": [{"node": 0, "unloading": "plastic"}, {"node": 2}]})
     with pytest.raises(SceneError, match="put one below and one above at this place"):
         gapbeam.solve(midspan([[0.1, 1.0], [0.2, 1.0]], side="both", unloading="plastic"))
+    with pytest.raises(SceneError, match="a smooth law unloads along itself"):
+        gapbeam.solve(midspan({"type": "tanh", "stiffness": 1.0, "limit": 2.0}, unloading="plastic"))
+    with pytest.raises(SceneError, match="its first piece, which does not rise"):
+        gapbeam.solve(midspan([[0.1, 0.0], [0.2, 1.0]], unloading="plastic"))
     with pytest.raises(ValueError, match=r"does not come to load factor 0\.7"):
         gapbeam.solve(snap()).state(0.7)
 

@@ -3,7 +3,8 @@ module gapbeam_check_laws
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type
     use gapbeam_words, only: shown
-    use gapbeam_scene, only: model_type, law_point_type, gapbeam_both, gapbeam_axial, gapbeam_elastic, gapbeam_broken
+    use gapbeam_scene, only: model_type, law_point_type, gapbeam_both, gapbeam_axial, gapbeam_elastic, gapbeam_plastic, &
+        gapbeam_broken
     use gapbeam_refusal, only: refuse, of_supports, bad_law
     implicit none
     private
@@ -49,6 +50,11 @@ contains
                     call say("it stands instead of a stiffness; leave that out")
                 else
                     call check_points(model%law(first:i))
+                    if (.not. allocated(error) .and. model%supports(k)%unloading == gapbeam_plastic .and. &
+                        .not. model%law(first)%force > 0.0_wp) then
+                        call say("plastic unloading is parallel to its first piece, which does not rise; leave that out, and "// &
+                                 "give a gap")
+                    end if
                 end if
                 if (allocated(error)) return
                 seen(k) = .true.

@@ -63,6 +63,8 @@ def solve_on_curves(beam: Beam, factor: float, solution: Solution) -> tuple[Beam
         curves = zip(beam.curves, forces, strict=True)
         by_force = [curve.displacement(force) if force > 0.0 else None for (_, curve), force in curves]
         d = np.where([one is None for one in by_force], d, np.array(by_force, dtype=float))
+        if not np.isfinite(d).all():
+            break  # beyond the range of doubles
         if np.all(np.abs(d - before) <= DIGITS * np.maximum(np.abs(moved), np.abs(gap))):
             return beam, replace(solution, solves=solves)
         # From a flat part of a curve the tangent may lead to its other side: first nearer, on this side

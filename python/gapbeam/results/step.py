@@ -130,7 +130,8 @@ class Step(Pickled):
             contact = scaled(beam.kinks[0, first], beam.units.deflection)
             slope = scaled(beam.kinks[2, first], beam.units.force - beam.units.deflection)
             yielded = self.closed[first] + self.closed[np.minimum(first + 1, len(self.closed) - 1)] > 1
-            now = np.where(yielded, self.deflection[which] - self.reaction[which] / slope, contact)
+            back = np.divide(self.reaction[which], slope, out=np.zeros(len(which)), where=slope > 0.0)
+            now = np.where(yielded, self.deflection[which] - back, contact)
             found[which] = side * (now - settlement) - gap
         return read_only(found + 0.0)
 

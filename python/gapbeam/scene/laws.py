@@ -113,8 +113,9 @@ class _Curve(_Law):
         """Give a polyline through points of the curve, closer where it bends."""
         ways = self.scale() * np.geomspace(2.0**-20, 2.0**20, PIECES)
         points = [(float(d), self.force_and_slope(float(d))[0]) for d in ways]
-        # Where a curve has become flat to the last digit, a point less
-        return [p for p, q in zip(points, [(0.0, 0.0), *points[:-1]], strict=True) if p[1] > q[1]] or points[-1:]
+        # Where a curve has become flat to the last digit, or leaves the range of doubles, a point less
+        rising = [p for p, q in zip(points, [(0.0, 0.0), *points[:-1]], strict=True) if q[1] < p[1] < inf]
+        return rising or [(self.scale(), self.force_and_slope(self.scale())[0])]
 
 
 class CubicLaw(_Curve, tag="cubic"):
@@ -213,12 +214,20 @@ class PowerLaw(_Curve, tag="power"):
         """Give force and slope."""
         if d == 0.0:
             return 0.0, inf if self.n < 1.0 else 0.0 if self.n > 1.0 else self.limit / self.d0
-        force = self.limit * (d / self.d0) ** self.n
+        force = self.limit * _power(d / self.d0, self.n)
         return force, self.n * force / d
 
     def displacement(self, force: float) -> float | None:
         """Give the displacement at a force, where the curve begins steep."""
-        return self.d0 * (force / self.limit) ** (1.0 / self.n) if self.n < 1.0 else None
+        return self.d0 * _power(force / self.limit, 1.0 / self.n) if self.n < 1.0 else None
+
+
+def _power(base: float, exponent: float) -> float:
+    """Raise to a power; infinite beyond the range of doubles."""
+    try:
+        return float(base) ** exponent
+    except OverflowError:
+        return inf
 
 
 LawTable = PlasticLaw | BrittleLaw | HardeningLaw | CubicLaw | HyperbolicLaw | TanhLaw | PowerLaw

@@ -14,7 +14,7 @@ from ..base.errors import EngineError, SceneError
 from ..engine.beam import Beam, RefusalError
 from .columns import columns, curves
 from .files import read_file
-from .laws import wrong_parameter
+from .laws import is_smooth, wrong_parameter
 from .refusals import refusal
 from .structs import Scene
 from .tables import Table, take_tables
@@ -128,5 +128,8 @@ def _check_laws(scene: Scene) -> None:
         if wrong := wrong_parameter(law):
             key, value, expected = wrong
             raise SceneError(f"supports[{i}].law.{key}", f"expected {expected}, got {number(value)}")
+        if is_smooth(law) and support.unloading != "elastic":
+            problem = f'a smooth law unloads along itself; give a polyline for unloading = "{support.unloading}"'
+            raise SceneError(f"supports[{i}].unloading", problem)
         if isinstance(law, list) and not law:
             raise SceneError(f"supports[{i}].law", "has no point; give (displacement past the gap, force)")
