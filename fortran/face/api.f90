@@ -15,7 +15,6 @@ module gapbeam_api
     use gapbeam_units, only: bound_outside, moment_unit, rotation_unit
     use gapbeam_lower, only: lower_model
     use gapbeam_lower_loads, only: lower_loads
-    use gapbeam_lower_laws, only: depends_on_path
     use gapbeam_check, only: check_loads
     use gapbeam_words, only: shown
     use gapbeam_certificate, only: found_type => certificate_type
@@ -435,7 +434,7 @@ contains
         type(prepared_type), intent(in) :: beam
         type(error_type), allocatable, intent(out) :: error
 
-        if (.not. depends_on_path(beam%lowered)) return
+        if (.not. beam%lowered%depends_on_path) return
         call fatal_error(error, gapbeam_bad_input, "the state of this beam depends on the way of the load, since the law of a "// &
                          "support falls, keeps a set, or may let go of the beam: use follow_history and solve_on_path")
     end subroutine require_no_path

@@ -48,6 +48,7 @@ contains
         call exchange(tape, lowered%normal, 1)
         call exchange(tape, lowered%beam_support, 1)
         call exchange(tape, lowered%with_law, 1)
+        call exchange(tape, lowered%depends_on_path)
         call exchange(tape, lowered%turning, 0)
         call exchange(tape, lowered%couple_share, 1)
         call exchange_units(tape, lowered%axial%units)

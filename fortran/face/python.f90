@@ -94,7 +94,6 @@ end subroutine gbcopy
 ! Sizes of a beam, and its units
 subroutine gbsize(beam, sizes, units)
     use gapbeam_handle, only: handle_type, handle_of
-    use gapbeam_lower_laws, only: depends_on_path
     implicit none
     integer(8), intent(in) :: beam
     ! NP, NL, NS, NM, NB (-1 without an axial system), and whether there are hinges, rotational restraints, shear
@@ -109,7 +108,7 @@ subroutine gbsize(beam, sizes, units)
         sizes = [size(lowered%pieces), size(lowered%beam%links), size(lowered%beam%supports), size(lowered%model%supports), -1, &
                  size(lowered%model%hinges), merge(1, 0, any(lowered%turning > 0.0d0)), &
                  merge(1, 0, any(lowered%pieces%shear_flexibility > 0.0d0)), merge(1, 0, any(lowered%beam%supports%side /= 0)), &
-                 merge(1, 0, size(lowered%model%law) > 0), merge(1, 0, depends_on_path(lowered))]
+                 merge(1, 0, size(lowered%model%law) > 0), merge(1, 0, lowered%depends_on_path)]
         units = [lowered%units%length, lowered%units%force, lowered%units%deflection, 0, 0]
         if (.not. allocated(lowered%axial%point)) return
         sizes(5) = ubound(lowered%axial%point, 1)
@@ -445,6 +444,7 @@ end subroutine gbhget
 subroutine gblaws(beam, ns, laws, copy, status, message)
     use gapbeam_error, only: error_type, gapbeam_solved
     use gapbeam_handle, only: handle_type, handle_of, copy_handle
+    use gapbeam_lower_laws, only: depends_on_path
     implicit none
     integer(8), intent(in) :: beam
     ! As from GBHGET
@@ -474,6 +474,7 @@ subroutine gblaws(beam, ns, laws, copy, status, message)
         s%before = laws(4, :ns - 1)
         s%passed = s%kink > 0 .and. .not. abs(s%stiffness - s%before) > 0.0d0
     end associate
+    handle%lowered%depends_on_path = depends_on_path(handle%lowered)
 end subroutine gblaws
 
 ! Check a solved state

@@ -41,7 +41,13 @@ contains
             call place_span_ends(model%spans, lowered%ends)
             call check_laws(model, error)
             if (allocated(error)) return
-            call check_rest(model, have_laws(model), lowered%ends, error)
+            allocate (lowered%with_law(size(model%supports)), stat=stat)
+            if (stat /= 0) then
+                call no_memory(error)
+                return
+            end if
+            lowered%with_law(:) = have_laws(model)
+            call check_rest(model, lowered%with_law, lowered%ends, error)
             if (allocated(error)) return
             call check_loads(model%loads, lowered%ends, any(model%supports%direction == gapbeam_axial), error)
             if (allocated(error)) return

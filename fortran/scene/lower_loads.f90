@@ -6,6 +6,7 @@ module gapbeam_lower_loads
     use gapbeam_range, only: first_lost_link
     use gapbeam_scene, only: load_type, gapbeam_force, gapbeam_axial_force, gapbeam_curvature, gapbeam_dead
     use gapbeam_lowered, only: lowered_type, fingerprint, is_stretch
+    use gapbeam_lower_laws, only: depends_on_path
     use gapbeam_lower_axial, only: lower_axial
     use gapbeam_lower_units, only: change_units, refuse_link
     implicit none
@@ -45,6 +46,7 @@ contains
             i = first_lost_link(lowered%pieces, links, lowered%node_point(1:size(links)))
         end associate
         if (i /= 0) call refuse_link(lowered, i, error)
+        if (.not. allocated(error)) lowered%depends_on_path = depends_on_path(lowered)
     end subroutine lower_loads
 
     !> Sums of the loads on all pieces and nodes in the user's units

@@ -8,7 +8,6 @@ module gapbeam_lower_supports
     use gapbeam_model, only: node_support_type, order_supports
     use gapbeam_words, only: shown, whole
     use gapbeam_lowered, only: lowered_type
-    use gapbeam_check_laws, only: have_laws
     use gapbeam_lower_laws, only: find_laws, count_kinks, make_kinks
     use gapbeam_places, only: position_tolerance
     use gapbeam_refusal, only: refuse, refuse_range, named, of_supports, twice, no_room, at_hinge
@@ -44,12 +43,9 @@ contains
         !> The rigid support of each kind at a point, 0: none; kinds are the sides -1..1, 2 along the beam, elastic ones
         !> too, 3 clamp
         integer, allocatable :: rigid(:, :)
-        logical, allocatable :: with_law(:)
         integer :: k, m, stat, point
 
         m = size(lowered%model%supports)
-        allocate (with_law(size(lowered%model%supports)))
-        with_law(:) = have_laws(lowered%model)
         allocate (rigid(-1:3, 0:ubound(lowered%point_span, 1)), stat=stat)
         if (stat /= 0) then
             call no_memory(error)
@@ -66,7 +62,7 @@ contains
                     call note(2, "direction", "hold the beam along its axis")
                 else if (s%stiffness > huge(s%stiffness)) then
                     ! A law is no stiffness; what it holds rigidly depends on its piece
-                    if (.not. with_law(k)) call note(s%side, "side", "do the same rigidly")
+                    if (.not. lowered%with_law(k)) call note(s%side, "side", "do the same rigidly")
                 end if
                 if (.not. allocated(error) .and. s%rotation > huge(s%rotation)) then
                     call note(3, "rotation", "hold the rotation rigidly")
@@ -197,8 +193,7 @@ contains
                 if (can_carry(given(k))) m = m + count_kinks(given(k), law(first(k):last(k)))
             end do
             allocate (beam%links(n), beam%kind(0:n), beam%compliance(0:n), beam%force(2, 0:n), beam%couple(2, 0:n), &
-                      lowered%normal(m), lowered%beam_support(size(given)), lowered%with_law(size(given)), &
-                      lowered%couple_share(size(given)), &
+                      lowered%normal(m), lowered%beam_support(size(given)), lowered%couple_share(size(given)), &
                       lowered%turning(0:n), clamped(0:n), supports(m), stat=stat)
             ! order_supports frees and allocates these again
             if (stat == 0) allocate (beam%supports(m), beam%order(m), beam%first(0:n + 1), stat=stat)
@@ -209,7 +204,6 @@ contains
             lowered%turning(:) = 0.0_wp
             clamped(:) = .false.
             lowered%beam_support(:) = 0
-            lowered%with_law(:) = last >= first
             beam%kind(:) = merge(hinge, plain, lowered%hinged(lowered%node_point))
             j = 0
             do k = 1, size(given)
@@ -220,11 +214,11 @@ contains
                     if (.not. can_carry(given(k))) cycle
                     lowered%beam_support(k) = j + 1
                     m = 1
-                    if (last(k) < first(k)) then
-                        supports(j + 1) = node_support_type(node, given(k)%side, 0.0_wp, 0.0_wp)
-                    else
+                    if (lowered%with_law(k)) then
                         m = count_kinks(given(k), law(first(k):last(k)))
                         call make_kinks(given(k), law(first(k):last(k)), node, supports(j + 1:j + m))
+                    else
+                        supports(j + 1) = node_support_type(node, given(k)%side, 0.0_wp, 0.0_wp)
                     end if
                     lowered%normal(j + 1:j + m) = k
                     j = j + m

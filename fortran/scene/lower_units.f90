@@ -8,7 +8,6 @@ module gapbeam_lower_units
     use gapbeam_units, only: units_type, exponents_type, rotation_unit, moment_unit, stiffness_unit, turning_unit, &
         units_with_loads, middle, largest, no_exponent, ordinary_exponent
     use gapbeam_lowered, only: lowered_type, point_x, piece_length, stiffness_of, in_bending, in_shear
-    use gapbeam_check_laws, only: have_laws
     use gapbeam_lower_supports, only: contact_level
     use gapbeam_words, only: shown
     use gapbeam_refusal, only: refuse_range, named, of_supports
@@ -56,11 +55,8 @@ contains
     pure subroutine choose_units(lowered)
         type(lowered_type), intent(inout) :: lowered
         type(exponents_type) :: lengths, stiff(4), forces, ways
-        logical, allocatable :: with_law(:)
         integer :: length, j, k, stiffness
 
-        allocate (with_law(size(lowered%model%supports)))
-        with_law(:) = have_laws(lowered%model)
         do j = 1, size(lowered%pieces)
             call lengths%note(piece_length(lowered, j), 0)
         end do
@@ -72,7 +68,7 @@ contains
             end do
             do k = 1, size(lowered%normal)
                 associate (s => model%supports(lowered%normal(k)), made => beam%supports(k))
-                    if (with_law(lowered%normal(k))) then
+                    if (lowered%with_law(lowered%normal(k))) then
                         call stiff(3)%note(abs(made%stiffness), 0)
                         call ways%note(abs(made%contact), 0)
                         call forces%note(abs(made%force), 0)
@@ -147,11 +143,8 @@ contains
     subroutine scale_supports(lowered, error)
         type(lowered_type), intent(inout) :: lowered
         type(error_type), allocatable, intent(out) :: error
-        logical, allocatable :: with_law(:)
         integer :: i, k, m
 
-        allocate (with_law(size(lowered%model%supports)))
-        with_law(:) = have_laws(lowered%model)
         m = size(lowered%model%supports)
         associate (beam => lowered%beam, units => lowered%units)
             beam%compliance(:) = 0.0_wp
@@ -166,7 +159,7 @@ contains
             end do
             do k = 1, size(beam%supports)
                 associate (s => beam%supports(k), given => lowered%model%supports(lowered%normal(k)))
-                    if (with_law(lowered%normal(k))) then
+                    if (lowered%with_law(lowered%normal(k))) then
                         s%stiffness = scale(s%stiffness, -stiffness_unit(units))
                         s%before = scale(s%before, -stiffness_unit(units))
                         s%contact = scale(s%contact, -units%deflection)

@@ -70,6 +70,8 @@ module gapbeam_lowered
         integer, allocatable :: beam_support(:)
         !> Which supports of the model have a law
         logical, allocatable :: with_law(:)
+        !> Does a state depend on the way of the load to it (gapbeam_lower_laws)
+        logical :: depends_on_path = .false.
         !> Stiffness of the rotational restraint of every node in the user's units, shape (0:nlink), and the share that every
         !> support of the model has in that of its node
         real(wp), allocatable :: turning(:), couple_share(:)
