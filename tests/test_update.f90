@@ -30,8 +30,9 @@ contains
         type(beam_type), intent(out) :: beam
         type(piece_type) :: piece(1)
         type(piece_load_type) :: dead(1), live(1)
-        real(wp) :: work(1), stiffness(0:n), contact(0:n), none(2, 0:n)
-        integer :: kind(0:n), node(0:n), side(0:n), i
+        type(node_support_type) :: supports(0:n)
+        real(wp) :: work(1), none(2, 0:n)
+        integer :: kind(0:n), i
         type(beam_type) :: spans
 
         allocate (spans%links(n))
@@ -45,13 +46,12 @@ contains
         ! Two supported spans follow every hinge, so single supports can open
         if (hinges) kind(5:n - 5:4) = hinge
         none = 0.0_wp
-        stiffness = merge(ieee_value(1.0_wp, ieee_positive_inf), 1e3_wp, rigid)
-        side = below
-        side(0) = both
-        side(n) = both
-        node = [(i, i=0, n)]
-        contact = [(1e-3_wp*modulo(5*i, 3), i=0, n)]
-        call new_beam(spans%links, kind, [(0.0_wp, i=0, n)], none, none, node, side, stiffness, contact, beam)
+        do i = 0, n
+            supports(i) = node_support_type(i, below, merge(ieee_value(1.0_wp, ieee_positive_inf), 1e3_wp, rigid), &
+                                            1e-3_wp*modulo(5*i, 3))
+        end do
+        supports([0, n])%side = both
+        call new_beam(spans%links, kind, [(0.0_wp, i=0, n)], none, none, supports, beam)
     end subroutine make
 
     !> Every other support opens, one after the other from the middle outward, and closes again

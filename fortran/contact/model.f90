@@ -28,32 +28,26 @@ module gapbeam_model
 
 contains
 
-    !> A beam from plain arrays; see the components of the types for their meaning
-    pure subroutine new_beam(links, kind, compliance, force, couple, node, side, stiffness, contact, beam)
+    !> A beam from arrays; see the components of the type for their meaning
+    pure subroutine new_beam(links, kind, compliance, force, couple, supports, beam)
         !> Links, shape (n)
         type(link_type), intent(in) :: links(:)
         !> Nodes, shape (0:n)
         integer, intent(in) :: kind(0:)
         real(wp), intent(in) :: compliance(0:), force(:, 0:), couple(:, 0:)
-        !> Supports, shape (m)
-        integer, intent(in) :: node(:), side(:)
-        real(wp), intent(in) :: stiffness(:), contact(:)
+        !> Supports
+        type(node_support_type), intent(in) :: supports(:)
         !> The beam
         type(beam_type), intent(out) :: beam
-        type(node_support_type), allocatable :: supports(:)
-        integer :: k, n
+        integer :: n
 
         n = size(links)
         allocate (beam%links(n), beam%kind(0:n), beam%compliance(0:n), beam%force(2, 0:n), beam%couple(2, 0:n))
-        allocate (supports(size(node)))
         beam%links(:) = links
         beam%kind(:) = kind
         beam%compliance(:) = compliance
         beam%force(:, :) = force
         beam%couple(:, :) = couple
-        do k = 1, size(node)
-            supports(k) = node_support_type(node(k), side(k), stiffness(k), contact(k))
-        end do
         call order_supports(supports, beam)
     end subroutine new_beam
 

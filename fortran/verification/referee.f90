@@ -12,7 +12,7 @@ module gapbeam_referee
     use gapbeam_memory, only: reserve_memory, for_refining
     use gapbeam_link, only: piece_type, piece_load_type
     use gapbeam_law, only: always_closed, has_laws
-    use gapbeam_model, only: beam_type
+    use gapbeam_model, only: beam_type, node_support_type
     use gapbeam_workspace, only: workspace_type, set_loads
     use gapbeam_rules, only: find_doubtful, find_wrong, first_width
     use gapbeam_system, only: solve_scheme, refine_scheme
@@ -22,7 +22,7 @@ module gapbeam_referee
         condense_link
     use gapbeam_kinematics, only: held_by_ties
     use gapbeam_kinematics_quad, only: fine_held_by_ties => held_by_ties
-    use gapbeam_model_quad, only: fine_beam_type => beam_type, new_beam
+    use gapbeam_model_quad, only: fine_beam_type => beam_type, fine_support_type => node_support_type, new_beam
     use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type, new_fine_workspace => new_workspace, &
         set_fine_loads => set_loads
     use gapbeam_law_quad, only: is_watched_in, find_margins
@@ -314,18 +314,9 @@ contains
             end associate
             call copy_load_terms(beam, links)
         end if
-        associate (s => beam%supports)
-            call new_beam(links, beam%kind, fine_reciprocal(beam%compliance), real(beam%force, qp), real(beam%couple, qp), &
-                          s%node, s%side, real(max(s%stiffness, 0.0_wp), qp), real(s%contact, qp), fine)
-            ! Only of a kink it may be below zero
-            fine%supports%stiffness = s%stiffness
-            fine%supports%kink = s%kink
-            fine%supports%more = s%more
-            fine%supports%passed = s%passed
-            fine%supports%force = s%force
-            fine%supports%before = s%before
-            call join_pieces(fine%supports)
-        end associate
+        call new_beam(links, beam%kind, fine_reciprocal(beam%compliance), real(beam%force, qp), real(beam%couple, qp), &
+                      fine_support(beam%supports), fine)
+        call join_pieces(fine%supports)
     end subroutine refine_beam
 
     !> What the loads do to the links, as it is in double precision
@@ -388,6 +379,15 @@ contains
         fine = 0.0_qp
         if (flexibility > 0.0_wp) fine = 1/real(1/flexibility, qp)
     end function fine_reciprocal
+
+    !> A support in quadruple precision
+    elemental function fine_support(s) result(fine)
+        type(node_support_type), intent(in) :: s
+        type(fine_support_type) :: fine
+
+        fine = fine_support_type(s%node, s%side, real(s%stiffness, qp), real(s%contact, qp), s%kink, s%more, s%passed, &
+                                 real(s%force, qp), real(s%before, qp))
+    end function fine_support
 
     !> A load in quadruple precision
     elemental function fine_load(load) result(fine)

@@ -5,7 +5,7 @@ module yardstick_condensed
     use gapbeam_element, only: field_type
     use gapbeam_error, only: error_type, gapbeam_solved
     use gapbeam_link, only: link_type, piece_type, piece_load_type, condense_link
-    use gapbeam_model, only: chain_type => beam_type, new_beam
+    use gapbeam_model, only: chain_type => beam_type, node_support_type, new_beam
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_scheme, only: find_scheme, outcome_type
     use gapbeam_search, only: rule_block
@@ -32,12 +32,13 @@ contains
         type(piece_load_type), allocatable :: loads(:), none(:)
         type(link_type), allocatable :: links(:)
         type(field_type), allocatable :: starts(:)
+        type(node_support_type), allocatable :: supports(:)
         type(chain_type) :: chain
         type(workspace_type) :: work
         type(outcome_type) :: outcome
         type(error_type), allocatable :: error
         real(wp), allocatable :: force(:, :), couple(:, :), compliance(:), room(:)
-        integer, allocatable :: at(:), kind(:), node(:), support(:)
+        integer, allocatable :: at(:), kind(:), support(:)
         logical, allocatable :: acting(:)
         integer :: n, nl, i, k, first
 
@@ -46,7 +47,7 @@ contains
         at = pack([(i, i=0, n)], beam%stiff > 0.0_wp .or. [(i == 0 .or. i == n, i=0, n)])
         nl = size(at) - 1
         allocate (pieces(n), loads(n), none(n), links(nl), starts(n), room(n))
-        allocate (force(2, 0:nl), couple(2, 0:nl), compliance(0:nl), kind(0:nl), node(size(support)), acting(size(support)))
+        allocate (force(2, 0:nl), couple(2, 0:nl), compliance(0:nl), kind(0:nl), supports(size(support)), acting(size(support)))
         none(:) = piece_load_type(0, 0, 0, 0, 0)
         do i = 1, n
             pieces(i) = piece_type(beam%length(i), 1/beam%ei(i), 0.0_wp)
@@ -68,7 +69,7 @@ contains
             do while (at(k + 1) /= support(i))
                 k = k + 1
             end do
-            node(i) = k
+            supports(i) = node_support_type(k, beam%side(support(i)), beam%stiff(support(i)), beam%level(support(i)))
         end do
         first = 1
         do k = 1, nl
@@ -77,8 +78,7 @@ contains
                 first = last + 1
             end associate
         end do
-        call new_beam(links, kind, compliance, force, couple, node, beam%side(support), beam%stiff(support), &
-                      beam%level(support), chain)
+        call new_beam(links, kind, compliance, force, couple, supports, chain)
         call new_workspace(chain, work)
         call set_loads(chain, 1.0_wp, work)
         acting(:) = .true.
