@@ -9,10 +9,9 @@ program test_referee
     use gapbeam_rules, only: find_doubtful
     use gapbeam_search, only: rule_block
     use gapbeam_scheme, only: find_scheme, outcome_type
-    use gapbeam_referee, only: decide_scheme, refine_beam
+    use gapbeam_referee, only: decide_scheme, refine_loaded_beam
     use gapbeam_model_quad, only: fine_beam_type => beam_type
-    use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type, new_fine_workspace => new_workspace, &
-        set_fine_loads => set_loads
+    use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type
     use gapbeam_scheme_quad, only: find_fine_scheme => find_scheme, fine_outcome_type => outcome_type
     implicit none
     integer :: status
@@ -90,9 +89,7 @@ contains
                 solved = solved + 1
             end if
             compared = compared + 1
-            call refine_beam(sample%beam, detail_of(sample), fine)
-            call new_fine_workspace(fine, fine_work)
-            call set_fine_loads(fine, 1.0_qp, fine_work)
+            call refine_loaded_beam(sample%beam, detail_of(sample), 1.0_qp, fine, fine_work)
             call find_fine_scheme(fine, 1.0_qp, rule_block, fine_closed, fine_work, found, error)
             if (allocated(error)) then
                 different = different + 1

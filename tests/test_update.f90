@@ -6,7 +6,7 @@ program test_update
     use gapbeam_link, only: piece_type, piece_load_type, condense_link
     use gapbeam_model, only: beam_type, node_support_type, new_beam, both, below
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
-    use gapbeam_system, only: solve_scheme, refine_scheme
+    use gapbeam_system, only: solve_and_refine
     use gapbeam_update, only: start_updates, update_scheme
     use gapbeam_queue, only: queue_type, new_queue, set_key, first_key, all_up_to
     implicit none
@@ -79,8 +79,7 @@ contains
             end do
             call new_workspace(beam, anew)
             call set_loads(beam, 1.0_wp, anew)
-            call solve_scheme(beam, acting, anew, state, place)
-            call refine_scheme(beam, acting, anew)
+            call solve_and_refine(beam, acting, anew, state, place)
             call check_close(kept%answers%deflection, anew%answers%deflection, "deflections", 1e-15_wp)
             call check_close(kept%answers%moment_left, anew%answers%moment_left, "moments", 1e-15_wp)
             call check_close(kept%reaction, anew%reaction, "reactions", 1e-15_wp)

@@ -16,7 +16,7 @@ module gapbeam_scheme
     use gapbeam_model, only: beam_type, softest
     use gapbeam_kinematics, only: free_motions, motion_type, work_of_loads
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
-    use gapbeam_system, only: solve_scheme, refine_scheme
+    use gapbeam_system, only: solve_and_refine, refine_scheme
     use gapbeam_rules, only: find_wrong, first_width
     use gapbeam_search, only: settle, refuse_scheme
     implicit none
@@ -161,11 +161,10 @@ contains
             call find_runaways(beam, factor, closed, direction, runaways, stable, in_doubt)
             if (stable) then
                 work%ease = 0.0_wp
-                call solve_scheme(beam, closed, work, state, place)
+                call solve_and_refine(beam, closed, work, state, place)
                 if (state == band_needs_pivoting) call refuse_scheme(beam, state, place, error)
                 if (allocated(error)) return
                 if (state == band_ok) then
-                    call refine_scheme(beam, closed, work)
                     call find_wrong(beam, closed, first_width, work, wrong)
                     if (.not. any(wrong)) return
                 end if

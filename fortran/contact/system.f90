@@ -12,7 +12,7 @@ module gapbeam_system
     use gapbeam_reactions, only: find_sizes, find_shears, find_reactions
     implicit none
     private
-    public :: solve_scheme, solve_deflections, complete_scheme, refine_scheme, check_scheme
+    public :: solve_scheme, solve_and_refine, solve_deflections, complete_scheme, refine_scheme, check_scheme
 
 contains
 
@@ -27,6 +27,18 @@ contains
         call solve_deflections(beam, acting, work, state, place)
         if (state == band_ok) call complete_scheme(beam, acting, work)
     end subroutine solve_scheme
+
+    !> Solve a scheme, and refine its solution once where there is one
+    subroutine solve_and_refine(beam, acting, work, state, place)
+        !> As for solve_deflections
+        type(beam_type), intent(in) :: beam
+        logical, intent(in) :: acting(:)
+        type(workspace_type), intent(inout) :: work
+        integer, intent(out) :: state, place
+
+        call solve_scheme(beam, acting, work, state, place)
+        if (state == band_ok) call refine_scheme(beam, acting, work)
+    end subroutine solve_and_refine
 
     !> Shears and reactions of a scheme of which deflections and moments are solved, and the sizes of rounding errors
     pure subroutine complete_scheme(beam, acting, work)

@@ -10,7 +10,7 @@ module gapbeam_update
     use gapbeam_residual, only: residual_chain
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, apply_scheme, method_mixed, method_pivoting
-    use gapbeam_system, only: solve_scheme, refine_scheme
+    use gapbeam_system, only: solve_and_refine
     use gapbeam_reactions, only: find_sizes, find_shears, find_reactions
     implicit none
     private
@@ -39,12 +39,10 @@ contains
         logical, intent(out) :: follows
         integer :: state, place
 
-        call solve_scheme(beam, acting, work, state, place)
+        call solve_and_refine(beam, acting, work, state, place)
         solved = state == band_ok
         follows = .false.
-        if (.not. solved) return
-        call refine_scheme(beam, acting, work)
-        call keep_factor(beam, work, follows)
+        if (solved) call keep_factor(beam, work, follows)
     end subroutine start_updates
 
     !> Make the factor of the scheme solved last, if it was solved without

@@ -13,7 +13,7 @@ module gapbeam_cell
     use gapbeam_model_quad, only: beam_type
     use gapbeam_kinematics_quad, only: work_of_loads
     use gapbeam_workspace_quad, only: workspace_type, new_workspace, set_loads
-    use gapbeam_system_quad, only: solve_scheme, refine_scheme
+    use gapbeam_system_quad, only: solve_and_refine
     use gapbeam_search_quad, only: rule_block
     use gapbeam_scheme_quad, only: find_scheme, outcome_type
     use gapbeam_line_quad, only: line_type, line_of, without_dead_loads, zero_of, falls, rises
@@ -130,15 +130,13 @@ contains
         dead%reference = work%answers%deflection
         call set_loads(beam, 0.0_wp, dead)
         call set_loads(incremental, 1.0_wp, live)
-        call solve_scheme(beam, cell%closed, dead, state, place)
-        if (state == band_ok) call solve_scheme(incremental, cell%closed, live, state, place)
+        call solve_and_refine(beam, cell%closed, dead, state, place)
+        if (state == band_ok) call solve_and_refine(incremental, cell%closed, live, state, place)
         if (state /= band_ok) then
             call fatal_error(error, gapbeam_not_converged, "the beam is held by so little that the path of its supports "// &
                              "could not be followed: follow the load by steps")
             return
         end if
-        call refine_scheme(beam, cell%closed, dead)
-        call refine_scheme(incremental, cell%closed, live)
         cell%solves = cell%solves + 2
         springs = sum(dead%ease*(abs(dead%reference - dead%answers%deflection) + abs(live%answers%deflection)))
         do k = 1, size(cell%closed)

@@ -15,7 +15,7 @@ module gapbeam_ways
     use gapbeam_model_quad, only: beam_type
     use gapbeam_kinematics_quad, only: free_motions, motion_type
     use gapbeam_workspace_quad, only: workspace_type, new_workspace, set_loads
-    use gapbeam_system_quad, only: solve_scheme, refine_scheme
+    use gapbeam_system_quad, only: solve_and_refine
     use gapbeam_pivoting_quad, only: count_unstable
     use gapbeam_line_quad, only: line_type, line_of, without_dead_loads, value_at, width_at
     implicit none
@@ -89,14 +89,12 @@ contains
             s%contact = lines%settling
             s%force = 0.0_wp
         end associate
-        call solve_scheme(beam, closed, lines%dead, state, place)
-        if (state == band_ok) call solve_scheme(lines%incremental, closed, lines%live, state, place)
+        call solve_and_refine(beam, closed, lines%dead, state, place)
+        if (state == band_ok) call solve_and_refine(lines%incremental, closed, lines%live, state, place)
         lines%solves = lines%solves + 2
         lines%closed(:) = closed
         lines%regular = state == band_ok
         if (.not. lines%regular) return
-        call refine_scheme(beam, closed, lines%dead)
-        call refine_scheme(lines%incremental, closed, lines%live)
         do k = 1, size(closed)
             lines%line(k) = line_of(beam, lines%incremental, closed, k, lines%dead, lines%live)
         end do

@@ -16,12 +16,12 @@ module gapbeam_certificate
     use gapbeam_sensitivity, only: sensitivity_type, prepare_sensitivity, largest_movement, of_deflections, of_rotations, &
         of_moments, of_shears, of_reactions
     use gapbeam_kinematics_quad, only: held_by_ties
-    use gapbeam_referee, only: detail_type, refine_beam, find_undecided, fine_piece, fine_load
+    use gapbeam_referee, only: detail_type, refine_loaded_beam, find_undecided, fine_piece, fine_load
     use gapbeam_element_quad, only: fine_field_type => field_type
     use gapbeam_model_quad, only: fine_beam_type => beam_type, softest
-    use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type, new_workspace, set_loads
+    use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type
     use gapbeam_band_quad, only: band_ok
-    use gapbeam_system_quad, only: solve_scheme, refine_scheme, check_scheme
+    use gapbeam_system_quad, only: solve_and_refine, check_scheme
     use gapbeam_rules_quad, only: complementarity
     use gapbeam_search_quad, only: rule_block
     use gapbeam_scheme_quad, only: find_scheme, outcome_type
@@ -78,14 +78,11 @@ contains
 
         allocate (acting(size(closed)))
         acting(:) = closed
-        call refine_beam(beam, detail, fine)
-        call new_workspace(fine, work)
-        call set_loads(fine, real(factor, qp), work)
+        call refine_loaded_beam(beam, detail, real(factor, qp), fine, work)
         if (has_laws(beam%supports)) then
             ! Of several states the one that is asked about
-            call solve_scheme(fine, acting, work, state, place)
+            call solve_and_refine(fine, acting, work, state, place)
             if (state /= band_ok) return
-            call refine_scheme(fine, acting, work)
         else
             call find_scheme(fine, real(factor, qp), rule_block, acting, work, outcome, error)
             if (allocated(error) .or. outcome%status /= gapbeam_solved) return

@@ -15,7 +15,7 @@ module gapbeam_referee
     use gapbeam_model, only: beam_type, node_support_type
     use gapbeam_workspace, only: workspace_type, set_loads
     use gapbeam_rules, only: find_doubtful, find_wrong, first_width
-    use gapbeam_system, only: solve_scheme, refine_scheme
+    use gapbeam_system, only: solve_and_refine
     use gapbeam_band, only: band_ok
     use gapbeam_scheme, only: find_scheme, outcome_type
     use gapbeam_link_quad, only: fine_piece_type => piece_type, fine_load_type => piece_load_type, fine_link_type => link_type, &
@@ -28,12 +28,13 @@ module gapbeam_referee
     use gapbeam_law_quad, only: is_watched_in, find_margins
     use gapbeam_polyline_quad, only: join_pieces
     use gapbeam_sensitivity_quad, only: sensitivity_type, prepare_sensitivity, movement_of_support
-    use gapbeam_system_quad, only: solve_fine_scheme => solve_scheme, refine_fine_scheme => refine_scheme
+    use gapbeam_system_quad, only: solve_and_refine_fine => solve_and_refine
     use gapbeam_search_quad, only: rule_block
     use gapbeam_scheme_quad, only: find_fine_scheme => find_scheme, fine_outcome_type => outcome_type
     implicit none
     private
-    public :: decide_scheme, rule_given, find_undecided, detail_type, refine_beam, fine_piece, fine_load, reserve_for
+    public :: decide_scheme, rule_given, find_undecided, detail_type, refine_beam, refine_loaded_beam, fine_piece, &
+        fine_load, reserve_for
 
     !> Beside the rules of gapbeam_search: the scheme is known
     integer, parameter :: rule_given = 2
@@ -117,9 +118,8 @@ contains
         work%solves = 0
         work%came_back = .false.
         work%ease = 0.0_wp
-        call solve_scheme(beam, closed, work, state, place)
+        call solve_and_refine(beam, closed, work, state, place)
         if (state /= band_ok) return
-        call refine_scheme(beam, closed, work)
         allocate (wrong(size(closed)))
         call find_wrong(beam, closed, first_width, work, wrong)
         if (any(wrong) .or. digits_lost(work) .or. .not. all(abs(work%answers%deflection) <= huge(1.0_wp))) return
@@ -155,16 +155,13 @@ contains
         undecided(:) = .false.
         call reserve_for(for_refining, beam, detail, error)
         if (allocated(error)) return
-        call refine_beam(beam, detail, fine)
-        call new_fine_workspace(fine, fine_work)
-        call set_fine_loads(fine, real(factor, qp), fine_work)
-        call solve_fine_scheme(fine, closed, fine_work, state, place)
+        call refine_loaded_beam(beam, detail, real(factor, qp), fine, fine_work)
+        call solve_and_refine_fine(fine, closed, fine_work, state, place)
         work%solves = work%solves + fine_work%solves
         if (state /= band_ok) then
             call fatal_error(error, gapbeam_not_converged, "the beam is held by so little here that its state is not unique")
             return
         end if
-        call refine_fine_scheme(fine, closed, fine_work)
         outcome = outcome_type()
         call find_undecided(fine, real(factor, qp), closed, fine_work, undecided)
         call take_rounded(fine_work, work)
@@ -221,9 +218,7 @@ contains
         undecided(:) = .false.
         call reserve_for(for_refining, beam, detail, error)
         if (allocated(error)) return
-        call refine_beam(beam, detail, fine)
-        call new_fine_workspace(fine, fine_work)
-        call set_fine_loads(fine, real(factor, qp), fine_work)
+        call refine_loaded_beam(beam, detail, real(factor, qp), fine, fine_work)
         call find_fine_scheme(fine, real(factor, qp), rule_block, closed, fine_work, found, error)
         work%solves = work%solves + fine_work%solves
         do try = 1, 2
@@ -318,6 +313,22 @@ contains
                       fine_support(beam%supports), fine)
         call join_pieces(fine%supports)
     end subroutine refine_beam
+
+    !> The beam in quadruple precision, and room for its solution at a load factor
+    subroutine refine_loaded_beam(beam, detail, factor, fine, fine_work)
+        !> As for refine_beam
+        type(beam_type), intent(in) :: beam
+        type(detail_type), intent(in) :: detail
+        !> Factor of the live loads
+        real(qp), intent(in) :: factor
+        type(fine_beam_type), intent(out) :: fine
+        !> With the loads set
+        type(fine_workspace_type), intent(out) :: fine_work
+
+        call refine_beam(beam, detail, fine)
+        call new_fine_workspace(fine, fine_work)
+        call set_fine_loads(fine, factor, fine_work)
+    end subroutine refine_loaded_beam
 
     !> What the loads do to the links, as it is in double precision
     pure subroutine copy_load_terms(beam, links)
