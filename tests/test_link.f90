@@ -1,6 +1,6 @@
 !> Condensation of pieces into a link, and recovery of the fields in it
 program test_link
-    use testing, only: check, check_close, finish
+    use testing, only: check_close, finish
     use gapbeam_kinds, only: wp
     use gapbeam_element, only: field_type
     use gapbeam_link, only: link_type, piece_type, piece_load_type, condense_link, recover_link

@@ -8,11 +8,11 @@
 module gapbeam_branch
     use gapbeam_kinds, only: wp => qp
     use gapbeam_error, only: error_type
-    use gapbeam_polyline_quad, only: node_support_type, piece_that_acts, last_kink
+    use gapbeam_polyline_quad, only: piece_that_acts, last_kink
     use gapbeam_law_quad, only: margin_in_scheme, is_watched_in
     use gapbeam_model_quad, only: beam_type
     use gapbeam_line_quad, only: value_at, width_at, zero_of
-    use gapbeam_ways, only: lines_type, way_type, new_lines, solve_lines, find_ways, rise, fall, turn, from_nowhere
+    use gapbeam_ways, only: lines_type, way_type, new_lines, solve_lines, find_ways, turn, from_nowhere
     implicit none
     private
     public :: branch_type, segment_type, start_branch, step_branch, goes_on, arrived, no_way_on, never_ends

@@ -11,7 +11,7 @@ module gapbeam_ways
     use gapbeam_error, only: error_type, fatal_error, gapbeam_not_converged
     use gapbeam_band_quad, only: band_ok
     use gapbeam_polyline_quad, only: node_support_type, coincide, piece_that_acts
-    use gapbeam_law_quad, only: margin_in_scheme, is_watched_in, always_closed
+    use gapbeam_law_quad, only: margin_in_scheme, is_watched_in
     use gapbeam_model_quad, only: beam_type
     use gapbeam_kinematics_quad, only: free_motions, motion_type
     use gapbeam_workspace_quad, only: workspace_type, new_workspace, set_loads
@@ -313,18 +313,13 @@ contains
         logical :: acts
 
         index = 0
+        if (any(lines%dead%nodes%stiffness < 0.0_wp)) call count_unstable(lines%dead%nodes, beam%links, index)
         do k = 1, size(closed)
             if (beam%supports(k)%kink == 0) cycle
             call piece_that_acts(beam%supports, closed, k, acts, slope)
-            if (acts .and. slope < 0.0_wp) index = index + merge(1, 0, slope < -huge(slope))
+            ! A vertical drop holds its node, so it is none of the system's stiffnesses
+            if (acts .and. slope < -huge(slope)) index = index + 1
         end do
-        if (any(lines%dead%nodes%stiffness < 0.0_wp)) then
-            block
-                integer :: unstable
-                call count_unstable(lines%dead%nodes, beam%links, unstable)
-                index = index + unstable
-            end block
-        end if
     end subroutine find_index
 
 end module gapbeam_ways

@@ -11,10 +11,10 @@ module gapbeam_history
     use gapbeam_referee, only: refine_beam, reserve_for
     use gapbeam_cell, only: find_cell, cell_type
     use gapbeam_ways, only: way_type, rise, fall, turn
-    use gapbeam_branch, only: branch_type, segment_type, start_branch, step_branch, goes_on, arrived, no_way_on, never_ends
+    use gapbeam_branch, only: branch_type, segment_type, start_branch, step_branch, goes_on, no_way_on, never_ends
     use gapbeam_scene, only: gapbeam_elastic, gapbeam_both
     use gapbeam_lowered, only: lowered_type
-    use gapbeam_state, only: detail_of, name_range
+    use gapbeam_state, only: detail_of
     implicit none
     private
     public :: history_type, stretch_type, limit_type, other_way_type, follow_history, laws_at

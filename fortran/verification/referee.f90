@@ -13,7 +13,7 @@ module gapbeam_referee
     use gapbeam_link, only: piece_type, piece_load_type
     use gapbeam_law, only: always_closed, has_laws
     use gapbeam_model, only: beam_type, node_support_type
-    use gapbeam_workspace, only: workspace_type, set_loads
+    use gapbeam_workspace, only: workspace_type
     use gapbeam_rules, only: find_doubtful, find_wrong, first_width
     use gapbeam_system, only: solve_and_refine
     use gapbeam_band, only: band_ok

@@ -8,9 +8,9 @@
 module gapbeam_sensitivity
     use gapbeam_kinds, only: wp, dp
     use gapbeam_link, only: link_type
-    use gapbeam_band, only: node_type, pivot_type, rhs_type, answer_type, factor_chain, solve_chain, plain, restrained, &
-        band_mechanism, band_needs_pivoting
-    use gapbeam_residual, only: size_type, residual_chain
+    use gapbeam_band, only: node_type, rhs_type, answer_type, factor_chain, solve_chain, plain, restrained, band_mechanism, &
+        band_needs_pivoting
+    use gapbeam_residual, only: residual_chain
     use gapbeam_pivoting, only: solve_pivoting
     use gapbeam_law, only: margin_rates
     use gapbeam_model, only: beam_type
