@@ -99,8 +99,8 @@ subroutine gbsize(beam, sizes, units)
     ! NP, NL, NS, NM, NB (-1 without an axial system), and whether there are hinges, rotational restraints, shear
     ! flexibility, one-sided supports that can carry, laws, laws on whose path the state depends
     integer, intent(out) :: sizes(11)
-    ! Exponents of two: length, force, deflection; force and displacement along the axis
-    integer, intent(out) :: units(5)
+    ! Exponents of two: length, force, deflection
+    integer, intent(out) :: units(3)
     type(handle_type), pointer :: handle
 
     handle => handle_of(beam)
@@ -109,10 +109,8 @@ subroutine gbsize(beam, sizes, units)
                  size(lowered%model%hinges), merge(1, 0, any(lowered%turning > 0.0d0)), &
                  merge(1, 0, any(lowered%pieces%shear_flexibility > 0.0d0)), merge(1, 0, any(lowered%beam%supports%side /= 0)), &
                  merge(1, 0, size(lowered%model%law) > 0), merge(1, 0, lowered%depends_on_path)]
-        units = [lowered%units%length, lowered%units%force, lowered%units%deflection, 0, 0]
-        if (.not. allocated(lowered%axial%point)) return
-        sizes(5) = ubound(lowered%axial%point, 1)
-        units(4:5) = [lowered%axial%units%force, lowered%axial%units%deflection]
+        units = [lowered%units%length, lowered%units%force, lowered%units%deflection]
+        if (allocated(lowered%axial%point)) sizes(5) = ubound(lowered%axial%point, 1)
     end associate
 end subroutine gbsize
 

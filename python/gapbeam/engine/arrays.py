@@ -24,7 +24,8 @@ class Columns(Record):
     section : numpy.ndarray
         Left and right end, EI, GA, EA of the sections, 5 rows.
     support_codes, support : numpy.ndarray
-        Side, direction and node of the supports, 3 rows of int; x, stiffness, gap, settlement, rotation, 5 rows.
+        Side, direction, node and way of unloading of the supports, 4 rows of int; x, stiffness, gap, settlement, rotation,
+        5 rows.
     law_supports, law : numpy.ndarray
         Points of the laws: number of the support, from 1; displacement and force, 2 rows.
     load_codes, load : numpy.ndarray

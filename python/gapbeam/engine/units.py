@@ -12,13 +12,11 @@ SMALLEST, LARGEST = float(np.finfo(float).tiny), float(np.finfo(float).max)
 
 
 class Units(NamedTuple):
-    """Units as exponents of two, of lengths, forces and deflections, and of forces and displacements along the axis."""
+    """Units as exponents of two, of lengths, forces and deflections."""
 
     length: int = 0
     force: int = 0
     deflection: int = 0
-    axial_force: int = 0
-    axial_displacement: int = 0
 
     @property
     def field(self) -> tuple[int, int, int, int]:
