@@ -347,3 +347,16 @@ def test_open_support_holds_the_rotation(library):
     assert beam.solve(1.0) == (0, "")
     assert beam.at_supports()[3].tolist() == step.couple.tolist()
     beam.close()
+
+
+@pytest.mark.parametrize("power", [0, 400, -400])
+def test_laws_far_from_one_stay_when_loads_are_lowered_anew(power):
+    """The engine's units are far from 1 here; laws are kept in them alone."""
+    scale = 2.0**power
+    made = simple([6.0, 6.0], [at(0), at(1, law=[[0.001, 10.0 * scale], [0.1, 20.0 * scale]]), at(2)], EI=1000.0 * scale)
+    made["loads"] = [uniform(10.0 * scale)]
+    step = gapbeam.solve(made).steps[-1]
+    again = gapbeam.prepare(made).result([1.0]).steps[-1]
+    np.testing.assert_array_equal(again.reaction, step.reaction)
+    np.testing.assert_array_equal(again.deflection, step.deflection)
+    assert step.reaction[1] / scale == pytest.approx(60.96, abs=0.01)

@@ -27,11 +27,32 @@ contains
         !> Numbers out of range
         type(error_type), allocatable, intent(out) :: error
 
+        call change_laws(lowered, 1)
         call choose_units(lowered)
+        call change_laws(lowered, -1)
         call cut_pieces(lowered, error)
         if (.not. allocated(error)) call scale_supports(lowered, error)
         if (.not. allocated(error)) call scale_loads(lowered, error)
     end subroutine change_units
+
+    !> Laws in other units. Where loads are lowered anew they come back to the user's first: unlike all else they are kept in the
+    !> engine's units only
+    pure subroutine change_laws(lowered, way)
+        type(lowered_type), intent(inout) :: lowered
+        !> -1 from the user's units to the engine's, 1 back
+        integer, intent(in) :: way
+        integer :: k
+
+        do k = 1, size(lowered%normal)
+            if (.not. lowered%with_law(lowered%normal(k))) cycle
+            associate (s => lowered%beam%supports(k), units => lowered%units)
+                s%stiffness = scale(s%stiffness, way*stiffness_unit(units))
+                s%before = scale(s%before, way*stiffness_unit(units))
+                s%contact = scale(s%contact, way*units%deflection)
+                s%force = scale(s%force, way*units%force)
+            end associate
+        end do
+    end subroutine change_laws
 
     !> Refuse a link that lost digits, or whose loads are no numbers
     subroutine refuse_link(lowered, lost, error)
@@ -160,10 +181,6 @@ contains
             do k = 1, size(beam%supports)
                 associate (s => beam%supports(k), given => lowered%model%supports(lowered%normal(k)))
                     if (lowered%with_law(lowered%normal(k))) then
-                        s%stiffness = scale(s%stiffness, -stiffness_unit(units))
-                        s%before = scale(s%before, -stiffness_unit(units))
-                        s%contact = scale(s%contact, -units%deflection)
-                        s%force = scale(s%force, -units%force)
                         if (abs(s%contact) <= huge(1.0_wp) .and. abs(s%force) <= huge(1.0_wp)) cycle
                         call refuse_range(error, "the law of "//trim(named(of_supports, lowered%normal(k), m))//" is too far "// &
                                           "from the other numbers", "bring them nearer together")
