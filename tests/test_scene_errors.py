@@ -237,6 +237,22 @@ x = 6.0; law = { type = "plastic", stiffness = 0, limit = 2 } ->
     supports[0].law.stiffness: expected a number above 0, got 0
 x = 6.0; law = { type = "tanh", stiffness = inf, limit = 2 } ->
     supports[0].law.stiffness: expected a finite number above 0, got inf
+x = 6.0; law = { type = "cubic", k1 = -1, k3 = 2 } ->
+    supports[0].law.k1: expected a finite number of 0 or more, got -1
+x = 6.0; law = { type = "cubic", k1 = 1, k3 = -2 } ->
+    supports[0].law.k3: expected a finite number of 0 or more, got -2
+x = 6.0; law = { type = "cubic", k1 = 9, k3 = 1, k2 = -6.5 } ->
+    supports[0].law.k2: expected -2*sqrt(k1*k3) = -6 or more, since a support that pushes cannot pull, got -6.5
+x = 6.0; law = { type = "cubic", k1 = 0, k3 = 1, k2 = -1e-9 } ->
+    supports[0].law.k2: expected -2*sqrt(k1*k3) = 0 or more, since a support that pushes cannot pull, got -1e-09
+x = 6.0; law = { type = "cubic", k1 = 9, k3 = 0, k2 = -1 } ->
+    supports[0].law.k2: expected -2*sqrt(k1*k3) = 0 or more, since a support that pushes cannot pull, got -1
+x = 6.0; law = { type = "cubic", k1 = 9, k3 = 1, k2 = inf } ->
+    supports[0].law.k2: expected a finite number, got inf
+x = 6.0; law = { type = "cubic", k1 = 9, k3 = 1, k2 = nan } ->
+    supports[0].law.k2: expected a finite number, got nan
+x = 6.0; law = { type = "cubic", k1 = 0, k3 = 0 } ->
+    supports[0].law.k1: expected a number above 0 for k1, k2 or k3, got 0
 x = 6.0; law = { type = "plastic", stiffness = 1.0, limit = 2.0, k = 3 } ->
     supports[0].law.k: unknown key; the keys of a law of type "plastic" are type, stiffness and limit
 x = 6.0; law = [[0.01, 100.0]]; stiffness = 5.0 ->

@@ -13,6 +13,10 @@ PIECES = 96
 """Pieces of the polyline that a curve is followed with, before it is solved itself."""
 
 
+ROUNDING = 2.0**-50
+"""By so much k2 may be less than what is allowed: decimals are rounded."""
+
+
 class _Law(Table, forbid_unknown_fields=True, kw_only=True, gc=False, tag_field="type"):
     """A law by its parameters."""
 
@@ -23,15 +27,15 @@ class _Law(Table, forbid_unknown_fields=True, kw_only=True, gc=False, tag_field=
         raise NotImplementedError
 
 
-class PlasticLaw(_Law, tag="plastic"):
-    """Elastic up to a force that stays.
+class _Elastic(_Law):
+    """Elastic up to a force.
 
     Parameters
     ----------
     stiffness : float
-        Stiffness (force/length) up to there; inf = rigid.
+        Stiffness (force/length) up to the limit; inf = rigid.
     limit : float
-        The force.
+        The force up to which it is elastic.
     """
 
     stiffness: Positive
@@ -40,56 +44,49 @@ class PlasticLaw(_Law, tag="plastic"):
     def points(self) -> list[tuple[float, float]]:
         """Give the polyline."""
         d = self.limit / self.stiffness
-        return [(d, self.limit), (2 * d or 1.0, self.limit)]
+        return [(d, self.limit), *self.beyond(d)]
+
+    def beyond(self, d: float) -> list[tuple[float, float]]:
+        """Give the points beyond the limit, which is reached at the displacement `d`."""
+        raise NotImplementedError
 
 
-class BrittleLaw(_Law, tag="brittle"):
-    """Elastic up to a force at which it breaks.
+class PlasticLaw(_Elastic, tag="plastic"):
+    """Elastic up to a force that stays."""
 
-    Parameters
-    ----------
-    stiffness : float
-        Stiffness (force/length) up to there; inf = rigid.
-    limit : float
-        The force at which it breaks.
-    """
-
-    stiffness: Positive
-    limit: Positive
-
-    def points(self) -> list[tuple[float, float]]:
-        """Give the polyline."""
-        d = self.limit / self.stiffness
-        return [(d, self.limit), (d, 0.0), (2 * d or 1.0, 0.0)]
+    def beyond(self, d: float) -> list[tuple[float, float]]:
+        """Stay."""
+        return [(2 * d or 1.0, self.limit)]
 
 
-class HardeningLaw(_Law, tag="hardening"):
+class BrittleLaw(_Elastic, tag="brittle"):
+    """Elastic up to a force at which it breaks."""
+
+    def beyond(self, d: float) -> list[tuple[float, float]]:
+        """Drop."""
+        return [(d, 0.0), (2 * d or 1.0, 0.0)]
+
+
+class HardeningLaw(_Elastic, tag="hardening"):
     """Of one stiffness up to a force, of another one beyond.
 
     Parameters
     ----------
-    stiffness : float
-        Stiffness (force/length) up to the force; inf = rigid.
-    limit : float
-        The force.
     slope : float
         Stiffness beyond (force/length), greater or less than the first one; inf = rigid.
     """
 
-    stiffness: Positive
-    limit: Positive
     slope: NotNegative
 
-    def points(self) -> list[tuple[float, float]]:
-        """Give the polyline, so that the slope comes out of it to all digits."""
-        d = self.limit / self.stiffness
+    def beyond(self, d: float) -> list[tuple[float, float]]:
+        """Go on, so that the slope comes out of it to all digits."""
         if not self.slope:
-            return PlasticLaw(stiffness=self.stiffness, limit=self.limit).points()
+            return [(2 * d or 1.0, self.limit)]
         if self.slope == inf:
-            return [(d, self.limit), (d, 2 * self.limit)] if d else [(d, self.limit)]
+            return [(d, 2 * self.limit)] if d else []
         way = max(d, self.limit / self.slope)
         rise = self.slope * way if way else self.limit
-        return [(d, self.limit), (d + way, self.limit + rise)]
+        return [(d + way, self.limit + rise)]
 
 
 class _Curve(_Law):
@@ -119,7 +116,7 @@ class _Curve(_Law):
 
 
 class CubicLaw(_Curve, tag="cubic"):
-    """Force = k1*d + k3*d^3.
+    """Force = k1*d + k2*d^2 + k3*d^3.
 
     Parameters
     ----------
@@ -127,46 +124,41 @@ class CubicLaw(_Curve, tag="cubic"):
         Stiffness at first (force/length).
     k3 : float
         Hardening (force/length^3).
+    k2 : float
+        Below 0 softening (force/length^2), down to -2*sqrt(k1*k3): the force may fall, but not below 0.
     """
 
     k1: NotNegative
-    k3: Positive
+    k3: NotNegative
+    k2: float = 0.0
 
     def scale(self) -> float:
-        """Give the displacement at which both parts are equal."""
-        return (self.k1 / self.k3) ** 0.5 or 1.0
+        """Give the displacement at which two of the parts are equal."""
+        if self.k1 and self.k3:
+            return self.k1**0.5 / self.k3**0.5
+        return (self.k2 / self.k3 if self.k3 else self.k1 / self.k2 if self.k2 else 1.0) or 1.0
 
     def force_and_slope(self, d: float) -> tuple[float, float]:
         """Give force and slope."""
-        return d * (self.k1 + self.k3 * d * d), self.k1 + 3 * self.k3 * d * d
+        return d * (self.k1 + d * (self.k2 + self.k3 * d)), self.k1 + d * (2 * self.k2 + 3 * self.k3 * d)
+
+    def points(self) -> list[tuple[float, float]]:
+        """Give the polyline; where the law softens with closer points at equal distances."""
+        if self.k2 >= 0.0:
+            return super().points()
+        last = 2.0 * self.scale()  # twice where the force is nearest to 0
+        close = np.linspace(0.0, last, PIECES + 1)
+        ways = self.scale() * np.geomspace(2.0**-20, 2.0**20, PIECES)
+        ways = np.concatenate((ways[ways < 0.9 * close[1]], close[1:], ways[ways > 1.1 * last]))
+        return [(d, max(self.force_and_slope(d)[0], 0.0)) for d in ways.tolist()]
+
+    def least_k2(self) -> float:
+        """Give the least k2 with which the force stays 0 or more."""
+        return -2.0 * self.k1**0.5 * self.k3**0.5 + 0.0
 
 
-class HyperbolicLaw(_Curve, tag="hyperbolic"):
-    """Force = d/(1/stiffness + d/limit).
-
-    Parameters
-    ----------
-    stiffness : float
-        Stiffness at first (force/length).
-    limit : float
-        The force that it tends to.
-    """
-
-    stiffness: Positive
-    limit: Positive
-
-    def scale(self) -> float:
-        """Give the displacement at half the limit."""
-        return self.limit / self.stiffness
-
-    def force_and_slope(self, d: float) -> tuple[float, float]:
-        """Give force and slope."""
-        share = 1.0 / (1.0 + d * self.stiffness / self.limit)
-        return self.stiffness * d * share, self.stiffness * share * share
-
-
-class TanhLaw(_Curve, tag="tanh"):
-    """Force = limit*tanh(stiffness*d/limit).
+class _Levelling(_Curve):
+    """A curve that tends to a force.
 
     Parameters
     ----------
@@ -182,6 +174,19 @@ class TanhLaw(_Curve, tag="tanh"):
     def scale(self) -> float:
         """Give the displacement at which the first stiffness would reach the limit."""
         return self.limit / self.stiffness
+
+
+class HyperbolicLaw(_Levelling, tag="hyperbolic"):
+    """Force = d/(1/stiffness + d/limit)."""
+
+    def force_and_slope(self, d: float) -> tuple[float, float]:
+        """Give force and slope."""
+        share = 1.0 / (1.0 + d * self.stiffness / self.limit)
+        return self.stiffness * d * share, self.stiffness * share * share
+
+
+class TanhLaw(_Levelling, tag="tanh"):
+    """Force = limit*tanh(stiffness*d/limit)."""
 
     def force_and_slope(self, d: float) -> tuple[float, float]:
         """Give force and slope."""
@@ -252,10 +257,16 @@ def wrong_parameter(law: Any) -> tuple[str, float, str] | None:
     for key in law.__struct_fields__:
         value = getattr(law, key)
         rigid = key == "slope" or (key == "stiffness" and not law.smooth)
-        least = key in ("k1", "slope")
-        if not (value > 0.0 or (least and value == 0.0)) or not (isfinite(value) or rigid):
+        least = 0.0 if key in ("k1", "k3", "slope") else -inf if key == "k2" else None
+        if not (value > 0.0 or (least is not None and value >= least)) or not (isfinite(value) or rigid):
             more = "a number" if rigid else "a finite number"
-            return key, value, f"{more} {'of 0 or more' if least else 'above 0'}"
+            return key, value, more + {None: " above 0", 0.0: " of 0 or more", -inf: ""}[least]
+    if isinstance(law, CubicLaw):
+        least = law.least_k2()
+        if law.k2 < least * (1 + ROUNDING):
+            return "k2", law.k2, f"-2*sqrt(k1*k3) = {least:.9g} or more, since a support that pushes cannot pull"
+        if law.k1 == law.k2 == law.k3 == 0.0:
+            return "k1", law.k1, "a number above 0 for k1, k2 or k3"
     return None
 
 
