@@ -39,6 +39,9 @@ class Curve(Protocol):
     def force_and_slope(self, d: float) -> tuple[float, float]:
         """Give force and slope at a displacement past the gap, 0 or more."""
 
+    def scale(self) -> float:
+        """Give a displacement that is typical of the law."""
+
     def displacement(self, force: float) -> float | None:
         """Give the displacement at a force above 0, where that is what tells the point on the curve; else None."""
 
@@ -134,8 +137,15 @@ class Beam:
         beam._take(handle)
         return beam
 
+    def with_dead_loads_alone(self) -> Beam | None:
+        """Make another beam: the dead loads as live ones, as they grow before the path; None if supports move with them."""
+        c = self.columns
+        if (c.support[3] != 0.0).any() or (c.support[2] < 0.0).any():
+            return None
+        return self.with_factors(c.load_codes[1, :-1].astype(float))
+
     def with_kinks(self, kinks: np.ndarray) -> Beam:
-        """Make another beam: the same with the laws of its supports as they have become.
+        """Make another beam: the same with the laws of its supports as they have become; itself if they have not changed.
 
         Parameters
         ----------
@@ -146,6 +156,8 @@ class Beam:
         -------
         Beam
         """
+        if np.array_equal(kinks, self.kinks):
+            return self
         handle, status, message = _engine.gblaws(self.handle, np.column_stack((kinks, np.zeros(4))))
         check_status(status, message)
         beam = object.__new__(type(self))
@@ -512,7 +524,7 @@ def _made_of(
     """Make a beam that was pickled again."""
     beam = Beam(columns, curves)
     beam = beam if factors is None else beam.with_factors(factors)
-    return beam if kinks is None or np.array_equal(kinks, beam.kinks) else beam.with_kinks(kinks)
+    return beam if kinks is None else beam.with_kinks(kinks)
 
 
 def _state(factor: float, solution: Solution) -> tuple[Any, ...]:

@@ -19,7 +19,7 @@ STABLE, UNSTABLE, JUMP = range(3)
 MOST_MARKS = 300
 """Events up to which they are marked."""
 MOST_POINTS = 40
-"""Points of a path up to which arrows show its direction."""
+"""Ends of segments up to which arrows show the direction of a path."""
 MARKERS = {"closes": ("o", "black"), "opens": ("o", "white"), "breaks": ("X", "black")}
 """Markers and their faces; whatever else happens to a support is a kink of its law."""
 KINK = ("s", "black")
@@ -62,7 +62,9 @@ class Trace:
     Attributes
     ----------
     states : list of Step
-        Both ends of every segment, and where a jump would land that is not made.
+        Both ends of every segment, with smooth laws also between them, and where a jump would land that is not made.
+    spans : list of (int, int)
+        First and last point of every segment.
     factors : numpy.ndarray
         Their load factors.
     ways : list of int
@@ -76,15 +78,18 @@ class Trace:
     def __init__(self, result: Result):
         path: BranchPath = result.path
         self.states: list[Step] = []
+        self.spans: list[tuple[int, int]] = []
         self.ways: list[int] = []
         for segment in path.segments:
             if self.states:
                 self.ways.append(JUMP if path.jumps_to(segment) else STABLE)
-            self.states += path.ends(segment)
-            self.ways.append(STABLE if segment.stable else UNSTABLE)
-        self.limits = _limits(path)
+            first = len(self.states)
+            self.states += path.along(segment)
+            self.spans.append((first, len(self.states) - 1))
+            self.ways += (len(self.states) - 1 - first) * [STABLE if segment.stable else UNSTABLE]
+        self.limits = _limits(path, self.spans)
         limits = {mark.point for mark in self.limits}
-        events = _events(result) if len(result.events) <= MOST_MARKS else []
+        events = _events(result, self.spans) if len(result.events) <= MOST_MARKS else []
         self.marks = [mark for mark in events if mark.what != "turns" and mark.point not in limits] + self.limits
         self.lands = bool(path.ending and path.limits) and path.limits[-1].landing is not None
         if self.lands:
@@ -121,7 +126,7 @@ def _kind(what: str) -> str:
     return {"opens": "closes"}.get(what, what if what in ("closes", "breaks", "limit") else "kink")
 
 
-def _events(result: Result) -> list[Mark]:
+def _events(result: Result, spans: list[tuple[int, int]]) -> list[Mark]:
     """Find the ends of segments at which events happen; both go along the path."""
     stops = [segment.stop for segment in result.path.segments]
     found, at = [], 0
@@ -129,18 +134,18 @@ def _events(result: Result) -> list[Mark]:
         there = next((k for k in range(at, len(stops)) if stops[k] == event.factor), None)
         if there is not None:
             at = there
-            found.append(Mark(2 * at + 1, event.support, event.event))
+            found.append(Mark(spans[at][1], event.support, event.event))
     return found
 
 
-def _limits(path: BranchPath) -> list[Mark]:
+def _limits(path: BranchPath, spans: list[tuple[int, int]]) -> list[Mark]:
     found, at = [], 0
     for limit in path.limits:
         there = (k for k in range(at, len(path.segments)) if path.segments[k].stop == limit.factor)
         k = next((k for k in there if path.segments[k].leg == limit.leg), None)
         if k is not None:
             at = k
-            found.append(Mark(2 * k + 1, -1, "limit"))
+            found.append(Mark(spans[k][1], -1, "limit"))
     return found
 
 
@@ -178,10 +183,12 @@ def draw_trace(axes: Axes, trace: Trace, k: int, values: np.ndarray, style: dict
                       label=f"unstable {k}")  # fmt: skip
         else:
             axes.plot(x, y, linewidth=1.3, clip_on=False, label=label, **style)
-    if arrows and len(trace.states) <= MOST_POINTS:
-        for j in range(0, len(trace.ways), 2):
+    if arrows and 2 * len(trace.spans) <= MOST_POINTS:
+        for first, last in trace.spans:
+            middle = (trace.factors[first] + trace.factors[last]) / 2
+            j = first + int(np.abs(trace.factors[first:last] - middle).argmin()) if last > first + 1 else first
             x, y = trace.factors[j : j + 2], values[j : j + 2]
-            if abs(x[1] - x[0]) > 0.12 * np.ptp(trace.factors):
+            if abs(trace.factors[last] - trace.factors[first]) > 0.12 * np.ptp(trace.factors):
                 near = [(x[0] + share * (x[1] - x[0]), y[0] + share * (y[1] - y[0])) for share in (0.6, 0.62)]
                 _arrow(axes, *near, {"arrowstyle": "-|>", "linewidth": 0.0, "color": "black", "mutation_scale": 10.0})
     for point, support, what in trace.marks:

@@ -216,6 +216,12 @@ def _headline(say: "Writer", result: "Result") -> None:
         say.line(f"{LIMITS[limit.kind]} at load factor {fmt.number(limit.factor, 10)}" + (f": {causes}" if causes else ""))
     if len(result.limits) > MOST_LIMITS:
         say.line(f"... and {len(result.limits) - MOST_LIMITS} more limits.")
+    rough = [segment.stop for segment in result.segments if not getattr(segment, "exact", True)]
+    rough += [limit.factor for limit in result.limits if not limit.exact and limit.factor not in rough]
+    if rough:
+        more = f" and {len(rough) - MOST_LIMITS} more" if len(rough) > MOST_LIMITS else ""
+        which = ", ".join(fmt.number(factor, 5) for factor in rough[:MOST_LIMITS]) + more
+        say.line(f"Known on the polylines of the smooth laws only, to about one part in a hundred: load factor {which}.")
     if result.status != "solved":
         return
     way = fmt.count(len(result.steps), "load step") if result.path is None else fmt.count(len(result.events), "event")

@@ -13,7 +13,8 @@ from ..base.errors import EngineError, Status
 from ..base.records import Pickled, read_only
 from ..engine.arrays import History
 from ..engine.beam import ENDINGS, GIVEN, Beam
-from .energy import work_of_live_loads
+from .curved import CurvedPath
+from .energy import bulge, work_of_loads
 from .kinks import piece_of, what_happens
 from .path import Event, Segment
 from .step import Step
@@ -24,6 +25,10 @@ if TYPE_CHECKING:
 
 MOST_STRETCHES = 20_000
 """Stretches after which a path is cut off; without a history there are finitely many."""
+BEYOND = 0.1
+"""By what share the polylines of smooth laws are followed further, where on the laws the load does not come to its end."""
+CURVE = 25
+"""States of a segment with smooth laws in a picture."""
 DIRECTIONS = {1: "rising", -1: "falling", 0: "turning"}
 
 
@@ -42,9 +47,12 @@ class Limit:
     causes : tuple of (int, str)
         Supports and what happens to them there.
     landing : Step or None
-        The next stable state on the path at the same load factor; dynamics may lead elsewhere.
+        The next stable state on the path at the same load factor; dynamics may lead elsewhere. None too while settlements or
+        lacks of fit grow with the dead loads.
     released : float or None
         By how much the potential energy is less there (force times length).
+    exact : bool
+        Whether factor and landing are those of the smooth laws; False where only those of their polylines are known.
     """
 
     factor: float
@@ -53,6 +61,7 @@ class Limit:
     causes: tuple[tuple[int, str], ...]
     landing: Step | None
     released: float | None
+    exact: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,12 +85,12 @@ class OtherWay:
 
 @dataclass(frozen=True, slots=True)
 class BranchSegment(Segment):
-    """A stretch of the path on which all supports stay on their piece.
+    """A stretch of the path on which all supports stay on their piece; of a smooth law there is one only.
 
     Attributes
     ----------
-    number : int
-        Its number in the history of the engine.
+    first, number : int
+        Its first and last number in the history of the engine.
     leg : int
         Which factor of the history is gone to, from 0.
     path : float
@@ -92,14 +101,18 @@ class BranchSegment(Segment):
         In how many independent ways it gives way by itself.
     others : tuple of OtherWay
         Ways on there were at its beginning beside it.
+    exact : bool
+        Whether its end is on the smooth laws; False where it is known on their polylines only.
     """
 
+    first: int
     number: int
     leg: int
     path: float
     stable: bool
     index: int
     others: tuple[OtherWay, ...]
+    exact: bool
 
 
 class BranchPath(Pickled):
@@ -123,10 +136,12 @@ class BranchPath(Pickled):
         Time of these.
     """
 
-    def __init__(self, scene: Scene, beam: Beam, history: History, seconds: float):
+    def __init__(self, scene: Scene, beam: Beam, history: History, seconds: float, curved: CurvedPath | None = None):
         self._scene = scene
         self._beam = beam
-        self._history = history
+        self._curved = curved
+        self._dead = beam.with_dead_loads_alone() if 0 in history.about[:, 0] else None
+        self._history = history = history if curved is None else curved.history
         self._ways = np.sign(np.diff(scene.analysis.history, prepend=0.0)).tolist()
         self.ending = history.ending
         self.motion = history.motion
@@ -136,15 +151,16 @@ class BranchPath(Pickled):
 
     def _segments(self) -> list[BranchSegment]:
         found: list[BranchSegment] = []
-        path = 0.0
-        for k, ((start, stop), (leg, direction, index, _, skipped)) in enumerate(
-            zip(self._history.along.tolist(), self._history.about.tolist(), strict=True)
-        ):
+        path, h = 0.0, self._history
+        for first, last in [(k, k) for k in range(len(h.about))] if self._curved is None else self._curved.runs:
+            leg, direction, index, _, skipped = h.about[last].tolist()
             if skipped or leg == 0 or direction == 0:
                 continue
+            start, stop = float(h.along[first, 0]), float(h.along[last, 1])
             path += abs(stop - start)
             stable = index == 0 and direction == self._ways[leg - 1]
-            found.append(BranchSegment(start, stop, 0, k, leg - 1, path, stable, index, self._others(k)))
+            exact = self._curved is None or self._curved.is_exact(last)
+            found.append(BranchSegment(start, stop, 0, first, last, leg - 1, path, stable, index, self._others(first), exact))
         return found
 
     def _others(self, k: int) -> tuple[OtherWay, ...]:
@@ -217,23 +233,29 @@ class BranchPath(Pickled):
             self._history.limit_factors.tolist(), self._history.limits.tolist(), strict=True
         ):
             causes = self._changes(before - 1, before) if 0 < before < len(self._history.about) else []
-            step = self._step(landing - 1, factor) if landing else None
-            released = self._released(before, landing, factor) if landing else None
-            found.append(Limit(factor, ENDINGS[kind], leg - 1, tuple(causes), step, released))
+            step = self._step(landing - 1, factor) if landing and (leg > 0 or self._dead is not None) else None
+            released = None if step is None else self._released(before, landing, factor)
+            exact = self._curved is None or (self._curved.is_exact(before - 1) and (step is None or step.exact))
+            found.append(Limit(factor, ENDINGS[kind], leg - 1, tuple(causes), step, released, exact))
         return found
 
     def _released(self, before: int, landing: int, factor: float) -> float:
         """Energy that is set free from a limit to the landing: along a path it changes by the work of the loads only."""
-        found = 0.0
-        for k in range(before, landing):
+        found, h = 0.0, self._history
+        runs = [(k, k) for k in range(before, landing)]
+        if self._curved is not None:
+            runs = [(max(a, before), min(b, landing - 1)) for a, b in self._curved.runs if a < landing and b >= before]
+        for first, last in runs:
             # In a jump the landing is said to begin at the factor of the limit
-            start, stop = (float(v) for v in self._history.along[k])
-            if k == landing - 1:
-                start, stop = float(self._history.along[k - 1, 1]), factor
+            start, stop = float(h.along[first, 0]), float(h.along[last, 1])
+            if last == landing - 1:
+                start, stop = float(h.along[first - 1, 1]), factor
             if start != stop:
-                ends = [work_of_live_loads(self._scene, self._beam, self._step(k, at)) for at in (start, stop)]
-                found += (stop - start) * sum(ends) / 2
-        return found
+                ends = [self._step(k, at) for k, at in ((first, start), (last, stop))]
+                case = "live" if h.about[first, 0] else "dead"
+                work = [work_of_loads(self._scene, case, self._beam_at(first), step) for step in ends]
+                found += (stop - start) * sum(work) / 2 - bulge(self._beam, *(step.solution for step in ends))
+        return float(found)
 
     def closed(self, segment: BranchSegment) -> np.ndarray:
         """Give the scheme of a segment.
@@ -263,8 +285,8 @@ class BranchPath(Pickled):
         """
         return self._beam_at(segment.number)
 
-    def ends(self, segment: BranchSegment) -> tuple[Step, Step]:
-        """Give the states at both ends of a segment.
+    def along(self, segment: BranchSegment) -> list[Step]:
+        """Give the states at both ends of a segment, and with smooth laws some between them.
 
         Parameters
         ----------
@@ -273,10 +295,30 @@ class BranchPath(Pickled):
 
         Returns
         -------
-        (Step, Step)
-            The second one need not be at the greater load factor.
+        list of Step
+            In the order of the path; the last one need not be at the greatest load factor.
         """
-        return self._step(segment.number, segment.start), self._step(segment.number, segment.stop)
+        # Closer at both ends, where the load may turn round
+        share = (1.0 - np.cos(np.linspace(0.0, np.pi, 2 if self._curved is None else CURVE))) / 2
+        between = (segment.start + share * (segment.stop - segment.start))[1:-1].tolist()
+        factors = [segment.start, *between, segment.stop]
+        return [self._step(segment.number if k else segment.first, factor) for k, factor in enumerate(factors)]
+
+    def step(self, segment: BranchSegment, factor: float) -> Step:
+        """Give the state on a segment at a load factor.
+
+        Parameters
+        ----------
+        segment : BranchSegment
+            One of the segments.
+        factor : float
+            One of its load factors.
+
+        Returns
+        -------
+        Step
+        """
+        return self._step(segment.number, factor)
 
     def jumps_to(self, segment: BranchSegment) -> bool:
         """Whether a segment begins where a jump has landed.
@@ -290,13 +332,15 @@ class BranchPath(Pickled):
         -------
         bool
         """
-        return segment.number > 0 and bool(self._history.about[segment.number - 1, -1])
+        return segment.first > 0 and bool(self._history.about[segment.first - 1, -1])
 
     def _beam_at(self, k: int) -> Beam:
-        kinks = self._history.kinks[k]
-        return self._beam if np.array_equal(kinks, self._beam.kinks) else self._beam.with_kinks(kinks)
+        beam = self._beam if self._history.about[k, 0] else self._dead
+        return beam.with_kinks(self._history.kinks[k])
 
     def _step(self, k: int, factor: float) -> Step:
+        if self._curved is not None:
+            return self._curved.step(k, factor)
         return Step(self._beam_at(k), factor, GIVEN, read_only(self._history.closed[k].astype(np.int32)))
 
     def find(self, factor: float) -> BranchSegment | None:
@@ -331,8 +375,22 @@ def follow_branches(result: Result) -> BranchPath:
     begin = perf_counter()
     analysis = result.scene.analysis
     factors = np.asarray(analysis.history, dtype=float)
-    history = result.beam.follow_history(factors, analysis.at_limit, MOST_STRETCHES)
-    path = BranchPath(result.scene, result.beam, history, perf_counter() - begin)
+    stops = analysis.at_limit == "stop"
+    at_limit = "jump" if stops and result.beam.curves else analysis.at_limit
+    history = result.beam.follow_history(factors, at_limit, MOST_STRETCHES)
+    curved = CurvedPath(result.beam, history, factors[-1], stops) if result.beam.curves else None
+    if curved is not None and curved.unreached == len(factors):
+        # The limit load that keeps it from there lies beyond on the polylines
+        further = np.append(factors[:-1], factors[-1] + BEYOND * (factors[-1] - np.append(0.0, factors)[-2]))
+        history = result.beam.follow_history(further, at_limit, MOST_STRETCHES)
+        curved = CurvedPath(result.beam, history, factors[-1], stops)
+    if curved is not None and curved.unreached is not None:
+        which = f"load factor {factors[curved.unreached - 1]:g} is" if curved.unreached else "the dead loads are"
+        raise EngineError(
+            f"{which} so near a limit load that the smooth laws of the supports cannot be followed there: change it a little",
+            Status.NOT_CONVERGED,
+        )
+    path = BranchPath(result.scene, result.beam, history, perf_counter() - begin, curved)
     if path.ending == "cut off":
         raise EngineError(
             f"the path has more than {MOST_STRETCHES:,} stretches: shorten the history, or follow it in parts", Status.NOT_CONVERGED

@@ -81,6 +81,7 @@ def limit_data(result: Result) -> dict[str, Any]:
     return {
         "factor": limit.factor,
         "kind": limit.kind,
+        **({} if limit.exact else {"exact": False}),
         "landing": None
         if landing is None
         else {"factor": landing.factor, "released": limit.released, "supports": support_data(result, landing, x)},
@@ -142,6 +143,7 @@ def step_data(result: Result) -> Iterator[dict[str, Any]]:
         if on_path is not None:
             segment = on_path.segment(k)
             where = {"path": segment.path - abs(segment.stop - step.factor), "stable": segment.stable}
+            where |= {} if step.exact else {"exact": False}
         yield {
             "factor": step.factor,
             **where,

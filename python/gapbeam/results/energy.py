@@ -1,24 +1,30 @@
-"""Work of the live loads, for the energy between two states of a path."""
+"""Work of the loads, for the energy between two states of a path."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from ..engine.beam import FIELDS, Beam
+from ..engine.arrays import Solution
+from ..engine.beam import FIELDS, Beam, Curve
 from ..scene.structs import CurvatureLoad, ForceLoad, MomentLoad, Scene
+from .smooth import SmoothLaws
 from .step import Step
 
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(4)
 """Exact for the fields of a piece times a load that is linear there."""
+FINE_POINTS, FINE_WEIGHTS = np.polynomial.legendre.leggauss(16)
+HALVES = 40
 
 
-def work_of_live_loads(scene: Scene, beam: Beam, step: Step) -> float:
-    """Work that the live loads in full would do along the displacements of a state.
+def work_of_loads(scene: Scene, case: str, beam: Beam, step: Step) -> float:
+    """Work that the live or the dead loads in full would do along the displacements of a state.
 
     Parameters
     ----------
     scene : Scene
         With the loads; those along the axis are left out.
+    case : {"live", "dead"}
+        Which of them.
     beam : Beam
         Its beam.
     step : Step
@@ -32,7 +38,7 @@ def work_of_live_loads(scene: Scene, beam: Beam, step: Step) -> float:
     total = 0.0
     ends = scene.span_ends()
     for load in scene.loads:
-        if load.case != "live":
+        if load.case != case:
             continue
         if isinstance(load, ForceLoad | MomentLoad):
             x = scene.positions([load])
@@ -42,6 +48,46 @@ def work_of_live_loads(scene: Scene, beam: Beam, step: Step) -> float:
         elif hasattr(load, "to"):
             total += _along(beam, step, load, load.from_, float(ends[-1]) if load.to is None else load.to)
     return total
+
+
+def bulge(beam: Beam, start: Solution, stop: Solution) -> float:
+    """Area between smooth laws and their chords, along a path on which all else is linear.
+
+    What the loads do between two states is the mean of their work at both times what they grow by, less this area: for the
+    supports with smooth laws hand over the difference (Betti).
+
+    Parameters
+    ----------
+    beam : Beam
+        The beam.
+    start, stop : Solution
+        States on the laws.
+
+    Returns
+    -------
+    float
+        Force times length.
+    """
+    if not beam.curves:
+        return 0.0
+    laws, found = SmoothLaws(beam), 0.0
+    ends = [laws.deflections(solution) for solution in (start, stop)]
+    (d_start, way_start), (d_stop, way_stop) = map(laws.past_the_gap, ends)
+    forces = [way * laws.forces_and_slopes(d)[0] for d, way in ((d_start, way_start), (d_stop, way_stop))]
+    for i, curve in enumerate(laws.curves):
+        chord = (forces[0][i] + forces[1][i]) / 2 * (ends[1][i] - ends[0][i])
+        found += _work(curve, d_stop[i]) - _work(curve, d_start[i]) - chord
+    return float(found)
+
+
+def _work(curve: Curve, d: float) -> float:
+    """Work up to a displacement past the gap, to all digits: nearer to its beginning in smaller parts."""
+    if d <= 0.0:
+        return 0.0
+    share = (1.0 + FINE_POINTS) / 2
+    ends = d * 0.5 ** np.arange(1, HALVES)
+    forces = [[curve.force_and_slope(float(end * (1.0 + part)))[0] for part in share] for end in ends]
+    return float(ends @ (np.array(forces) @ FINE_WEIGHTS)) / 2
 
 
 def _along(beam: Beam, step: Step, load: object, start: float, stop: float) -> float:

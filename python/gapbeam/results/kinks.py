@@ -1,4 +1,4 @@
-"""What happens to a support at a kink of its law, in words."""
+"""Kinks of the laws of supports: what happens there, in words, and how far it is."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..engine.arrays import Solution
 from ..engine.beam import Beam
 
 
@@ -88,3 +89,65 @@ def what_happens(before: Piece, after: Piece) -> str:
     if after.slope < 0.0:
         return "breaks" if np.isinf(after.slope) else "softens"
     return "hardens" if after.slope > before.slope else "yields"
+
+
+class Kink(NamedTuple):
+    """An end of the piece on which a support is.
+
+    Attributes
+    ----------
+    node : int
+        Its node.
+    group : slice
+        Its kinks in the engine.
+    level, force : float
+        Deflection and force there, in the engine's units.
+    by_force : bool
+        Whether the force tells how far it is, as on a vertical piece.
+    side : int
+        Of the support; 1 where it holds both ways.
+    """
+
+    node: int
+    group: slice
+    level: float
+    force: float
+    by_force: bool
+    side: int
+
+    def margin(self, solution: Solution) -> float:
+        """Tell how far a state is from it, as a share of the largest deflection or reaction."""
+        if self.by_force:
+            values, here = solution.reaction, self.side * solution.reaction[self.group].sum() - self.force
+        else:
+            values, here = solution.deflection, solution.deflection[self.node] - self.level
+        return float(here / (np.abs(values).max() or 1.0))
+
+
+def passed_kinks(beam: Beam, before: np.ndarray, after: np.ndarray, kinks: np.ndarray) -> list[Kink]:
+    """List what is passed between two schemes; along a smooth law only where it begins.
+
+    Parameters
+    ----------
+    beam : Beam
+        The beam.
+    before, after : numpy.ndarray of int
+        The schemes.
+    kinks : numpy.ndarray
+        As `Beam.kinks`, with the first scheme.
+
+    Returns
+    -------
+    list of Kink
+    """
+    found = []
+    for j in np.flatnonzero(before != after).tolist():
+        i, group, by_force = int(beam.numbers[j]), slice(j, j + 1), bool(before[j])
+        if i in beam.laws:
+            group, piece = beam.laws[i][0], piece_of(beam, i, before, kinks)
+            if i in beam.smooth and piece.number == piece_of(beam, i, after, kinks).number:
+                continue
+            by_force = bool(np.isinf(piece.slope))
+        node, side = int(beam.places.support_nodes[j]), int(beam.sides[i]) or 1
+        found.append(Kink(node, group, float(kinks[0, j]), float(kinks[1, j]), by_force, side))
+    return found

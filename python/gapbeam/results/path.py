@@ -8,10 +8,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..base.records import read_only
 from ..engine.arrays import Stretch
-from ..engine.beam import CLOSES, NO_EQUILIBRIUM, OPENS, TURNS, Beam
+from ..engine.beam import CLOSES, GIVEN, NO_EQUILIBRIUM, OPENS, TURNS, Beam
 from .kinks import piece_of, what_happens
 from .smooth import factor_on_curves
+from .step import Step
 
 if TYPE_CHECKING:
     from .result import Result
@@ -155,9 +157,21 @@ class Path:
         there = [segment for segment in self.segments if segment.start <= factor <= segment.stop]
         return there[-1] if there else None
 
-    def beam(self, _: Segment) -> Beam:
-        """Give the beam as it is on a segment: always the same."""
-        return self._beam
+    def step(self, segment: Segment, factor: float) -> Step:
+        """Give the state on a segment at a load factor.
+
+        Parameters
+        ----------
+        segment : Segment
+            One of the segments.
+        factor : float
+            One of its load factors.
+
+        Returns
+        -------
+        Step
+        """
+        return Step(self._beam, factor, GIVEN, read_only(self.closed(segment)))
 
     def _name_events(self) -> np.ndarray:
         """List the events, and tell which changes are any."""

@@ -16,7 +16,7 @@ from ..base.errors import EngineError, Status
 from ..base.memory import refuse_beyond
 from ..base.records import Pickled, Record
 from ..engine.arrays import Solution
-from ..engine.beam import FIELDS, GIVEN, METHODS, Beam
+from ..engine.beam import FIELDS, METHODS, Beam
 from ..scene.structs import Scene
 from ..scene.wording import shown
 from .arguments import finite, numbers, whole
@@ -245,7 +245,7 @@ class Result(Pickled):
         factor = finite("factor", factor)
         segment = self.path.find(factor) if self.path is not None else None
         if segment is not None:
-            return Step(self.path.beam(segment), factor, GIVEN, self.path.closed(segment))
+            return self.path.step(segment, factor)
         if self.beam.depends_on_path:
             raise ValueError(f"factor: the path of the load does not come to load factor {factor:g}")
         closed = self.path.at(factor) if self.segments else self.steps.nearest(factor)

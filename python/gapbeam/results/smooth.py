@@ -16,12 +16,97 @@ from ..engine.arrays import Solution
 from ..engine.beam import GIVEN, Beam
 from ..engine.units import scaled
 
-MOST_TANGENTS = 60
+USUAL_TANGENTS, MOST_TANGENTS = 10, 60
 """From a polyline as near as it is some five do."""
 MOST_SHORTENED = 12
 """So often a tangent may lead too far; after that the support has opened."""
 DIGITS = 4 * np.finfo(float).eps
 """Relative change of a displacement below which the last tangent was one at the solution."""
+ROUNDING = 1e-13
+"""The same where more tangents bring no more digits."""
+
+
+class SmoothLaws:
+    """The smooth laws of a beam, as forces over the deflections of the beam where they are.
+
+    Parameters
+    ----------
+    beam : Beam
+        With smooth laws (`Beam.curves`).
+
+    Attributes
+    ----------
+    groups : list of slice
+        Their kinks in the engine.
+    nodes : numpy.ndarray of int
+        Their nodes.
+    side, gap, settlement : numpy.ndarray
+        As in the scene.
+    """
+
+    def __init__(self, beam: Beam):
+        self.beam = beam
+        self.curves = [curve for _, curve in beam.curves]
+        numbers = np.array([number for number, _ in beam.curves])
+        self.groups = [beam.laws[number][0] for number in numbers.tolist()]
+        self.nodes = beam.places.support_nodes[[group.start for group in self.groups]]
+        self.side = beam.sides[numbers]
+        self.gap, self.settlement = beam.columns.support[2:4, numbers]
+
+    def deflections(self, solution: Solution) -> np.ndarray:
+        """Give the deflections there in the scene's units."""
+        return scaled(solution.deflection[self.nodes], self.beam.units.deflection)
+
+    def past_the_gap(self, deflection: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Give the displacements past the gap, negative where a support is open, and which way they go (1 downward)."""
+        moved = deflection - self.settlement
+        way = np.where(self.side == 0, np.where(moved < 0.0, -1, 1), self.side)
+        return way * moved - self.gap, way
+
+    def forces_and_slopes(self, d: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Give forces, in the way of the displacement `d` past the gap, and slopes."""
+        found = np.zeros((2, len(d)))
+        for i, curve in enumerate(self.curves):
+            if d[i] > 0.0:
+                found[:, i] = curve.force_and_slope(float(d[i]))
+            elif self.side[i] == 0 and self.gap[i] == 0.0:
+                found[1, i] = curve.force_and_slope(0.0)[1]
+        return found[0], found[1]
+
+    def springs(self, deflection: np.ndarray) -> np.ndarray:
+        """Give stiffnesses about those of the laws at given deflections, none of them falling; 0 where there is none."""
+        d, _ = self.past_the_gap(deflection)
+        found = np.zeros(len(d))
+        for i, curve in enumerate(self.curves):
+            for at in (d[i], d[i] / 2, curve.scale(), curve.scale() / 2):
+                if at > 0.0 and not found[i] > 0.0:
+                    force, slope = curve.force_and_slope(float(at))
+                    found[i] = max(slope, force / at)
+        return found
+
+    def with_lines(self, beam: Beam, deflection: np.ndarray, force: np.ndarray, slope: np.ndarray) -> Beam:
+        """Make the beam with lines instead of the laws.
+
+        Parameters
+        ----------
+        beam : Beam
+            The beam.
+        deflection, force : numpy.ndarray
+            A point of each line, in the scene's units; forces upward.
+        slope : numpy.ndarray
+            Slopes of the lines.
+
+        Returns
+        -------
+        Beam
+        """
+        units, kinks = beam.units, beam.kinks.copy()
+        for i, group in enumerate(self.groups):
+            # One line on both sides of all kinks
+            kinks[0, group] = scaled(deflection[i], -units.deflection)
+            kinks[1, group] = scaled(np.float64(force[i] * (self.side[i] or 1)), -units.force)
+            kinks[2:, group] = scaled(np.float64(slope[i]), units.deflection - units.force)
+        return beam.with_kinks(kinks)
 
 
 def solve_on_curves(beam: Beam, factor: float, solution: Solution) -> tuple[Beam, Solution]:
@@ -48,44 +133,37 @@ def solve_on_curves(beam: Beam, factor: float, solution: Solution) -> tuple[Beam
     EngineError
         The tangents do not settle.
     """
-    numbers = np.array([number for number, _ in beam.curves])
-    groups = [beam.laws[number][0] for number in numbers.tolist()]
-    nodes = beam.places.support_nodes[[group.start for group in groups]]
-    side, gap, settlement = beam.sides[numbers], beam.columns.support[2, numbers], beam.columns.support[3, numbers]
+    laws = SmoothLaws(beam)
+    count = len(laws.curves)
     closed, solves = solution.closed, solution.solves
-    before, way_before = np.full(len(numbers), np.inf), np.zeros(len(numbers), dtype=int)
-    shortened = np.zeros(len(numbers), dtype=int)
-    for _ in range(MOST_TANGENTS):
-        moved = scaled(solution.deflection[nodes], beam.units.deflection) - settlement
-        way = np.where(side == 0, np.where(moved < 0.0, -1, 1), side)
-        d = way * moved - gap
-        forces = [way[i] * float(scaled(solution.reaction[group].sum(), beam.units.force)) for i, group in enumerate(groups)]
-        curves = zip(beam.curves, forces, strict=True)
-        by_force = [curve.displacement(force) if force > 0.0 else None for (_, curve), force in curves]
-        d = np.where([one is None for one in by_force], d, np.array(by_force, dtype=float))
+    before, way_before = np.full(count, np.inf), np.zeros(count, dtype=int)
+    shortened = np.zeros(count, dtype=int)
+    change_before = np.zeros(count)
+    for tangents in range(MOST_TANGENTS):
+        deflection = laws.deflections(solution)
+        moved = deflection - laws.settlement
+        d, way = laws.past_the_gap(deflection)
+        forces = [way[i] * float(scaled(solution.reaction[group].sum(), beam.units.force)) for i, group in enumerate(laws.groups)]
+        by_force = [curve.displacement(force) if force > 0.0 else None for curve, force in zip(laws.curves, forces, strict=True)]
+        given = np.array([one is not None for one in by_force])
+        d = np.where(given, np.array(by_force, dtype=float), d)
         if not np.isfinite(d).all():
             break  # beyond the range of doubles
-        if np.all(np.abs(d - before) <= DIGITS * np.maximum(np.abs(moved), np.abs(gap))):
+        size = np.maximum(np.abs(moved), np.abs(laws.gap))
+        if np.all(np.abs(d - before) <= (DIGITS * size if tangents < USUAL_TANGENTS else ROUNDING * size.max())):
             return beam, replace(solution, solves=solves)
         # From a flat part of a curve the tangent may lead to its other side: first nearer, on this side
         overshot = (before > 0.0) & ((d <= 0.0) | (way != way_before)) & (np.isfinite(before)) & (shortened < MOST_SHORTENED)
         d, way = np.where(overshot, before / 8, d), np.where(overshot, way_before, way)
         shortened += overshot
-        before, way_before = d, way
-        kinks = beam.kinks.copy()
-        for i, (_, curve) in enumerate(beam.curves):
-            if d[i] > 0.0:
-                force, slope = curve.force_and_slope(float(d[i]))
-            else:
-                force, slope = 0.0, curve.force_and_slope(0.0)[1] if side[i] == 0 and gap[i] == 0.0 else 0.0
-            # One line on both sides of all kinks, through the point of the curve at this deflection
-            at = solution.deflection[nodes[i]]
-            if by_force[i] is not None or overshot[i]:
-                at = scaled(settlement[i] + way[i] * (gap[i] + d[i]), -beam.units.deflection)
-            kinks[0, groups[i]] = at
-            kinks[1, groups[i]] = scaled(np.float64(force * (way[i] if side[i] == 0 else 1)), -beam.units.force)
-            kinks[2:, groups[i]] = scaled(np.float64(slope), beam.units.deflection - beam.units.force)
-        beam = beam.with_kinks(kinks)
+        # About a bend they may go to and fro for ever: then half as far
+        change = d - before
+        halved = (tangents >= USUAL_TANGENTS) & (d > 0.0) & (way == way_before) & (np.sign(change) == -np.sign(change_before))
+        d = np.where(halved, (d + before) / 2, d)
+        before, way_before, change_before = d, way, change
+        force, slope = laws.forces_and_slopes(d)
+        at = np.where(given | overshot | halved, laws.settlement + way * (laws.gap + d), deflection)
+        beam = laws.with_lines(beam, at, force * way, slope)
         solution = beam.solve(factor, GIVEN, closed)
         solves += solution.solves
     raise EngineError("the smooth laws of the supports could not be met: give them as polylines", Status.NOT_CONVERGED)

@@ -41,12 +41,20 @@ class Step(Pickled):
     ----------
     factor : float
         Load factor of the live loads.
+    exact : bool
+        Whether it is on the smooth laws themselves; False where only the state on their polylines is known.
     """
 
     __hash__ = None
 
-    def __init__(self, beam: Beam, factor: float, rule: str, start: np.ndarray, known: Known | None = None):
+    def __init__(
+        self, beam: Beam, factor: float, rule: str, start: np.ndarray, known: Known | None = None,
+        settled: bool = False, exact: bool = True,
+    ):  # fmt: skip
         self.factor = factor
+        self.exact = exact
+        # Whether the beam has lines or polylines instead of smooth laws that are right for this state
+        self._settled = settled
         self._beam = beam
         self._rule = rule
         self._start = start
@@ -64,7 +72,7 @@ class Step(Pickled):
     def _solved(self) -> tuple[Beam, Solution, float]:
         begin = perf_counter()
         beam, solution = self._beam, self._beam.solve(self.factor, self._rule, self._start)
-        if beam.curves and solution.status == SOLVED:
+        if beam.curves and not self._settled and solution.status == SOLVED:
             beam, solution = solve_on_curves(beam, self.factor, solution)
         return beam, solution, perf_counter() - begin
 

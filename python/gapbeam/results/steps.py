@@ -11,7 +11,7 @@ import numpy as np
 from ..base.errors import SceneError
 from ..base.memory import LITTLE, refuse_beyond
 from ..base.records import Pickled, read_only
-from ..engine.beam import GIVEN, Beam
+from ..engine.beam import Beam
 from .step import Known, Step, name_states, solve_step
 
 if TYPE_CHECKING:
@@ -272,4 +272,4 @@ class PathSteps(Steps):
         return read_only(self._path.closed(self.segment(k)))
 
     def _make(self, k: int) -> Step:
-        return Step(self._path.beam(self.segment(k)), self.factor(k), GIVEN, self.closed(k))
+        return self._path.step(self.segment(k), self.factor(k))
