@@ -1,0 +1,222 @@
+!> Fields of a stretch on elastic ground as polynomials, piece by piece, with their rounding errors
+module gapbeam_foundation_pieces
+    use gapbeam_kinds, only: wp
+    use gapbeam_foundation_taylor, only: expand, terms_of, most_terms
+    use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type, fields_at, decay_lengths
+    implicit none
+    private
+    public :: question_type, piece_type, over_line
+    public :: has_middle, fading, taylor_piece, middle_piece, evaluate
+
+    !> The functions whose zeros are sought, numbered as the fields whose slopes they are
+    integer, parameter :: over_line = 0, slope_of_w = 1, slope_of_psi = 2, slope_of_moment = 3, slope_of_shear = 4
+
+    !> Units of the last place that a value may be wrong by, of the sum of what it is made of
+    real(wp), parameter :: ulps = 16.0_wp
+
+    !> What is asked, of which stretch
+    type :: question_type
+        type(stretch_type) :: stretch
+        type(stretch_load_type) :: load
+        type(stretch_ends_type) :: ends
+        integer :: what
+        !> The line at both ends, for slope_of_w its slope times the length
+        real(wp) :: line_a, line_b
+    end type question_type
+
+    !> A function around the middle of a piece: polynomial in t, -1..1
+    type :: piece_type
+        real(wp) :: middle, half
+        integer :: degree
+        real(wp) :: a(0:most_terms)
+        !> Rounding error of its values
+        real(wp) :: noise
+    end type piece_type
+
+contains
+
+    !> Does everything that the ends do decay, with one rate
+    pure function has_middle(stretch) result(has)
+        type(stretch_type), intent(in) :: stretch
+        logical :: has
+
+        associate (s => stretch)
+            has = s%modulus_a > 0.0_wp .and. .not. abs(s%modulus_b - s%modulus_a) > 0.0_wp &
+                .and. s%modulus_a*s%shear_flexibility**2 <= 4*s%flexibility
+        end associate
+    end function has_middle
+
+    !> The function on a piece, from the fields in its middle
+    pure subroutine taylor_piece(question, left, right, piece)
+        type(question_type), intent(in) :: question
+        !> Its ends, 0..1
+        real(wp), intent(in) :: left, right
+        type(piece_type), intent(out) :: piece
+        real(wp) :: c(1, 4, 0:most_terms), y(1, 4), w, scale(4), tail
+        integer :: n, j
+
+        associate (s => question%stretch, p => question%load, e => question%ends, a => piece%a, &
+                   xi => piece%middle, g => question%stretch%shear_flexibility)
+            xi = left + (right - left)/2
+            piece%half = (right - left)/2
+            call fields_at(s, p, e, xi, w, y(1, 2), y(1, 3), y(1, 4))
+            y(1, 1) = w - g*y(1, 3)
+            n = terms_of(s, piece%half)
+            call expand(s, p, xi, y, piece%half, n, c)
+            do j = 1, 4
+                scale(j) = sum(abs(c(1, j, 0:n)))
+            end do
+            scale(1) = scale(1) + g*scale(3)
+            scale(2) = scale(2) + g*scale(4)
+            scale = scale + scales(question, xi, piece%half)
+            select case (question%what)
+            case (over_line)
+                a(0:n) = c(1, 1, 0:n) + g*c(1, 3, 0:n)
+                a(0) = a(0) - (question%line_a*(1 - xi) + question%line_b*xi)
+                a(1) = a(1) - (question%line_b - question%line_a)*piece%half
+                piece%noise = scale(1) + abs(question%line_a) + abs(question%line_b)
+            case (slope_of_w)
+                a(0:n) = c(1, 2, 0:n) + g*c(1, 4, 0:n)
+                a(0) = a(0) - question%line_a/s%length
+                piece%noise = scale(2) + abs(question%line_a)/s%length
+            case (slope_of_psi)
+                a(0:n) = -s%flexibility*c(1, 3, 0:n)
+                a(0) = a(0) + p%kappa
+                piece%noise = s%flexibility*scale(3) + abs(p%kappa)
+            case (slope_of_moment)
+                a(0:n) = c(1, 4, 0:n)
+                piece%noise = scale(4)
+            case default
+                n = n - 1
+                do j = 0, n
+                    a(j) = (j + 1)*c(1, 4, j + 1)/(s%length*piece%half)
+                end do
+                piece%noise = max(abs(s%modulus_a), abs(s%modulus_b))*scale(1) + abs(p%qa) + abs(p%qb) + abs(p%qc)
+            end select
+            piece%noise = ulps*epsilon(1.0_wp)*piece%noise
+            ! What no coefficient can feel is left off
+            tail = 0.0_wp
+            do while (n > 1)
+                tail = tail + abs(a(n))
+                if (tail > piece%noise/16) exit
+                n = n - 1
+            end do
+            piece%degree = n
+        end associate
+    end subroutine taylor_piece
+
+    !> What the fields are made of beside what is left of them: deflection, rotation, moment, shear
+    pure function scales(question, xi, half) result(scale)
+        type(question_type), intent(in) :: question
+        !> Middle and half of the piece
+        real(wp), intent(in) :: xi, half
+        real(wp) :: scale(4)
+        real(wp) :: w, m, q, k, bent
+
+        associate (s => question%stretch, p => question%load, e => question%ends, l => question%stretch%length)
+            k = max(abs(s%modulus_a), abs(s%modulus_b))
+            if (decay_lengths(s) > 3.0_wp .and. has_middle(s)) then
+                q = abs(p%qa)*(1 - xi) + abs(p%qb)*xi + abs(p%qc)*xi*(1 - xi)
+                ! On the piece the ground's pressure is known to the rounding of the load that it bears
+                scale = [q/k, (abs(p%qa) + abs(p%qb) + abs(p%qc))/(k*l) + s%flexibility*q*(half*l)**3, &
+                         (abs(p%kappa) + 2*abs(p%qc)/(k*l**2))/s%flexibility + q*(half*l)**2, q*half*l]
+            else
+                w = abs(e%w_a) + abs(e%w_b)
+                m = abs(e%moment_a) + abs(e%moment_b)
+                q = abs(p%qa) + abs(p%qb) + abs(p%qc) + k*w
+                bent = abs(p%kappa) + s%flexibility*(m + q*l**2/8)
+                w = w + l**2*bent/8
+                m = m + q*l**2/8
+                scale = [w, w/l + s%shear_flexibility*m/l, m, m/l]
+            end if
+        end associate
+    end function scales
+
+    !> Bound of the deflection on a piece beside the load's own: what is left of the ends
+    pure function fading(question, left, right) result(bound)
+        type(question_type), intent(in) :: question
+        real(wp), intent(in) :: left, right
+        real(wp) :: bound
+        real(wp) :: p, moment, arm
+
+        p = decay_lengths(question%stretch)
+        associate (s => question%stretch, q => question%load, e => question%ends)
+            moment = (q%kappa + 2*q%qc/(s%modulus_a*s%length**2))/s%flexibility
+            arm = sqrt(s%flexibility)/sqrt(s%modulus_a)
+            ! exp(-p x) (1 + p x) where the eigenvalues are alike, less elsewhere; 4 to be safe
+            bound = 4*(exp(-p*left)*(1 + p*right)*(abs(e%w_a - q%qa/s%modulus_a) + arm*abs(e%moment_a - moment)) &
+                       + exp(-p*(1 - right))*(1 + p*(1 - left))*(abs(e%w_b - q%qb/s%modulus_a) + arm*abs(e%moment_b - moment)))
+        end associate
+    end function fading
+
+    !> The function where the load's own deflection is all there is
+    pure subroutine middle_piece(question, left, right, piece)
+        type(question_type), intent(in) :: question
+        real(wp), intent(in) :: left, right
+        type(piece_type), intent(out) :: piece
+        real(wp) :: w(0:2), xi, half
+
+        piece%middle = left + (right - left)/2
+        piece%half = (right - left)/2
+        xi = piece%middle
+        half = piece%half
+        piece%a = 0.0_wp
+        piece%degree = 2
+        associate (s => question%stretch, p => question%load, a => piece%a, eta => 1 - xi)
+            w(0) = p%qa*eta + p%qb*xi + p%qc*xi*eta
+            w(1) = (p%qb - p%qa + p%qc*(eta - xi))*half
+            w(2) = -p%qc*half**2
+            w = w/s%modulus_a
+            piece%noise = ulps*epsilon(1.0_wp)*(abs(p%qa) + abs(p%qb) + abs(p%qc))/s%modulus_a
+            select case (question%what)
+            case (over_line)
+                a(0:2) = w
+                a(0) = a(0) - (question%line_a*eta + question%line_b*xi)
+                a(1) = a(1) - (question%line_b - question%line_a)*half
+                piece%noise = piece%noise + ulps*epsilon(1.0_wp)*(abs(question%line_a) + abs(question%line_b))
+            case (slope_of_w)
+                a(0) = (w(1)/half - question%line_a)/s%length
+                a(1) = 2*w(2)/(half*s%length)
+                piece%noise = (piece%noise + ulps*epsilon(1.0_wp)*abs(question%line_a))/s%length
+            case (slope_of_psi)
+                a(0) = -2*p%qc/(s%modulus_a*s%length**2)
+            case default
+                ! Neither shear nor a slope of it
+                continue
+            end select
+        end associate
+    end subroutine middle_piece
+
+    !> The function and its slope in xi
+    pure subroutine evaluate(question, xi, f, slope)
+        type(question_type), intent(in) :: question
+        real(wp), intent(in) :: xi
+        real(wp), intent(out) :: f, slope
+        real(wp) :: w, psi, moment, shear, pressed, incline
+
+        associate (s => question%stretch, p => question%load, l => question%stretch%length, eta => 1 - xi)
+            call fields_at(s, p, question%ends, xi, w, psi, moment, shear)
+            incline = psi + s%shear_flexibility*shear
+            pressed = (s%modulus_a*eta + s%modulus_b*xi)*w - (p%qa*eta + p%qb*xi + p%qc*xi*eta)
+            select case (question%what)
+            case (over_line)
+                f = w - (question%line_a*eta + question%line_b*xi)
+                slope = l*incline - (question%line_b - question%line_a)
+            case (slope_of_w)
+                f = incline - question%line_a/l
+                slope = l*(p%kappa - s%flexibility*moment + s%shear_flexibility*pressed)
+            case (slope_of_psi)
+                f = p%kappa - s%flexibility*moment
+                slope = -l*s%flexibility*shear
+            case (slope_of_moment)
+                f = shear
+                slope = l*pressed
+            case default
+                f = pressed
+                slope = (s%modulus_b - s%modulus_a)*w + l*(s%modulus_a*eta + s%modulus_b*xi)*incline &
+                    - (p%qb - p%qa + p%qc*(eta - xi))
+            end select
+        end associate
+    end subroutine evaluate
+
+end module gapbeam_foundation_pieces

@@ -1,0 +1,168 @@
+!> Power series along a stretch on elastic ground whose modulus is linear: its fields from those at one place, and its link.
+!>
+!> v = w - M/GA instead of w leaves four equations without derivatives of loads: v' = psi, psi' = -M/EI + kappa, M' = V,
+!> V' = K (v + M/GA) - q. Their series converge everywhere (K is a polynomial); they are short where beta L is 1 at most,
+!> and the caller cuts stretches to that.
+module gapbeam_foundation_taylor
+    use gapbeam_kinds, only: wp
+    implicit none
+    private
+    public :: stretch_type, stretch_load_type, half_type
+    public :: half_link, advance, expand, terms_of, most_terms
+
+    !> A prismatic stretch on elastic ground
+    type :: stretch_type
+        !> Length, 1/EI and 1/GA (zero: rigid)
+        real(wp) :: length = 0.0_wp, flexibility = 0.0_wp, shear_flexibility = 0.0_wp
+        !> Modulus of the ground (force/length**2) at the left and right end, linear in between; negative where it softens
+        real(wp) :: modulus_a = 0.0_wp, modulus_b = 0.0_wp
+    end type stretch_type
+
+    !> What loads a stretch
+    type :: stretch_load_type
+        !> Load per length qa (1 - xi) + qb xi + qc xi (1 - xi), down; imposed curvature
+        real(wp) :: qa = 0.0_wp, qb = 0.0_wp, qc = 0.0_wp, kappa = 0.0_wp
+    end type stretch_load_type
+
+    !> What the left end feels of both, with v in place of w and signs as in stretch_link_type:
+    !> psi_a = -pa v_a + p1 v_b + faa M_a + fab M_b + turn, V_a = -.. M_a + p2 M_b - gaa v_a - gab v_b + shear
+    type :: half_type
+        real(wp) :: pa, p1, p2, faa, fab, gaa, gab
+        !> Determinants of the flexibilities, of the stiffnesses and of the p, and 1/(p1 p2 + fab gab)
+        real(wp) :: df, dg, dh, determinant
+        !> Rotation and shear by the loads
+        real(wp) :: turn, shear
+    end type half_type
+
+    !> More terms no series is given
+    integer, parameter :: most_terms = 120
+
+contains
+
+    !> What the left end feels; for the right one give the stretch and its load mirrored
+    pure subroutine half_link(stretch, load, half)
+        !> The stretch and its load
+        type(stretch_type), intent(in) :: stretch
+        type(stretch_load_type), intent(in) :: load
+        !> The left half of its link
+        type(half_type), intent(out) :: half
+        !> v, psi, M, V at the right end from each of them at the left end, and from the load, terms by terms
+        real(wp) :: c(5, 4, 0:most_terms), t(4, 5), start(5, 4), d
+        integer :: n, i, j
+
+        start = 0.0_wp
+        do j = 1, 4
+            start(j, j) = 1.0_wp
+        end do
+        n = terms_of(stretch, 1.0_wp)
+        call expand(stretch, load, 0.0_wp, start, 1.0_wp, n, c)
+        start = c(:, :, n)
+        do i = n - 1, 0, -1
+            start = start + c(:, :, i)
+        end do
+        t = transpose(start)
+        d = t(1, 2)*t(3, 4) - t(1, 4)*t(3, 2)
+        half%determinant = d
+        half%p1 = t(3, 4)/d
+        half%p2 = t(1, 2)/d
+        half%fab = -t(1, 4)/d
+        half%gab = t(3, 2)/d
+        half%pa = half%p1*t(1, 1) + half%fab*t(3, 1)
+        half%faa = -(half%p1*t(1, 3) + half%fab*t(3, 3))
+        half%gaa = half%p2*t(3, 1) - half%gab*t(1, 1)
+        ! Minors of t: differences of these products cancel less than differences of the products of what they make
+        half%df = (t(1, 3)*t(2, 4) - t(1, 4)*t(2, 3))/d
+        half%dg = (t(3, 1)*t(4, 2) - t(3, 2)*t(4, 1))/d
+        half%dh = (t(3, 4)*t(2, 1) - t(3, 1)*t(2, 4))/d
+        half%turn = -(half%p1*t(1, 5) + half%fab*t(3, 5))
+        half%shear = half%gab*t(1, 5) - half%p2*t(3, 5)
+    end subroutine half_link
+
+    !> Fields at one place from those at another
+    pure subroutine advance(stretch, load, xi, start, step, values)
+        !> The stretch and its load
+        type(stretch_type), intent(in) :: stretch
+        type(stretch_load_type), intent(in) :: load
+        !> The place, 0..1
+        real(wp), intent(in) :: xi
+        !> v = w - M/GA, psi, M, V there
+        real(wp), intent(in) :: start(4)
+        !> From that place to the other one, in parts of the length
+        real(wp), intent(in) :: step
+        !> The same at the other place
+        real(wp), intent(out) :: values(4)
+        real(wp) :: c(1, 4, 0:most_terms)
+        integer :: n, i
+
+        n = terms_of(stretch, step)
+        call expand(stretch, load, xi, reshape(start, [1, 4]), step, n, c)
+        values = c(1, :, n)
+        do i = n - 1, 0, -1
+            values = values + c(1, :, i)
+        end do
+    end subroutine advance
+
+    !> Fields around a place as polynomials
+    pure subroutine expand(stretch, load, xi, start, step, n, c)
+        !> The stretch, and the load of the last case
+        type(stretch_type), intent(in) :: stretch
+        type(stretch_load_type), intent(in) :: load
+        !> The place, 0..1
+        real(wp), intent(in) :: xi
+        !> v = w - M/GA, psi, M, V there, shape (cases, 4); all cases but the last have no load
+        real(wp), intent(in), contiguous :: start(:, :)
+        !> Unit of the polynomials' variable, in parts of the length
+        real(wp), intent(in) :: step
+        !> Degree
+        integer, intent(in) :: n
+        !> Coefficients of v, psi, M, V, shape (cases, 4, 0:at least n)
+        real(wp), intent(out), contiguous :: c(:, :, 0:)
+        real(wp) :: q(0:2), k0, k1, h, part
+        integer :: i, last
+
+        associate (s => stretch, p => load, eta => 1 - xi)
+            h = s%length*step
+            k0 = s%modulus_a*eta + s%modulus_b*xi
+            k1 = (s%modulus_b - s%modulus_a)*step
+            q(0) = p%qa*eta + p%qb*xi + p%qc*xi*eta
+            q(1) = (p%qb - p%qa + p%qc*(eta - xi))*step
+            q(2) = -p%qc*step**2
+            last = size(start, 1)
+            c(:, :, 0) = start
+            do i = 0, n - 1
+                part = h/(i + 1)
+                c(:, 1, i + 1) = part*c(:, 2, i)
+                c(:, 2, i + 1) = -part*s%flexibility*c(:, 3, i)
+                c(:, 3, i + 1) = part*c(:, 4, i)
+                c(:, 4, i + 1) = part*k0*(c(:, 1, i) + s%shear_flexibility*c(:, 3, i))
+                if (i > 0) c(:, 4, i + 1) = c(:, 4, i + 1) &
+                    + part*k1*(c(:, 1, i - 1) + s%shear_flexibility*c(:, 3, i - 1))
+                if (i == 0) c(last, 2, 1) = c(last, 2, 1) + part*p%kappa
+                if (i <= 2) c(last, 4, i + 1) = c(last, 4, i + 1) - part*q(i)
+            end do
+        end associate
+    end subroutine expand
+
+    !> How many terms it takes until the next ones are below rounding
+    pure function terms_of(stretch, step) result(n)
+        !> The stretch
+        type(stretch_type), intent(in) :: stretch
+        !> Distance in parts of its length
+        real(wp), intent(in) :: step
+        integer :: n
+        real(wp) :: rate, term, k
+
+        k = max(abs(stretch%modulus_a), abs(stretch%modulus_b))*(stretch%length*step)**2
+        rate = sqrt(k*stretch%shear_flexibility + sqrt(k*(stretch%length*step)**2*stretch%flexibility))
+        n = 1
+        term = rate
+        do while (term > epsilon(1.0_wp)/16 .and. n < most_terms)
+            n = n + 1
+            term = term*rate/n
+        end do
+        ! A modulus that changes gives five terms in place of four, with shear three in place of two; a load begins late
+        if (abs(stretch%modulus_b - stretch%modulus_a) > 0.0_wp) n = n + n/merge(2, 4, stretch%shear_flexibility > 0.0_wp)
+        n = min(n + 6, most_terms)
+    end function terms_of
+
+end module gapbeam_foundation_taylor
