@@ -47,6 +47,11 @@ contains
         end do
         fixed = .false.
         call mark_held(beam%supports, acting, fixed)
+        if (allocated(beam%ground)) then
+            do i = 1, n
+                if (beam%ground(i)%gaa > 0.0_wp) fixed(i - 1:i) = .true.
+            end do
+        end if
         ! moving: the left end of the body at hand moves by y(start) in the motion being followed
         y = 0.0_wp
         y(0) = 1.0_wp

@@ -3,6 +3,7 @@ module gapbeam_model
     use gapbeam_kinds, only: wp
     use gapbeam_require, only: checked, require
     use gapbeam_link, only: link_type
+    use gapbeam_foundation, only: stretch_link_type
     use gapbeam_law, only: node_support_type, below, above, both, is_rigid, is_support, least_stiffness
     implicit none
     private
@@ -14,6 +15,8 @@ module gapbeam_model
     type :: beam_type
         !> Links between the nodes, shape (n)
         type(link_type), allocatable :: links(:)
+        !> The same links as they are on elastic ground, shape (n); not allocated where no ground acts on the beam
+        type(stretch_link_type), allocatable :: ground(:)
         !> Kind of every node (gapbeam_band), shape (0:n)
         integer, allocatable :: kind(:)
         !> Compliance of its rotational restraint, shape (0:n)

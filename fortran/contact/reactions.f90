@@ -20,6 +20,10 @@ contains
         real(wp) :: change, passed
         integer :: i
 
+        if (allocated(beam%ground)) then
+            call find_end_shears(beam, range, work)
+            return
+        end if
         associate (v => work%shear, e => work%shear_error, a => work%answers, links => beam%links)
             do i = range(1), range(2)
                 v(i) = (a(i)%moment_left - a(i - 1)%moment_right)*links(i)%inverse
@@ -42,6 +46,24 @@ contains
             end do
         end associate
     end subroutine find_shears
+
+    !> On elastic ground a link has a shear at each of its ends, here beside those of its loads with both ends held
+    pure subroutine find_end_shears(beam, range, work)
+        type(beam_type), intent(in) :: beam
+        integer, intent(in) :: range(2)
+        type(workspace_type), intent(inout) :: work
+        real(wp) :: terms(4, 2)
+        integer :: i
+
+        do i = range(1), range(2)
+            associate (a => work%answers(i - 1), b => work%answers(i), g => beam%ground(i))
+                terms(:, 1) = [-g%pa*a%moment_right, g%p2*b%moment_left, -g%gaa*a%deflection, -g%gab*b%deflection]
+                terms(:, 2) = [g%pb*b%moment_left, -g%p1*a%moment_right, g%gbb*b%deflection, g%gab*a%deflection]
+            end associate
+            work%end_shear(:, i) = sum(terms, 1)
+            work%end_shear_error(:, i) = epsilon(1.0_wp)*sum(abs(terms), 1)
+        end do
+    end subroutine find_end_shears
 
     !> By how much the shear changes at a node that is not held, and the rounding error of that
     pure subroutine change_at_node(work, i, change, error)
@@ -97,7 +119,7 @@ contains
         integer, intent(in) :: range(2)
         type(workspace_type), intent(inout) :: work
         type(reach_type) :: beside
-        real(wp) :: moment, turn
+        real(wp) :: moment, turn, flexibility, length
         integer :: i
 
         do i = range(1), range(2)
@@ -108,7 +130,15 @@ contains
                 ! Also the moments that imposed rotations and contact levels would make if they were held fast
                 turn = work%turn_size(i) + (work%level(i) + work%level(i - 1))*link%inverse
                 moment = max(abs(a%moment_right), abs(b%moment_left), turn*work%fixity(i))
-                beside = reach_type(2*moment*link%inverse, max(link%bending, link%faa + link%fbb)*link%length*moment)
+                if (allocated(beam%ground)) then
+                    ! On ground what happens at one end is not seen far beyond 1/beta
+                    flexibility = beam%ground(i)%faa + beam%ground(i)%fbb
+                    length = link%length
+                    if (link%bending > 0.0_wp) length = min(length, flexibility*length/link%bending)
+                    beside = reach_type(2*moment/length, flexibility*length*moment)
+                else
+                    beside = reach_type(2*moment*link%inverse, max(link%bending, link%faa + link%fbb)*link%length*moment)
+                end if
                 if (i > range(1)) work%reach_own(i - 1) = passed_on(beside, work%reach_own(i - 1), .false.)
                 if (i <= range(2)) work%reach_own(i) = passed_on(beside, work%reach_own(i), .false.)
             end associate
@@ -168,13 +198,24 @@ contains
         left = 0.0_wp
         right = 0.0_wp
         error = epsilon(1.0_wp)*work%load_size(i)
-        if (i > 0) then
-            left = work%shear(i)
-            error = error + work%shear_error(i)
-        end if
-        if (i < n) then
-            right = work%shear(i + 1)
-            error = error + work%shear_error(i + 1)
+        if (allocated(work%end_shear)) then
+            if (i > 0) then
+                left = work%end_shear(2, i)
+                error = error + work%end_shear_error(2, i)
+            end if
+            if (i < n) then
+                right = work%end_shear(1, i + 1)
+                error = error + work%end_shear_error(1, i + 1)
+            end if
+        else
+            if (i > 0) then
+                left = work%shear(i)
+                error = error + work%shear_error(i)
+            end if
+            if (i < n) then
+                right = work%shear(i + 1)
+                error = error + work%shear_error(i + 1)
+            end if
         end if
         reaction = (work%loads(i)%shear - (left - right)) + work%ease(i)*(work%reference(i) - work%answers(i)%deflection)
     end subroutine force_at_node

@@ -112,7 +112,7 @@ contains
         search%next_rounds = search%rounds/2
         ! Parts and interior points know of ordinary supports only
         search%with_laws = has_laws(beam%supports)
-        if (.not. search%with_laws) search%margin = least_margin(beam)
+        if (.not. (search%with_laws .or. allocated(beam%ground))) search%margin = least_margin(beam)
         settled = .false.
         if (rule == rule_single) call change_single(beam, closed, work, search, settled)
         if (.not. settled .and. search%state == band_ok) then
@@ -154,7 +154,7 @@ contains
         end if
         call solve_deflections(beam, closed, work, search%state, search%place)
         if (search%state /= band_ok) return
-        if (.not. reactions) then
+        if (.not. (reactions .or. allocated(beam%ground))) then
             call find_clearly_wrong(beam, closed, work, search%wrong, doubtful)
             if (.not. doubtful) then
                 search%wrong_now = count(search%wrong)
@@ -169,7 +169,8 @@ contains
             call refine_scheme(beam, closed, work)
             call find_wrong(beam, closed, search%width, work, search%wrong)
             search%wrong_now = count(search%wrong)
-            if (size(beam%links) >= long_beam .and. search%wrong_now > 0 .and. search%wrong_now <= few) then
+            if (size(beam%links) >= long_beam .and. .not. allocated(beam%ground) .and. search%wrong_now > 0 &
+                .and. search%wrong_now <= few) then
                 ! And little changes any more
                 call keep_factor(beam, work, follows)
                 if (follows) then

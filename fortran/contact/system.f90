@@ -2,6 +2,7 @@
 module gapbeam_system
     use gapbeam_kinds, only: wp
     use gapbeam_band, only: node_type, factor_chain, solve_chain, band_ok, band_mechanism, band_needs_pivoting
+    use gapbeam_foundation_chain, only: factor_foundation_chain, solve_foundation_chain
     use gapbeam_residual, only: residual_chain
     use gapbeam_three_moment, only: fits_three_moment, solve_three_moment
     use gapbeam_pivoting, only: solve_pivoting
@@ -70,6 +71,10 @@ contains
         call apply_scheme(beam, acting, [0, size(beam%links)], work)
         work%solves = work%solves + 1
         place = 0
+        if (allocated(beam%ground)) then
+            call solve_on_ground(beam, work, state, place)
+            return
+        end if
         if (softens(work%nodes)) then
             regular = .false.
         else if (fits_three_moment(work%nodes)) then
@@ -103,6 +108,19 @@ contains
         end if
     end subroutine solve_deflections
 
+    !> The same on elastic ground, which has a chain of its own
+    pure subroutine solve_on_ground(beam, work, state, place)
+        type(beam_type), intent(in) :: beam
+        type(workspace_type), intent(inout) :: work
+        integer, intent(out) :: state, place
+
+        work%method = method_mixed
+        call factor_foundation_chain(work%nodes, beam%ground, work%ground_pivots, state, place)
+        if (state /= band_ok) return
+        call solve_foundation_chain(work%nodes, beam%ground, beam%links%length, work%ground_pivots, work%rhs, work%eliminated, &
+                                    work%answers)
+    end subroutine solve_on_ground
+
     !> Is the force of some node's supports falling: only pivoting minds signs
     pure function softens(nodes) result(any_does)
         type(node_type), intent(in) :: nodes(:)
@@ -128,7 +146,8 @@ contains
         type(workspace_type), intent(inout) :: work
         logical :: regular
 
-        if (work%method == method_pivoting) return  ! LAPACK's expert driver has refined already
+        ! LAPACK's expert driver has refined already; on ground quadruple precision does (gapbeam_ground_solver)
+        if (work%method == method_pivoting .or. allocated(beam%ground)) return
         call residual_chain(work%nodes, beam%links, work%rhs, work%answers, work%eliminated, &
                             work%sizes, work%compatibility, work%equilibrium)
         if (fits_three_moment(work%nodes)) then

@@ -1,0 +1,329 @@
+!> The mixed system of a beam whose links may lie on elastic ground: factor and solve, by the recursion of gapbeam_band.
+!>
+!> A link on ground has two rotations and two shears of its own (gapbeam_foundation); all nodes before a node still act on it
+!> through the three numbers phi, beta, delta of gapbeam_band. With the determinants and sums that a link brings along,
+!> every step of the recursion is a sum of terms that are not negative as long as beta L < 2.365; beyond that the only terms that
+!> change sign are below 1/40 of the others. Where ground pushes back less the more it is pressed, the sums are of mixed
+!> sign, and a pivot that is not positive says that the state is not stable.
+module gapbeam_foundation_chain
+    use gapbeam_kinds, only: wp
+    use gapbeam_require, only: checked, require
+    use gapbeam_band, only: node_type, rhs_type, answer_type, plain, hinge, restrained, band_ok, band_mechanism, &
+        band_needs_pivoting
+    use gapbeam_foundation, only: stretch_link_type
+    implicit none
+    private
+    public :: foundation_pivot_type, factor_foundation_chain, solve_foundation_chain
+
+    !> How a node was eliminated
+    integer, parameter :: full = 1, w_known = 2, m_known = 3, both_known = 4, statics = 5, end_of_beam = 6
+
+    !> The factor at a node, as in gapbeam_band
+    type :: foundation_pivot_type
+        !> One of the kinds above
+        integer :: kind = full
+        !> Is the moment left of the node known by statics
+        logical :: floating = .false.
+        !> What the left side passes on: flexibility, ratio, stiffness
+        real(wp) :: phi = 0.0_wp, beta = 0.0_wp, delta = 0.0_wp
+        !> Pivot [-a b; b c] and the reciprocal of what is divided by
+        real(wp) :: a = 0.0_wp, b = 0.0_wp, c = 0.0_wp, reciprocal = 0.0_wp
+    end type foundation_pivot_type
+
+contains
+
+    !> Factor the system of a working scheme
+    pure subroutine factor_foundation_chain(nodes, links, pivots, state, place)
+        !> Nodes, shape (0:n), and the links between them, shape (n)
+        type(node_type), intent(in) :: nodes(0:)
+        type(stretch_link_type), intent(in) :: links(:)
+        !> The factor, shape (0:n)
+        type(foundation_pivot_type), intent(inout) :: pivots(0:)
+        !> band_ok; band_mechanism, also where ground that softens makes it unstable; or band_needs_pivoting: a rigid stretch
+        !> over too many rigid supports
+        integer, intent(out) :: state
+        !> Node at which a state other than band_ok was found
+        integer, intent(out) :: place
+        real(wp) :: phi, beta, delta, divisor, next(3)
+        logical :: floating
+        integer :: i, n
+
+        n = size(links)
+        if (checked) call require(n > 0 .and. size(nodes) == n + 1 .and. size(pivots) == n + 1, "factor_foundation_chain: shapes")
+        state = band_ok
+        phi = 0.0_wp
+        beta = 0.0_wp
+        delta = 0.0_wp
+        floating = .true.
+        do i = 0, n
+            place = i
+            associate (node => nodes(i), p => pivots(i))
+                p = foundation_pivot_type(floating=floating, phi=phi, beta=beta, delta=delta)
+                if (node%kind == restrained) then
+                    if (floating) then
+                        phi = node%compliance
+                        floating = .false.
+                    else
+                        divisor = phi + node%compliance
+                        if (.not. divisor > 0.0_wp) then
+                            state = band_needs_pivoting
+                            return
+                        end if
+                        delta = delta + beta**2/divisor
+                        phi = node%compliance*phi/divisor
+                        beta = node%compliance*beta/divisor
+                    end if
+                else if (node%kind == hinge .and. floating) then
+                    state = band_mechanism
+                    return
+                end if
+                p%c = delta + node%stiffness
+                if (i == n) then
+                    call factor_last(node, p, phi, beta, floating, state)
+                    return
+                end if
+                associate (link => links(i + 1), carried => p%c)
+                    p%a = phi + link%faa
+                    p%b = beta + link%pa
+                    if (floating .or. node%kind == hinge) then
+                        if (node%held) then
+                            p%kind = both_known
+                            next = [link%fbb, link%pb, link%gbb]
+                        else if (carried + link%gaa > 0.0_wp) then
+                            p%kind = m_known
+                            p%reciprocal = 1/(carried + link%gaa)
+                            next = [link%fbb + link%p2**2*p%reciprocal, link%pb + link%p2*link%gab*p%reciprocal, &
+                                    (carried*link%gbb + link%dg)*p%reciprocal]
+                        else
+                            p%kind = statics
+                            next = 0.0_wp
+                        end if
+                        floating = p%kind == statics
+                    else if (node%held) then
+                        p%kind = w_known
+                        if (.not. p%a > 0.0_wp) then
+                            state = band_needs_pivoting
+                            return
+                        end if
+                        p%reciprocal = 1/p%a
+                        next = [(phi*link%fbb + link%df)*p%reciprocal, (phi*link%pb + link%s3)*p%reciprocal, &
+                                link%gbb + link%p1**2*p%reciprocal]
+                    else
+                        p%kind = full
+                        divisor = p%a*(carried + link%gaa) + p%b**2
+                        if (.not. divisor > 0.0_wp) then
+                            state = band_mechanism
+                            return
+                        end if
+                        p%reciprocal = 1/divisor
+                        next = passed_on(link, phi, beta, carried, p)
+                    end if
+                    p%c = carried + link%gaa
+                end associate
+            end associate
+            phi = next(1)
+            beta = next(2)
+            delta = next(3)
+        end do
+    end subroutine factor_foundation_chain
+
+    !> phi, beta, delta behind a link before which nothing is known (docs/method.md, section 12)
+    pure function passed_on(link, phi, beta, carried, pivot) result(next)
+        type(stretch_link_type), intent(in) :: link
+        !> What comes from the left, and the stiffness of what stands at the node with it
+        real(wp), intent(in) :: phi, beta, carried
+        type(foundation_pivot_type), intent(in) :: pivot
+        real(wp) :: next(3)
+
+        associate (a => pivot%a, b => pivot%b, c => carried + link%gaa)
+            next(1) = phi*link%p2**2 + link%s1 + beta*(2*link%s2 + beta*link%fbb) + c*(phi*link%fbb + link%df)
+            next(2) = beta**2*link%pb + beta*link%s5 + phi*link%p2*link%gab + link%s4 + c*(phi*link%pb + link%s3)
+            next(3) = c*link%p1**2 + 2*b*link%p1*link%gab + b**2*link%gbb + a*(carried*link%gbb + link%dg)
+        end associate
+        next = next*pivot%reciprocal
+    end function passed_on
+
+    !> The right end of the beam: no link follows
+    pure subroutine factor_last(node, pivot, phi, beta, floating, state)
+        type(node_type), intent(in) :: node
+        type(foundation_pivot_type), intent(inout) :: pivot
+        real(wp), intent(in) :: phi, beta
+        logical, intent(in) :: floating
+        integer, intent(inout) :: state
+
+        pivot%kind = end_of_beam
+        pivot%a = phi
+        pivot%b = beta
+        if (.not. (node%held .or. pivot%c > 0.0_wp)) state = band_mechanism
+        if (floating .and. node%kind /= restrained) state = band_mechanism
+        if (.not. node%held .and. state == band_ok) pivot%reciprocal = 1/pivot%c
+    end subroutine factor_last
+
+    !> Solve with a factor
+    pure subroutine solve_foundation_chain(nodes, links, lengths, pivots, rhs, eliminated, answers)
+        !> The nodes, links and factor of factor_foundation_chain (state band_ok)
+        type(node_type), intent(in) :: nodes(0:)
+        type(stretch_link_type), intent(in) :: links(:)
+        !> Lengths of the links, shape (n)
+        real(wp), intent(in) :: lengths(:)
+        type(foundation_pivot_type), intent(in) :: pivots(0:)
+        !> Right-hand side, shape (0:n), and workspace for the eliminated one
+        type(rhs_type), intent(in) :: rhs(0:)
+        type(rhs_type), intent(inout) :: eliminated(0:)
+        !> The solution, shape (0:n)
+        type(answer_type), intent(out) :: answers(0:)
+
+        if (checked) call require(size(nodes) == size(links) + 1 .and. size(pivots) == size(nodes) .and. &
+                                  size(rhs) == size(nodes) .and. size(answers) == size(nodes), "solve_foundation_chain: shapes")
+        eliminated = rhs
+        call eliminate(nodes, links, lengths, pivots, eliminated, answers)
+        call substitute(nodes, links, lengths, pivots, rhs, eliminated, answers)
+    end subroutine solve_foundation_chain
+
+    !> Forward: rhs(i)%left becomes the e that the left side passes to node i, rhs(i)%right and %shear the right-hand sides E and
+    !> G of its pivot; moments known by statics go into the answers at once
+    pure subroutine eliminate(nodes, links, lengths, pivots, rhs, answers)
+        type(node_type), intent(in) :: nodes(0:)
+        type(stretch_link_type), intent(in) :: links(:)
+        real(wp), intent(in) :: lengths(:)
+        type(foundation_pivot_type), intent(in) :: pivots(0:)
+        type(rhs_type), intent(inout) :: rhs(0:)
+        type(answer_type), intent(inout) :: answers(0:)
+        real(wp) :: e, p, m, w, divisor
+        integer :: i
+
+        m = 0.0_wp
+        e = 0.0_wp
+        p = 0.0_wp
+        do i = 0, size(links)
+            associate (node => nodes(i), v => pivots(i), r => rhs(i))
+                if (v%floating) then
+                    answers(i)%moment_left = m
+                    m = m + r%couple
+                    if (node%kind == restrained) r%right = r%right - node%compliance*m
+                else
+                    e = e + r%left
+                    r%left = e
+                    select case (node%kind)
+                    case (restrained)
+                        divisor = 1/(v%phi + node%compliance)
+                        p = p + v%beta*(e + node%compliance*r%couple)*divisor
+                        e = node%compliance*(e - v%phi*r%couple)*divisor
+                    case (hinge)
+                        m = 0.0_wp
+                    case default
+                        e = e - v%phi*r%couple
+                        p = p + v%beta*r%couple
+                    end select
+                    r%right = r%right + e
+                end if
+                r%shear = r%shear + p
+                if (v%kind == end_of_beam) exit
+                associate (link => links(i + 1), g => r%shear)
+                    select case (v%kind)
+                    case (full)
+                        m = (v%b*g - v%c*r%right)*v%reciprocal
+                        w = (v%b*r%right + v%a*g)*v%reciprocal
+                    case (w_known)
+                        m = (v%b*r%deflection - r%right)*v%reciprocal
+                        w = r%deflection
+                    case (m_known)
+                        answers(i)%moment_right = m
+                        w = (g - link%pa*m)*v%reciprocal
+                    case (both_known)
+                        answers(i)%moment_right = m
+                        w = r%deflection
+                    case default
+                        answers(i)%moment_right = m
+                        m = m - g*lengths(i + 1)
+                        p = g
+                        cycle
+                    end select
+                    e = link%p2*w + link%fab*m
+                    p = link%p1*m - link%gab*w
+                end associate
+            end associate
+        end do
+    end subroutine eliminate
+
+    !> Is what carries a node so soft that the link beside it is stiff
+    pure function is_weak(pivot, link) result(weak)
+        type(foundation_pivot_type), intent(in) :: pivot
+        type(stretch_link_type), intent(in) :: link
+        logical :: weak
+
+        weak = pivot%c*link%fbb < link%p2**2
+    end function is_weak
+
+    !> Backward
+    pure subroutine substitute(nodes, links, lengths, pivots, given, rhs, answers)
+        type(node_type), intent(in) :: nodes(0:)
+        type(stretch_link_type), intent(in) :: links(:)
+        real(wp), intent(in) :: lengths(:)
+        type(foundation_pivot_type), intent(in) :: pivots(0:)
+        !> Right-hand side as it was, and eliminated
+        type(rhs_type), intent(in) :: given(0:), rhs(0:)
+        type(answer_type), intent(inout) :: answers(0:)
+        real(wp) :: m_next, w_next, m, w, psi_right, turn, push
+        integer :: i
+
+        m_next = 0.0_wp
+        w_next = 0.0_wp
+        psi_right = 0.0_wp
+        do i = size(links), 0, -1
+            associate (node => nodes(i), v => pivots(i), r => rhs(i))
+                if (v%kind == end_of_beam) then
+                    m = 0.0_wp
+                    w = r%deflection
+                    if (.not. node%held) w = r%shear*v%reciprocal
+                else
+                    associate (link => links(i + 1))
+                        turn = link%p1*w_next + link%fab*m_next
+                        push = link%p2*m_next - link%gab*w_next
+                        m = answers(i)%moment_right
+                        w = r%deflection
+                        select case (v%kind)
+                        case (full)
+                            m = (v%b*(r%shear + push) - v%c*(r%right + turn))*v%reciprocal
+                            w = (v%b*(r%right + turn) + v%a*(r%shear + push))*v%reciprocal
+                        case (w_known)
+                            m = (v%b*w - r%right - turn)*v%reciprocal
+                        case (m_known)
+                            if (is_weak(v, link) .and. nodes(i + 1)%kind == plain .and. pivots(i + 1)%kind /= end_of_beam) then
+                                ! What next to nothing carries is known better from the slope of what follows
+                                w = (link%pb*w_next - link%fab*m - link%fbb*m_next - given(i + 1)%left &
+                                     - (psi_right + given(i + 1)%right))/link%p2
+                            else
+                                w = (r%shear - link%pa*m + push)*v%reciprocal
+                            end if
+                        case (statics)
+                            w = w_next - lengths(i + 1)*(link%fab*m + link%fbb*m_next + psi_right)
+                        case default  ! both are known
+                            continue
+                        end select
+                        psi_right = turn - link%pa*w + link%faa*m
+                    end associate
+                end if
+                if (.not. v%floating) then
+                    select case (node%kind)
+                    case (restrained)
+                        answers(i)%moment_left = (v%beta*w - r%left + node%compliance*(m - r%couple))/(v%phi + node%compliance)
+                    case (hinge)
+                        answers(i)%moment_left = 0.0_wp
+                    case default
+                        answers(i)%moment_left = m - r%couple
+                    end select
+                else if (node%kind == restrained) then
+                    psi_right = node%compliance*((answers(i)%moment_left - m) + r%couple) + r%left
+                else
+                    psi_right = psi_right + r%right + r%left
+                end if
+                answers(i)%deflection = w
+                answers(i)%moment_right = m
+                m_next = answers(i)%moment_left
+                w_next = w
+            end associate
+        end do
+    end subroutine substitute
+
+end module gapbeam_foundation_chain

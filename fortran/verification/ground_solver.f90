@@ -1,0 +1,487 @@
+!> A beam on the ground solved: the zones found in double precision, and then all of it in quadruple precision, rounded once.
+!>
+!> So ends, fields and reactions have all digits that doubles hold, and what doubles found is nothing but a start. Whether there is
+!> an equilibrium at all, and where zones are if Newton's method does not find them, springs tell (gapbeam_springs).
+module gapbeam_ground_solver
+    use gapbeam_kinds, only: wp, qp
+    use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_not_converged, &
+        gapbeam_not_finite, gapbeam_no_memory
+    use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type, rough_fields_at => fields_at
+    use gapbeam_memory, only: reserve_memory, for_solving, for_ground
+    use gapbeam_ground, only: ground_type, zones_type, grounded_type, full_contact, rough_load => combined_load
+    use gapbeam_zones, only: settle_zones, rough_ends_of => ends_of
+    use gapbeam_springs, only: search_springs
+    use gapbeam_workspace, only: workspace_type
+    use gapbeam_scheme, only: outcome_type
+    use gapbeam_rules, only: first_width
+    use gapbeam_referee, only: detail_type, refine_beam, fine_piece, fine_load
+    use gapbeam_foundation_quad, only: fine_stretch_type => stretch_type, fine_stretch_load_type => stretch_load_type, &
+        fine_ends_type => stretch_ends_type, fields_at
+    use gapbeam_layers, only: layer_type, law_piece_type
+    use gapbeam_layers_quad, only: fine_layer_type => layer_type, fine_law_piece_type => law_piece_type, law_piece
+    use gapbeam_ground_quad, only: fine_ground_type => ground_type, fine_zones_type => zones_type, &
+        fine_grounded_type => grounded_type, combined_load, contact_line, along
+    use gapbeam_zones_quad, only: settle_fine_zones => settle_zones, polish_zones, ends_of, fields_at_ends
+    use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type
+    use gapbeam_scheme_quad, only: fine_outcome_type => outcome_type
+    use gapbeam_law_quad, only: find_margins, is_watched_in
+    implicit none
+    private
+    public :: ground_solution_type, solve_on_ground
+
+    !> Shares of the stretches beside them by which ends may still move in the round that is taken for the last one
+    real(wp), parameter :: rough = 1e-10_wp, nearly = 1e-2_wp
+    real(qp), parameter :: fine_enough = 1e-11_qp
+    !> Springs tried, none first
+    integer, parameter :: spring_numbers(0:4) = [0, 64, 512, 4096, 32768]
+    !> Springs that are pressed at most where the beam stands on edges
+    integer, parameter :: edge_parts = 4
+    !> Roundings in quadruple precision below which a reaction is none
+    real(qp), parameter :: fine_width = 4096.0_qp
+    !> Zones of less than this share of the beam only touch: they have less than this share of the largest force
+    real(qp), parameter :: thinnest = 4*epsilon(1.0_wp)
+    real(wp), parameter :: nothing = 1e-6_wp
+    !> Numbers that are smaller beside the terms they are made of are nothing but rounding in quadruple precision
+    real(qp), parameter :: no_number = 2.0_qp**(-90)
+    !> Differences are taken so many times
+    real(wp), parameter :: safety = 4.0_wp
+
+    !> A solved beam on the ground, in stretches from left to right, and the values at the nodes
+    type :: ground_solution_type
+        !> Piece of the beam, and distances of the ends of the stretch from its left end, shape (m)
+        integer, allocatable :: piece(:)
+        real(wp), allocatable :: from(:), to(:)
+        !> Piece of the law on which every layer acts, 0: not in contact, shape (most layers of a piece, m)
+        integer, allocatable :: acts(:, :)
+        !> The stretches, their loads with those of the layers, and what is at their ends, shape (m)
+        type(stretch_type), allocatable :: stretches(:)
+        type(stretch_load_type), allocatable :: loads(:)
+        type(stretch_ends_type), allocatable :: ends(:)
+        !> Rotations and shears at the two ends, shape (2, m)
+        real(wp), allocatable :: rotation(:, :), shear(:, :)
+        !> Force of every layer on the stretch, up, shape (most layers of a piece, m)
+        real(wp), allocatable :: resultant(:, :)
+        !> At the nodes of the beam, shape (0:n)
+        real(wp), allocatable :: deflection(:), moment_left(:), moment_right(:)
+        !> Of the supports
+        real(wp), allocatable :: reaction(:)
+        logical, allocatable :: undecided(:)
+        !> Linear solves; rounds of zones in double precision
+        integer :: solves = 0
+        !> Bounds of the errors of deflections, rotations, moments, shears along the beam, and of reactions; largest residuals of
+        !> compatibility and equilibrium at the borders of stretches, relative to the largest of their kind
+        real(wp) :: bounds(5) = 0.0_wp, residuals(2) = 0.0_wp
+    end type ground_solution_type
+
+contains
+
+    !> Solve at a load factor
+    subroutine solve_on_ground(ground, detail, factor, rule, closed, solution, outcome, error)
+        !> The beam and its ground
+        type(ground_type), intent(in) :: ground
+        !> What its links are made of
+        type(detail_type), intent(in) :: detail
+        !> Factor of the live loads, and rule for the supports
+        real(wp), intent(in) :: factor
+        integer, intent(in) :: rule
+        !> States of the supports: start in, found out
+        logical, intent(inout) :: closed(:)
+        !> What was found
+        type(ground_solution_type), intent(out) :: solution
+        !> Solved, or no equilibrium with the motion of the nodes
+        type(outcome_type), intent(out) :: outcome
+        !> Not settled, not finite, no memory
+        type(error_type), allocatable, intent(out) :: error
+        type(zones_type) :: zones
+        type(grounded_type) :: grounded
+        type(workspace_type) :: work
+        type(fine_ground_type) :: fine
+        logical, allocatable :: start(:)
+        logical :: settled, known, on_edge
+        real(wp) :: moved
+        real(wp), allocatable :: motion(:)
+        integer :: try, solves
+
+        call reserve_memory(for_ground, size(ground%pieces), size(closed), 0, error)
+        if (allocated(error)) return
+        allocate (start(size(closed)))
+        start(:) = closed
+        call refine_ground(ground, detail, fine)
+        call full_contact(ground, zones)
+        on_edge = .false.
+        do try = 0, ubound(spring_numbers, 1)
+            if (try > 0) then
+                closed(:) = start
+                if (allocated(error)) deallocate (error)
+                call reserve_memory(for_solving, size(ground%pieces) + spring_numbers(try), &
+                                    size(closed) + spring_numbers(try), 0, error)
+                if (allocated(error)) return
+                call search_springs(ground, factor, rule, spring_numbers(try), closed, zones, solves, outcome, error)
+                solution%solves = solution%solves + solves
+                if (allocated(error) .or. outcome%status /= gapbeam_solved) return
+                on_edge = sum(zones%to - zones%from, any(zones%acts > 0, 1)) &
+                    <= edge_parts*sum(ground%pieces%length)/spring_numbers(try)
+            end if
+            call settle_zones(ground, factor, rule, rough, zones, closed, grounded, work, outcome, known, moved, error)
+            solution%solves = solution%solves + work%solves
+            if (allocated(error)) then
+                if (error%code == gapbeam_no_memory) return
+            end if
+            if (allocated(error) .or. outcome%status /= gapbeam_solved) cycle
+            ! Where it all but touches, only quadruple precision tells where; from full contact that is not worth while
+            if (.not. known .and. try == 0 .and. moved > nearly) cycle
+            call settle_finely(fine, real(factor, qp), rule, zones, known, closed, solution, outcome, settled, error)
+            if (allocated(error)) return
+            if (.not. settled) cycle
+            call bound_errors(ground, grounded, work, factor, solution)
+            return
+        end do
+        if (allocated(error)) return
+        if (on_edge .and. outcome%status == gapbeam_no_equilibrium) then
+            ! The last spring alone holds what no zone can, however short: the beam tips over the edge of the ground
+            if (size(outcome%motion) /= size(grounded%node)) then
+                motion = outcome%motion(grounded%node)
+                call move_alloc(motion, outcome%motion)
+            end if
+            return
+        end if
+        call fatal_error(error, gapbeam_not_converged, "the zones in which the beam touches the ground could not be settled: "// &
+                         "look for a load at the very end of the ground, or for ground that is far stiffer than the beam")
+    end subroutine solve_on_ground
+
+    !> The beam and its ground in quadruple precision
+    subroutine refine_ground(ground, detail, fine)
+        type(ground_type), intent(in) :: ground
+        type(detail_type), intent(in) :: detail
+        type(fine_ground_type), intent(out) :: fine
+
+        call refine_beam(ground%beam, detail, fine%beam)
+        fine%pieces = fine_piece(ground%pieces)
+        fine%dead = fine_load(ground%dead)
+        fine%live = fine_load(ground%live)
+        fine%layers = fine_layer(ground%layers)
+        fine%first = ground%first
+        fine%laws = fine_law(ground%laws)
+    end subroutine refine_ground
+
+    !> A layer in quadruple precision
+    elemental function fine_layer(layer) result(fine)
+        type(layer_type), intent(in) :: layer
+        type(fine_layer_type) :: fine
+
+        fine = fine_layer_type(layer%foundation, layer%side, real(layer%modulus_a, qp), real(layer%modulus_b, qp), &
+                               real(layer%contact_a, qp), real(layer%contact_b, qp), layer%law_first, layer%law_last)
+    end function fine_layer
+
+    !> A piece of a law in quadruple precision
+    elemental function fine_law(law) result(fine)
+        type(law_piece_type), intent(in) :: law
+        type(fine_law_piece_type) :: fine
+
+        fine = fine_law_piece_type(real(law%displacement, qp), real(law%force, qp), real(law%slope, qp))
+    end function fine_law
+
+    !> Go on in quadruple precision, and round what is found
+    subroutine settle_finely(fine, factor, rule, rough_zones, known, closed, solution, outcome, settled, error)
+        type(fine_ground_type), intent(in) :: fine
+        real(qp), intent(in) :: factor
+        integer, intent(in) :: rule
+        !> Zones in double precision, and whether they are right but for their last digits
+        type(zones_type), intent(in) :: rough_zones
+        logical, intent(in) :: known
+        logical, intent(inout) :: closed(:)
+        type(ground_solution_type), intent(inout) :: solution
+        type(outcome_type), intent(inout) :: outcome
+        logical, intent(out) :: settled
+        type(error_type), allocatable, intent(out) :: error
+        type(fine_zones_type) :: zones
+        type(fine_grounded_type) :: grounded
+        type(fine_workspace_type) :: work
+        type(fine_outcome_type) :: found
+        real(qp) :: moved
+
+        associate (m => size(rough_zones%piece))
+            allocate (zones%piece(m), zones%from(m), zones%to(m), zones%acts(size(rough_zones%acts, 1), m))
+        end associate
+        zones%piece(:) = rough_zones%piece
+        zones%from(:) = rough_zones%from
+        zones%to(:) = exact_ends(rough_zones, fine)
+        zones%acts(:, :) = rough_zones%acts
+        settled = .false.
+        if (known) then
+            call polish_zones(fine, factor, rule, fine_enough, zones, closed, grounded, work, found, settled, error)
+            solution%solves = solution%solves + work%solves
+            if (allocated(error)) return
+        end if
+        if (.not. settled) then
+            call settle_fine_zones(fine, factor, rule, fine_enough, zones, closed, grounded, work, found, settled, moved, error)
+            solution%solves = solution%solves + work%solves
+            if (allocated(error) .or. .not. settled) return
+        end if
+        outcome = outcome_type(status=found%status, indifferent=found%indifferent)
+        call take_rounded(fine, factor, zones, grounded, closed, work, solution)
+        ! A load at the very end of the ground would need a zone of no length
+        settled = .not. any(zones%to - zones%from <= thinnest*sum(fine%pieces%length) .and. &
+                            maxval(abs(solution%resultant), 1) > nothing*maxval(abs(solution%resultant)))
+        if (.not. settled) then
+            ! So it tips over the edge
+            outcome = outcome_type(status=gapbeam_no_equilibrium)
+            outcome%motion = solution%deflection/maxval(abs(solution%deflection))
+            return
+        end if
+        if (all(abs(solution%deflection) <= huge(1.0_wp)) .and. all(abs(solution%moment_left) <= huge(1.0_wp))) return
+        call fatal_error(error, gapbeam_not_finite, "numbers left the range of double precision: choose units "// &
+                         "in which lengths, stiffnesses and loads are nearer to 1")
+    end subroutine settle_finely
+
+    !> How good the solution is. It is rounded from quadruple precision; what its data lost when they were rounded to doubles moves
+    !> it as much as double precision moved its own solution, some times over
+    subroutine bound_errors(ground, grounded, work, factor, solution)
+        type(ground_type), intent(in) :: ground
+        !> The beam on its zones in double precision, and the solution there
+        type(grounded_type), intent(in) :: grounded
+        type(workspace_type), intent(in) :: work
+        real(wp), intent(in) :: factor
+        type(ground_solution_type), intent(inout) :: solution
+        real(wp) :: rough(4), right(4), largest(5)
+        integer :: first, last, i, j, m
+
+        largest(:) = 0.0_wp
+        m = size(solution%piece)
+        last = 0
+        i = 0
+        do j = 1, size(ground%pieces)
+            first = last + 1
+            last = grounded%node(j)
+            i = i + 1
+            right = [solution%ends(i)%w_a, solution%rotation(1, i), solution%ends(i)%moment_a, solution%shear(1, i)]
+            call compare(first, 0.0_wp)
+            do while (i < m)
+                if (solution%piece(i + 1) /= j) exit
+                i = i + 1
+            end do
+            right = [solution%ends(i)%w_b, solution%rotation(2, i), solution%ends(i)%moment_b, solution%shear(2, i)]
+            call compare(last, 1.0_wp)
+        end do
+        if (size(solution%reaction) > 0) then
+            solution%bounds(5) = maxval(abs(work%reaction - solution%reaction))
+            largest(5) = maxval(abs(solution%reaction))
+        end if
+        solution%bounds(:) = safety*(solution%bounds + epsilon(1.0_wp)*largest)
+        do i = 1, m - 1
+            if (solution%piece(i) /= solution%piece(i + 1)) cycle
+            solution%residuals = max(solution%residuals, abs([solution%rotation(1, i + 1) - solution%rotation(2, i), &
+                                                              solution%shear(1, i + 1) - solution%shear(2, i)]))
+        end do
+        solution%residuals = solution%residuals/max(largest([2, 4]), tiny(1.0_wp))
+
+    contains
+
+        !> Compare at an end of a stretch in double precision
+        subroutine compare(stretch, xi)
+            integer, intent(in) :: stretch
+            real(wp), intent(in) :: xi
+
+            call rough_fields_at(grounded%stretches(stretch), rough_load(grounded%dead(stretch), grounded%live(stretch), factor), &
+                                 rough_ends_of(work, stretch), xi, rough(1), rough(2), rough(3), rough(4))
+            solution%bounds(:4) = max(solution%bounds(:4), abs(rough - right))
+            largest(:4) = max(largest(:4), abs(right))
+        end subroutine compare
+
+    end subroutine bound_errors
+
+    !> Right ends of the stretches: the last one of a piece ends where the piece does
+    pure function exact_ends(zones, fine) result(ends)
+        type(zones_type), intent(in) :: zones
+        type(fine_ground_type), intent(in) :: fine
+        real(qp), allocatable :: ends(:)
+        integer :: i
+
+        allocate (ends(size(zones%to)))
+        ends(:) = zones%to
+        do i = 1, size(ends)
+            if (i < size(ends)) then
+                if (zones%piece(i + 1) == zones%piece(i)) cycle
+            end if
+            ends(i) = fine%pieces(zones%piece(i))%length
+        end do
+    end function exact_ends
+
+    !> The solution in quadruple precision, rounded once
+    subroutine take_rounded(fine, factor, zones, grounded, closed, work, solution)
+        type(fine_ground_type), intent(in) :: fine
+        real(qp), intent(in) :: factor
+        !> Zones that the solution asks for, and the beam on those before, which differ by nothing that doubles can show
+        type(fine_zones_type), intent(in) :: zones
+        type(fine_grounded_type), intent(in) :: grounded
+        logical, intent(in) :: closed(:)
+        type(fine_workspace_type), intent(inout) :: work
+        type(ground_solution_type), intent(inout) :: solution
+        type(fine_ends_type) :: ends
+        type(fine_stretch_load_type) :: load
+        real(qp), allocatable :: margin(:), rounding(:)
+        real(qp) :: field(2, 2), forces(size(zones%acts, 1))
+        integer :: i, k, m
+
+        m = size(zones%piece)
+        solution%piece = zones%piece
+        solution%from = real(zones%from, wp)
+        solution%to = real(zones%to, wp)
+        solution%acts = zones%acts
+        if (allocated(solution%stretches)) deallocate (solution%stretches, solution%loads, solution%ends, solution%rotation, &
+                                                       solution%shear, solution%resultant)
+        allocate (solution%resultant(size(zones%acts, 1), m), solution%stretches(m), solution%loads(m), solution%ends(m), &
+                  solution%rotation(2, m), solution%shear(2, m))
+        do i = 1, m
+            call drop_rounding(grounded, i, work)
+            ends = ends_of(work, i)
+            load = combined_load(grounded%dead(i), grounded%live(i), factor)
+            associate (s => grounded%stretches(i))
+                call fields_at_ends(grounded, factor, work, i, field(:, 1), field(:, 2))
+                call drop_small(grounded, factor, work, i, field)
+                solution%stretches(i) = stretch_type(real(s%length, wp), real(s%flexibility, wp), real(s%shear_flexibility, wp), &
+                                                     real(s%modulus_a, wp), real(s%modulus_b, wp))
+            end associate
+            solution%loads(i) = stretch_load_type(real(load%qa, wp), real(load%qb, wp), real(load%qc, wp), real(load%kappa, wp))
+            solution%ends(i) = stretch_ends_type(real(ends%w_a, wp), real(ends%w_b, wp), real(ends%moment_a, wp), &
+                                                 real(ends%moment_b, wp))
+            call sum_layers(fine, zones, i, grounded%stretches(i), load, ends, field(2, 2) - field(1, 2), forces)
+            solution%resultant(:, i) = real(forces, wp)
+            solution%rotation(:, i) = real(field(:, 1), wp)
+            solution%shear(:, i) = real(field(:, 2), wp)
+        end do
+        allocate (margin(size(closed)), rounding(size(closed)))
+        call find_margins(grounded%beam%supports, closed, work%answers, work%deflection_size, work%reaction, work%reaction_error, &
+                          margin, rounding)
+        if (allocated(solution%undecided)) deallocate (solution%undecided)
+        allocate (solution%undecided(size(closed)))
+        do k = 1, size(closed)
+            solution%undecided(k) = .false.
+            if (.not. is_watched_in(grounded%beam%supports, closed, k)) cycle
+            solution%undecided(k) = abs(margin(k)) <= first_width*rounding(k)*(epsilon(1.0_wp)/epsilon(1.0_qp))
+            if (closed(k) .and. abs(margin(k)) <= fine_width*rounding(k)) work%reaction(k) = 0.0_qp
+        end do
+        associate (a => work%answers(grounded%node))
+            solution%deflection = real(a%deflection, wp)
+            solution%moment_left = real(a%moment_left, wp)
+            solution%moment_right = real(a%moment_right, wp)
+        end associate
+        solution%reaction = real(work%reaction, wp)
+    end subroutine take_rounded
+
+    !> Moments that are nothing but rounding beside what the stretch right of them could make are zero
+    subroutine drop_rounding(grounded, i, work)
+        type(fine_grounded_type), intent(in) :: grounded
+        integer, intent(in) :: i
+        type(fine_workspace_type), intent(inout) :: work
+        real(qp) :: size_of_shear
+
+        associate (a => work%answers(i - 1), b => work%answers(i), g => grounded%beam%ground(i), link => grounded%beam%links(i))
+            size_of_shear = g%pa*max(abs(a%moment_right), abs(b%moment_left)) + g%gaa*max(abs(a%deflection), abs(b%deflection)) &
+                + sum(abs(link%shear_a))
+            if (abs(a%moment_right) <= no_number*size_of_shear/g%pa) a%moment_right = 0.0_qp
+            if (abs(b%moment_left) <= no_number*size_of_shear/g%pa) b%moment_left = 0.0_qp
+        end associate
+    end subroutine drop_rounding
+
+    !> Rotations and shears at the ends of a stretch that are nothing but rounding are zero
+    subroutine drop_small(grounded, factor, work, i, field)
+        type(fine_grounded_type), intent(in) :: grounded
+        real(qp), intent(in) :: factor
+        type(fine_workspace_type), intent(in) :: work
+        integer, intent(in) :: i
+        !> Left and right, rotation and shear
+        real(qp), intent(inout) :: field(2, 2)
+        real(qp) :: w, moment, sizes(2)
+
+        associate (a => work%answers(i - 1), b => work%answers(i), g => grounded%beam%ground(i), link => grounded%beam%links(i))
+            w = max(abs(a%deflection), abs(b%deflection))
+            moment = max(abs(a%moment_right), abs(b%moment_left))
+            sizes = [g%pa*w + max(g%faa, g%fbb)*moment + abs(link%turn_a(1)) + abs(factor*link%turn_a(2)), &
+                     g%pa*moment + max(g%gaa, g%gbb)*w + abs(link%shear_a(1)) + abs(factor*link%shear_a(2))]
+        end associate
+        where (abs(field) <= no_number*spread(sizes, 1, 2)) field = 0.0_qp
+    end subroutine drop_small
+
+    !> Force of every layer on a stretch: what the shear gains is the whole pressure less the load, and shared out by the moduli
+    subroutine sum_layers(fine, zones, i, stretch, load, ends, gain, forces)
+        type(fine_ground_type), intent(in) :: fine
+        type(fine_zones_type), intent(in) :: zones
+        !> Number of the stretch, what it is made of, its load, what is at its ends
+        integer, intent(in) :: i
+        type(fine_stretch_type), intent(in) :: stretch
+        type(fine_stretch_load_type), intent(in) :: load
+        type(fine_ends_type), intent(in) :: ends
+        !> Gain of the shear along it
+        real(qp), intent(in) :: gain
+        !> Up
+        real(qp), intent(out) :: forces(:)
+        type(fine_law_piece_type) :: law
+        real(qp) :: slope(2), contact(2), modulus(2), by_springs
+        logical :: alike
+        integer :: k
+
+        forces(:) = 0.0_qp
+        modulus = [stretch%modulus_a, stretch%modulus_b]
+        by_springs = gain + stretch%length*((load%qa + load%qb)/2 + load%qc/6)
+        associate (j => zones%piece(i), length => stretch%length)
+            do k = 1, fine%first(j + 1) - fine%first(j)
+                if (zones%acts(k, i) == 0) cycle
+                associate (layer => fine%layers(fine%first(j) + k - 1))
+                    law = law_piece(layer, fine%laws, zones%acts(k, i))
+                    slope = slopes_of(fine, zones, i, layer, law)
+                    contact = contact_line(layer, [zones%from(i), zones%to(i)], fine%pieces(j)%length)
+                    forces(k) = layer%side*(law%force - law%slope*law%displacement)*length &
+                        - length*(dot_product(slope, contact)/2 - (slope(2) - slope(1))*(contact(2) - contact(1))/6)
+                    if (.not. any(slope > 0.0_qp)) cycle
+                    ! Is its share of the modulus the same everywhere
+                    alike = .not. abs(slope(1)*modulus(2) - slope(2)*modulus(1)) > 64*epsilon(1.0_qp)*slope(1)*modulus(2)
+                    if (alike) then
+                        forces(k) = forces(k) + by_springs*(sum(slope)/sum(modulus))
+                    else
+                        forces(k) = forces(k) + integral(slope)
+                    end if
+                end associate
+            end do
+        end associate
+
+    contains
+
+        !> Integral of the slope times the deflection (Gauss, 5 points on each of 16 parts: such stretches are short)
+        function integral(slope) result(total)
+            real(qp), intent(in) :: slope(2)
+            real(qp) :: total, xi, w, psi, moment, shear
+            integer, parameter :: parts = 16
+            real(qp), parameter :: near = sqrt(5 - 2*sqrt(10/7.0_qp))/3, far = sqrt(5 + 2*sqrt(10/7.0_qp))/3, &
+                point(5) = [-far, -near, 0.0_qp, near, far], root = sqrt(70.0_qp), &
+                weight(5) = [322 - 13*root, 322 + 13*root, 512.0_qp, 322 + 13*root, 322 - 13*root]/1800
+            integer :: part, g
+
+            total = 0.0_qp
+            do part = 1, parts
+                do g = 1, size(point)
+                    xi = (part - 0.5_qp + point(g)/2)/parts
+                    call fields_at(stretch, load, ends, xi, w, psi, moment, shear)
+                    total = total + weight(g)*(slope(1) + (slope(2) - slope(1))*xi)*w
+                end do
+            end do
+            total = total*stretch%length/parts
+        end function integral
+
+    end subroutine sum_layers
+
+    !> Slope of a layer at the two ends of a stretch
+    pure function slopes_of(fine, zones, i, layer, law) result(slope)
+        type(fine_ground_type), intent(in) :: fine
+        type(fine_zones_type), intent(in) :: zones
+        integer, intent(in) :: i
+        type(fine_layer_type), intent(in) :: layer
+        type(fine_law_piece_type), intent(in) :: law
+        real(qp) :: slope(2)
+
+        slope = law%slope
+        if (layer%law_last >= layer%law_first) return
+        slope = along(layer%modulus_a, layer%modulus_b, [zones%from(i), zones%to(i)], fine%pieces(zones%piece(i))%length)
+    end function slopes_of
+
+end module gapbeam_ground_solver
