@@ -13,6 +13,8 @@ module gapbeam_check
     implicit none
     private
     public :: check_spans, check_rest, check_loads
+    ! For gapbeam_check_foundations
+    public :: entry_type, check_stretch, refuse_entry, refuse_number
 
     !> Which entry of which array is looked at
     type :: entry_type

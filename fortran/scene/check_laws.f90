@@ -48,6 +48,11 @@ contains
                     call say("an axial support has a stiffness only")
                 else if (.not. model%supports(k)%stiffness > huge(1.0_wp)) then
                     call say("it stands instead of a stiffness; leave that out")
+                else if (model%supports(k)%side == gapbeam_both .and. model%supports(k)%gap < 0.0_wp) then
+                    ! Its two halves would act at once where they meet, and its kinks stand in no order
+                    call refuse(error, of_supports, k, size(model%supports), bad_law, "gap", "expected 0 or more of a support "// &
+                                "that holds both ways, got "//trim(shown(model%supports(k)%gap))// &
+                                "; put one below and one above at this place instead")
                 else
                     call check_points(model%law(first:i))
                     if (.not. allocated(error) .and. model%supports(k)%unloading == gapbeam_plastic .and. &

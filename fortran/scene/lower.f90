@@ -1,8 +1,8 @@
 !> From what a user describes to the engine's arrays.
 !>
-!> The beam is cut into pieces wherever anything changes: at span ends, supports, hinges, point loads and the ends of
-!> distributed loads. Only beam ends, supports across the beam and hinges become nodes of the system; the pieces between two
-!> nodes are condensed into one link.
+!> The beam is cut into pieces wherever anything changes: at span ends, supports, hinges, point loads, the ends of distributed
+!> loads and of foundations, and the points of their profiles. Only beam ends, supports across the beam and hinges become nodes of
+!> the system, with foundations all points; the pieces between two nodes are condensed into one link.
 module gapbeam_lower
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp
@@ -12,7 +12,8 @@ module gapbeam_lower
     use gapbeam_places, only: place_span_ends, locate, merge_places
     use gapbeam_check, only: check_spans, check_rest, check_loads
     use gapbeam_check_laws, only: check_laws, have_laws
-    use gapbeam_refusal, only: refuse, of_hinges, of_sections, of_loads, twice, no_stretch, at_hinge
+    use gapbeam_check_foundations, only: check_foundations
+    use gapbeam_refusal, only: refuse, of_hinges, of_sections, of_foundations, of_loads, twice, no_stretch, at_hinge
     use gapbeam_lower_supports, only: lower_supports
     use gapbeam_lower_loads, only: lower_loads
     implicit none
@@ -49,6 +50,8 @@ contains
             lowered%with_law(:) = have_laws(model)
             call check_rest(model, lowered%with_law, lowered%ends, error)
             if (allocated(error)) return
+            call check_foundations(model, lowered%ends(n), error)
+            if (allocated(error)) return
             call check_loads(model%loads, lowered%ends, any(model%supports%direction == gapbeam_axial), error)
             if (allocated(error)) return
         end associate
@@ -82,7 +85,7 @@ contains
         end do
     end subroutine assign_sections
 
-    !> Points between the pieces, and the points of supports, hinges and loads
+    !> Points between the pieces, and the points of supports, hinges, foundations and loads
     subroutine find_points(lowered, error)
         type(lowered_type), intent(inout) :: lowered
         type(error_type), allocatable, intent(out) :: error
@@ -93,12 +96,15 @@ contains
 
         associate (model => lowered%model)
             n = size(model%spans)
-            total = 1_int64 + n + size(model%supports) + size(model%hinges) + 2_int64*(size(model%sections) + size(model%loads))
+            total = 1_int64 + n + size(model%supports) + size(model%hinges) + size(model%ground) &
+                + 2_int64*(size(model%sections) + size(model%loads) + size(model%foundations))
             stat = merge(1, 0, 2*total > huge(0))
             if (stat == 0) allocate (span(total), order(total), chosen(total), point(total), offset(total), stat=stat)
             if (stat == 0) allocate (lowered%end_point(0:n), lowered%support_point(size(model%supports)), &
                                      lowered%load_from(size(model%loads)), lowered%load_to(size(model%loads)), &
                                      lowered%section_from(size(model%sections)), lowered%section_to(size(model%sections)), &
+                                     lowered%foundation_from(size(model%foundations)), &
+                                     lowered%foundation_to(size(model%foundations)), lowered%ground_point(size(model%ground)), &
                                      stat=stat)
             if (stat /= 0) then
                 call no_memory(error)
@@ -122,6 +128,17 @@ contains
                 associate (load => model%loads(i))
                     call add(load%x, merge(gapbeam_by_x, load%node, is_stretch(load)))
                     call add(merge(right_end(load%to), load%x, is_stretch(load)), merge(gapbeam_by_x, load%node, is_stretch(load)))
+                end associate
+            end do
+            do i = 1, size(model%foundations)
+                call add(model%foundations(i)%from, gapbeam_by_x)
+                call add(right_end(model%foundations(i)%to), gapbeam_by_x)
+            end do
+            do i = 1, size(model%ground)
+                ! What is not on its foundation is no place, so it stands at one that there is
+                associate (f => model%foundations(model%ground(i)%foundation), x => model%ground(i)%x)
+                    lowered%ground_point(i) = merge(0, -1, x > f%from .and. x < right_end(f%to))
+                    call add(merge(x, f%from, lowered%ground_point(i) == 0), gapbeam_by_x)
                 end associate
             end do
             at = 1 + n + size(model%supports) + size(model%hinges)
@@ -165,6 +182,17 @@ contains
                 end if
                 if (allocated(error)) return
             end do
+            at = at + 2*size(model%loads)
+            do i = 1, size(model%foundations)
+                lowered%foundation_from(i) = point(at + 2*i - 1)
+                lowered%foundation_to(i) = point(at + 2*i)
+                if (lowered%foundation_from(i) < lowered%foundation_to(i)) cycle
+                call refuse(error, of_foundations, i, size(model%foundations), no_stretch, "", &
+                            "its stretch has no length; from must be less than to")
+                return
+            end do
+            at = at + 2*size(model%foundations)
+            where (lowered%ground_point == 0) lowered%ground_point = point(at + 1:at + size(model%ground))
         end associate
 
     contains

@@ -8,6 +8,7 @@ module gapbeam_lower_loads
     use gapbeam_lowered, only: lowered_type, fingerprint, is_stretch
     use gapbeam_lower_laws, only: depends_on_path
     use gapbeam_lower_axial, only: lower_axial
+    use gapbeam_lower_foundations, only: lower_foundations
     use gapbeam_lower_units, only: change_units, refuse_link
     implicit none
     private
@@ -31,6 +32,8 @@ contains
         end if
         lowered%fingerprint = fingerprint(lowered%model)
         call sum_loads(lowered)
+        call lower_foundations(lowered, error)
+        if (allocated(error)) return
         call change_units(lowered, error)
         if (.not. allocated(error)) call lower_axial(lowered, error)
         if (allocated(error)) return

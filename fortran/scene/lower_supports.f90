@@ -125,7 +125,7 @@ contains
     end function contact_level
 
     !> Beam ends, hinges and supports across the beam are nodes, and on overhangs the places of loads: the moments there
-    !> follow from the loads farther out alone
+    !> follow from the loads farther out alone. With foundations all points are: every piece is a link on ground of its own
     subroutine choose_nodes(lowered, error)
         type(lowered_type), intent(inout) :: lowered
         type(error_type), allocatable, intent(out) :: error
@@ -141,6 +141,7 @@ contains
             node(:) = merge(0, -1, lowered%hinged)
             node(0) = 0
             node(n) = 0
+            if (size(lowered%model%foundations) > 0) node(:) = 0
             first = n + 1
             last = -1
             do k = 1, size(lowered%support_point)

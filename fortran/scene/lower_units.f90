@@ -9,8 +9,9 @@ module gapbeam_lower_units
         units_with_loads, middle, largest, no_exponent, ordinary_exponent
     use gapbeam_lowered, only: lowered_type, point_x, piece_length, stiffness_of, in_bending, in_shear
     use gapbeam_lower_supports, only: contact_level
+    use gapbeam_lower_foundations, only: note_foundations, scale_foundations, greatest_modulus
     use gapbeam_words, only: shown
-    use gapbeam_refusal, only: refuse_range, named, of_supports
+    use gapbeam_refusal, only: refuse_range, named, of_supports, of_foundations
     implicit none
     private
     public :: change_units, refuse_link, name_farthest, load_in_units
@@ -20,9 +21,9 @@ module gapbeam_lower_units
 
 contains
 
-    !> Choose the engine's units, and take pieces, supports and loads to them
+    !> Choose the engine's units, and take pieces, supports, foundations and loads to them
     subroutine change_units(lowered, error)
-        !> Points, nodes, supports, and loads in the user's units in
+        !> Points, nodes, supports, layers, and loads in the user's units in
         type(lowered_type), intent(inout) :: lowered
         !> Numbers out of range
         type(error_type), allocatable, intent(out) :: error
@@ -32,6 +33,7 @@ contains
         call change_laws(lowered, -1)
         call cut_pieces(lowered, error)
         if (.not. allocated(error)) call scale_supports(lowered, error)
+        if (.not. allocated(error)) call scale_foundations(lowered, lowered%units, error)
         if (.not. allocated(error)) call scale_loads(lowered, error)
     end subroutine change_units
 
@@ -105,6 +107,7 @@ contains
                 call forces%note(maxval(abs(beam%couple(:, j))), -length)
             end do
         end associate
+        call note_foundations(lowered, length, stiff(3), forces, ways)
         do j = 1, size(lowered%pieces)
             associate (a => lowered%dead(j), b => lowered%live(j))
                 call forces%note(max(abs(a%qa), abs(a%qb), abs(b%qa), abs(b%qb)), length)
@@ -256,6 +259,11 @@ contains
         do k = 1, size(lowered%beam%supports)
             call meet(abs(lowered%beam%supports(k)%contact), 6, lowered%normal(k))
         end do
+        if (allocated(lowered%layers)) then
+            do k = 1, size(lowered%layers)
+                call meet(max(lowered%layers(k)%modulus_a, lowered%layers(k)%modulus_b), 7, lowered%layers(k)%foundation)
+            end do
+        end if
         associate (supports => lowered%model%supports)
             select case (kind)
             case (1)
@@ -272,6 +280,11 @@ contains
             case (6)
                 call say("the deflection of "//trim(shown(contact_level(supports(entry))))//" at which "// &
                          trim(named(of_supports, entry, size(supports)))//" acts")
+            case (7)
+                associate (foundations => lowered%model%foundations)
+                    call say(trim(named(of_foundations, entry, size(foundations)))//": k = "// &
+                             shown(greatest_modulus(foundations(entry))))
+                end associate
             case default
                 call refuse_range(error, "though no length, stiffness or level is far from the rest", &
                                   "this is an error of gapbeam, please report it")

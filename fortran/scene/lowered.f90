@@ -3,6 +3,7 @@ module gapbeam_lowered
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp
     use gapbeam_link, only: piece_type, piece_load_type
+    use gapbeam_layers, only: layer_type, law_piece_type
     use gapbeam_model, only: beam_type
     use gapbeam_scene, only: model_type, load_type, gapbeam_distributed, gapbeam_curvature
     use gapbeam_units, only: units_type
@@ -50,6 +51,8 @@ module gapbeam_lowered
         real(wp), allocatable :: point_offset(:)
         !> Point of every support; first and last point of every load
         integer, allocatable :: support_point(:), load_from(:), load_to(:)
+        !> First and last point of every foundation; point of every point of a profile, -1: not on its foundation
+        integer, allocatable :: foundation_from(:), foundation_to(:), ground_point(:)
         !> First and last point of every section; the last section that gives EI, GA and EA of a piece, 0: none, shape (3, npiece),
         !> not allocated without sections
         integer, allocatable :: section_from(:), section_to(:), section_of(:, :)
@@ -58,6 +61,11 @@ module gapbeam_lowered
         !> Pieces and their loads in the engine's units, shape (npiece)
         type(piece_type), allocatable :: pieces(:)
         type(piece_load_type), allocatable :: dead(:), live(:)
+        !> Ground under the pieces in the engine's units: the layers of piece j are layer_first(j) to layer_first(j + 1) - 1, and of
+        !> their laws every piece; none allocated without foundations. With them every point is a node, so every piece a link
+        type(layer_type), allocatable :: layers(:)
+        integer, allocatable :: layer_first(:)
+        type(law_piece_type), allocatable :: law_pieces(:)
         !> Points that are nodes, shape (0:nlink); node_point(1:) is also the last piece of every link
         integer, allocatable :: node_point(:)
         !> Node of every point, -1: none, shape (0:npiece)
@@ -140,28 +148,37 @@ contains
         type(model_type), intent(out) :: copy
         !> 0, or what allocate says where memory is at an end
         integer, intent(out) :: stat
-        integer :: spans, hinges, sections, supports, points, loads
+        integer :: spans, hinges, sections, supports, points, foundations, ground, ground_law, loads
 
         spans = 0
         hinges = 0
         sections = 0
         supports = 0
         points = 0
+        foundations = 0
+        ground = 0
+        ground_law = 0
         loads = 0
         if (allocated(source%spans)) spans = size(source%spans)
         if (allocated(source%hinges)) hinges = size(source%hinges)
         if (allocated(source%sections)) sections = size(source%sections)
         if (allocated(source%supports)) supports = size(source%supports)
         if (allocated(source%law)) points = size(source%law)
+        if (allocated(source%foundations)) foundations = size(source%foundations)
+        if (allocated(source%ground)) ground = size(source%ground)
+        if (allocated(source%ground_law)) ground_law = size(source%ground_law)
         if (allocated(source%loads)) loads = size(source%loads)
         allocate (copy%spans(spans), copy%hinges(hinges), copy%sections(sections), copy%supports(supports), copy%law(points), &
-                  copy%loads(loads), stat=stat)
+                  copy%foundations(foundations), copy%ground(ground), copy%ground_law(ground_law), copy%loads(loads), stat=stat)
         if (stat /= 0) return
         if (spans > 0) copy%spans(:) = source%spans
         if (hinges > 0) copy%hinges(:) = source%hinges
         if (sections > 0) copy%sections(:) = source%sections
         if (supports > 0) copy%supports(:) = source%supports
         if (points > 0) copy%law(:) = source%law
+        if (foundations > 0) copy%foundations(:) = source%foundations
+        if (ground > 0) copy%ground(:) = source%ground
+        if (ground_law > 0) copy%ground_law(:) = source%ground_law
         if (loads > 0) copy%loads(:) = source%loads
     end subroutine copy_model
 
@@ -199,6 +216,7 @@ contains
                 end associate
             end do
         end if
+        call mix_foundations(all_bits, model)
         do i = 1, size(model%loads)
             associate (load => model%loads(i))
                 call mix(all_bits, [load%x, load%to, load%value, load%value_to, real([load%kind, load%case, load%node], wp)])
@@ -206,6 +224,31 @@ contains
         end do
         number = int(ibits(ieor(all_bits, ishft(all_bits, -32)), 0, 31))
     end function fingerprint
+
+    !> Mix foundations into a fingerprint
+    pure subroutine mix_foundations(all_bits, model)
+        integer(int64), intent(inout) :: all_bits
+        !> Its foundations may not be allocated; with them their profiles and laws are
+        type(model_type), intent(in) :: model
+        integer :: i
+
+        if (.not. allocated(model%foundations)) return
+        do i = 1, size(model%foundations)
+            associate (f => model%foundations(i))
+                call mix(all_bits, [f%from, f%to, f%k, f%k_to, f%gap, f%gap_to, real(f%side, wp)])
+            end associate
+        end do
+        do i = 1, size(model%ground)
+            associate (point => model%ground(i))
+                call mix(all_bits, [real(point%foundation, wp), point%x, point%gap])
+            end associate
+        end do
+        do i = 1, size(model%ground_law)
+            associate (point => model%ground_law(i))
+                call mix(all_bits, [real(point%foundation, wp), point%displacement, point%force])
+            end associate
+        end do
+    end subroutine mix_foundations
 
     !> Mix the bits of numbers into a fingerprint: a linear map of all bits so far, plus the new ones, modulo 2
     pure subroutine mix(number, values)

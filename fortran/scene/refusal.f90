@@ -5,22 +5,23 @@ module gapbeam_refusal
     implicit none
     private
     public :: refuse, refuse_range, named
-    public :: of_spans, of_hinges, of_supports, of_loads, of_sections
+    public :: of_spans, of_hinges, of_supports, of_loads, of_sections, of_foundations
     public :: no_span, not_expected, too_long, lost_length, at_end, off_beam, no_place, no_node, no_stretch, not_axial, no_gap, &
               not_held, twice, no_room, at_hinge, idle, bad_law
 
     !> The arrays of a model
-    integer, parameter :: of_spans = 1, of_hinges = 2, of_supports = 3, of_loads = 4, of_sections = 5
+    integer, parameter :: of_spans = 1, of_hinges = 2, of_supports = 3, of_loads = 4, of_sections = 5, of_foundations = 6
     !> Reasons: the beam has no span; a number is not as expected; the beam is too long; a length is lost in rounding; a hinge is at
     !> an end; a place is off the beam; it is missing; there is no such node; a stretch has no length
     integer, parameter :: no_span = 1, not_expected = 2, too_long = 3, lost_length = 4, at_end = 5, off_beam = 6, no_place = 7, &
                           no_node = 8, no_stretch = 9
-    !> An axial support does not have that; a support that holds both ways has no gap; nothing holds an axial load; two parts do
-    !> the same at one place; two supports leave no room; something is exactly at a hinge; a section changes nothing
+    !> An axial support does not have that; a support or foundation that holds both ways has no gap; nothing holds an axial
+    !> load; two parts do the same at one place; two supports leave no room; something is exactly at a hinge; a section changes
+    !> nothing
     integer, parameter :: not_axial = 10, no_gap = 11, not_held = 12, twice = 13, no_room = 14, at_hinge = 15, idle = 16
-    !> A law is impossible: the message says why
+    !> A law, or the ground of a foundation, is impossible: the message says why; the partner is the point, from 1, 0: none
     integer, parameter :: bad_law = 17
-    character(len=*), parameter :: names(5) = [character(len=7) :: "span", "hinge", "support", "load", "section"]
+    character(len=*), parameter :: names(6) = [character(len=10) :: "span", "hinge", "support", "load", "section", "foundation"]
 
 contains
 

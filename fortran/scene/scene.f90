@@ -1,4 +1,4 @@
-!> What a user describes: spans, hinges, supports and loads by their places along the beam.
+!> What a user describes: spans, hinges, supports, foundations and loads by their places along the beam.
 !>
 !> Units: any consistent set. Signs: x from the left end to the right; deflections, settlements and loads positive down,
 !> reactions up, moments sagging, couples and rotations clockwise; axial forces on the beam to the right, inside it tension.
@@ -8,6 +8,7 @@ module gapbeam_scene
     implicit none
     private
     public :: span_type, section_type, support_type, law_point_type, load_type, model_type
+    public :: foundation_type, ground_point_type, ground_law_point_type
     public :: point_force, point_couple, uniform_load, linear_load, imposed_curvature, axial_force
     public :: gapbeam_infinity, gapbeam_by_x, gapbeam_unchanged, gapbeam_right_end
     public :: gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_normal, gapbeam_axial
@@ -19,7 +20,7 @@ module gapbeam_scene
     real(wp), parameter :: gapbeam_infinity = transfer(int(z"7FF0000000000000", int64), 1.0_wp)
     !> Instead of a node: the place is given by x
     integer, parameter :: gapbeam_by_x = -1
-    !> Sides of a support: holds the beam both ways, pushes it up only, pushes it down only
+    !> Sides of a support or foundation: holds the beam both ways, pushes it up only, pushes it down only
     integer, parameter :: gapbeam_both = 0, gapbeam_below = 1, gapbeam_above = -1
     !> Directions of a support: across the beam, along it
     integer, parameter :: gapbeam_normal = 0, gapbeam_axial = 1
@@ -30,7 +31,8 @@ module gapbeam_scene
     integer, parameter :: gapbeam_live = 0, gapbeam_dead = 1
     !> How a support with a law unloads: back along it, parallel to its first piece, or not at all once its force has fallen
     integer, parameter :: gapbeam_elastic = 0, gapbeam_plastic = 1, gapbeam_broken = 2
-    !> Instead of a stiffness of a section: it stays as it is. Instead of where a stretch ends: the right end of the beam
+    !> Instead of a stiffness of a section: it stays as it is; of a number at the right end of a foundation: it is that at the left.
+    !> Instead of where a stretch ends: the right end of the beam
     real(wp), parameter :: gapbeam_unchanged = -huge(1.0_wp), gapbeam_right_end = -huge(1.0_wp)
     !> A place not given
     real(wp), parameter :: nowhere = -huge(1.0_wp)
@@ -86,6 +88,36 @@ module gapbeam_scene
         real(wp) :: displacement, force
     end type law_point_type
 
+    !> Ground under a stretch of the beam, which pushes back by its modulus or by a law wherever the beam touches it
+    type :: foundation_type
+        !> Ends of the stretch
+        real(wp) :: from = 0.0_wp, to = gapbeam_right_end
+        !> Modulus (force/length**2) at its left and right end, linear in between, 0 or more; 0 where there is a law instead
+        real(wp) :: k = 0.0_wp, k_to = gapbeam_unchanged
+        !> gapbeam_both, gapbeam_below or gapbeam_above
+        integer :: side = gapbeam_both
+        !> Distance to be closed before it acts, at its left and right end, linear in between; negative: lack of fit; one-sided
+        !> foundations, or those with a law, only
+        real(wp) :: gap = 0.0_wp, gap_to = gapbeam_unchanged
+    end type foundation_type
+
+    !> A point of the profile of a foundation, which has one instead of a gap: straight in between, beyond its ends the last value
+    type :: ground_point_type
+        !> Number of the foundation, from 1; its points stand beside each other, in ascending order of x
+        integer :: foundation
+        !> Place, also outside the foundation, and the gap there
+        real(wp) :: x, gap
+    end type ground_point_type
+
+    !> A point of the law of a foundation, which has one instead of a modulus: a polyline from (0, 0) through its points, whose last
+    !> slope goes on; a foundation that holds both ways has it both ways
+    type :: ground_law_point_type
+        !> Number of the foundation, from 1; its points stand beside each other
+        integer :: foundation
+        !> Displacement past the gap, above that of the point before; force per length, not below that of the point before
+        real(wp) :: displacement, force
+    end type ground_law_point_type
+
     !> A load; the functions below make one of each kind
     type :: load_type
         !> gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature or gapbeam_axial_force
@@ -113,6 +145,10 @@ module gapbeam_scene
         type(support_type), allocatable :: supports(:)
         !> Points of the laws of those that have one
         type(law_point_type), allocatable :: law(:)
+        type(foundation_type), allocatable :: foundations(:)
+        !> Points of the profiles and of the laws of those that have one
+        type(ground_point_type), allocatable :: ground(:)
+        type(ground_law_point_type), allocatable :: ground_law(:)
         type(load_type), allocatable :: loads(:)
     end type model_type
 
