@@ -14,6 +14,8 @@ module gapbeam_query
     use gapbeam_words, only: shown
     use gapbeam_refusal, only: refuse_range
     use gapbeam_memory, only: reserve_memory, for_fields
+    use gapbeam_ground_solver, only: ground_solution_type
+    use gapbeam_ground_query, only: ground_values, ground_extremes
     use gapbeam_solution, only: state_type, couple_at_node, way_to_contact
     use gapbeam_pieces, only: acting_type, acting_piece, gapbeam_open, gapbeam_closed, gapbeam_bilateral, gapbeam_branch
     use gapbeam_state, only: recover_state
@@ -182,10 +184,10 @@ contains
         real(wp), allocatable :: distance(:)
 
         call find_pieces(lowered, x, from_left, piece, distance, error)
-        if (.not. allocated(error)) call make_starts(lowered, state, error)
+        if (.not. (allocated(error) .or. allocated(state%ground))) call make_starts(lowered, state, error)
         if (allocated(error)) return
         call fields_in_pieces(lowered, state%factor, state%starts, state%displacement, state%tension, piece, distance, fields, &
-                              error)
+                              error, state%ground)
     end subroutine fields_at_places
 
     !> Pieces of given places
@@ -221,7 +223,7 @@ contains
     end subroutine find_pieces
 
     !> Fields at given distances from the left ends of pieces
-    subroutine fields_in_pieces(lowered, factor, starts, displacement, tension, piece, distance, fields, error)
+    subroutine fields_in_pieces(lowered, factor, starts, displacement, tension, piece, distance, fields, error, ground)
         type(lowered_type), intent(in) :: lowered
         !> Factor of the live loads, fields at the left ends of all pieces, and the solution along the axis (state_type)
         real(wp), intent(in) :: factor
@@ -234,6 +236,8 @@ contains
         real(wp), intent(inout) :: fields(:, :)
         !> A field out of range, or no memory
         type(error_type), allocatable, intent(out) :: error
+        !> The solution on the ground, instead of the fields at the pieces
+        type(ground_solution_type), intent(in), optional :: ground
         type(field_type), allocatable :: bent(:)
         real(wp), allocatable :: found(:, :)
         integer :: powers(field_count), i, k, stat
@@ -245,7 +249,11 @@ contains
         end if
         powers = field_units(lowered)
         found(1, :) = scale(distance, -lowered%units%length)
-        call values_at(lowered%pieces, lowered%dead, lowered%live, factor, starts, piece, found(1, :), bent)
+        if (present(ground)) then
+            call ground_values(ground, piece, found(1, :), bent)
+        else
+            call values_at(lowered%pieces, lowered%dead, lowered%live, factor, starts, piece, found(1, :), bent)
+        end if
         do i = 1, size(piece)
             found(1:4, i) = [bent(i)%deflection, bent(i)%rotation, bent(i)%moment, bent(i)%shear]
             call axial_fields(lowered, displacement, tension, piece(i), distance(i), found(5, i), found(6, i))
@@ -376,13 +384,14 @@ contains
         !> A field out of range, or no memory
         type(error_type), allocatable, intent(out) :: error
 
-        call make_starts(lowered, state, error)
+        if (.not. allocated(state%ground)) call make_starts(lowered, state, error)
         if (allocated(error)) return
-        call extremes_of_pieces(lowered, state%factor, state%starts, state%displacement, state%tension, value, x, error)
+        call extremes_of_pieces(lowered, state%factor, state%starts, state%displacement, state%tension, value, x, error, &
+                                state%ground)
     end subroutine extremes_of_fields
 
     !> The same from the fields at the left ends of all pieces
-    subroutine extremes_of_pieces(lowered, factor, starts, displacement, tension, value, x, error)
+    subroutine extremes_of_pieces(lowered, factor, starts, displacement, tension, value, x, error, ground)
         !> As for fields_in_pieces
         type(lowered_type), intent(in) :: lowered
         real(wp), intent(in) :: factor
@@ -391,10 +400,15 @@ contains
         !> As for extremes_of_fields
         real(wp), intent(out) :: value(:, :), x(:, :)
         type(error_type), allocatable, intent(out) :: error
+        type(ground_solution_type), intent(in), optional :: ground
         real(wp) :: found(2, field_count), distance(2, 4)
         integer :: piece(2, 4), powers(field_count), i, k
 
-        call find_extremes(lowered%pieces, lowered%dead, lowered%live, factor, starts, found(:, 1:4), piece, distance)
+        if (present(ground)) then
+            call ground_extremes(ground, found(:, 1:4), piece, distance)
+        else
+            call find_extremes(lowered%pieces, lowered%dead, lowered%live, factor, starts, found(:, 1:4), piece, distance)
+        end if
         do k = 1, 4
             do i = 1, 2
                 x(i, k) = point_x(lowered, piece(i, k) - 1) + scale(distance(i, k), lowered%units%length)

@@ -6,6 +6,7 @@ module gapbeam_solution
     use gapbeam_polyline, only: node_support_type, last_kink
     use gapbeam_words, only: shown
     use gapbeam_refusal, only: refuse_range
+    use gapbeam_ground_solver, only: ground_solution_type
     use gapbeam_units, only: moment_unit
     use gapbeam_lowered, only: lowered_type, point_x
     use gapbeam_lower_supports, only: contact_level
@@ -40,6 +41,8 @@ module gapbeam_solution
         real(wp), allocatable :: reaction(:)
         !> Displacements and reactions of the axial system's points, forces in its bars; of size 0 without one
         real(wp), allocatable :: displacement(:), axial_reaction(:), tension(:)
+        !> On the ground, what is in its stretches
+        type(ground_solution_type), allocatable :: ground
         !> Fields at the left end of every piece; made when first asked for
         type(field_type), allocatable :: starts(:)
         logical :: has_starts = .false.
@@ -106,6 +109,7 @@ contains
         state%slides = .false.
         state%came_back = .false.
         state%has_starts = .false.
+        if (allocated(state%ground)) deallocate (state%ground)
         state%undecided(:) = .false.
         state%reaction(:) = 0.0_wp
         state%deflection(:) = 0.0_wp

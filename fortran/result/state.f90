@@ -10,6 +10,9 @@ module gapbeam_state
     use gapbeam_recover, only: recover_beam
     use gapbeam_scheme, only: outcome_type
     use gapbeam_referee, only: rule_given, decide_scheme, detail_type, reserve_for
+    use gapbeam_search, only: rule_block
+    use gapbeam_ground, only: ground_type
+    use gapbeam_ground_solver, only: solve_on_ground
     use gapbeam_certificate, only: certificate_type, certify
     use gapbeam_path, only: follow_path, path_type, event_turns
     use gapbeam_pieces, only: acting_type, acting_piece, what_happens, nothing
@@ -21,7 +24,7 @@ module gapbeam_state
     use gapbeam_memory, only: for_solving, for_following, for_certifying
     implicit none
     private
-    public :: event_type, solve_state, recover_state, certify_state, follow_events, detail_of, name_range
+    public :: event_type, solve_state, ground_of, recover_state, certify_state, follow_events, detail_of, name_range
 
     !> Changes of the scheme followed at a time
     integer, parameter :: changes_at_a_time = 1000
@@ -75,7 +78,9 @@ contains
         acting(:) = state%closed
         call solve_along_axis(lowered, state, error)
         if (allocated(error)) return
-        if (allocated(state%laws)) then
+        if (allocated(lowered%layers)) then
+            call settle_on_ground(ground_of(lowered))
+        else if (allocated(state%laws)) then
             changed = lowered%beam
             changed%supports(:) = state%laws
             call settle(changed)
@@ -117,7 +122,46 @@ contains
             state%reaction(:) = work%reaction
         end subroutine settle
 
+        !> The same on the ground
+        subroutine settle_on_ground(ground)
+            type(ground_type), intent(in) :: ground
+
+            allocate (state%ground)
+            call solve_on_ground(ground, detail_of(lowered), factor, merge(rule_block, rule, rule == rule_given), acting, &
+                                 state%ground, outcome, error)
+            call name_range(lowered, error)
+            if (allocated(error)) return
+            state%solves = state%ground%solves
+            state%status = merge(gapbeam_no_equilibrium, outcome%status, state%slides)
+            if (state%slides) return
+            if (outcome%status /= gapbeam_solved) then
+                if (allocated(outcome%motion)) state%motion(:) = outcome%motion
+                return
+            end if
+            state%indifferent = outcome%indifferent
+            state%closed(:) = acting
+            state%undecided(:) = state%ground%undecided
+            state%deflection(:) = state%ground%deflection
+            state%moment_left(:) = state%ground%moment_left
+            state%moment_right(:) = state%ground%moment_right
+            state%reaction(:) = state%ground%reaction
+        end subroutine settle_on_ground
+
     end subroutine solve_state
+
+    !> The beam with the ground under it
+    function ground_of(lowered) result(ground)
+        type(lowered_type), intent(in) :: lowered
+        type(ground_type) :: ground
+
+        ground%beam = lowered%beam
+        ground%pieces = lowered%pieces
+        ground%dead = lowered%dead
+        ground%live = lowered%live
+        ground%layers = lowered%layers
+        ground%first = lowered%layer_first
+        ground%laws = lowered%law_pieces
+    end function ground_of
 
     !> Say what it was where the engine left the range of double precision
     subroutine name_range(lowered, error)
@@ -190,6 +234,14 @@ contains
         type(field_type), allocatable :: starts(:)
         type(beam_type) :: changed
 
+        if (allocated(state%ground)) then
+            associate (bounds => state%ground%bounds, residuals => state%ground%residuals)
+                certificate = certificate_type(compatibility=residuals(1), equilibrium=residuals(2), of_nodes=bounds(1), &
+                                               reaction=bounds(5), deflection=bounds(1), rotation=bounds(2), moment=bounds(3), &
+                                               shear=bounds(4), known=.not. state%indifferent)
+            end associate
+            return
+        end if
         call reserve_for(for_certifying, lowered%beam, detail_of(lowered), error)
         if (allocated(error)) return
         allocate (starts(size(lowered%pieces)))

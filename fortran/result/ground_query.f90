@@ -1,0 +1,348 @@
+!> What a solved beam on the ground says: fields along it and their extremes, pressure, zones of contact
+module gapbeam_ground_query
+    use gapbeam_kinds, only: wp
+    use gapbeam_element, only: field_type
+    use gapbeam_foundation, only: stretch_load_type, stretch_ends_type, fields_at
+    use gapbeam_foundation_roots, only: find_peaks
+    use gapbeam_layers, only: layer_type, law_piece_type, law_piece
+    use gapbeam_ground, only: contact_line, along
+    use gapbeam_ground_solver, only: ground_solution_type
+    use gapbeam_lowered, only: lowered_type
+    implicit none
+    private
+    public :: ground_values, ground_extremes, ground_pressure, pressure_extremes, largest_ways
+
+contains
+
+    !> Deflection, rotation, moment and shear at distances from the left ends of pieces
+    pure subroutine ground_values(solution, piece, distance, fields)
+        !> The solved beam
+        type(ground_solution_type), intent(in) :: solution
+        !> Pieces of the beam, and distances in the engine's units, shape (n)
+        integer, intent(in) :: piece(:)
+        real(wp), intent(in) :: distance(:)
+        !> Shape (n)
+        type(field_type), intent(out) :: fields(:)
+        integer :: i, k
+
+        do k = 1, size(piece)
+            i = stretch_of(solution, piece(k), distance(k))
+            call values_in(solution, i, share_of(solution, i, distance(k)), fields(k))
+        end do
+    end subroutine ground_values
+
+    !> The stretch in which a place lies
+    pure function stretch_of(solution, piece, distance) result(i)
+        type(ground_solution_type), intent(in) :: solution
+        integer, intent(in) :: piece
+        real(wp), intent(in) :: distance
+        integer :: i, high, middle
+
+        i = 1
+        high = size(solution%piece) + 1
+        do while (high - i > 1)
+            middle = i + (high - i)/2
+            if (solution%piece(middle) < piece .or. (solution%piece(middle) == piece .and. solution%from(middle) <= distance)) then
+                i = middle
+            else
+                high = middle
+            end if
+        end do
+    end function stretch_of
+
+    !> Where in its stretch a place lies, 0 to 1
+    pure function share_of(solution, i, distance) result(xi)
+        type(ground_solution_type), intent(in) :: solution
+        integer, intent(in) :: i
+        real(wp), intent(in) :: distance
+        real(wp) :: xi
+
+        xi = 0.0_wp
+        associate (from => solution%from(i), to => solution%to(i))
+            if (distance > from .and. to > from) xi = min(1.0_wp, (distance - from)/(to - from))
+        end associate
+    end function share_of
+
+    !> Fields inside a stretch, at its ends as they were solved
+    pure subroutine values_in(solution, i, xi, field)
+        type(ground_solution_type), intent(in) :: solution
+        integer, intent(in) :: i
+        real(wp), intent(in) :: xi
+        type(field_type), intent(out) :: field
+
+        associate (ends => solution%ends(i))
+            if (xi <= 0.0_wp) then
+                field%deflection = ends%w_a
+                field%moment = ends%moment_a
+                field%rotation = solution%rotation(1, i)
+                field%shear = solution%shear(1, i)
+            else if (xi >= 1.0_wp) then
+                field%deflection = ends%w_b
+                field%moment = ends%moment_b
+                field%rotation = solution%rotation(2, i)
+                field%shear = solution%shear(2, i)
+            else
+                call fields_at(solution%stretches(i), solution%loads(i), ends, xi, field%deflection, field%rotation, field%moment, &
+                               field%shear)
+            end if
+        end associate
+    end subroutine values_in
+
+    !> Largest and smallest deflection, rotation, moment and shear, and where they are
+    subroutine ground_extremes(solution, values, piece, distance)
+        type(ground_solution_type), intent(in) :: solution
+        !> Maximum (1) and minimum (2), shape (2, 4)
+        real(wp), intent(out) :: values(:, :)
+        !> Pieces of the beam and distances from their left ends, shape (2, 4)
+        integer, intent(out) :: piece(:, :)
+        real(wp), intent(out) :: distance(:, :)
+        type(field_type) :: field
+        real(wp), allocatable :: xi(:)
+        integer :: i, j, k, number
+
+        values(1, :) = -huge(1.0_wp)
+        values(2, :) = huge(1.0_wp)
+        piece(:, :) = 1
+        distance(:, :) = 0.0_wp
+        do i = 1, size(solution%piece)
+            do j = 0, 1
+                call values_in(solution, i, real(j, wp), field)
+                do k = 1, 4
+                    call consider(real(j, wp))
+                end do
+            end do
+            do k = 1, 4
+                call find_peaks(solution%stretches(i), solution%loads(i), solution%ends(i), k, xi, number)
+                do j = 1, number
+                    call values_in(solution, i, xi(j), field)
+                    call consider(xi(j))
+                end do
+            end do
+        end do
+
+    contains
+
+        !> Compare a field with its extremes so far
+        subroutine consider(at)
+            real(wp), intent(in) :: at
+            real(wp) :: value, place
+
+            value = field%shear
+            if (k == 1) value = field%deflection
+            if (k == 2) value = field%rotation
+            if (k == 3) value = field%moment
+            place = along(solution%from(i), solution%to(i), at, 1.0_wp)
+            if (value > values(1, k)) then
+                values(1, k) = value
+                piece(1, k) = solution%piece(i)
+                distance(1, k) = place
+            end if
+            if (value < values(2, k)) then
+                values(2, k) = value
+                piece(2, k) = solution%piece(i)
+                distance(2, k) = place
+            end if
+        end subroutine consider
+
+    end subroutine ground_extremes
+
+    !> Pressure of all ground on the beam at distances from the left ends of pieces, force per length, up
+    pure subroutine ground_pressure(lowered, solution, piece, distance, pressure)
+        !> The beam, and its solution
+        type(lowered_type), intent(in) :: lowered
+        type(ground_solution_type), intent(in) :: solution
+        !> As for ground_values
+        integer, intent(in) :: piece(:)
+        real(wp), intent(in) :: distance(:)
+        !> In the engine's units, shape (n)
+        real(wp), intent(out) :: pressure(:)
+        integer :: i, k
+
+        do k = 1, size(piece)
+            i = stretch_of(solution, piece(k), distance(k))
+            pressure(k) = pressure_in(lowered, solution, i, share_of(solution, i, distance(k)))
+        end do
+    end subroutine ground_pressure
+
+    !> Pressure of all layers inside a stretch
+    pure function pressure_in(lowered, solution, i, xi) result(pressure)
+        type(lowered_type), intent(in) :: lowered
+        type(ground_solution_type), intent(in) :: solution
+        integer, intent(in) :: i
+        real(wp), intent(in) :: xi
+        real(wp) :: pressure, place, slope, push
+        type(field_type) :: field
+        type(law_piece_type) :: law
+        integer :: k
+
+        pressure = 0.0_wp
+        call values_in(solution, i, xi, field)
+        associate (j => solution%piece(i))
+            place = along(solution%from(i), solution%to(i), xi, 1.0_wp)
+            do k = lowered%layer_first(j), lowered%layer_first(j + 1) - 1
+                if (solution%acts(k - lowered%layer_first(j) + 1, i) == 0) cycle
+                associate (layer => lowered%layers(k), length => lowered%pieces(j)%length)
+                    law = law_piece(layer, lowered%law_pieces, solution%acts(k - lowered%layer_first(j) + 1, i))
+                    slope = law%slope
+                    if (layer%law_last < layer%law_first) slope = along(layer%modulus_a, layer%modulus_b, place, length)
+                    push = slope*(field%deflection - contact_line(layer, place, length)) &
+                        + layer%side*(law%force - law%slope*law%displacement)
+                    ! At an end of a zone it is zero but for rounding
+                    if (layer%side /= 0) push = layer%side*max(0.0_wp, layer%side*push)
+                    pressure = pressure + push
+                end associate
+            end do
+        end associate
+    end function pressure_in
+
+    !> Where the distance between the beam and the line at which a layer begins to act is stationary inside a stretch: their
+    !> difference is the deflection under the load less what the ground would take of it along the line
+    subroutine peaks_beside(lowered, solution, i, k, xi, number)
+        type(lowered_type), intent(in) :: lowered
+        type(ground_solution_type), intent(in) :: solution
+        !> Stretch and layer
+        integer, intent(in) :: i, k
+        real(wp), allocatable, intent(out) :: xi(:)
+        integer, intent(out) :: number
+        type(stretch_load_type) :: load
+        type(stretch_ends_type) :: ends
+        real(wp) :: line(2)
+
+        associate (s => solution%stretches(i))
+            line(:) = contact_line(lowered%layers(k), [solution%from(i), solution%to(i)], lowered%pieces(solution%piece(i))%length)
+            load = solution%loads(i)
+            load%qa = load%qa - s%modulus_a*line(1)
+            load%qb = load%qb - s%modulus_b*line(2)
+            load%qc = load%qc + (s%modulus_b - s%modulus_a)*(line(2) - line(1))
+            ends = solution%ends(i)
+            ends%w_a = ends%w_a - line(1)
+            ends%w_b = ends%w_b - line(2)
+            call find_peaks(s, load, ends, 1, xi, number)
+        end associate
+    end subroutine peaks_beside
+
+    !> Largest distance of the beam from every layer under its stretches
+    subroutine largest_ways(lowered, solution, way)
+        !> The beam, and its solution
+        type(lowered_type), intent(in) :: lowered
+        type(ground_solution_type), intent(in) :: solution
+        !> In the engine's units, 0 where the layer acts all along, shape (most layers, stretches)
+        real(wp), intent(out) :: way(:, :)
+        real(wp), allocatable :: xi(:)
+        integer :: i, j, k, number
+
+        way(:, :) = 0.0_wp
+        do i = 1, size(solution%piece)
+            associate (first => lowered%layer_first(solution%piece(i)), last => lowered%layer_first(solution%piece(i) + 1) - 1)
+                do k = first, last
+                    if (solution%acts(k - first + 1, i) > 0) cycle
+                    call peaks_beside(lowered, solution, i, k, xi, number)
+                    associate (most => way(k - first + 1, i))
+                        most = max(way_at(0.0_wp), way_at(1.0_wp))
+                        do j = 1, number
+                            most = max(most, way_at(xi(j)))
+                        end do
+                    end associate
+                end do
+            end associate
+        end do
+
+    contains
+
+        !> Distance at a place of the stretch
+        function way_at(at) result(distance)
+            real(wp), intent(in) :: at
+            real(wp) :: distance
+            type(field_type) :: field
+
+            call values_in(solution, i, at, field)
+            associate (layer => lowered%layers(k))
+                distance = layer%side*(contact_line(layer, along(solution%from(i), solution%to(i), at, 1.0_wp), &
+                                                    lowered%pieces(solution%piece(i))%length) - field%deflection)
+            end associate
+        end function way_at
+
+    end subroutine largest_ways
+
+    !> Largest and smallest pressure, and where it is: at an end of a stretch, or where the deflection is extreme beside the ground
+    subroutine pressure_extremes(lowered, solution, values, piece, distance)
+        type(lowered_type), intent(in) :: lowered
+        type(ground_solution_type), intent(in) :: solution
+        !> Maximum (1) and minimum (2), their pieces and distances, shape (2)
+        real(wp), intent(out) :: values(2), distance(2)
+        integer, intent(out) :: piece(2)
+        real(wp), allocatable :: xi(:)
+        real(wp) :: pressure
+        integer :: i, j, k, number
+
+        values = [-huge(1.0_wp), huge(1.0_wp)]
+        piece = 1
+        distance = 0.0_wp
+        do i = 1, size(solution%piece)
+            call consider(0.0_wp)
+            call consider(1.0_wp)
+            if (abs(solution%stretches(i)%modulus_a - solution%stretches(i)%modulus_b) > 0.0_wp) then
+                call consider(peak_where_it_varies(1))
+                call consider(peak_where_it_varies(-1))
+                cycle
+            end if
+            do k = lowered%layer_first(solution%piece(i)), lowered%layer_first(solution%piece(i) + 1) - 1
+                call peaks_beside(lowered, solution, i, k, xi, number)
+                do j = 1, number
+                    call consider(xi(j))
+                end do
+            end do
+        end do
+
+    contains
+
+        !> Where the modulus varies, the pressure is a product whose peak no derivative of the fields tells: stretches are short
+        !> there, and one peak lies beside the best of some places (golden section)
+        function peak_where_it_varies(way) result(at)
+            !> 1: largest, -1: smallest
+            integer, intent(in) :: way
+            real(wp) :: at
+            integer, parameter :: places = 16, halvings = 60
+            real(wp), parameter :: golden = (sqrt(5.0_wp) - 1)/2
+            real(wp) :: found(0:places), low, high, inner(2)
+            integer :: n
+
+            do n = 0, places
+                found(n) = way*pressure_in(lowered, solution, i, real(n, wp)/places)
+            end do
+            n = maxloc(found, 1) - 1
+            low = max(n - 1, 0)/real(places, wp)
+            high = min(n + 1, places)/real(places, wp)
+            do n = 1, halvings
+                inner = [high - golden*(high - low), low + golden*(high - low)]
+                if (way*pressure_in(lowered, solution, i, inner(1)) > way*pressure_in(lowered, solution, i, inner(2))) then
+                    high = inner(2)
+                else
+                    low = inner(1)
+                end if
+            end do
+            at = low + (high - low)/2
+        end function peak_where_it_varies
+
+        !> Compare with the extremes so far
+        subroutine consider(at)
+            real(wp), intent(in) :: at
+
+            pressure = pressure_in(lowered, solution, i, at)
+            if (pressure > values(1)) call keep(1, at)
+            if (pressure < values(2)) call keep(2, at)
+        end subroutine consider
+
+        !> Note an extreme
+        subroutine keep(which, at)
+            integer, intent(in) :: which
+            real(wp), intent(in) :: at
+
+            values(which) = pressure
+            piece(which) = solution%piece(i)
+            distance(which) = along(solution%from(i), solution%to(i), at, 1.0_wp)
+        end subroutine keep
+
+    end subroutine pressure_extremes
+
+end module gapbeam_ground_query
