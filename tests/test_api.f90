@@ -5,8 +5,8 @@ program test_api
     use gapbeam, only: model_type, span_type, support_type, load_type, prepared_type, options_type, result_type, &
         certificate_type, event_type, error_type, point_force, point_couple, uniform_load, linear_load, imposed_curvature, &
         axial_force, prepare_model, replace_loads, solve_beam, follow_load, get_supports, get_fields, get_extremes, &
-        get_motion, get_certificate, count_supports, count_nodes, gapbeam_infinity, gapbeam_below, gapbeam_above, &
-        gapbeam_axial, gapbeam_dead, gapbeam_closed, gapbeam_bilateral, gapbeam_rule_single, gapbeam_solved, &
+        get_motion, get_certificate, count_supports, count_nodes, gapbeam_infinity, gapbeam_both, gapbeam_below, &
+        gapbeam_above, gapbeam_axial, gapbeam_dead, gapbeam_closed, gapbeam_bilateral, gapbeam_rule_single, gapbeam_solved, &
         gapbeam_no_equilibrium, gapbeam_bad_input, gapbeam_not_finite, gapbeam_not_prepared, gapbeam_indeterminate, &
         gapbeam_status_message, law_point_type, history_type, follow_history, solve_on_path, gapbeam_plastic, gapbeam_branch, &
         gapbeam_open, gapbeam_yields, gapbeam_breaks, gapbeam_unloads, gapbeam_opens, gapbeam_limit_stop, gapbeam_limit_jump, &
@@ -403,6 +403,10 @@ contains
         model%law(2)%displacement = 1.1_wp
         model%law(2)%support = 4
         call refuse(model, 3, 1, "does not exist")
+        model%law(2)%support = 2
+        model%supports(2)%side = gapbeam_both
+        model%supports(2)%gap = -0.01_wp
+        call refuse(model, 3, 2, "gap: expected 0 or more")
     end subroutine hardening_law
 
     !> A support that breaks: the load stops, the beam falls on to a state beyond, or the path is followed

@@ -431,6 +431,154 @@ static void laws_and_histories(void)
     free(old);
 }
 
+/* A rigid beam of 12 on ground that pushes up only, a force of 30 at a distance of 2 from its left end: contact over three times
+ * that, the pressure there 2 F/(3 e) */
+static gapbeam_model tipped(void)
+{
+    static const double twelve[] = {12.0}, k[] = {5.0}, two[] = {2.0}, thirty[] = {30.0};
+    static const int below[] = {GAPBEAM_BELOW}, kind[] = {GAPBEAM_FORCE};
+    static double rigid[1];
+    gapbeam_model model;
+    rigid[0] = gapbeam_infinity();
+    gapbeam_model_init(&model, sizeof model);
+    model.spans = 1;
+    model.length = twelve;
+    model.EI = rigid;
+    model.foundations = 1;
+    model.foundation_side = below;
+    model.foundation_k = k;
+    model.loads = 1;
+    model.load_kind = kind;
+    model.load_x = two;
+    model.load_value = thirty;
+    return model;
+}
+
+static void foundations(void)
+{
+    gapbeam_model model = tipped(), half;
+    gapbeam_certificate certificate = {.size = sizeof certificate};
+    gapbeam_info info = {.size = sizeof info};
+    gapbeam_history *history;
+    gapbeam_beam *beam;
+    gapbeam_state *state;
+    const double places[] = {0.0, 3.0, 9.0}, off[] = {13.0}, one[] = {1.0}, sixty[] = {60.0};
+    double from[2], to[2], force[2] = {7.0, 7.0}, sag[1], pressure[3] = {7.0, 7.0, 7.0}, value[2], x[2], fields[6], most[6][2], at[6][2];
+    int foundation[2] = {7, 7}, condition[2], number = -1;
+    char message[200];
+
+    check(prepare(&model, &beam) == GAPBEAM_SOLVED, "prepared");
+    gapbeam_new_state(&state);
+    check(gapbeam_get_contact(beam, state, 0, NULL, NULL, NULL, NULL, NULL, NULL) == GAPBEAM_NOT_PREPARED, "nothing solved");
+    check(gapbeam_solve(beam, 1.0, NULL, state, message, sizeof message) == GAPBEAM_SOLVED && !*message, "solved");
+    check(gapbeam_get_contact(beam, state, 2, foundation, from, to, condition, force, &number) == GAPBEAM_SOLVED, "contact");
+    check(number == 1 && foundation[0] == 0 && condition[0] == GAPBEAM_CLOSED && from[0] == 0.0, "one zone");
+    check(foundation[1] == 7 && force[1] == 7.0, "nothing is written behind it");
+    check_close(to[0], 6.0, "its end");
+    check_close(force[0], 30.0, "its force");
+    number = -1;
+    force[0] = 7.0;
+    check(gapbeam_get_contact(beam, state, 0, NULL, NULL, NULL, NULL, force, &number) == 0 && number == 1 && force[0] == 7.0,
+          "how many");
+    check(gapbeam_get_free_spans(beam, state, 1, foundation, from, to, sag, &number) == 0 && number == 1, "a free span");
+    check_close(from[0], 6.0, "where it begins");
+    check_close(to[0], 12.0, "where it ends");
+    check_close(sag[0], 2.0, "how far it is");
+    check(gapbeam_get_pressure(beam, state, 3, places, 0, pressure, NULL, 0) == GAPBEAM_SOLVED, "pressure");
+    check_close(pressure[0], 10.0, "at the edge");
+    check_close(pressure[1], 5.0, "in the middle");
+    check(pressure[2] == 0.0, "in the air");
+    check(gapbeam_get_pressure(beam, state, 1, off, 0, pressure, message, sizeof message) == GAPBEAM_BAD_INPUT
+          && strstr(message, "outside the beam"), "off the beam");
+    check(gapbeam_get_pressure(beam, state, 1, NULL, 0, pressure, message, sizeof message) == GAPBEAM_BAD_INPUT
+          && strstr(message, "x or pressure is NULL"), "no places");
+    check(gapbeam_get_pressure(beam, state, -1, places, 0, pressure, NULL, 0) == GAPBEAM_BAD_INPUT, "fewer than none");
+    check(gapbeam_get_pressure_extremes(beam, state, value, x) == GAPBEAM_SOLVED && x[0] == 0.0 && value[1] == 0.0, "extremes");
+    check_close(value[0], 10.0, "of it");
+    check(gapbeam_get_pressure_extremes(beam, state, NULL, NULL) == GAPBEAM_SOLVED, "for nobody");
+    check(gapbeam_get_extremes(beam, state, most, at) == GAPBEAM_SOLVED, "extremes of the fields");
+    check_close(most[GAPBEAM_DEFLECTION][0], 2.0, "of the deflection");
+    check(gapbeam_get_certificate(beam, state, &certificate, NULL) == 0 && certificate.known && certificate.field_bound[0] < 1e-12,
+          "certificate");
+    check(gapbeam_get_info(state, &info) == GAPBEAM_SOLVED && info.solves > 1, "rounds");
+    check(gapbeam_follow(beam, 1.0, NULL, 0, NULL, NULL, NULL, NULL, state, message, sizeof message) == GAPBEAM_BAD_INPUT
+          && strstr(message, "Python only"), "no events");
+    check(gapbeam_follow_history(beam, 1, one, GAPBEAM_LIMIT_STOP, &history, message, sizeof message) == GAPBEAM_BAD_INPUT
+          && strstr(message, "Python only"), "no history");
+    model.load_value = sixty;
+    check(gapbeam_replace_loads(beam, &model, NULL, 0) == GAPBEAM_SOLVED, "twice the load");
+    check(gapbeam_get_pressure_extremes(beam, state, value, x) == GAPBEAM_NOT_PREPARED, "for which nothing is solved");
+    gapbeam_solve(beam, 0.5, NULL, state, NULL, 0);
+    gapbeam_get_contact(beam, state, 1, NULL, NULL, to, NULL, force, NULL);
+    check_close(to[0], 6.0, "half of that");
+    gapbeam_free_state(state);
+    gapbeam_free_beam(beam);
+
+    /* A profile and a law: two layers of ground, the upper one 1/4 below the beam, with a knee */
+    static const int sides[] = {GAPBEAM_BELOW, GAPBEAM_BELOW}, of_profile[] = {0}, of_law[] = {1, 1};
+    static const double right[] = {12.0, 12.0}, k2[] = {2.0, 0.0}, profile_x[] = {5.0}, gaps[] = {0.25}, d[] = {0.5, 1.5},
+                        f[] = {1.0, 2.0}, uniform[] = {8.0};
+    model = tipped();
+    model.foundations = 2;
+    model.foundation_side = sides;
+    model.foundation_to = right;
+    model.foundation_k = k2;
+    model.foundation_k_to = k2;
+    model.profile_points = 1;
+    model.profile_foundation = of_profile;
+    model.profile_x = profile_x;
+    model.profile_gap = gaps;
+    model.ground_law_points = 2;
+    model.ground_law_foundation = of_law;
+    model.ground_law_displacement = d;
+    model.ground_law_force = f;
+    model.load_kind = distributed;
+    model.load_x = zero;
+    model.load_value = uniform;
+    check(prepare(&model, &beam) == GAPBEAM_SOLVED, "a profile and a law");
+    gapbeam_new_state(&state);
+    check(gapbeam_solve(beam, 1.0, NULL, state, NULL, 0) == GAPBEAM_SOLVED, "solved");
+    gapbeam_get_contact(beam, state, 2, foundation, from, to, condition, force, &number);
+    /* 2 (w - 1/4) + 1 + (w - 1/2) = 8 */
+    check(number == 2 && foundation[1] == 1 && condition[1] == GAPBEAM_BRANCH + 2, "on the second piece");
+    check_close(force[0], 12*2*(8/3.0 - 0.25), "the layer with the profile");
+    check_close(force[0] + force[1], 96.0, "both");
+    check(gapbeam_get_fields(beam, state, 1, places, 0, fields, NULL, 0) == GAPBEAM_SOLVED, "fields");
+    check_close(fields[GAPBEAM_DEFLECTION], 8/3.0, "the deflection");
+    gapbeam_free_state(state);
+    gapbeam_free_beam(beam);
+
+    model.profile_gap = NULL;
+    check(gapbeam_prepare(&model, &beam, message, sizeof message) == GAPBEAM_BAD_INPUT && strstr(message, "profile_gap"),
+          "a profile without gaps");
+    model.profile_points = -1;
+    check(gapbeam_prepare(&model, &beam, message, sizeof message) == GAPBEAM_BAD_INPUT && strstr(message, "profile points"),
+          "fewer points than none");
+    model.profile_points = 0;
+    model.ground_law_force = NULL;
+    check(gapbeam_prepare(&model, &beam, message, sizeof message) == GAPBEAM_BAD_INPUT && strstr(message, "ground_law_force"),
+          "a law without forces");
+    model.ground_law_points = 0;
+    check(gapbeam_prepare(&model, &beam, message, sizeof message) == GAPBEAM_BAD_INPUT
+          && strstr(message, "foundation 2 of 2: k"), "ground without anything");
+    model.foundations = -1;
+    check(gapbeam_prepare(&model, &beam, message, sizeof message) == GAPBEAM_BAD_INPUT && strstr(message, "foundations"),
+          "fewer foundations than none");
+
+    /* As compiled with the header of version 0.3: nothing behind its structure is written or read */
+    const size_t old_size = offsetof(gapbeam_model, foundations);
+    gapbeam_model *old = malloc(old_size);
+    check(old && gapbeam_model_init(old, old_size) == GAPBEAM_SOLVED, "the structure of version 0.3");
+    memcpy(&half, old, old_size);
+    check(half.size == old_size && half.spans == 0 && !half.law_force, "is empty");
+    model = two_spans();
+    model.size = old_size;
+    memcpy(old, &model, old_size);
+    check(prepare(old, &beam) == GAPBEAM_SOLVED && gapbeam_count_supports(beam) == 3, "goes on");
+    gapbeam_free_beam(beam);
+    free(old);
+}
+
 /* The caller's traps, rounding and flags survive, also where numbers leave the range; nothing is raised in between */
 static void environment(void)
 {
@@ -472,7 +620,7 @@ static void names_and_sizes(void)
     check(!strcmp(gapbeam_status_message(-5), "unknown status"), "an unknown one");
     check(isinf(gapbeam_infinity()) && gapbeam_infinity() > 0.0, "infinity");
     /* The init functions compare the sizes of two structures, the get functions those of the others */
-    _Static_assert(sizeof(gapbeam_model) == 240 || sizeof(void *) != 8, "gapbeam_model is part of the ABI");
+    _Static_assert(sizeof(gapbeam_model) == 368 || sizeof(void *) != 8, "gapbeam_model is part of the ABI");
     _Static_assert(sizeof(gapbeam_options) == 16 || sizeof(void *) != 8, "gapbeam_options is part of the ABI");
     _Static_assert(sizeof(gapbeam_info) == 40 || sizeof(void *) != 8, "gapbeam_info is part of the ABI");
     _Static_assert(sizeof(gapbeam_history_info) == 32 || sizeof(void *) != 8, "gapbeam_history_info is part of the ABI");
@@ -487,6 +635,7 @@ int main(void)
     no_equilibrium();
     all_loads();
     laws_and_histories();
+    foundations();
     environment();
     names_and_sizes();
     printf("1..%d\n", checks);

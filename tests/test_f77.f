@@ -10,7 +10,8 @@ C     Compiled with -std=legacy.
       CALL CLOSED
       CALL TIPPED
       CALL LAWS
-      WRITE (*, '(A, I2)') '1..', NCHECK
+      CALL GROUND
+      WRITE (*, '(A, I3)') '1..', NCHECK
       IF (NFAIL .GT. 0) STOP 1
       END
 C
@@ -409,4 +410,177 @@ C     keeps a set
       CALL CHECK(K(2) .EQ. 0, 'open')
       CALL GBCERT(WORK, IWORK, STATE, ISTATE, C, KNOWN, IU, INFO)
       CALL CHECK(INFO .EQ. 0 .AND. C(3) .LT. 1.0D-14, 'certified')
+      END
+C
+C     A rigid beam of 12 on ground that pushes up only, a force of 30 at
+C     a distance of 2 from its left end: contact over three times that
+      SUBROUTINE GROUND
+      INTEGER LW, LI
+      PARAMETER (LW = 900, LI = 600)
+      DOUBLE PRECISION SPAN(4,1), SUP(5,1), ALOAD(4,2), HINGE(1)
+      DOUBLE PRECISION ALAW(2,1), FOUND(6,2), APROF(2,1), AFLAW(2,2)
+      DOUBLE PRECISION WORK(LW), STATE(4000), Q(1), Z(3,2), X(3), P(3)
+      DOUBLE PRECISION FV(6,1), FACT(1), EF(1), SF(2,1), V(2), C(9)
+      DOUBLE PRECISION GBINF
+      INTEGER ISUP(3,1), ILOAD(3,2), ILAW(1), IUNL(1), IFOUND(2)
+      INTEGER IPROF(1), IFLAW(2), IWORK(LI), ISTATE(1000), IQ(1)
+      INTEGER IZ(2,2), IE(4,1), IS(6,1), N(5), INFO, LW1, LI1, LS, LT
+      INTEGER NZ, KNOWN, I
+      EXTERNAL GBINF, GBPRFD, GBSOLV, GBLOAD, GBCONT, GBFREE, GBPRES
+      EXTERNAL GBPXTR, GBFLDS, GBEVNT, GBHIST, GBHSOL, GBCERT
+      SPAN(1,1) = 12.0D0
+      SPAN(2,1) = GBINF()
+      SPAN(3,1) = GBINF()
+      SPAN(4,1) = GBINF()
+      ILOAD(1,1) = 1
+      ILOAD(2,1) = 0
+      ILOAD(3,1) = -1
+      ALOAD(1,1) = 2.0D0
+      ALOAD(2,1) = 0.0D0
+      ALOAD(3,1) = 30.0D0
+      ALOAD(4,1) = 0.0D0
+      DO 10 I = 1, 2
+         IFOUND(I) = 1
+         FOUND(1,I) = 0.0D0
+         FOUND(2,I) = 12.0D0
+         FOUND(3,I) = 5.0D0
+         FOUND(4,I) = 5.0D0
+         FOUND(5,I) = 0.0D0
+         FOUND(6,I) = 0.0D0
+   10 CONTINUE
+      CALL GBPRFD(1, SPAN, 0, HINGE, 0, ISUP, SUP, 1, ILOAD, ALOAD, 0,
+     +            ILAW, ALAW, IUNL, -1, IFOUND, FOUND, 0, IPROF, APROF,
+     +            0, IFLAW, AFLAW, WORK, LW, IWORK, LI, INFO)
+      CALL EXPECT(INFO, -15, 'NFOUND = -1')
+      CALL GBPRFD(1, SPAN, 0, HINGE, 0, ISUP, SUP, 1, ILOAD, ALOAD, 0,
+     +            ILAW, ALAW, IUNL, 1, IFOUND, FOUND, -1, IPROF, APROF,
+     +            0, IFLAW, AFLAW, WORK, LW, IWORK, LI, INFO)
+      CALL EXPECT(INFO, -18, 'NPROF = -1')
+      CALL GBPRFD(1, SPAN, 0, HINGE, 0, ISUP, SUP, 1, ILOAD, ALOAD, 0,
+     +            ILAW, ALAW, IUNL, 1, IFOUND, FOUND, 0, IPROF, APROF,
+     +            -1, IFLAW, AFLAW, WORK, LW, IWORK, LI, INFO)
+      CALL EXPECT(INFO, -21, 'NFLAW = -1')
+      FOUND(3,2) = -5.0D0
+      CALL GBPRFD(1, SPAN, 0, HINGE, 0, ISUP, SUP, 1, ILOAD, ALOAD, 0,
+     +            ILAW, ALAW, IUNL, 2, IFOUND, FOUND, 0, IPROF, APROF,
+     +            0, IFLAW, AFLAW, WORK, LW, IWORK, LI, INFO)
+      CALL EXPECT(INFO, -16, 'a modulus below 0')
+      CALL EXPECT(IWORK(1), 2, 'of foundation 2')
+      IPROF(1) = 2
+      APROF(1,1) = GBINF()
+      APROF(2,1) = 0.25D0
+      FOUND(3,2) = 5.0D0
+      CALL GBPRFD(1, SPAN, 0, HINGE, 0, ISUP, SUP, 1, ILOAD, ALOAD, 0,
+     +            ILAW, ALAW, IUNL, 2, IFOUND, FOUND, 1, IPROF, APROF,
+     +            0, IFLAW, AFLAW, Q, -1, IQ, -1, INFO)
+      CALL EXPECT(INFO, -19, 'a profile at infinity')
+      IFLAW(1) = 1
+      IFLAW(2) = 1
+      AFLAW(1,1) = 0.5D0
+      AFLAW(2,1) = 1.0D0
+      AFLAW(1,2) = 1.5D0
+      AFLAW(2,2) = 0.5D0
+      FOUND(3,1) = 0.0D0
+      FOUND(4,1) = 0.0D0
+      CALL GBPRFD(1, SPAN, 0, HINGE, 0, ISUP, SUP, 1, ILOAD, ALOAD, 0,
+     +            ILAW, ALAW, IUNL, 1, IFOUND, FOUND, 0, IPROF, APROF,
+     +            2, IFLAW, AFLAW, WORK, LW, IWORK, LI, INFO)
+      CALL EXPECT(INFO, -22, 'a law that falls')
+      CALL EXPECT(IWORK(1), 1, 'of foundation 1')
+      FOUND(3,1) = 5.0D0
+      FOUND(4,1) = 5.0D0
+      CALL GBPRFD(1, SPAN, 0, HINGE, 0, ISUP, SUP, 1, ILOAD, ALOAD, 0,
+     +            ILAW, ALAW, IUNL, 1, IFOUND, FOUND, 0, IPROF, APROF,
+     +            0, IFLAW, AFLAW, WORK, 50, IWORK, LI, INFO)
+      CALL EXPECT(INFO, -25, 'WORK too short')
+      CALL GBPRFD(1, SPAN, 0, HINGE, 0, ISUP, SUP, 1, ILOAD, ALOAD, 0,
+     +            ILAW, ALAW, IUNL, 1, IFOUND, FOUND, 0, IPROF, APROF,
+     +            0, IFLAW, AFLAW, WORK, LW, IWORK, 50, INFO)
+      CALL EXPECT(INFO, -27, 'IWORK too short')
+      CALL GBPRFD(1, SPAN, 0, HINGE, 0, ISUP, SUP, 2, ILOAD, ALOAD, 0,
+     +            ILAW, ALAW, IUNL, 1, IFOUND, FOUND, 0, IPROF, APROF,
+     +            0, IFLAW, AFLAW, Q, -1, IQ, -1, INFO)
+      LW1 = INT(Q(1))
+      LI1 = IQ(1)
+      CALL CHECK(INFO .EQ. 0 .AND. LW1 .LE. LW .AND. LI1 .LE. LI,
+     +           'lengths for two loads')
+      CALL GBPRFD(1, SPAN, 0, HINGE, 0, ISUP, SUP, 1, ILOAD, ALOAD, 0,
+     +            ILAW, ALAW, IUNL, 1, IFOUND, FOUND, 0, IPROF, APROF,
+     +            0, IFLAW, AFLAW, WORK, LW1, IWORK, LI1, INFO)
+      CALL EXPECT(INFO, 0, 'prepared')
+      CALL GBSOLV(WORK, IWORK, 1.0D0, 0, 0, Q, -1, IQ, -1, INFO)
+      LS = INT(Q(1))
+      LT = IQ(1)
+      CALL CHECK(INFO .EQ. 0 .AND. LS .LE. 4000 .AND. LT .LE. 1000,
+     +           'lengths of states')
+      CALL GBSOLV(WORK, IWORK, 1.0D0, 0, 0, STATE, LS - 1, ISTATE, LT,
+     +            INFO)
+      CALL EXPECT(INFO, -7, 'STATE too short')
+      CALL GBSOLV(WORK, IWORK, 1.0D0, 0, 0, STATE, LS, ISTATE, LT,
+     +            INFO)
+      CALL EXPECT(INFO, 0, 'solved')
+      CALL GBCONT(WORK, IWORK, STATE, ISTATE, -1, NZ, Z, IZ, INFO)
+      CALL EXPECT(INFO, -5, 'MAXZN = -1')
+      Z(1,2) = 7.0D0
+      CALL GBCONT(WORK, IWORK, STATE, ISTATE, 2, NZ, Z, IZ, INFO)
+      CALL CHECK(INFO .EQ. 0 .AND. NZ .EQ. 1 .AND. IZ(1,1) .EQ. 1 .AND.
+     +           IZ(2,1) .EQ. 1 .AND. Z(1,2) .GT. 6.9D0, 'one zone')
+      CALL CLOSE(Z(2,1), 6.0D0, 'its end')
+      CALL CLOSE(Z(3,1), 30.0D0, 'its force')
+      CALL GBFREE(WORK, IWORK, STATE, ISTATE, -1, NZ, Z, IZ, INFO)
+      CALL EXPECT(INFO, -5, 'MAXFR = -1')
+      CALL GBFREE(WORK, IWORK, STATE, ISTATE, 1, NZ, Z, IZ, INFO)
+      CALL CHECK(INFO .EQ. 0 .AND. NZ .EQ. 1 .AND. IZ(1,1) .EQ. 1,
+     +           'one free span')
+      CALL CLOSE(Z(1,1), 6.0D0, 'where it begins')
+      CALL CLOSE(Z(3,1), 2.0D0, 'how far it is')
+      X(1) = 0.0D0
+      X(2) = 3.0D0
+      X(3) = 13.0D0
+      CALL GBPRES(WORK, IWORK, STATE, ISTATE, 2, X, 0, P, INFO)
+      CALL EXPECT(INFO, 0, 'pressure')
+      CALL CLOSE(P(1), 10.0D0, 'at the edge')
+      CALL CLOSE(P(2), 5.0D0, 'in the middle')
+      CALL GBPRES(WORK, IWORK, STATE, ISTATE, 3, X, 0, P, INFO)
+      CALL EXPECT(INFO, -6, 'off the beam')
+      CALL GBPRES(WORK, IWORK, STATE, ISTATE, -1, X, 0, P, INFO)
+      CALL EXPECT(INFO, -5, 'NX = -1')
+      CALL GBPXTR(WORK, IWORK, STATE, ISTATE, V, X, INFO)
+      CALL CHECK(INFO .EQ. 0 .AND. .NOT. ABS(V(2)) .GT. 0.0D0,
+     +           'extremes')
+      CALL CLOSE(V(1), 10.0D0, 'the largest pressure')
+      X(1) = 0.0D0
+      CALL GBFLDS(WORK, IWORK, STATE, ISTATE, 1, X, 0, FV, INFO)
+      CALL CLOSE(FV(1,1), 2.0D0, 'deflection')
+      CALL GBCERT(WORK, IWORK, STATE, ISTATE, C, KNOWN, IQ, INFO)
+      CALL CHECK(INFO .EQ. 0 .AND. KNOWN .EQ. 1 .AND. C(6) .GT. 0.0D0
+     +           .AND. C(6) .LT. 1.0D-12, 'certified')
+      FACT(1) = 1.0D0
+      CALL GBEVNT(WORK, IWORK, 1.0D0, 0, 1, STATE, LS, ISTATE, LT, N(1),
+     +            EF, IE, INFO)
+      CALL EXPECT(INFO, -1, 'no events on the ground')
+      CALL GBHIST(WORK, IWORK, 1, FACT, 0, 1, SF, IS, 1, EF, IE, 0, EF,
+     +            IE, N, INFO)
+      CALL EXPECT(INFO, -1, 'no history')
+      CALL GBHSOL(WORK, IWORK, 1, FACT, 0, 0, 0.5D0, STATE, LS,
+     +            ISTATE, LT, INFO)
+      CALL EXPECT(INFO, -1, 'nor its states')
+      ILOAD(1,2) = 1
+      ILOAD(2,2) = 1
+      ILOAD(3,2) = -1
+      ALOAD(1,2) = 1.0D0
+      ALOAD(2,2) = 0.0D0
+      ALOAD(3,2) = 30.0D0
+      ALOAD(4,2) = 0.0D0
+      ALOAD(1,1) = 3.0D0
+      CALL GBLOAD(2, ILOAD, ALOAD, WORK, LW1, IWORK, LI1, INFO)
+      CALL EXPECT(INFO, 0, 'other loads')
+      CALL GBCONT(WORK, IWORK, STATE, ISTATE, 2, NZ, Z, IZ, INFO)
+      CALL EXPECT(INFO, -3, 'of which nothing is solved')
+      CALL GBSOLV(WORK, IWORK, 1.0D0, 0, 0, STATE, 4000, ISTATE, 1000,
+     +            INFO)
+      CALL EXPECT(INFO, 0, 'solved again')
+      CALL GBCONT(WORK, IWORK, STATE, ISTATE, 2, NZ, Z, IZ, INFO)
+      CALL CLOSE(Z(2,1), 6.0D0, 'the same resultant')
+      CALL CLOSE(Z(3,1), 60.0D0, 'twice as great')
       END

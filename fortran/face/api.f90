@@ -26,8 +26,8 @@ module gapbeam_api
     public :: prepared_type, options_type, result_type, certificate_type
     public :: prepare_model, replace_loads, count_supports, count_nodes
     public :: solve_beam, follow_load, get_supports, get_fields, get_extremes, get_motion, get_certificate
-    ! For gapbeam_api_history
-    public :: require_beam, make_state, summarise
+    ! For gapbeam_api_history and gapbeam_api_ground
+    public :: require_beam, require_no_ground, require_result, require_size, make_state, summarise
 
     !> A prepared beam: opaque
     type :: prepared_type
@@ -91,10 +91,10 @@ contains
         call ieee_set_rounding_mode(ieee_nearest)
         allocate (beam%lowered, stat=stat)
         if (stat == 0) call copy_model(model, beam%lowered%model, stat)
-        if (stat == 0) then
-            call lower_model(beam%lowered, error)
-        else
+        if (stat /= 0) then
             call no_memory(error)
+        else
+            call lower_model(beam%lowered, error)
         end if
         if (allocated(error) .and. allocated(beam%lowered)) deallocate (beam%lowered)
         call ieee_set_status(environment)
@@ -227,7 +227,7 @@ contains
     end subroutine solve_beam
 
     !> Follow the load from factor 0 upwards: every change of the working scheme at its exact load factor; not of beams that
-    !> solve_beam refuses
+    !> solve_beam refuses, nor on foundations
     subroutine follow_load(beam, factor, options, events, result, error)
         !> Prepared
         type(prepared_type), intent(in) :: beam
@@ -249,6 +249,7 @@ contains
         call ieee_set_rounding_mode(ieee_nearest)
         result%status = -1
         call require_beam(beam, error)
+        if (.not. allocated(error)) call require_no_ground(beam, error)
         if (.not. allocated(error)) call require_no_path(beam, error)
         if (.not. allocated(error)) call check_call(factor, options, error)
         if (.not. allocated(error) .and. .not. factor > 0.0_wp) then
@@ -435,9 +436,23 @@ contains
         type(error_type), allocatable, intent(out) :: error
 
         if (.not. beam%lowered%depends_on_path) return
-        call fatal_error(error, gapbeam_bad_input, "the state of this beam depends on the way of the load, since the law of a "// &
-                         "support falls, keeps a set, or may let go of the beam: use follow_history and solve_on_path")
+        if (allocated(beam%lowered%layers)) then
+            call fatal_error(error, gapbeam_bad_input, "the law of a support falls, keeps a set, or may let go of the beam: "// &
+                             "beside a foundation that is not available in this version; give laws that rise")
+        else
+            call fatal_error(error, gapbeam_bad_input, "the state of this beam depends on the way of the load, since the law "// &
+                             "of a support falls, keeps a set, or may let go of the beam: use follow_history and solve_on_path")
+        end if
     end subroutine require_no_path
+
+    !> Refuse a beam on a foundation, whose way is followed in Python only
+    subroutine require_no_ground(beam, error)
+        type(prepared_type), intent(in) :: beam
+        type(error_type), allocatable, intent(out) :: error
+
+        if (.not. allocated(beam%lowered%layers)) return
+        call fatal_error(error, gapbeam_bad_input, "events on foundations are available from Python only: solve at load factors")
+    end subroutine require_no_ground
 
     !> Refuse a result of another beam or of another status
     subroutine require_result(beam, result, status, error)

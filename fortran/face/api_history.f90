@@ -17,7 +17,7 @@ module gapbeam_api_history
         gapbeam_limit_point => limit_point, gapbeam_bifurcation => bifurcation, gapbeam_mechanism => mechanism, &
         gapbeam_path_ended => ended, gapbeam_arrived => no_limit, cut_off
     use gapbeam_query, only: node_places
-    use gapbeam_api, only: prepared_type, result_type, require_beam, make_state, summarise
+    use gapbeam_api, only: prepared_type, result_type, require_beam, require_no_ground, make_state, summarise
     implicit none
     private
     public :: history_type, stretch_type, limit_type, follow_history, solve_on_path
@@ -100,6 +100,7 @@ contains
         call ieee_set_halting_mode(ieee_all, .false.)
         call ieee_set_rounding_mode(ieee_nearest)
         call require_beam(beam, error)
+        if (.not. allocated(error)) call require_no_ground(beam, error)
         if (.not. allocated(error)) call check_call(factors, at_limit, error)
         if (.not. allocated(error)) then
             allocate (history%path, stat=stat)

@@ -2,14 +2,14 @@
 module gapbeam_arrays
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
-    use gapbeam_scene, only: law_point_type, load_type, model_type
+    use gapbeam_scene, only: law_point_type, ground_point_type, ground_law_point_type, load_type, model_type
     implicit none
     private
-    public :: model_from_arrays, loads_from_arrays
+    public :: model_from_arrays, foundations_from_arrays, loads_from_arrays
 
 contains
 
-    !> A model from arrays
+    !> A model from arrays, without foundations
     subroutine model_from_arrays(span, hinge, sect, isup, sup, ilaw, alaw, iload, aload, model, error)
         !> Length, EI, GA, EA
         real(wp), intent(in) :: span(:, :)
@@ -32,7 +32,8 @@ contains
         integer :: i, stat
 
         allocate (model%spans(size(span, 2)), model%hinges(size(hinge)), model%sections(size(sect, 2)), &
-                  model%supports(size(sup, 2)), model%law(size(ilaw)), stat=stat)
+                  model%supports(size(sup, 2)), model%law(size(ilaw)), model%foundations(0), model%ground(0), &
+                  model%ground_law(0), stat=stat)
         if (stat /= 0) then
             call no_memory(error)
             return
@@ -73,6 +74,48 @@ contains
         end do
         call loads_from_arrays(iload, aload, model%loads, error)
     end subroutine model_from_arrays
+
+    !> The foundations of a model from arrays
+    subroutine foundations_from_arrays(side, found, iprof, aprof, ilaw, alaw, model, error)
+        !> Side; from, to, modulus and gap, each at the left and right end
+        integer, intent(in) :: side(:)
+        real(wp), intent(in) :: found(:, :)
+        !> Points of profiles: foundation, from 1; x, gap
+        integer, intent(in) :: iprof(:)
+        real(wp), intent(in) :: aprof(:, :)
+        !> Points of laws: foundation, from 1; displacement, force per length
+        integer, intent(in) :: ilaw(:)
+        real(wp), intent(in) :: alaw(:, :)
+        !> Their places in it are filled
+        type(model_type), intent(inout) :: model
+        !> No memory
+        type(error_type), allocatable, intent(out) :: error
+        integer :: i, stat
+
+        deallocate (model%foundations, model%ground, model%ground_law)
+        allocate (model%foundations(size(side)), model%ground(size(iprof)), model%ground_law(size(ilaw)), stat=stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        do i = 1, size(model%foundations)
+            associate (f => model%foundations(i))
+                f%side = side(i)
+                f%from = found(1, i)
+                f%to = found(2, i)
+                f%k = found(3, i)
+                f%k_to = found(4, i)
+                f%gap = found(5, i)
+                f%gap_to = found(6, i)
+            end associate
+        end do
+        do i = 1, size(model%ground)
+            model%ground(i) = ground_point_type(iprof(i), aprof(1, i), aprof(2, i))
+        end do
+        do i = 1, size(model%ground_law)
+            model%ground_law(i) = ground_law_point_type(ilaw(i), alaw(1, i), alaw(2, i))
+        end do
+    end subroutine foundations_from_arrays
 
     !> Loads from arrays
     subroutine loads_from_arrays(iload, aload, loads, error)

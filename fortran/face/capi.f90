@@ -13,8 +13,8 @@ module gapbeam_capi
     implicit none
     private
     public :: c_options, c_info, c_certificate
-    ! For gapbeam_capi_history
-    public :: beam_handle, state_handle, get_beam, get_both, report
+    ! For gapbeam_capi_history and gapbeam_capi_ground
+    public :: beam_handle, state_handle, get_beam, get_both, check_points, report
 
     !> Mirrors of the header's structures; tests/test_capi.c compares their sizes
     type, bind(c) :: c_options
@@ -370,7 +370,7 @@ contains
         type(error_type), allocatable :: error
 
         call get_both(beam, state, prepared, solved, error)
-        if (.not. allocated(error)) call check_points(count, present(x) .and. present(fields), error)
+        if (.not. allocated(error)) call check_points(count, present(x) .and. present(fields), "x or fields", error)
         if (.not. allocated(error) .and. count > 0) then
             call get_fields(prepared%beam, solved%result, x(1:count), fields(:, 1:count), error, from_left /= 0)
         end if
@@ -476,7 +476,7 @@ contains
             call model_from_c(model, plain, error)
         end if
         if (.not. allocated(error)) call read_options(options, chosen, error)
-        if (.not. allocated(error)) call check_points(count, present(x) .and. present(fields), error)
+        if (.not. allocated(error)) call check_points(count, present(x) .and. present(fields), "x or fields", error)
         if (.not. allocated(error)) call prepare_model(plain, beam, error)
         if (.not. allocated(error)) call solve_beam(beam, factor, chosen, result, error)
         solved = .not. allocated(error) .and. result%status == gapbeam_solved
@@ -544,15 +544,17 @@ contains
     end subroutine read_options
 
     !> Refuse a number of places that makes no sense
-    subroutine check_points(count, given, error)
+    subroutine check_points(count, given, what, error)
         integer(c_int), intent(in) :: count
+        !> Are the arrays there, and their names
         logical, intent(in) :: given
+        character(len=*), intent(in) :: what
         type(error_type), allocatable, intent(out) :: error
 
         if (count < 0) then
             call fatal_error(error, gapbeam_bad_input, "count is negative")
         else if (count > 0 .and. .not. given) then
-            call fatal_error(error, gapbeam_bad_input, "x or fields is NULL")
+            call fatal_error(error, gapbeam_bad_input, what//" is NULL")
         end if
     end subroutine check_points
 

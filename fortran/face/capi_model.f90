@@ -26,22 +26,40 @@ module gapbeam_capi_model
         type(c_ptr) :: support_unloading = c_null_ptr
         integer(c_int) :: law_points = 0
         type(c_ptr) :: law_support = c_null_ptr, law_displacement = c_null_ptr, law_force = c_null_ptr
+        ! Nor in that of version 0.3
+        integer(c_int) :: foundations = 0
+        type(c_ptr) :: foundation_from = c_null_ptr, foundation_to = c_null_ptr, foundation_side = c_null_ptr
+        type(c_ptr) :: foundation_k = c_null_ptr, foundation_k_to = c_null_ptr
+        type(c_ptr) :: foundation_gap = c_null_ptr, foundation_gap_to = c_null_ptr
+        integer(c_int) :: profile_points = 0
+        type(c_ptr) :: profile_foundation = c_null_ptr, profile_x = c_null_ptr, profile_gap = c_null_ptr
+        integer(c_int) :: ground_law_points = 0
+        type(c_ptr) :: ground_law_foundation = c_null_ptr, ground_law_displacement = c_null_ptr, ground_law_force = c_null_ptr
     end type c_model
-    !> Mirror of what was added to it
+    !> Mirrors of what was added to it in version 0.3, and since then
     type, bind(c) :: c_laws
         type(c_ptr) :: support_unloading
         integer(c_int) :: law_points
         type(c_ptr) :: law_support, law_displacement, law_force
     end type c_laws
+    type, bind(c) :: c_foundations
+        integer(c_int) :: foundations
+        type(c_ptr) :: foundation_from, foundation_to, foundation_side, foundation_k, foundation_k_to, foundation_gap, &
+            foundation_gap_to
+        integer(c_int) :: profile_points
+        type(c_ptr) :: profile_foundation, profile_x, profile_gap
+        integer(c_int) :: ground_law_points
+        type(c_ptr) :: ground_law_foundation, ground_law_displacement, ground_law_force
+    end type c_foundations
 
 contains
 
-    !> Is a size that of the structure, now or in version 0.2, without laws
+    !> Is a size that of the structure, now, in version 0.3, without foundations, or in version 0.2, without laws too
     pure function is_model_size(size) result(is_size)
         integer(c_size_t), intent(in) :: size
         logical :: is_size
 
-        is_size = size == now_size() .or. size == old_size()
+        is_size = size == now_size() .or. size == size_with_laws() .or. size == size_without_laws()
     end function is_model_size
 
     !> Size of the structure
@@ -52,13 +70,21 @@ contains
         size = c_sizeof(c)
     end function now_size
 
+    !> Its size in version 0.3
+    pure function size_with_laws() result(size)
+        integer(c_size_t) :: size
+        type(c_foundations) :: foundations
+
+        size = now_size() - c_sizeof(foundations)
+    end function size_with_laws
+
     !> Its size in version 0.2
-    pure function old_size() result(size)
+    pure function size_without_laws() result(size)
         integer(c_size_t) :: size
         type(c_laws) :: laws
 
-        size = now_size() - c_sizeof(laws)
-    end function old_size
+        size = size_with_laws() - c_sizeof(laws)
+    end function size_without_laws
 
     !> Make a model empty
     subroutine empty_model(c, size)
@@ -88,7 +114,7 @@ contains
 
         call check_size(c, error)
         if (allocated(error)) return
-        with_laws = c%size == now_size()
+        with_laws = c%size >= size_with_laws()
         points = 0
         if (with_laws) then
             points = c%law_points
@@ -102,6 +128,7 @@ contains
                                                      .or. c_associated(c%support_node), "support_x or support_node is needed", &
                                                      error)
         if (.not. allocated(error)) call loads_from_c(c, model%loads, error)
+        if (.not. allocated(error) .and. c%size == now_size()) call foundations_from_c(c, model, error)
         if (allocated(error)) return
         allocate (model%spans(c%spans), model%hinges(c%hinges), model%supports(c%supports), model%law(points), &
                   stat=stat)
@@ -135,6 +162,55 @@ contains
             if (has_reals(c%law_force, n, reals)) law%force = reals
         end associate
     end subroutine model_from_c
+
+    !> Copy the foundations of a model
+    subroutine foundations_from_c(c, model, error)
+        !> Of the structure's size now
+        type(c_model), intent(in) :: c
+        !> Their places in it are filled
+        type(model_type), intent(inout) :: model
+        !> As for model_from_c
+        type(error_type), allocatable, intent(out) :: error
+        real(c_double), pointer :: reals(:)
+        integer(c_int), pointer :: integers(:)
+        integer :: stat
+
+        call check_array("foundations", c%foundations, .true., "", error)
+        if (.not. allocated(error)) call check_array("profile points", c%profile_points, c_associated(c%profile_foundation) &
+                                                     .and. c_associated(c%profile_x) .and. c_associated(c%profile_gap), &
+                                                     "profile_foundation, profile_x and profile_gap are needed", error)
+        if (.not. allocated(error)) call check_array("ground law points", c%ground_law_points, &
+                                                     c_associated(c%ground_law_foundation) .and. &
+                                                     c_associated(c%ground_law_displacement) .and. &
+                                                     c_associated(c%ground_law_force), "ground_law_foundation, "// &
+                                                     "ground_law_displacement and ground_law_force are needed", error)
+        if (allocated(error)) return
+        allocate (model%foundations(c%foundations), model%ground(c%profile_points), model%ground_law(c%ground_law_points), &
+                  stat=stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        associate (f => model%foundations, n => c%foundations)
+            if (has_reals(c%foundation_from, n, reals)) f%from = reals
+            if (has_reals(c%foundation_to, n, reals)) f%to = reals
+            if (has_integers(c%foundation_side, n, integers)) f%side = integers
+            if (has_reals(c%foundation_k, n, reals)) f%k = reals
+            if (has_reals(c%foundation_k_to, n, reals)) f%k_to = reals
+            if (has_reals(c%foundation_gap, n, reals)) f%gap = reals
+            if (has_reals(c%foundation_gap_to, n, reals)) f%gap_to = reals
+        end associate
+        associate (points => model%ground, n => c%profile_points)
+            if (has_integers(c%profile_foundation, n, integers)) points%foundation = integers + 1
+            if (has_reals(c%profile_x, n, reals)) points%x = reals
+            if (has_reals(c%profile_gap, n, reals)) points%gap = reals
+        end associate
+        associate (points => model%ground_law, n => c%ground_law_points)
+            if (has_integers(c%ground_law_foundation, n, integers)) points%foundation = integers + 1
+            if (has_reals(c%ground_law_displacement, n, reals)) points%displacement = reals
+            if (has_reals(c%ground_law_force, n, reals)) points%force = reals
+        end associate
+    end subroutine foundations_from_c
 
     !> Copy the loads of a model
     subroutine loads_from_c(c, loads, error)

@@ -1,6 +1,7 @@
 ! The Fortran 77 interface: plain arrays and integers, no data kept but in the caller's work arrays. Marshalling only.
 !
-! Units, signs: see gapbeam.f90. Nodes (span ends) count from 0, spans, supports, loads and hinges from 1.
+! Units, signs: see gapbeam.f90. Nodes (span ends) count from 0, spans, supports, loads and hinges from 1. Beams on foundations:
+! fortran77_ground.f90.
 !
 !     SPAN(4, NSPAN)    length; EI; GA (GBINF(): rigid in shear); EA (GBINF() if not needed), above 0
 !     HINGE(NHINGE)     places of moment hinges
@@ -21,13 +22,13 @@
 ! LSTATE or LISTAT = -1 a routine does nothing but return the lengths it needs in WORK(1) and IWORK(1), or STATE(1) and ISTATE(1).
 !
 ! INFO  0   solved, or done
-!      -i   the i-th argument has an illegal value; from GBPREP and GBPRLW IWORK(1) is then the number of the entry (column) of
-!           that array, or 0, and the work arrays hold no beam any more; after GBLOAD they hold the old one
+!      -i   the i-th argument has an illegal value; from GBPREP, GBPRLW and GBPRFD IWORK(1) is then the number of the entry
+!           (column) of that array, or 0, and the work arrays hold no beam any more; after GBLOAD they hold the old one
 !       1   no equilibrium: GBMOTN gives the motion
 !     >10   an error, see gapbeam_error: 12 indeterminate, 13 not converged, 14 not finite, 15 no memory, 16 nothing solved
 ! Nothing but INFO (and IWORK(1)) is written where INFO is not 0 or 1.
 !
-! A beam in WORK is only read by all but GBPREP, GBPRLW and GBLOAD: threads may share it, each with its own STATE.
+! A beam in WORK is only read by all but GBPREP, GBPRLW, GBPRFD and GBLOAD: threads may share it, each with its own STATE.
 
 ! Prepare a beam
 subroutine gbprep(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, work, lwork, iwork, liwork, info)
@@ -45,13 +46,14 @@ subroutine gbprep(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, alo
     integer, intent(inout) :: iwork(*)
     ! -1, -2, -4, -6 or -7, -9 or -10: bad input; -12, -14: too short; 14, 15
     integer, intent(out) :: info
-    double precision :: no_points(2, 1)
+    double precision :: no_points(2, 1), no_foundations(6, 1)
     integer :: no_laws(1)
 
     call prepare_beam(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, 0, no_laws, no_points, no_laws, &
+                      0, no_laws, no_foundations, 0, no_laws, no_points, 0, no_laws, no_points, &
                       work, lwork, iwork, liwork, info)
     ! The places of LWORK and LIWORK
-    if (info == -16 .or. info == -18) info = info + 4
+    if (info == -25 .or. info == -27) info = info + 13
 end subroutine gbprep
 
 ! Prepare a beam whose supports may follow laws
@@ -72,14 +74,19 @@ subroutine gbprlw(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, alo
     ! -1 to -10 as from GBPREP; -11; -12 or -13: a law is impossible, IWORK(1) is its support; -14: so is IUNL(IWORK(1)); -16,
     ! -18: too short; 14, 15
     integer, intent(out) :: info
+    double precision :: no_points(2, 1), no_found(6, 1)
+    integer :: no_foundations(1)
 
     call prepare_beam(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, nlaw, ilaw, alaw, iunl, &
+                      0, no_foundations, no_found, 0, no_foundations, no_points, 0, no_foundations, no_points, &
                       work, lwork, iwork, liwork, info)
+    ! The places of LWORK and LIWORK
+    if (info == -25 .or. info == -27) info = info + 9
 end subroutine gbprlw
 
-! Take other loads for a prepared beam. The work arrays must have room for the largest NLOAD to come: ask GBPREP or GBPRLW for
-! their lengths with that. States solved before belong to the old loads, and are not taken until solved anew. Where places of loads
-! change, so may the lengths of states (ask GBSOLV again) and the number of nodes in GBMOTN
+! Take other loads for a prepared beam. The work arrays must have room for the largest NLOAD to come: ask GBPREP, GBPRLW or
+! GBPRFD for their lengths with that. States solved before belong to the old loads, and are not taken until solved anew. Where
+! places of loads change, so may the lengths of states (ask GBSOLV again) and the number of nodes in GBMOTN
 subroutine gbload(nload, iload, aload, work, lwork, iwork, liwork, info)
     use gapbeam_error, only: error_type, gapbeam_no_memory, gapbeam_bad_input
     use gapbeam_scene, only: load_type
@@ -100,7 +107,7 @@ subroutine gbload(nload, iload, aload, work, lwork, iwork, liwork, info)
     type(prepared_type) :: beam
     type(load_type), allocatable :: loads(:)
     type(error_type), allocatable :: error
-    logical :: fits
+    integer :: short
 
     info = 0
     if (nload < 0) info = -1
@@ -116,8 +123,8 @@ subroutine gbload(nload, iload, aload, work, lwork, iwork, liwork, info)
         info = merge(-2, error%code, error%code == gapbeam_bad_input)
         return
     end if
-    call put_beam(beam, work, lwork, iwork, liwork, fits)
-    if (.not. fits) info = -5
+    call put_beam(beam, work, lwork, iwork, liwork, short)
+    if (short > 0) info = -5
 end subroutine gbload
 
 ! Solve at one load factor
@@ -139,12 +146,12 @@ subroutine gbsolv(work, iwork, factor, rule, start, state, lstate, istate, lista
     double precision, intent(inout) :: state(*)
     integer, intent(inout) :: istate(*)
     ! -1: no beam in WORK, or one whose state depends on the way of the load (GBHIST); -3, -4, -5; -6: START is 1 and there is no
-    ! state; -7, -9: too short; 1, 12 to 15
+    ! state; -7, -9: too short, on a foundation also where there are more zones than the lengths asked for hold: STATE(1) and
+    ! ISTATE(1) are then the lengths that it takes, and an earlier state is gone; 1, 12 to 15
     integer, intent(out) :: info
     type(prepared_type) :: beam
     type(result_type) :: result
     type(error_type), allocatable :: error
-    logical :: fits
 
     call begin_result(work, iwork, factor, rule, state, lstate, istate, listat, beam, info)
     if (start /= 0 .and. start /= 1) info = -5
@@ -159,8 +166,7 @@ subroutine gbsolv(work, iwork, factor, rule, start, state, lstate, istate, lista
         info = merge(-1, error%code, error%code == gapbeam_bad_input)
         return
     end if
-    call put_result(result, state, lstate, istate, listat, fits)
-    info = result%status
+    call put_result(result, state, lstate, istate, listat, info)
 end subroutine gbsolv
 
 ! Follow the load from factor 0: every change of the working scheme at its exact load factor
@@ -188,13 +194,13 @@ subroutine gbevnt(work, iwork, factor, rule, maxev, state, lstate, istate, lista
     ! piece of its law; 3: the beam has lost its hold and turns at constant load until this support holds it
     double precision, intent(inout) :: evfact(*)
     integer, intent(inout) :: ievent(2, *)
-    ! -1: no beam in WORK, or one whose state depends on the way of the load (GBHIST); -3, -4, -5; -7, -9: too short; 1, 12 to 15
+    ! -1: no beam in WORK, or one on a foundation, or whose state depends on the way of the load (GBHIST); -3, -4, -5; -7, -9: too
+    ! short; 1, 12 to 15
     integer, intent(out) :: info
     type(prepared_type) :: beam
     type(result_type) :: result
     type(error_type), allocatable :: error
     type(event_type), allocatable :: events(:)
-    logical :: fits
     integer :: k
 
     call begin_result(work, iwork, factor, rule, state, lstate, istate, listat, beam, info)
@@ -212,15 +218,14 @@ subroutine gbevnt(work, iwork, factor, rule, maxev, state, lstate, istate, lista
         ievent(1, k) = events(k)%support
         ievent(2, k) = events(k)%state
     end do
-    call put_result(result, state, lstate, istate, listat, fits)
-    info = result%status
+    call put_result(result, state, lstate, istate, listat, info)
 end subroutine gbevnt
 
 ! Put on the dead loads, settlements and lacks of fit together, then go through load factors in turn, from factor 0, by the exact
 ! path: through every event, past limits of the load, with supports that soften, break or keep a set
 subroutine gbhist(work, iwork, nfact, factor, limit, maxst, stfact, istrch, maxev, evfact, ievent, maxlim, lmfact, ilimit, &
                   number, info)
-    use gapbeam_error, only: error_type, gapbeam_no_memory
+    use gapbeam_error, only: error_type, gapbeam_bad_input, gapbeam_no_memory
     use gapbeam_api, only: prepared_type
     use gapbeam_api_history, only: history_type, follow_history
     use gapbeam_work, only: take_beam, check_history
@@ -252,7 +257,7 @@ subroutine gbhist(work, iwork, nfact, factor, limit, maxst, stfact, istrch, maxe
     ! Numbers of stretches, events and limits, which may be more than there is room for; how the path ends, 0 at the last factor, 3
     ! in a mechanism, 4 otherwise; linear solves in quadruple precision
     integer, intent(inout) :: number(5)
-    ! -1: no beam in WORK; -3, -4, -5, -6, -9, -12; 13 to 15
+    ! -1: no beam in WORK, or one on a foundation; -3, -4, -5, -6, -9, -12; 13 to 15
     integer, intent(out) :: info
     type(prepared_type) :: beam
     type(history_type) :: history
@@ -271,7 +276,7 @@ subroutine gbhist(work, iwork, nfact, factor, limit, maxst, stfact, istrch, maxe
     end if
     call follow_history(beam, factor(1:nfact), limit, history, error)
     if (allocated(error)) then
-        info = error%code
+        info = merge(-1, error%code, error%code == gapbeam_bad_input)
         return
     end if
     number = [size(history%stretches), size(history%events), size(history%limits), history%ending, history%solves]
@@ -317,14 +322,13 @@ subroutine gbhsol(work, iwork, nfact, factor, limit, nstrch, at, state, lstate, 
     ! The state
     double precision, intent(inout) :: state(*)
     integer, intent(inout) :: istate(*)
-    ! -1: no beam in WORK; -3, -4, -5; -6: no such stretch; -7: no state at AT on it, or on the path; -9, -11: too short;
-    ! 1, 12 to 15
+    ! -1: no beam in WORK, or one on a foundation; -3, -4, -5; -6: no such stretch; -7: no state at AT on it, or on the path;
+    ! -9, -11: too short; 1, 12 to 15
     integer, intent(out) :: info
     type(prepared_type) :: beam
     type(result_type) :: result
     type(history_type) :: history
     type(error_type), allocatable :: error
-    logical :: fits
 
     call begin_result(work, iwork, at, rule_block, state, lstate, istate, listat, beam, info)
     ! The places of AT, LSTATE and LISTAT
@@ -338,7 +342,7 @@ subroutine gbhsol(work, iwork, nfact, factor, limit, nstrch, at, state, lstate, 
     if (info /= 0) return
     call follow_history(beam, factor(1:nfact), limit, history, error)
     if (allocated(error)) then
-        info = error%code
+        info = merge(-1, error%code, error%code == gapbeam_bad_input)
         return
     end if
     if (nstrch < 0 .or. nstrch > size(history%stretches)) then
@@ -350,8 +354,7 @@ subroutine gbhsol(work, iwork, nfact, factor, limit, nstrch, at, state, lstate, 
         info = merge(-7, error%code, error%code == gapbeam_bad_input)
         return
     end if
-    call put_result(result, state, lstate, istate, listat, fits)
-    info = result%status
+    call put_result(result, state, lstate, istate, listat, info)
 end subroutine gbhsol
 
 ! What a state says in a few numbers
@@ -473,7 +476,7 @@ subroutine gbmotn(work, iwork, state, istate, maxnd, nnode, xnode, motion, info)
     ! Beam and state
     double precision, intent(in) :: work(*), state(*)
     integer, intent(in) :: iwork(*), istate(*)
-    ! Room in the arrays; NHINGE + NSUP + 2 NLOAD + 2 is always enough
+    ! Room in the arrays; NHINGE + NSUP + 2 NLOAD + 2 is always enough, with foundations NSPAN + 2 NFOUND + NPROF more
     integer, intent(in) :: maxnd
     ! Number of nodes of the system
     integer, intent(inout) :: nnode

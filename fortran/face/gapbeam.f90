@@ -20,8 +20,15 @@
 !>     call follow_history(beam, [1d0], gapbeam_limit_stop, history, error)      ! every event, and the limit of the load
 !>     call solve_on_path(beam, history, 0.5d0, result, error)                   ! the state at a factor on it
 !>
+!> The ground under a stretch of the beam may push it up only, so that the beam lifts off where it likes:
+!>
+!>     model%foundations = [foundation_type(from=2d0, k=5d3, side=gapbeam_below)]
+!>     call get_contact(beam, result, zones, error)                              ! where the ground acts, and its force
+!>     call get_pressure(beam, result, [3d0], pressure, error)
+!>
 !> Units: any consistent set. Signs: x to the right, deflections, settlements and loads down, reactions up, moments sagging,
-!> couples and rotations clockwise, axial forces on the beam to the right. Supports and loads count from 1, nodes from 0.
+!> couples and rotations clockwise, axial forces on the beam to the right. Supports, foundations and loads count from 1,
+!> nodes from 0.
 !> Errors: `error` is allocated where something failed, with one of the codes of gapbeam_error and a message. That a beam has
 !> no equilibrium is no error: result%status says it.
 module gapbeam
@@ -31,6 +38,7 @@ module gapbeam
     use gapbeam_version, only: gapbeam_version_major, gapbeam_version_minor, gapbeam_version_patch, gapbeam_version_string
     use gapbeam_search, only: gapbeam_rule_block => rule_block, gapbeam_rule_single => rule_single
     use gapbeam_scene, only: span_type, section_type, support_type, law_point_type, load_type, model_type, &
+        foundation_type, ground_point_type, ground_law_point_type, &
         point_force, point_couple, uniform_load, linear_load, imposed_curvature, axial_force, &
         gapbeam_infinity, gapbeam_by_x, gapbeam_unchanged, gapbeam_right_end, &
         gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_normal, gapbeam_axial, &
@@ -46,6 +54,7 @@ module gapbeam
     use gapbeam_api_history, only: history_type, stretch_type, limit_type, follow_history, solve_on_path, &
         gapbeam_limit_stop, gapbeam_limit_jump, gapbeam_limit_follow, &
         gapbeam_arrived, gapbeam_limit_point, gapbeam_bifurcation, gapbeam_mechanism, gapbeam_path_ended
+    use gapbeam_api_ground, only: contact_type, free_span_type, get_contact, get_free_spans, get_pressure, get_pressure_extremes
     implicit none
     public
 end module gapbeam

@@ -8,6 +8,7 @@ module gapbeam_pack
     use gapbeam_lowered, only: lowered_type
     use gapbeam_solution, only: state_type
     use gapbeam_tape, only: tape_type, exchange, exchange_size, reading
+    use gapbeam_pack_ground, only: exchange_foundations, exchange_layers, exchange_solution
     implicit none
     private
     public :: exchange_beam, exchange_state
@@ -22,6 +23,8 @@ contains
         type(lowered_type), intent(inout) :: lowered
 
         call exchange_model(tape, lowered%model)
+        call exchange_foundations(tape, lowered%model)
+        call exchange_layers(tape, lowered)
         call exchange(tape, lowered%fingerprint)
         call exchange_units(tape, lowered%units)
         call exchange(tape, lowered%ends, 0)
@@ -99,6 +102,7 @@ contains
         call exchange(tape, state%axial_reaction, 0)
         call exchange(tape, state%tension, 1)
         call exchange_node_supports(tape, state%laws)
+        call exchange_solution(tape, state%ground)
         call exchange(tape, state%has_starts)
         number = 0
         if (allocated(state%starts)) number = size(state%starts)

@@ -8,18 +8,22 @@
 ! 10 an error with its MESSAGE and nothing else set.
 
 ! Prepare a beam
-subroutine gbmake(mspan, mhinge, msect, msup, mlaw, mload, span, hinge, sect, isup, sup, ilaw, alaw, iload, aload, &
+subroutine gbmake(mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw, span, hinge, sect, isup, sup, ilaw, alaw, &
+                  iload, aload, ifound, found, iprof, aprof, iflaw, aflaw, &
                   beam, status, reason, table, entry, partner, key, message)
     use gapbeam_error, only: error_type
     use gapbeam_scene, only: model_type
-    use gapbeam_arrays, only: model_from_arrays
+    use gapbeam_arrays, only: model_from_arrays, foundations_from_arrays
     use gapbeam_handle, only: new_handle, report
     implicit none
     ! One more than there are
-    integer, intent(in) :: mspan, mhinge, msect, msup, mlaw, mload
+    integer, intent(in) :: mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw
     ! As for model_from_arrays, in the scene's units
     double precision, intent(in) :: span(4, mspan), hinge(mhinge), sect(5, msect), sup(5, msup), alaw(2, mlaw), aload(4, mload)
     integer, intent(in) :: isup(4, msup), ilaw(mlaw), iload(3, mload)
+    ! As for foundations_from_arrays
+    integer, intent(in) :: ifound(mfound), iprof(mprof), iflaw(mflaw)
+    double precision, intent(in) :: found(6, mfound), aprof(2, mprof), aflaw(2, mflaw)
     ! The handle; 0 where it is refused
     integer(8), intent(out) :: beam
     ! Why: as in gapbeam_error and gapbeam_refusal; entries count from 1
@@ -33,6 +37,9 @@ subroutine gbmake(mspan, mhinge, msect, msup, mlaw, mload, span, hinge, sect, is
     !f2py integer, intent(hide), depend(sup) :: msup = shape(sup, 1)
     !f2py integer, intent(hide), depend(ilaw) :: mlaw = shape(ilaw, 0)
     !f2py integer, intent(hide), depend(aload) :: mload = shape(aload, 1)
+    !f2py integer, intent(hide), depend(ifound) :: mfound = shape(ifound, 0)
+    !f2py integer, intent(hide), depend(iprof) :: mprof = shape(iprof, 0)
+    !f2py integer, intent(hide), depend(iflaw) :: mflaw = shape(iflaw, 0)
     type(model_type) :: model
     type(error_type), allocatable :: error
 
@@ -44,6 +51,9 @@ subroutine gbmake(mspan, mhinge, msect, msup, mlaw, mload, span, hinge, sect, is
     key = " "
     call model_from_arrays(span(:, :mspan - 1), hinge(:mhinge - 1), sect(:, :msect - 1), isup(:, :msup - 1), sup(:, :msup - 1), &
                            ilaw(:mlaw - 1), alaw(:, :mlaw - 1), iload(:, :mload - 1), aload(:, :mload - 1), model, error)
+    if (.not. allocated(error)) call foundations_from_arrays(ifound(:mfound - 1), found(:, :mfound - 1), iprof(:mprof - 1), &
+                                                             aprof(:, :mprof - 1), iflaw(:mflaw - 1), aflaw(:, :mflaw - 1), &
+                                                             model, error)
     if (.not. allocated(error)) call new_handle(model, beam, error)
     call report(error, status, message)
     if (.not. allocated(error)) return
@@ -97,8 +107,8 @@ subroutine gbsize(beam, sizes, units)
     implicit none
     integer(8), intent(in) :: beam
     ! NP, NL, NS, NM, NB (-1 without an axial system), and whether there are hinges, rotational restraints, shear
-    ! flexibility, one-sided supports that can carry, laws, laws on whose path the state depends
-    integer, intent(out) :: sizes(11)
+    ! flexibility, one-sided supports that can carry, laws, laws on whose path the state depends; layers of ground
+    integer, intent(out) :: sizes(12)
     ! Exponents of two: length, force, deflection
     integer, intent(out) :: units(3)
     type(handle_type), pointer :: handle
@@ -108,7 +118,9 @@ subroutine gbsize(beam, sizes, units)
         sizes = [size(lowered%pieces), size(lowered%beam%links), size(lowered%beam%supports), size(lowered%model%supports), -1, &
                  size(lowered%model%hinges), merge(1, 0, any(lowered%turning > 0.0d0)), &
                  merge(1, 0, any(lowered%pieces%shear_flexibility > 0.0d0)), merge(1, 0, any(lowered%beam%supports%side /= 0)), &
-                 merge(1, 0, size(lowered%model%law) > 0), merge(1, 0, lowered%depends_on_path)]
+                 merge(1, 0, size(lowered%model%law) > 0), merge(1, 0, lowered%depends_on_path), &
+                 0]
+        if (allocated(lowered%layers)) sizes(12) = size(lowered%layers)
         units = [lowered%units%length, lowered%units%force, lowered%units%deflection]
         if (allocated(lowered%axial%point)) sizes(5) = ubound(lowered%axial%point, 1)
     end associate
@@ -197,9 +209,9 @@ end subroutine gbplac
 
 ! Find the working scheme at one load factor and solve it
 subroutine gbsolv(beam, nl, ns, nm, nb, factor, rule, closed, undec, w, ml, mr, shear, react, motion, u, pull, &
-                  values, counts, status, message)
+                  values, counts, ground, status, message)
     use gapbeam_error, only: error_type, gapbeam_solved
-    use gapbeam_handle, only: handle_type, handle_of, report
+    use gapbeam_handle, only: handle_type, handle_of, report, keep_ground
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_state, only: solve_state
     use gapbeam_query, only: support_values
@@ -222,8 +234,11 @@ subroutine gbsolv(beam, nl, ns, nm, nb, factor, rule, closed, undec, w, ml, mr, 
     ! Of the scene's supports in its units: reaction, deflection, opening, couple
     double precision, intent(out) :: values(nm + 1, 4)
     ! Linear solves; system solved last: 0 mixed, 1 three-moment, 2 with pivoting; 1 where the beam can move freely
-    ! without work of the loads; 1 where the rule single came back to a scheme; 1 where the beam slides along its axis
-    integer, intent(out) :: counts(5), status
+    ! without work of the loads; 1 where the rule single came back to a scheme; 1 where the beam slides along its axis;
+    ! stretches on the ground, and most layers under one of them
+    integer, intent(out) :: counts(7), status
+    ! What GBGGET takes, once; 0 without ground
+    integer(8), intent(out) :: ground
     character(len=240), intent(out) :: message
     !f2py threadsafe
     !f2py integer, intent(hide), depend(closed) :: ns = shape(closed, 0) - 1
@@ -244,6 +259,7 @@ subroutine gbsolv(beam, nl, ns, nm, nb, factor, rule, closed, undec, w, ml, mr, 
     pull = 0.0d0
     values = 0.0d0
     counts = 0
+    ground = 0
     call new_state(handle%lowered, state, error)
     if (.not. allocated(error)) then
         state%closed(:) = closed(:ns) /= 0
@@ -252,7 +268,8 @@ subroutine gbsolv(beam, nl, ns, nm, nb, factor, rule, closed, undec, w, ml, mr, 
     call report(error, status, message)
     if (allocated(error)) return
     status = state%status
-    counts = [state%solves, state%method, merge(1, 0, state%indifferent), merge(1, 0, state%came_back), merge(1, 0, state%slides)]
+    counts(:5) = [state%solves, state%method, merge(1, 0, state%indifferent), merge(1, 0, state%came_back), &
+                  merge(1, 0, state%slides)]
     motion = state%motion
     if (status /= gapbeam_solved) return
     closed(:ns) = merge(1, 0, state%closed)
@@ -266,7 +283,170 @@ subroutine gbsolv(beam, nl, ns, nm, nb, factor, rule, closed, undec, w, ml, mr, 
     pull(:nb) = state%tension
     allocate (conditions(nm))
     call support_values(handle%lowered, state, values(:nm, 1), values(:nm, 2), values(:nm, 3), values(:nm, 4), conditions)
+    if (.not. allocated(state%ground)) return
+    counts(6:7) = shape(transpose(state%ground%acts))
+    call keep_ground(state%ground, ground)
 end subroutine gbsolv
+
+! Take a solution on the ground, which is freed with that
+subroutine gbgget(ground, ng, ny, values, bounds, resid)
+    use gapbeam_handle, only: take_ground, pack_ground
+    use gapbeam_ground_solver, only: ground_solution_type
+    implicit none
+    ! From GBSOLV; stretches, and most layers
+    integer(8), intent(in) :: ground
+    integer, intent(in) :: ng, ny
+    ! As for pack_ground, in the engine's units
+    double precision, intent(out) :: values(18 + 2*ny, ng)
+    ! Bounds of the errors of deflection, rotation, moment, shear and reactions; residuals of compatibility and equilibrium
+    double precision, intent(out) :: bounds(5), resid(2)
+    type(ground_solution_type), allocatable :: solution
+
+    call take_ground(ground, solution)
+    call pack_ground(solution, values)
+    bounds = solution%bounds
+    resid = solution%residuals
+end subroutine gbgget
+
+! Fields on the ground at distances from the left ends of pieces (from 1), in the scene's units
+subroutine gbgval(beam, ng, nr, nb, nx, ground, u, pull, piece, dist, value, status, message)
+    use gapbeam_error, only: error_type
+    use gapbeam_element, only: field_type
+    use gapbeam_handle, only: handle_type, handle_of, report, unpack_ground
+    use gapbeam_ground_solver, only: ground_solution_type
+    use gapbeam_pressure, only: pressure_in_pieces
+    use gapbeam_query, only: fields_in_pieces
+    implicit none
+    integer(8), intent(in) :: beam
+    integer, intent(in) :: ng, nr, nb, nx
+    ! From GBGGET and GBSOLV
+    double precision, intent(in) :: ground(nr, ng), u(0:nb), pull(nb + 1)
+    integer, intent(in) :: piece(nx)
+    double precision, intent(in) :: dist(nx)
+    ! Deflection, rotation, moment, shear, axial force, axial displacement, pressure of the ground (up)
+    double precision, intent(out) :: value(7, nx)
+    integer, intent(out) :: status
+    character(len=240), intent(out) :: message
+    !f2py threadsafe
+    !f2py integer, intent(hide), depend(ground) :: nr = shape(ground, 0), ng = shape(ground, 1)
+    !f2py integer, intent(hide), depend(u) :: nb = shape(u, 0) - 1
+    !f2py integer, intent(hide), depend(piece) :: nx = shape(piece, 0)
+    type(handle_type), pointer :: handle
+    type(field_type) :: none(0)
+    type(ground_solution_type) :: solution
+    type(error_type), allocatable :: error
+
+    handle => handle_of(beam)
+    value = 0.0d0
+    call unpack_ground(handle%lowered, ground, solution)
+    call fields_in_pieces(handle%lowered, 0.0d0, none, u, pull(:nb), piece, dist, value(:6, :), error, solution)
+    if (.not. allocated(error)) call pressure_in_pieces(handle%lowered, solution, piece, dist, value(7, :), error)
+    call report(error, status, message)
+end subroutine gbgval
+
+! The layers of ground under the pieces
+subroutine gbglay(beam, np, ny, first, codes, level)
+    use gapbeam_handle, only: handle_type, handle_of
+    use gapbeam_layers, only: pieces_of_law
+    implicit none
+    integer(8), intent(in) :: beam
+    ! Pieces, and layers
+    integer, intent(in) :: np, ny
+    ! First layer of every piece, from 0
+    integer, intent(out) :: first(np + 1)
+    ! Foundation (from 0), side, pieces of its law (0: linear)
+    integer, intent(out) :: codes(3, ny)
+    ! Deflections at which they begin to act at both ends of the piece, in the scene's units
+    double precision, intent(out) :: level(2, ny)
+    type(handle_type), pointer :: handle
+    integer :: k
+
+    handle => handle_of(beam)
+    associate (lowered => handle%lowered)
+        first = lowered%layer_first - 1
+        do k = 1, ny
+            associate (layer => lowered%layers(k))
+                codes(:, k) = [layer%foundation - 1, layer%side, layer%law_last - layer%law_first + 1]
+                level(:, k) = scale([layer%contact_a, layer%contact_b], lowered%units%deflection)
+            end associate
+        end do
+    end associate
+end subroutine gbglay
+
+! Stretches beside each other in which a layer does the same joined: by foundation, below before above, from left to right
+subroutine gbgrun(beam, ng, nr, ground, number, about, values, status, message)
+    use gapbeam_error, only: error_type
+    use gapbeam_handle, only: handle_type, handle_of, report, unpack_ground
+    use gapbeam_ground_solver, only: ground_solution_type
+    use gapbeam_ground_zones, only: run_type, ground_runs
+    implicit none
+    integer(8), intent(in) :: beam
+    integer, intent(in) :: ng, nr
+    double precision, intent(in) :: ground(nr, ng)
+    ! How many there are
+    integer, intent(out) :: number
+    ! Foundation (from 0), side, pieces of its law (0: linear), the piece on which it acts (0: no contact)
+    integer, intent(out) :: about(4, ng*(nr - 18)/2)
+    ! Ends, force on the beam (up), largest distance between beam and ground, in the scene's units
+    double precision, intent(out) :: values(4, ng*(nr - 18)/2)
+    integer, intent(out) :: status
+    character(len=240), intent(out) :: message
+    !f2py threadsafe
+    !f2py integer, intent(hide), depend(ground) :: nr = shape(ground, 0), ng = shape(ground, 1)
+    type(handle_type), pointer :: handle
+    type(ground_solution_type) :: solution
+    type(run_type), allocatable :: runs(:)
+    type(error_type), allocatable :: error
+    integer :: i
+
+    handle => handle_of(beam)
+    number = 0
+    about = 0
+    values = 0.0d0
+    call unpack_ground(handle%lowered, ground, solution)
+    call ground_runs(handle%lowered, solution, .true., runs, error)
+    call report(error, status, message)
+    if (allocated(error)) return
+    number = size(runs)
+    do i = 1, number
+        associate (run => runs(i))
+            about(:, i) = [run%foundation - 1, run%side, run%law_pieces, run%acts]
+            values(:, i) = [run%from, run%to, run%resultant, run%way]
+        end associate
+    end do
+end subroutine gbgrun
+
+! Maximum and minimum of all fields on the ground, and their places, in the scene's units; fields as for GBGVAL
+subroutine gbgext(beam, ng, nr, nb, ground, u, pull, value, x, status, message)
+    use gapbeam_error, only: error_type
+    use gapbeam_element, only: field_type
+    use gapbeam_handle, only: handle_type, handle_of, report, unpack_ground
+    use gapbeam_ground_solver, only: ground_solution_type
+    use gapbeam_pressure, only: extremes_of_pressure
+    use gapbeam_query, only: extremes_of_pieces
+    implicit none
+    integer(8), intent(in) :: beam
+    integer, intent(in) :: ng, nr, nb
+    double precision, intent(in) :: ground(nr, ng), u(0:nb), pull(nb + 1)
+    double precision, intent(out) :: value(2, 7), x(2, 7)
+    integer, intent(out) :: status
+    character(len=240), intent(out) :: message
+    !f2py threadsafe
+    !f2py integer, intent(hide), depend(ground) :: nr = shape(ground, 0), ng = shape(ground, 1)
+    !f2py integer, intent(hide), depend(u) :: nb = shape(u, 0) - 1
+    type(handle_type), pointer :: handle
+    type(field_type) :: none(0)
+    type(ground_solution_type) :: solution
+    type(error_type), allocatable :: error
+
+    handle => handle_of(beam)
+    value = 0.0d0
+    x = 0.0d0
+    call unpack_ground(handle%lowered, ground, solution)
+    call extremes_of_pieces(handle%lowered, 0.0d0, none, u, pull(:nb), value(:, :6), x(:, :6), error, solution)
+    if (.not. allocated(error)) call extremes_of_pressure(handle%lowered, solution, value(:, 7), x(:, 7), error)
+    call report(error, status, message)
+end subroutine gbgext
 
 ! Follow the load from a factor to LIMIT, from event to event
 subroutine gbpath(most, beam, nl, ns, limit, factor, closed, margin, events, at, which, what, motion, solves, nodes, status, &

@@ -8,9 +8,11 @@ module gapbeam_work
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_scene, only: model_type, gapbeam_elastic
     use gapbeam_api, only: prepared_type, result_type, prepare_model
-    use gapbeam_arrays, only: model_from_arrays
+    use gapbeam_refusal, only: of_foundations
+    use gapbeam_arrays, only: model_from_arrays, foundations_from_arrays
     use gapbeam_tape, only: tape_type, writing, reading
     use gapbeam_pack, only: exchange_beam, exchange_state
+    use gapbeam_pack_ground, only: add_likely_solution
     implicit none
     private
     public :: prepare_beam, put_beam, take_beam, put_result, take_result, begin_result, check_history, take_both
@@ -20,24 +22,20 @@ module gapbeam_work
 
 contains
 
-    !> What GBPREP and GBPRLW do, with the arguments of the latter
+    !> What GBPREP, GBPRLW and GBPRFD do, with the arguments of the last
     subroutine prepare_beam(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, nlaw, ilaw, alaw, iunl, &
-                            work, lwork, iwork, liwork, info)
-        integer, intent(in) :: nspan, nhinge, nsup, nload, nlaw
-        real(wp), intent(in) :: span(4, *), hinge(*), sup(5, *), aload(4, *), alaw(2, *)
-        integer, intent(in) :: isup(3, *), iload(3, *), ilaw(*), iunl(*)
+                            nfound, ifound, found, nprof, iprof, aprof, nflaw, iflaw, aflaw, work, lwork, iwork, liwork, info)
+        integer, intent(in) :: nspan, nhinge, nsup, nload, nlaw, nfound, nprof, nflaw
+        real(wp), intent(in) :: span(4, *), hinge(*), sup(5, *), aload(4, *), alaw(2, *), found(6, *), aprof(2, *), aflaw(2, *)
+        integer, intent(in) :: isup(3, *), iload(3, *), ilaw(*), iunl(*), ifound(*), iprof(*), iflaw(*)
         integer, intent(in) :: lwork, liwork
         real(wp), intent(inout) :: work(*)
         integer, intent(inout) :: iwork(*)
         integer, intent(out) :: info
-        type(model_type) :: model
         type(prepared_type) :: beam
         type(error_type), allocatable :: error
-        integer(int64) :: reals, integers
-        ! The argument that an array of the model is; of a pair of arrays the first, which has the number of entries
-        integer, parameter :: argument(0:4) = [1, 2, 4, 6, 9]
-        real(wp) :: no_sections(5, 0)
-        logical :: fits
+        integer(int64) :: reals, integers, layers
+        integer :: short
 
         info = 0
         if (nspan < 1) info = -1
@@ -45,57 +43,98 @@ contains
         if (nsup < 0) info = -5
         if (nload < 0) info = -8
         if (nlaw < 0) info = -11
+        if (nfound < 0) info = -15
+        if (nprof < 0) info = -18
+        if (nflaw < 0) info = -21
         if (info /= 0) return
-        call sizes_of_beam(nspan, nhinge, nsup, nlaw, nload, reals, integers)
-        if (max(reals, integers) > huge(info)) info = gapbeam_no_memory
-        if (info /= 0) return
+        layers = 0
         if (lwork == -1 .or. liwork == -1) then
+            if (nfound > 0) then
+                ! How many layers there are shows when the beam is cut into pieces; every place of a load may cut one more
+                call make(0)
+                if (allocated(error)) return
+                associate (first => beam%lowered%layer_first)
+                    layers = size(beam%lowered%layers, kind=int64) &
+                        + 2_int64*nload*maxval(first(2:) - first(:size(first) - 1))
+                end associate
+            end if
+            call sizes_of_beam(nspan, nhinge, nsup, nlaw, nload, nfound, nprof, nflaw, layers, reals, integers)
+            if (max(reals, integers) > huge(info)) info = gapbeam_no_memory
+            if (info /= 0) return
             work(1) = real(reals, wp)
             iwork(1) = int(integers)
             return
         end if
-        if (lwork < reals) info = -16
-        if (liwork < integers) info = -18
-        if (info /= 0) return
-        iwork(1) = 0
-        call model_from_arrays(span(:, 1:nspan), hinge(1:nhinge), no_sections, isup(:, 1:nsup), sup(:, 1:nsup), &
-                               ilaw(1:nlaw), alaw(:, 1:nlaw), iload(:, 1:nload), aload(:, 1:nload), model, error)
-        if (.not. allocated(error)) then
-            if (nlaw > 0) model%supports%unloading = iunl(1:nsup)
-            call prepare_model(model, beam, error)
+        if (nfound == 0) then
+            call sizes_of_beam(nspan, nhinge, nsup, nlaw, nload, nfound, nprof, nflaw, layers, reals, integers)
+            if (max(reals, integers) > huge(info)) info = gapbeam_no_memory
+            if (lwork < reals) info = -25
+            if (liwork < integers) info = -27
+            if (info /= 0) return
         end if
-        if (allocated(error)) then
+        iwork(1) = 0
+        call make(nload)
+        if (allocated(error)) return
+        call put_beam(beam, work, lwork, iwork, liwork, short)
+        if (short > 0) info = merge(-25, -27, short == 1)
+
+    contains
+
+        !> Prepare it with its first loads
+        subroutine make(loads)
+            integer, intent(in) :: loads
+            type(model_type) :: model
+            real(wp) :: no_sections(5, 0)
+            ! The argument that an array of the model is; of a pair of arrays the first, which has the number of entries
+            integer, parameter :: argument(0:6) = [1, 2, 4, 6, 9, 0, 16]
+
+            call model_from_arrays(span(:, 1:nspan), hinge(1:nhinge), no_sections, isup(:, 1:nsup), sup(:, 1:nsup), &
+                                   ilaw(1:nlaw), alaw(:, 1:nlaw), iload(:, 1:loads), aload(:, 1:loads), model, error)
+            if (.not. allocated(error)) then
+                call foundations_from_arrays(ifound(1:nfound), found(:, 1:nfound), iprof(1:nprof), aprof(:, 1:nprof), &
+                                             iflaw(1:nflaw), aflaw(:, 1:nflaw), model, error)
+            end if
+            if (.not. allocated(error)) then
+                if (nlaw > 0) model%supports%unloading = iunl(1:nsup)
+                call prepare_model(model, beam, error)
+            end if
+            if (.not. allocated(error)) return
             info = error%code
             if (error%code == gapbeam_bad_input) then
                 info = -argument(error%table)
-                if (error%key == "law") info = -12
+                if (error%key == "law") info = merge(-22, -12, error%table == of_foundations)
+                if (error%key == "profile") info = -19
                 if (error%key == "unloading") info = -14
             end if
             iwork(1) = error%entry
-            return
-        end if
-        call put_beam(beam, work, lwork, iwork, liwork, fits)
-        if (.not. fits) info = -16
+        end subroutine make
+
     end subroutine prepare_beam
 
     !> Lengths that are enough for any beam of these sizes
-    pure subroutine sizes_of_beam(spans, hinges, supports, laws, loads, reals, integers)
-        !> Numbers of entries; of laws that of their points
-        integer, intent(in) :: spans, hinges, supports, laws, loads
+    pure subroutine sizes_of_beam(spans, hinges, supports, laws, loads, foundations, profiles, ground_laws, layers, reals, integers)
+        !> Numbers of entries; of laws and profiles that of their points; layers of ground under all pieces
+        integer, intent(in) :: spans, hinges, supports, laws, loads, foundations, profiles, ground_laws
+        integer(int64), intent(in) :: layers
         !> Lengths of the two work arrays
         integer(int64), intent(out) :: reals, integers
         integer(int64) :: points, nodes, kinks
 
-        ! No more points than places given, no more nodes than hinges, supports and places of loads beside the two ends
-        points = 1_int64 + spans + hinges + supports + 2_int64*loads
-        nodes = min(points, 2_int64 + hinges + supports + 2_int64*loads)
+        ! No more points than places given, no more nodes than hinges, supports and places of loads beside the two ends; with
+        ! foundations all points are nodes
+        points = 1_int64 + spans + hinges + supports + 2_int64*loads + 2_int64*foundations + profiles
+        nodes = points
+        if (foundations == 0) nodes = min(points, 2_int64 + hinges + supports + 2_int64*loads)
         ! A support that holds both ways has every point of its law twice
         kinks = supports + 2_int64*laws
-        reals = 5_int64*spans + hinges + 6_int64*supports + 4*kinks + 2_int64*laws + 4_int64*loads + 25*points + 27*nodes + 16
-        integers = header + 2_int64*spans + 9_int64*supports + 7*kinks + laws + 5_int64*loads + 4*points + 3*nodes + 60
+        reals = 5_int64*spans + hinges + 6_int64*supports + 4*kinks + 2_int64*laws + 4_int64*loads + 25*points + 27*nodes + 16 &
+            + 6_int64*foundations + 2_int64*profiles + 5_int64*ground_laws + 4*layers
+        integers = header + 2_int64*spans + 9_int64*supports + 7*kinks + laws + 5_int64*loads + 4*points + 3*nodes + 72 &
+            + 3_int64*foundations + 2_int64*profiles + ground_laws + 4*layers
+        if (foundations > 0) integers = integers + points
     end subroutine sizes_of_beam
 
-    !> Lengths that a state of a beam takes
+    !> Lengths that a state of a beam takes, on the ground hardly ever exceeds
     subroutine sizes_of_state(beam, reals, integers, error)
         type(prepared_type), intent(in) :: beam
         integer(int64), intent(out) :: reals, integers
@@ -121,21 +160,24 @@ contains
         call exchange_state(tape, state)
         reals = tape%reals
         integers = tape%integers + header
+        if (allocated(beam%lowered%layers)) call add_likely_solution(beam%lowered, reals, integers)
     end subroutine sizes_of_state
 
     !> Put a prepared beam into work arrays
-    subroutine put_beam(beam, work, lwork, iwork, liwork, fits)
+    subroutine put_beam(beam, work, lwork, iwork, liwork, short)
         type(prepared_type), intent(inout) :: beam
         integer, intent(in) :: lwork, liwork
         real(wp), intent(inout), target :: work(*)
         integer, intent(inout), target :: iwork(*)
-        !> False where they are too short; nothing is written then
-        logical, intent(out) :: fits
+        !> 0; which of the two is too short, and nothing is written
+        integer, intent(out) :: short
         type(tape_type) :: tape
 
         call exchange_beam(tape, beam%lowered)
-        fits = tape%reals <= lwork .and. tape%integers + header <= liwork
-        if (.not. fits) return
+        short = 0
+        if (tape%integers + header > liwork) short = 2
+        if (tape%reals > lwork) short = 1
+        if (short > 0) return
         call start(tape, writing, work, int(lwork, int64), iwork, int(liwork, int64))
         iwork(1:header) = [beam_mark, lwork, liwork]
         call exchange_beam(tape, beam%lowered)
@@ -165,19 +207,28 @@ contains
         if (tape%stat /= 0) call no_memory(error)
     end subroutine take_beam
 
-    !> Put a result into work arrays
-    subroutine put_result(result, work, lwork, iwork, liwork, fits)
+    !> Put a result into work arrays, and set INFO of GBSOLV, GBEVNT
+    subroutine put_result(result, work, lwork, iwork, liwork, info)
         type(result_type), intent(inout) :: result
         integer, intent(in) :: lwork, liwork
         real(wp), intent(inout), target :: work(*)
         integer, intent(inout), target :: iwork(*)
-        !> False where they are too short; nothing is written then
-        logical, intent(out) :: fits
+        !> Status of the result; -7 or -9 where an array is too short: then the first entries are the lengths it takes
+        integer, intent(out) :: info
         type(tape_type) :: tape
+        integer(int64) :: integers
 
         call exchange_state(tape, result%state)
-        fits = tape%reals <= lwork .and. tape%integers + header <= liwork
-        if (.not. fits) return
+        integers = tape%integers + header
+        info = result%status
+        if (integers > liwork) info = -9
+        if (tape%reals > lwork) info = -7
+        if (max(tape%reals, integers) > huge(info)) info = gapbeam_no_memory
+        if (info == -7 .or. info == -9) then
+            work(1) = real(tape%reals, wp)
+            iwork(1) = int(integers)
+        end if
+        if (info /= result%status) return
         call start(tape, writing, work, int(lwork, int64), iwork, int(liwork, int64))
         iwork(1:header) = [state_mark, lwork, liwork]
         call exchange_state(tape, result%state)
@@ -255,6 +306,10 @@ contains
         else if (listat < integers) then
             info = -9
         end if
+        ! As where there are more zones than is likely
+        if (all(info /= [-7, -9]) .or. .not. allocated(beam%lowered%layers) .or. min(lstate, listat) < 1) return
+        state(1) = real(reals, wp)
+        istate(1) = int(integers)
     end subroutine begin_result
 
     !> INFO for arguments 3 to 5 of GBHIST and GBHSOL

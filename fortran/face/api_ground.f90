@@ -1,0 +1,133 @@
+!> Beams on foundations, for Fortran: where the ground acts, where the beam hangs free above it, and its pressure. As in gapbeam_api
+!> nothing is printed or kept, and the floating-point environment is that of the caller. Without foundations there is no contact
+!> and no free span, and the pressure is 0
+module gapbeam_api_ground
+    use, intrinsic :: ieee_arithmetic, only: ieee_status_type, ieee_get_status, ieee_set_status, ieee_set_halting_mode, &
+        ieee_set_rounding_mode, ieee_nearest, ieee_all
+    use gapbeam_kinds, only: wp
+    use gapbeam_error, only: error_type, no_memory, gapbeam_solved
+    use gapbeam_query, only: find_pieces
+    use gapbeam_ground_zones, only: contact_type, free_span_type, find_contact, find_free_spans
+    use gapbeam_pressure, only: pressure_in_pieces, extremes_of_pressure
+    use gapbeam_api, only: prepared_type, result_type, require_result, require_size
+    implicit none
+    private
+    public :: contact_type, free_span_type
+    public :: get_contact, get_free_spans, get_pressure, get_pressure_extremes
+
+contains
+
+    !> Zones in which the ground acts
+    subroutine get_contact(beam, result, zones, error)
+        !> Prepared; its solved result
+        type(prepared_type), intent(in) :: beam
+        type(result_type), intent(in) :: result
+        !> Foundation by foundation from left to right; one that holds both ways by a law first where it pushes up
+        type(contact_type), allocatable, intent(out) :: zones(:)
+        !> gapbeam_not_prepared, gapbeam_not_finite, gapbeam_no_memory
+        type(error_type), allocatable, intent(out) :: error
+        type(ieee_status_type) :: environment
+        integer :: stat
+
+        call require_result(beam, result, gapbeam_solved, error)
+        if (allocated(error)) return
+        call ieee_get_status(environment)
+        call ieee_set_halting_mode(ieee_all, .false.)
+        call ieee_set_rounding_mode(ieee_nearest)
+        if (allocated(result%state%ground)) then
+            call find_contact(beam%lowered, result%state%ground, zones, error)
+        else
+            allocate (zones(0), stat=stat)
+            if (stat /= 0) call no_memory(error)
+        end if
+        call ieee_set_status(environment)
+    end subroutine get_contact
+
+    !> Stretches in which the beam does not touch a one-sided foundation that is there
+    subroutine get_free_spans(beam, result, spans, error)
+        !> Prepared; its solved result
+        type(prepared_type), intent(in) :: beam
+        type(result_type), intent(in) :: result
+        !> Foundation by foundation from left to right; of one that holds both ways there are none
+        type(free_span_type), allocatable, intent(out) :: spans(:)
+        !> gapbeam_not_prepared, gapbeam_not_finite, gapbeam_no_memory
+        type(error_type), allocatable, intent(out) :: error
+        type(ieee_status_type) :: environment
+        integer :: stat
+
+        call require_result(beam, result, gapbeam_solved, error)
+        if (allocated(error)) return
+        call ieee_get_status(environment)
+        call ieee_set_halting_mode(ieee_all, .false.)
+        call ieee_set_rounding_mode(ieee_nearest)
+        if (allocated(result%state%ground)) then
+            call find_free_spans(beam%lowered, result%state%ground, spans, error)
+        else
+            allocate (spans(0), stat=stat)
+            if (stat /= 0) call no_memory(error)
+        end if
+        call ieee_set_status(environment)
+    end subroutine get_free_spans
+
+    !> Pressure of the ground anywhere along the beam
+    subroutine get_pressure(beam, result, x, pressure, error, from_left)
+        !> Prepared; its solved result
+        type(prepared_type), intent(in) :: beam
+        type(result_type), intent(in) :: result
+        !> Places, shape (n)
+        real(wp), intent(in) :: x(:)
+        !> Force per length of all ground on the beam, up, shape (n); written only where there is no error
+        real(wp), intent(inout) :: pressure(:)
+        !> gapbeam_not_prepared, gapbeam_not_finite, gapbeam_no_memory, or gapbeam_bad_input for a place off the beam
+        type(error_type), allocatable, intent(out) :: error
+        !> At an end of a foundation: its value left of the place; default right of it
+        logical, intent(in), optional :: from_left
+        type(ieee_status_type) :: environment
+        integer, allocatable :: piece(:)
+        real(wp), allocatable :: distance(:)
+        logical :: left
+
+        call require_result(beam, result, gapbeam_solved, error)
+        if (allocated(error)) return
+        call require_size(size(x), [size(pressure)], error)
+        if (allocated(error)) return
+        left = .false.
+        if (present(from_left)) left = from_left
+        call ieee_get_status(environment)
+        call ieee_set_halting_mode(ieee_all, .false.)
+        call ieee_set_rounding_mode(ieee_nearest)
+        call find_pieces(beam%lowered, x, left, piece, distance, error)
+        if (.not. allocated(error)) then
+            if (allocated(result%state%ground)) then
+                call pressure_in_pieces(beam%lowered, result%state%ground, piece, distance, pressure, error)
+            else
+                pressure(:) = 0.0_wp
+            end if
+        end if
+        call ieee_set_status(environment)
+    end subroutine get_pressure
+
+    !> Exact extremes of the pressure of the ground
+    subroutine get_pressure_extremes(beam, result, value, x, error)
+        !> Prepared; its solved result
+        type(prepared_type), intent(in) :: beam
+        type(result_type), intent(in) :: result
+        !> Maximum (1) and minimum (2) of the force per length of all ground on the beam, up, and where they are
+        real(wp), intent(out) :: value(2), x(2)
+        !> gapbeam_not_prepared, gapbeam_not_finite
+        type(error_type), allocatable, intent(out) :: error
+        type(ieee_status_type) :: environment
+
+        value = 0.0_wp
+        x = 0.0_wp
+        call require_result(beam, result, gapbeam_solved, error)
+        if (allocated(error)) return
+        if (.not. allocated(result%state%ground)) return
+        call ieee_get_status(environment)
+        call ieee_set_halting_mode(ieee_all, .false.)
+        call ieee_set_rounding_mode(ieee_nearest)
+        call extremes_of_pressure(beam%lowered, result%state%ground, value, x, error)
+        call ieee_set_status(environment)
+    end subroutine get_pressure_extremes
+
+end module gapbeam_api_ground

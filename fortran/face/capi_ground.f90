@@ -1,0 +1,109 @@
+!> Beams on foundations in the C interface: marshalling only. include/gapbeam.h says what every function does.
+module gapbeam_capi_ground
+    use, intrinsic :: iso_c_binding, only: c_int, c_double, c_char, c_size_t, c_ptr
+    use gapbeam_error, only: error_type
+    use gapbeam_api_ground, only: contact_type, free_span_type, get_contact, get_free_spans, get_pressure, get_pressure_extremes
+    use gapbeam_capi, only: beam_handle, state_handle, get_both, check_points, report
+    implicit none
+    private
+
+contains
+
+    !> See the header
+    function c_get_contact(beam, state, capacity, foundation, from, to, condition, resultant, number) result(status) &
+        bind(c, name="gapbeam_get_contact")
+        type(c_ptr), intent(in), value :: beam, state
+        integer(c_int), intent(in), value :: capacity
+        integer(c_int), intent(inout), optional :: foundation(*), condition(*)
+        real(c_double), intent(inout), optional :: from(*), to(*), resultant(*)
+        integer(c_int), intent(inout), optional :: number
+        integer(c_int) :: status
+        type(beam_handle), pointer :: prepared
+        type(state_handle), pointer :: solved
+        type(contact_type), allocatable :: zones(:)
+        type(error_type), allocatable :: error
+        integer :: k
+
+        call get_both(beam, state, prepared, solved, error)
+        if (.not. allocated(error)) call get_contact(prepared%beam, solved%result, zones, error)
+        call report(error, status)
+        if (allocated(error)) return
+        if (present(number)) number = size(zones)
+        do k = 1, min(int(capacity), size(zones))
+            if (present(foundation)) foundation(k) = zones(k)%foundation - 1
+            if (present(from)) from(k) = zones(k)%from
+            if (present(to)) to(k) = zones(k)%to
+            if (present(condition)) condition(k) = zones(k)%condition
+            if (present(resultant)) resultant(k) = zones(k)%resultant
+        end do
+    end function c_get_contact
+
+    !> See the header
+    function c_get_free_spans(beam, state, capacity, foundation, from, to, sag, number) result(status) &
+        bind(c, name="gapbeam_get_free_spans")
+        type(c_ptr), intent(in), value :: beam, state
+        integer(c_int), intent(in), value :: capacity
+        integer(c_int), intent(inout), optional :: foundation(*)
+        real(c_double), intent(inout), optional :: from(*), to(*), sag(*)
+        integer(c_int), intent(inout), optional :: number
+        integer(c_int) :: status
+        type(beam_handle), pointer :: prepared
+        type(state_handle), pointer :: solved
+        type(free_span_type), allocatable :: spans(:)
+        type(error_type), allocatable :: error
+        integer :: k
+
+        call get_both(beam, state, prepared, solved, error)
+        if (.not. allocated(error)) call get_free_spans(prepared%beam, solved%result, spans, error)
+        call report(error, status)
+        if (allocated(error)) return
+        if (present(number)) number = size(spans)
+        do k = 1, min(int(capacity), size(spans))
+            if (present(foundation)) foundation(k) = spans(k)%foundation - 1
+            if (present(from)) from(k) = spans(k)%from
+            if (present(to)) to(k) = spans(k)%to
+            if (present(sag)) sag(k) = spans(k)%sag
+        end do
+    end function c_get_free_spans
+
+    !> See the header
+    function c_get_pressure(beam, state, count, x, from_left, pressure, message, message_size) result(status) &
+        bind(c, name="gapbeam_get_pressure")
+        type(c_ptr), intent(in), value :: beam, state
+        integer(c_int), intent(in), value :: count, from_left
+        real(c_double), intent(in), optional :: x(*)
+        real(c_double), intent(inout), optional :: pressure(*)
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), intent(in), value :: message_size
+        integer(c_int) :: status
+        type(beam_handle), pointer :: prepared
+        type(state_handle), pointer :: solved
+        type(error_type), allocatable :: error
+
+        call get_both(beam, state, prepared, solved, error)
+        if (.not. allocated(error)) call check_points(count, present(x) .and. present(pressure), "x or pressure", error)
+        if (.not. allocated(error) .and. count > 0) then
+            call get_pressure(prepared%beam, solved%result, x(1:count), pressure(1:count), error, from_left /= 0)
+        end if
+        call report(error, status, message, message_size)
+    end function c_get_pressure
+
+    !> See the header
+    function c_get_pressure_extremes(beam, state, value, x) result(status) bind(c, name="gapbeam_get_pressure_extremes")
+        type(c_ptr), intent(in), value :: beam, state
+        real(c_double), intent(inout), optional :: value(2), x(2)
+        integer(c_int) :: status
+        type(beam_handle), pointer :: prepared
+        type(state_handle), pointer :: solved
+        type(error_type), allocatable :: error
+        real(c_double) :: values(2), places(2)
+
+        call get_both(beam, state, prepared, solved, error)
+        if (.not. allocated(error)) call get_pressure_extremes(prepared%beam, solved%result, values, places, error)
+        call report(error, status)
+        if (allocated(error)) return
+        if (present(value)) value(:) = values
+        if (present(x)) x(:) = places
+    end function c_get_pressure_extremes
+
+end module gapbeam_capi_ground
