@@ -92,7 +92,7 @@ beam = {spans = [6.0, 6.0, 6.0], EI = 1e4, hinges = 3} -> beam.hinges: expected 
 sections = [{EI = 1.0, from_ = 2}] -> sections[0].from_: unknown key; did you mean "from"?
 sections = [{EI = [1.0]}] -> sections[0].EI: expected a number, got [1.0]
 foundation = [{}] -> foundation[0].k: this key is missing; give a number
-foundation = [{k = "soft"}] -> foundation[0].k: expected a number, got "soft"
+foundation = [{k = "soft"}] -> foundation[0].k: expected a number or a pair of numbers, got "soft"
 analysis = {steps = 2.5} -> analysis.steps: expected a whole number, got 2.5
 analysis = {rule = "fast"} -> analysis.rule: expected "block" or "single", got "fast"
 analysis = {follow = "load"} -> analysis.follow: expected "events" or "steps", got "load"
@@ -255,6 +255,12 @@ x = 6.0; law = { type = "cubic", k1 = 0, k3 = 0 } ->
     supports[0].law.k1: expected a number above 0 for k1, k2 or k3, got 0
 x = 6.0; law = { type = "plastic", stiffness = 1.0, limit = 2.0, k = 3 } ->
     supports[0].law.k: unknown key; the keys of a law of type "plastic" are type, stiffness and limit
+x = 6.0; law = [[0.01, 5.0]]; gap = -0.001 ->
+    supports[0].gap: expected 0 or more of a support that holds both ways, got -0.001; put one below and one above at
+    this place instead
+x = 6.0; law = { type = "tanh", stiffness = 1.0, limit = 2.0 }; gap = -0.5 ->
+    supports[0].gap: expected 0 or more of a support that holds both ways, got -0.5; put one below and one above at
+    this place instead
 x = 6.0; law = [[0.01, 100.0]]; stiffness = 5.0 ->
     supports[0]: has both stiffness and law; give one of the two
 """
@@ -352,12 +358,78 @@ def test_moment_at_a_hinge(place):
     assert message(beam=BEAM | {"hinges": [9.0, 6.0]}, loads=loads) == expected
 
 
-# What later versions bring
+# Foundations
+
+IN_A_FOUNDATION = """
+k = [1.0] -> foundation[1].k: expected a number or a pair of numbers, got [1.0]
+k = [1.0, "a"] -> foundation[1].k[1]: expected a number, got "a"
+k = 0 -> foundation[1].k: with a modulus of 0 it never carries; remove it
+k = [0.0, 0.0] -> foundation[1].k: with a modulus of 0 it never carries; remove it
+k = -2.0 -> foundation[1].k: expected a finite number, 0 or more, got -2.0
+k = nan -> foundation[1].k: expected a finite number, 0 or more, got nan
+k = [1.0, -2.0] -> foundation[1].k: expected finite numbers, 0 or more, got [1.0, -2.0]
+k = inf ->
+    foundation[1].k: expected a finite number, got inf; rigid ground is not available, use supports
+k = [1.0, inf] ->
+    foundation[1].k: expected a finite number, got inf; rigid ground is not available, use supports
+k = 1.0; from = 4.0; to = 2.0 ->
+    foundation[1]: the stretch from = 4 to = 2 has no length; from must be less than to
+k = 1.0; from = 18.0 -> foundation[1]: the stretch from = 18 to = 18 has no length; from must be less than to
+k = 1.0; from = -1.0 -> foundation[1].from: -1 is outside the beam, which runs from x = 0 to x = 18
+k = 1.0; to = 18.1 -> foundation[1].to: 18.1 is outside the beam, which runs from x = 0 to x = 18
+k = 1.0; to = nan -> foundation[1].to: expected a number, got nan
+k = 1.0; side = "left" -> foundation[1].side: expected "above", "below" or "both", got "left"
+k = 1.0; side = "below"; gap = "a" -> foundation[1].gap: expected a number or a pair of numbers, got "a"
+k = 1.0; side = "below"; gap = inf -> foundation[1].gap: expected a finite number, got inf
+k = 1.0; side = "below"; gap = [0.0, nan] -> foundation[1].gap: expected finite numbers, got [0.0, nan]
+k = 1.0; side = "below"; gap = 0.1; profile = [[0.0, 0.1]] ->
+    foundation[1]: has both gap and profile; give one of the two
+k = 1.0; side = "below"; profile = [] -> foundation[1].profile: has no point; give (x, gap)
+k = 1.0; side = "below"; profile = [[0.0]] -> foundation[1].profile[0]: expected a pair of numbers, got [0.0]
+k = 1.0; side = "below"; profile = 3 -> foundation[1].profile: expected a list of pairs of numbers, got 3
+k = 1.0; side = "below"; profile = [[0.0, 0.1], [6.0, 0.1], [2.0, 0.0]] ->
+    foundation[1].profile[2]: the places go back to x = 2, after 6; give them in ascending order
+k = 1.0; side = "below"; profile = [[0.0, 0.1], [6.0, 0.1], [6.000000000000001, 0.0]] ->
+    foundation[1].profile[2]: there is a point at x = 6 already; leave one out, or give a step two places
+k = 1.0; side = "below"; profile = [[0.0, 0.1], [6.0, inf]] ->
+    foundation[1].profile[1]: expected finite numbers, got [6, inf]
+k = 1.0; law = [[0.01, 5.0]] -> foundation[1]: has both k and law; give one of the two
+law = [] -> foundation[1].law: has no point; give (displacement past the gap, force per length)
+law = [[0.01, nan]] -> foundation[1].law[0]: expected finite numbers, got [0.01, NaN]
+law = [[0.0, 5.0]] -> foundation[1].law[0]: ground has no vertical piece, as at [0, 5]; give a steep slope
+law = [[0.01, 5.0], [0.01, 6.0]] ->
+    foundation[1].law[1]: ground has no vertical piece, as at [0.01, 6]; give a steep slope
+law = [[0.0, 0.0], [0.01, 6.0]] ->
+    foundation[1].law[0]: the point [0, 0] stands there twice, or at the origin; leave it out
+law = [[0.01, 5.0], [0.005, 6.0]] ->
+    foundation[1].law[1]: the displacements go back at [0.005, 6], after 0.01; give them in ascending order
+law = [[0.01, -5.0]] -> foundation[1].law[0]: the force is below zero at [0.01, -5]; ground that pushes cannot pull
+law = [[0.01, 5.0], [0.02, 4.0]] ->
+    foundation[1].law[1]: the force falls at [0.02, 4]; softening ground is not available in this version
+law = [[0.01, 0.0]] -> foundation[1].law: its force stays 0, so it never carries; remove the foundation
+law = { type = "tanh", stiffness = 1.0, limit = 2.0 } ->
+    foundation[1].law: a law of type "tanh" is not available for foundations in this version; give a polyline
+law = { type = "brittle", stiffness = 1.0, limit = 2.0 } ->
+    foundation[1].law: a law of type "brittle" is not available for foundations in this version; give a polyline
+    that never falls
+law = { type = "plastic", stiffness = 1.0, limit = [0.0, 400.0] } ->
+    foundation[1].law.limit: pairs of parameters are not available in this version; give a number, or a polyline
+    as law
+law = { type = "plastic", stiffness = inf, limit = 2.0 } ->
+    foundation[1].law.stiffness: expected a finite number above 0, got inf
+law = { type = "hardening", stiffness = 1.0, limit = 2.0, slope = inf } ->
+    foundation[1].law.slope: expected a finite number of 0 or more, got inf
+law = [[0.01, 5.0]]; unloading = "plastic" ->
+    foundation[1].unloading: unknown key; the keys are from, to, k, side, gap, profile and law
+"""
 
 
-def test_not_available_yet():
-    refused = "foundation[0]: foundations are not available in this version; use elastic supports"
-    assert message(foundation=[{"k": 5.0e3, "side": "below"}]) == refused
+@pytest.mark.parametrize(("given", "expected"), cases(IN_A_FOUNDATION))
+def test_foundation(given, expected):
+    assert message(foundation=[{"k": 1.0}, given]) == expected
+
+
+# Steps
 
 
 @pytest.mark.parametrize("steps", [0, -3])

@@ -157,6 +157,8 @@ REFUSED = [
     ({"loads": {"type": "snow", "q": [1.0]}}, 'loads[0].type: expected "force", "moment", "uniform"'),
     ({"loads": {"type": "force", "x": [1.0], "F": ["a"]}}, 'loads[0].F: expected a number, got "a"'),
     ({"sections": {"from": [0.0, 9.0], "to": [3.0, 8.0], "EI": 2.0}}, "sections[1]: the stretch from = 9 to = 8 has no length"),
+    ({"foundation": {"k": [1.0, -2.0]}}, "foundation[1].k: expected a finite number, 0 or more, got -2.0"),
+    ({"foundation": {"from": [1.0, 2.0]}}, "foundation[0].k: this key is missing; give a number"),
     ({"supports": {"node": np.ma.array([0, 1], mask=[False, True])}}, "supports[1].node: expected a whole number"),
 ]
 
@@ -195,6 +197,7 @@ KEYS = {
     "supports": ("node", "x", "side", "stiffness", "gap", "settlement", "rotation", "direction", "law", "other"),
     "loads": ("q", "F", "M", "kappa", "x", "node", "from", "to", "case", "other"),
     "sections": ("from", "to", "EI", "GA", "EA", "other"),
+    "foundation": ("from", "to", "k", "side", "gap", "profile", "law", "other"),
 }
 TYPES = ["uniform", "force", "moment", "linear", "curvature", "axial", ["uniform"] * 3, np.array(["force", "axial", "force"]), 5]
 

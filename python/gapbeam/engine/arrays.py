@@ -6,7 +6,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..base.records import Record
+from ..base.records import Record, read_only
+
+GROUND_ROWS = 18
+"""Rows of `Ground.values` beside those of the layers, as in gapbeam_handle."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -30,6 +33,12 @@ class Columns(Record):
         Points of the laws: number of the support, from 1; displacement and force, 2 rows.
     load_codes, load : numpy.ndarray
         Kind, case and node of the loads, 3 rows of int; x or left end, right end, value, value at the right end, 4 rows.
+    foundation_sides, foundation : numpy.ndarray
+        Side of the foundations, int; left and right end, modulus there, gap there, 6 rows.
+    profile_foundations, profile : numpy.ndarray
+        Points of the profiles: number of the foundation, from 1; x and gap, 2 rows.
+    ground_law_foundations, ground_law : numpy.ndarray
+        Points of the laws of foundations: number of the foundation, from 1; displacement and force per length, 2 rows.
     """
 
     span: np.ndarray
@@ -41,6 +50,78 @@ class Columns(Record):
     law: np.ndarray
     load_codes: np.ndarray
     load: np.ndarray
+    foundation_sides: np.ndarray
+    foundation: np.ndarray
+    profile_foundations: np.ndarray
+    profile: np.ndarray
+    ground_law_foundations: np.ndarray
+    ground_law: np.ndarray
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Ground(Record):
+    """A solution on the ground, stretch by stretch from left to right, in the engine's units.
+
+    Attributes
+    ----------
+    values : numpy.ndarray
+        A column a stretch. Rows: piece (from 1); distances of its ends from the left end of the piece, length; moduli at its
+        ends; loads qa, qb, qc, kappa; deflections, moments, rotations, shears at its ends; and of every layer under it the
+        force up, then the piece of its law on which it acts (0: not in contact).
+    bounds : numpy.ndarray
+        Of the errors of deflection, rotation, moment, shear, reactions.
+    residuals : numpy.ndarray
+        Of compatibility and equilibrium.
+    """
+
+    values: np.ndarray
+    bounds: np.ndarray
+    residuals: np.ndarray
+
+    @property
+    def layers(self) -> int:
+        """Most layers under a stretch."""
+        return (len(self.values) - GROUND_ROWS) // 2
+
+    @property
+    def stretches(self) -> int:
+        """Stretches between nodes, of which the ends of zones are some."""
+        return self.values.shape[1]
+
+    @property
+    def resultants(self) -> np.ndarray:
+        """Force of every layer on the beam, up, layers by stretches."""
+        return self.values[GROUND_ROWS : GROUND_ROWS + self.layers]
+
+    @property
+    def acts(self) -> np.ndarray:
+        """Piece of its law on which every layer acts, layers by stretches."""
+        return read_only(self.values[GROUND_ROWS + self.layers :].astype(np.int32))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Layers(Record):
+    """The layers of ground under the pieces of a beam.
+
+    Attributes
+    ----------
+    first : numpy.ndarray of int
+        First layer of every piece, and how many there are.
+    foundation : numpy.ndarray of int
+        Number of the foundation in the scene.
+    side : numpy.ndarray of int
+        1 below, -1 above, 0 both.
+    law_pieces : numpy.ndarray of int
+        Pieces of its law; 0 without one.
+    levels : numpy.ndarray
+        Deflections at which they begin to act at both ends of the piece, layers by 2, in the scene's units.
+    """
+
+    first: np.ndarray
+    foundation: np.ndarray
+    side: np.ndarray
+    law_pieces: np.ndarray
+    levels: np.ndarray
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -77,6 +158,8 @@ class Solution(Record):
         Whether the rule ``single`` came back to a scheme, so that ``block`` went on.
     slides : bool
         Whether nothing holds the beam along its axis.
+    ground : Ground or None
+        What is in its stretches, with foundations.
     """
 
     status: int
@@ -96,6 +179,7 @@ class Solution(Record):
     indifferent: bool
     came_back: bool
     slides: bool
+    ground: Ground | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,11 +7,11 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from ..base.errors import Status, check_status
+from ..base.errors import EngineError, Status, check_status
 from ..base.records import read_only
 from . import calls as _engine  # the compiled layer itself, but for Ctrl-C
-from .arrays import Columns, History, Places, Solution, Stretch
-from .units import Units
+from .arrays import Columns, Ground, History, Layers, Places, Solution, Stretch
+from .units import Units, scaled
 
 SOLVED, NO_EQUILIBRIUM = Status.SOLVED, Status.NO_EQUILIBRIUM
 """Outcomes, as in gapbeam_error; codes above 10 are errors."""
@@ -30,7 +30,7 @@ METHODS = ("block tridiagonal mixed", "three-moment", "mixed with pivoting")
 """What was solved, as in gapbeam_system."""
 HINGE, RESTRAINED = 1, 2
 """Kinds of node other than plain ones (0), as in gapbeam_band."""
-FIELDS = ("deflection", "rotation", "moment", "shear", "axial_force", "axial_displacement")
+FIELDS = ("deflection", "rotation", "moment", "shear", "axial_force", "axial_displacement", "pressure")
 
 
 class Curve(Protocol):
@@ -74,6 +74,8 @@ class Beam:
         The engine's.
     has_hinges, has_restraints, has_shear, is_one_sided : bool
         What of that there is; a one-sided support that can carry.
+    ground_layers : int
+        Layers of ground under all its pieces; 0 without foundations.
     has_laws, depends_on_path : bool
         A support with a law; one whose force may fall, or that does not unload along its law.
 
@@ -94,8 +96,9 @@ class Beam:
         self._factors: np.ndarray | None = None
         c = columns
         handle, status, reason, table, entry, partner, key, message = _engine.gbmake(
-            c.span, c.hinge, c.section, c.support_codes, c.support, c.law_supports, c.law, c.load_codes, c.load
-        )
+            c.span, c.hinge, c.section, c.support_codes, c.support, c.law_supports, c.law, c.load_codes, c.load,
+            c.foundation_sides, c.foundation, c.profile_foundations, c.profile, c.ground_law_foundations, c.ground_law,
+        )  # fmt: skip
         if status == Status.BAD_INPUT:
             raise RefusalError(reason, table, entry, partner, key.decode().strip(), message.decode().strip())
         check_status(status, message)
@@ -105,7 +108,7 @@ class Beam:
         """Keep a handle, and what it says of itself."""
         self.handle = _engine.Handle(handle)
         sizes, units = _engine.gbsize(handle)
-        self.pieces, self.links, self.supports, self.scene_supports, self.bars, *has = sizes.tolist()
+        self.pieces, self.links, self.supports, self.scene_supports, self.bars, *has, self.ground_layers = sizes.tolist()
         self.has_hinges, self.has_restraints, self.has_shear, self.is_one_sided, self.has_laws, self.depends_on_path = map(
             bool, has
         )
@@ -260,14 +263,15 @@ class Beam:
         """
         m, n = self.supports, max(self.bars, 0)
         scheme = _scheme(closed)
-        undecided, w, left, right, shear, reaction, motion, u, tension, values, counts, status, message = _engine.gbsolv(
+        undecided, w, left, right, shear, reaction, motion, u, tension, values, counts, ground, status, message = _engine.gbsolv(
             self.handle, self.links, self.scene_supports, n, factor, RULES.get(rule, RULE_GIVEN), scheme
         )
         check_status(status, message)
-        solves, method, indifferent, came_back, slides = counts.tolist()
+        solves, method, indifferent, came_back, slides, stretches, layers = counts.tolist()
+        under = Ground(*_engine.gbgget(ground, stretches, layers)) if ground else None
         return Solution(
             status, scheme[:m], undecided[:m], w, left, right, shear, reaction[:m], motion, u, tension[:n], values.T[:, :-1],
-            solves, method, bool(indifferent), bool(came_back), bool(slides),
+            solves, method, bool(indifferent), bool(came_back), bool(slides), under,
         )  # fmt: skip
 
     def follow(self, factor: float, closed: np.ndarray, marginal: np.ndarray, most: int) -> Stretch:
@@ -354,6 +358,8 @@ class Beam:
         EngineError
             A field left the range of doubles.
         """
+        if solution.ground is not None:
+            return solution.ground.values
         starts, status, message = _engine.gbreco(self.handle, self.pieces, *_state(factor, solution))
         check_status(status, message)
         return read_only(starts)
@@ -381,6 +387,10 @@ class Beam:
         EngineError
             The state cannot be checked.
         """
+        if solution.ground is not None:
+            ground = solution.ground
+            bounds = np.concatenate((ground.bounds[[0, 4]], ground.bounds[:4]))
+            return np.append(ground.residuals, 0.0), bounds, not solution.indifferent
         residuals, bounds, known, status, message = _engine.gbcert(self.handle, *_state(factor, solution))
         check_status(status, message, "the state could not be checked in quadruple precision: ")
         return residuals, bounds, bool(known)
@@ -432,18 +442,20 @@ class Beam:
         Returns
         -------
         numpy.ndarray
-            6 by places, in the scene's units, in the order of FIELDS.
+            6 by places, 7 with foundations, in the scene's units, in the order of FIELDS.
 
         Raises
         ------
         EngineError
             A field left the range of doubles.
         """
-        found = np.empty((6, len(piece)))
+        on_ground = solution.ground is not None
+        found = np.empty((7 if on_ground else 6, len(piece)))
         tension = np.append(solution.tension, 0.0)
         for part in _engine.parts(len(piece)):
-            found[:, part], status, message = _engine.gbvalu(
-                self.handle, factor, starts, solution.displacement, tension, piece[part], distance[part]
+            about = solution.displacement, tension, piece[part], distance[part]
+            found[:, part], status, message = (
+                _engine.gbgval(self.handle, starts, *about) if on_ground else _engine.gbvalu(self.handle, factor, starts, *about)
             )
             check_status(status, message)
         return found
@@ -467,26 +479,75 @@ class Beam:
             A field left the range of doubles.
         """
         tension = np.append(solution.tension, 0.0)
-        values, x, status, message = _engine.gbextr(self.handle, factor, starts, solution.displacement, tension)
+        along = starts, solution.displacement, tension
+        values, x, status, message = (
+            _engine.gbextr(self.handle, factor, *along) if solution.ground is None else _engine.gbgext(self.handle, *along)
+        )
         check_status(status, message)
         return values, x
 
-    def largest_fields(self, factor: float, starts: np.ndarray) -> np.ndarray:
+    def largest_fields(self, factor: float, starts: np.ndarray, solution: Solution) -> np.ndarray:
         """Largest absolute values of deflection, rotation, moment, shear, in the engine's units.
 
         Parameters
         ----------
-        factor, starts
+        factor, starts, solution
             As for `values`.
 
         Returns
         -------
         numpy.ndarray
         """
+        if solution.ground is not None:
+            values, _ = self.extremes(factor, starts, solution)
+            return scaled(np.abs(values[:, :4]).max(axis=0), -np.array(self.units.field))
         return _engine.gblarg(self.handle, factor, starts)
+
+    @property
+    def fields(self) -> dict[str, int]:
+        """Names of the fields that it has, and which of FIELDS they are."""
+        there = [0, 1, 2, 3] + [4, 5] * (self.bars >= 0) + [6] * (self.ground_layers > 0)
+        return {FIELDS[k]: k for k in there}
+
+    @cached_property
+    def layers(self) -> Layers:
+        """The layers of ground under its pieces."""
+        if not self.ground_layers:
+            none = np.zeros(0, np.int32)
+            return Layers(np.zeros(self.pieces + 1, np.int32), none, none, none, np.zeros((0, 2)))
+        first, codes, levels = _engine.gbglay(self.handle, self.pieces, self.ground_layers)
+        return Layers(first, *codes, levels.T)
+
+    def ground_runs(self, ground: Ground) -> tuple[np.ndarray, np.ndarray]:
+        """Join stretches beside each other in which a layer of ground does the same.
+
+        Parameters
+        ----------
+        ground : Ground
+            A solution.
+
+        Returns
+        -------
+        about : numpy.ndarray of int
+            Foundation, side (1 below, -1 above, 0 both), pieces of its law (0: linear), the piece on which it acts (0: no
+            contact) of every run, runs by 4: by foundation, below before above, from left to right.
+        values : numpy.ndarray
+            Its ends, the force on the beam (up) and the largest distance between beam and ground, runs by 4, in the scene's
+            units.
+
+        Raises
+        ------
+        EngineError
+            There is no memory.
+        """
+        number, about, values, status, message = _engine.gbgrun(self.handle, ground.values)
+        check_status(status, message)
+        return about.T[:number], values.T[:number]
 
     def split_loads(self) -> None:
         """Condense the loads one by one, for `solve_cases`."""
+        if self.ground_layers:
+            return
         check_status(_engine.gbshar(self.handle, self.pieces + self.columns.load.shape[1]))
 
     def solve_cases(self, factors: np.ndarray, rule: str, closed: np.ndarray) -> tuple[np.ndarray, ...]:
@@ -507,6 +568,8 @@ class Beam:
             Deflection, moments left and right of the nodes, reactions in the scene's units (not-a-number where a case is not
             solved), schemes (all open where there is none), solves and status, one row a case.
         """
+        if self.ground_layers:
+            return self._solve_cases_on_ground(factors, rule, closed)
         cases, m = len(factors), self.supports
         shares = np.zeros((max(cases, 1), factors.shape[1] + 1))
         shares[:cases, :-1] = factors
@@ -516,6 +579,30 @@ class Beam:
         check_status(status[0] if status[0] == Status.NO_MEMORY else SOLVED)  # then all are
         found = w.T, left.T, right.T, reaction.T[:, :m], schemes[:, :m]
         return (*(values[:cases] for values in found), solves[:cases], status[:cases])
+
+
+    def _solve_cases_on_ground(self, factors: np.ndarray, rule: str, closed: np.ndarray) -> tuple[np.ndarray, ...]:
+        """Solve load cases one by one: each has zones of its own."""
+        cases, n, m = len(factors), self.links + 1, self.supports
+        nodes, reactions = np.full((3, cases, n), np.nan), np.full((cases, m), np.nan)
+        schemes, solves = np.zeros((cases, m), np.int32), np.zeros(cases, np.int32)
+        status = np.zeros(cases, np.int32)
+        start = np.broadcast_to(closed, m)
+        units = self.units
+        for k, row in enumerate(factors):
+            try:
+                solution = self.with_factors(row).solve(1.0, rule, start)
+            except EngineError as error:
+                status[k] = error.status
+                continue
+            solves[k], status[k] = solution.solves, solution.status
+            if solution.status == SOLVED:
+                fields = solution.deflection, solution.moment_left, solution.moment_right
+                moment = units.force + units.length
+                for row_of, values, power in zip(nodes, fields, (units.deflection, moment, moment), strict=True):
+                    row_of[k] = scaled(values, power)
+                reactions[k], schemes[k] = scaled(solution.reaction, units.force), solution.closed
+        return (*nodes, reactions, schemes, solves, status)
 
 
 def _made_of(

@@ -163,7 +163,12 @@ def parts(count: int) -> Iterator[slice]:
 gbsize = _engine.gbsize
 gbnumb = _engine.gbnumb
 gbhget = _engine.gbhget
-gbmake = interruptible(_engine.gbmake, lambda span, hinge, section, codes, support, *_: span.shape[1] + support.shape[1])
+gbgget = _engine.gbgget
+gbglay = _engine.gbglay
+gbmake = interruptible(
+    _engine.gbmake,
+    lambda span, hinge, section, codes, support, *rest: span.shape[1] + support.shape[1] + rest[-3].shape[1],  # of profiles
+)
 gbcopy = interruptible(_engine.gbcopy)
 gbplac = interruptible(_engine.gbplac, lambda beam, pieces, *_: pieces)
 gbsolv = interruptible(_engine.gbsolv, lambda beam, links, *_: links)
@@ -174,6 +179,9 @@ gbreco = interruptible(_engine.gbreco, lambda beam, pieces, *_: pieces)
 gbcert = interruptible(_engine.gbcert, lambda beam, factor, closed, w, *_: 3 * len(w))
 gbfind = interruptible(_engine.gbfind, lambda beam, x, *_: len(x))
 gbvalu = interruptible(_engine.gbvalu, lambda beam, factor, starts, u, tension, piece, *_: len(piece))
+gbgval = interruptible(_engine.gbgval, lambda beam, ground, u, tension, piece, *_: len(piece) + ground.shape[1])
+gbgext = interruptible(_engine.gbgext, lambda beam, ground, *_: ground.shape[1])
+gbgrun = interruptible(_engine.gbgrun, lambda beam, ground: ground.shape[1])
 gbextr = interruptible(_engine.gbextr, lambda beam, factor, starts, *_: starts.shape[1])
 gblarg = interruptible(_engine.gblarg, lambda beam, factor, starts, *_: starts.shape[1])
 gbshar = interruptible(lambda beam, _: _engine.gbshar(beam), lambda beam, count: count)

@@ -70,7 +70,10 @@ def columns(scene: Scene) -> Columns:
     codes, values = _supports(scene.supports)
     law_supports, law = _laws(scene.supports)
     load_codes, load_values = _loads(scene.loads)
-    return Columns(span, hinge, _sections(scene.sections), codes, values, law_supports, law, load_codes, load_values)
+    return Columns(
+        span, hinge, _sections(scene.sections), codes, values, law_supports, law, load_codes, load_values,
+        *_foundations(scene.foundation), *_profiles(scene.foundation), *_laws(scene.foundation),
+    )  # fmt: skip
 
 
 def curves(scene: Scene, taken: Columns) -> tuple[tuple[int, Curve], ...]:
@@ -123,8 +126,35 @@ def _supports(items: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
     return codes, found
 
 
+def _foundations(items: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
+    sides, found = _empty(1, len(items), np.int32)[0], _empty(6, len(items))
+    sides[:-1] = _words(items, "side", SIDES)
+    found[0, :-1], found[1, :-1] = _numbers(items, "from_"), _optional(items, "to")
+    found[2:4, :-1], found[4:6, :-1] = _at_both_ends(items, "k"), _at_both_ends(items, "gap")
+    return sides, found
+
+
+def _at_both_ends(items: Sequence[Any], key: str) -> Any:
+    """Numbers at the left and at the right end, given as one or as a pair; 0 where there is none."""
+    values = _column(items, key)
+    if not isinstance(values, list):
+        return values
+    pairs = [value if isinstance(value, tuple) else (value or 0.0, value or 0.0) for value in values]
+    return np.array(pairs, dtype=float).reshape(-1, 2).T
+
+
+def _profiles(items: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
+    """Points of profiles, and the numbers of their foundations, from 1; none of them can be given as columns."""
+    profiles = [] if isinstance(items, Table) else list(map(attrgetter("profile"), items))
+    points = [np.empty((0, 2)), *(np.asarray(one, dtype=float) for one in profiles if one is not None)]
+    which = [i for i, one in enumerate(profiles, 1) if one is not None]
+    found = _empty(2, sum(map(len, points)))
+    found[:, :-1] = np.concatenate(points).T
+    return np.repeat([*which, 0], [*map(len, points[1:]), 1]).astype(np.int32), found
+
+
 def _laws(items: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
-    """Points of laws, and the numbers of their supports, from 1; none of them can be given as columns."""
+    """Points of laws, and the numbers of their supports or foundations, from 1; none of them can be given as columns."""
     laws = [] if isinstance(items, Table) else list(map(attrgetter("law"), items))
     which = [i for i, law in enumerate(laws) if law is not None] if laws.count(None) < len(laws) else []
     points = [(i + 1, *point) for i in which for point in law_points(laws[i])]

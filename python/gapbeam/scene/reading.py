@@ -14,10 +14,10 @@ from ..base.errors import EngineError, SceneError
 from ..engine.beam import Beam, RefusalError
 from .columns import columns, curves
 from .files import read_file
-from .laws import is_smooth, wrong_parameter
+from .laws import HardeningLaw, PlasticLaw, is_smooth, wrong_parameter
 from .refusals import refusal
 from .structs import Scene
-from .tables import Table, take_tables
+from .tables import Table, take_profiles, take_tables
 from .typed import typed
 from .wording import number, shown
 
@@ -29,8 +29,8 @@ def read_scene(source: Scene | Mapping[str, Any] | str | os.PathLike) -> Scene:
     ----------
     source : Scene, mapping, str or path
         A scene built in Python, its data as dicts and lists, or the path of a ``.toml`` or ``.json`` file.
-        Numpy numbers and arrays are welcome in place of numbers and lists; lists of supports, loads and sections may be
-        columns: arrays by key, a pandas DataFrame, a structured array, where a single value holds for every row.
+        Numpy numbers and arrays are welcome in place of numbers and lists; lists of supports, foundations, loads and
+        sections may be columns: arrays by key, a pandas DataFrame, a structured array, where a single value holds for every row.
 
     Returns
     -------
@@ -97,12 +97,14 @@ def _structured(source: Scene | Mapping[str, Any] | str | os.PathLike) -> Scene:
     if not isinstance(source, Scene | Mapping):
         raise SceneError(f"expected a Scene, a mapping or the path of a file, got {shown(source)}")
     source, tables = take_tables(source)
+    source, profiles = take_profiles(source)
     scene = typed(source, Scene)
     for key, table in tables.items():
         setattr(scene, key, table)
+    for i, profile in profiles.items():
+        scene.foundation[i].profile = profile
     _check_laws(scene)
-    if scene.foundation:
-        raise SceneError("foundation[0]", "foundations are not available in this version; use elastic supports")
+    _check_foundations(scene)
     if scene.analysis.steps < 1:
         raise SceneError("analysis.steps", f"expected a whole number, 1 or more, got {shown(scene.analysis.steps)}")
     if not scene.analysis.history:
@@ -133,3 +135,28 @@ def _check_laws(scene: Scene) -> None:
             raise SceneError(f"supports[{i}].unloading", problem)
         if isinstance(law, list) and not law:
             raise SceneError(f"supports[{i}].law", "has no point; give (displacement past the gap, force)")
+
+
+def _check_foundations(scene: Scene) -> None:
+    """Refuse what the columns of a foundation would not show any more, and laws that are not available."""
+    if isinstance(scene.foundation, Table):
+        return
+    for i, foundation in enumerate(scene.foundation):
+        place, law = f"foundation[{i}]", foundation.law
+        if foundation.k is None and law is None:
+            raise SceneError(f"{place}.k", "this key is missing; give a number")
+        if foundation.k is not None and law is not None:
+            raise SceneError(place, "has both k and law; give one of the two")
+        if foundation.profile is not None and not len(foundation.profile):
+            raise SceneError(f"{place}.profile", "has no point; give (x, gap)")
+        if isinstance(law, list):
+            if not law:
+                raise SceneError(f"{place}.law", "has no point; give (displacement past the gap, force per length)")
+        elif law is not None:
+            if not isinstance(law, PlasticLaw | HardeningLaw):
+                kind = law.__struct_config__.tag
+                problem = f"a law of type {shown(kind)} is not available for foundations in this version; give a polyline"
+                raise SceneError(f"{place}.law", problem + (" that never falls" if kind == "brittle" else ""))
+            if wrong := wrong_parameter(law, may_be_rigid=False):
+                key, value, expected = wrong
+                raise SceneError(f"{place}.law.{key}", f"expected {expected}, got {number(value)}")

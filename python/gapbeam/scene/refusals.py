@@ -5,6 +5,8 @@ from __future__ import annotations
 from math import isfinite, isnan
 from typing import Any
 
+from msgspec import Struct
+
 from ..base.errors import SceneError
 from .columns import KINDS, SIDES
 from .structs import Scene
@@ -13,11 +15,12 @@ from .wording import number, shown
 (NO_SPAN, NOT_EXPECTED, TOO_LONG, LOST_LENGTH, AT_END, OFF_BEAM, NO_PLACE, NO_NODE, NO_STRETCH, NOT_AXIAL, NO_GAP, NOT_HELD, TWICE,
  NO_ROOM, AT_HINGE, IDLE, BAD_LAW) = range(1, 18)  # fmt: skip
 """Reasons, as in gapbeam_refusal."""
-SPANS, HINGES, SUPPORTS, LOADS, SECTIONS = range(1, 6)
+SPANS, HINGES, SUPPORTS, LOADS, SECTIONS, FOUNDATIONS = range(1, 7)
 """Tables, as in gapbeam_refusal."""
-NAMES = {HINGES: "beam.hinges", SUPPORTS: "supports", LOADS: "loads", SECTIONS: "sections"}
+NAMES = {HINGES: "beam.hinges", SUPPORTS: "supports", LOADS: "loads", SECTIONS: "sections", FOUNDATIONS: "foundation"}
 EXPECTED = {
     "stiffness": "a number, 0 or more (inf = rigid)",
+    "k": "a finite number, 0 or more",
     "gap": "a finite number",
     "settlement": "a finite number",
     "rotation": '"free", "fixed" or a number, 0 or more',
@@ -49,11 +52,11 @@ def refusal(scene: Scene, reason: int, table: int, entry: int, partner: int, key
     """
     if table == SPANS:
         return _beam_refusal(scene, reason, entry - 1, key)
-    i, items = entry - 1, {HINGES: scene.beam.hinges, SUPPORTS: scene.supports, LOADS: scene.loads, SECTIONS: scene.sections}[table]
+    i, items = entry - 1, scene.beam.hinges if table == HINGES else getattr(scene, NAMES[table])
     item, path = items[i], f"{NAMES[table]}[{i}]"
     end = scene.span_ends()[-1]
     if reason == BAD_LAW:
-        return SceneError(f"{path}.{key}", message.split(": ", 2)[2])
+        return _bad_law(item, path, key, partner, message)
     if reason == NOT_EXPECTED:
         return _wrong_number(item, table, path, key)
     if reason == OFF_BEAM:
@@ -79,6 +82,16 @@ def refusal(scene: Scene, reason: int, table: int, entry: int, partner: int, key
         "side takes it; put it on one side of the hinge",
     }
     return SceneError(path, words[reason]())
+
+
+def _bad_law(item: Any, path: str, key: str, point: int, message: str) -> SceneError:
+    """Give the layer's own words: "foundation 1 of 2: law: point 3: ...", where key and point may be missing."""
+    problem = message.partition(": ")[2].removeprefix(f"{key}: ").removeprefix(f"point {point}: ")
+    if key:
+        path += f".{key}"
+    if point and not isinstance(getattr(item, key), Struct):
+        path += f"[{point - 1}]"
+    return SceneError(path, problem)
 
 
 def _beam_refusal(scene: Scene, reason: int, i: int, key: str) -> SceneError:
@@ -110,7 +123,7 @@ def _wrong_number(item: Any, table: int, path: str, key: str) -> SceneError:
     if table == SECTIONS:
         expected = "a number above 0 (inf = rigid)"
     if isinstance(value, tuple | list):
-        expected = "finite numbers"
+        expected = "finite numbers, 0 or more" if key == "k" else "finite numbers"
     elif key in ("x", "from", "to") or (isnan(value) and (table == SECTIONS or key == "stiffness")):
         expected = "a number"
     return SceneError(f"{path}.{key}", f"expected {expected}, got {shown(value)}")

@@ -167,21 +167,33 @@ class Support(_Point, kw_only=True, gc=False):
 
 
 class Foundation(_Stretch, kw_only=True, gc=False):
-    """A continuous elastic foundation. Not available in this version.
+    """Elastic ground under a stretch of the beam; default: under the whole beam. It acts wherever the beam touches it.
 
     Parameters
     ----------
-    k : float
-        Stiffness per length of beam (force/length^2).
+    k : float or (float, float), optional
+        Modulus: force per length of beam and deflection (force/length^2); or (at from, at to), linear in between.
+        Give either k or law.
     side : {"both", "below", "above"}
         both (default) holds the beam, below pushes it up only, above pushes it down only.
-    gap : float
-        Distance to be closed before it acts (length); one-sided foundations only.
+    gap : float or (float, float)
+        Distance to be closed before it acts (length); or (at from, at to), linear in between; negative = lack of fit.
+        With side both it is there on both sides.
+    profile : list of (float, float), optional
+        Instead of gap: points (x, gap), x measured as everywhere from the left end of the beam, in ascending order; straight
+        in between, beyond its ends the last value. Points beside the foundation only shape it. In Python also an array with
+        two columns.
+    law : list of (float, float) or table, optional
+        Instead of k: points (displacement past the gap, force per length) from (0, 0) on, which is left out. The force never
+        falls, and no displacement stands there twice; the last slope goes on; with side both the law is mirrored. Or a table
+        with a type, plastic or hardening, of numbers per length: stiffness and slope in force/length^2, limit in force/length.
     """
 
-    k: NotNegative
+    k: NotNegative | tuple[NotNegative, NotNegative] | None = None
     side: Side = "both"
-    gap: float = 0.0
+    gap: float | tuple[float, float] = 0.0
+    profile: list[tuple[float, float]] | None = None
+    law: Law | None = None
 
 
 class _PointLoad(_Point, kw_only=True, gc=False, tag_field="type"):
@@ -318,7 +330,7 @@ class Scene(Table, forbid_unknown_fields=True, kw_only=True):
     supports : list of Support
         Supports; results list them in the same order.
     foundation : list of Foundation
-        Continuous elastic foundations. Not available in this version.
+        Elastic ground under stretches of the beam.
     loads : list of ForceLoad, MomentLoad, UniformLoad, LinearLoad, CurvatureLoad, AxialLoad
         Loads, dead and live.
     analysis : Analysis

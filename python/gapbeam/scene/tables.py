@@ -12,7 +12,7 @@ import numpy as np
 
 from ..base.errors import SceneError
 from ..base.records import read_only
-from .structs import Load, Scene, Section, Support
+from .structs import Foundation, Load, Scene, Section, Support
 from .wording import choice
 
 LOADS = {load.__struct_config__.tag: load for load in get_args(Load)}
@@ -20,7 +20,7 @@ LOADS = {load.__struct_config__.tag: load for load in get_args(Load)}
 
 
 class Table(Sequence):
-    """Supports, loads or sections as columns; a struct is made of a row when it is looked at.
+    """Supports, foundations, loads or sections as columns; a struct is made of a row when it is looked at.
 
     Parameters
     ----------
@@ -117,7 +117,7 @@ def take_tables(source: Scene | Mapping[str, Any]) -> tuple[Scene | Mapping[str,
     """
     tables: dict[str, Table] = {}
     others: dict[str, list[Any]] = {}
-    for key in ("supports", "sections", "loads"):
+    for key in ("supports", "sections", "foundation", "loads"):
         value = source.get(key) if isinstance(source, Mapping) else getattr(source, key)
         if isinstance(value, Table):
             tables[key] = value
@@ -134,6 +134,42 @@ def take_tables(source: Scene | Mapping[str, Any]) -> tuple[Scene | Mapping[str,
     if isinstance(source, Mapping):
         return {**source, **others}, tables
     return msgspec.structs.replace(source, **others), tables
+
+
+def take_profiles(source: Scene | Mapping[str, Any]) -> tuple[Scene | Mapping[str, Any], dict[int, np.ndarray]]:
+    """Take out of a scene the profiles of foundations that are given as arrays.
+
+    Parameters
+    ----------
+    source : Scene or mapping
+        As a user wrote it; left as it is.
+
+    Returns
+    -------
+    source : Scene or mapping
+        The same without them.
+    profiles : dict
+        What was taken out, with two columns, by the number of the foundation.
+    """
+    items = source.get("foundation") if isinstance(source, Mapping) else source.foundation
+    if not isinstance(items, list | tuple):
+        return source, {}
+    profiles = {}
+    rest = list(items)
+    for i, item in enumerate(items):
+        given = item.get("profile") if isinstance(item, Mapping) else getattr(item, "profile", None)
+        if type(given) is not np.ndarray or given.dtype.kind not in "iuf" or given.dtype.itemsize > 8 or given.shape[1:] != (2,):
+            continue
+        profiles[i] = read_only(given.astype(float))
+        if isinstance(item, Mapping):
+            rest[i] = {key: value for key, value in item.items() if key != "profile"}
+        else:
+            rest[i] = msgspec.structs.replace(item, profile=None)
+    if not profiles:
+        return source, {}
+    if isinstance(source, Mapping):
+        return {**source, "foundation": rest}, profiles
+    return msgspec.structs.replace(source, foundation=rest), profiles
 
 
 def _columns(key: str, value: Any) -> tuple[dict[str, Any], int] | None:
@@ -173,7 +209,7 @@ def _column(value: Any) -> Any:
 
 def _table(key: str, columns: dict[str, Any], count: int) -> Table | None:
     """A table of columns that hold what they should; None where they do not, or loads are of several types."""
-    struct = {"supports": Support, "sections": Section}.get(key)
+    struct = {"supports": Support, "sections": Section, "foundation": Foundation}.get(key)
     rest = dict(columns)
     if key == "loads":
         tag = rest.pop("type", None)
@@ -181,8 +217,8 @@ def _table(key: str, columns: dict[str, Any], count: int) -> Table | None:
     if struct is None:
         return None
     names = dict(zip(struct.__struct_encode_fields__, struct.__struct_fields__, strict=True))
-    required = {field.name for field in msgspec.structs.fields(struct) if field.required}
-    if not rest.keys() <= names.keys() or not required <= {names[name] for name in rest} or "law" in rest:
+    required = {"k"} if struct is Foundation else {field.name for field in msgspec.structs.fields(struct) if field.required}
+    if not rest.keys() <= names.keys() or not required <= {names[name] for name in rest} or rest.keys() & {"law", "profile"}:
         return None
     hints = _hints(struct)
     found = {names[name]: _clean(hints[names[name]], name, value) for name, value in rest.items()}
