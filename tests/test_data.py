@@ -11,6 +11,7 @@ from multiprocessing import get_context
 import gapbeam
 import numpy as np
 import pytest
+from ground_scenes import stopped
 from scenes import at, force, moment, random_scene, scene, uniform
 
 BELOW = [at(i, side="below") for i in range(3)]
@@ -38,6 +39,8 @@ RESULTS = {
     "events": lambda: gapbeam.solve(rocking(follow="events")),
     "axial": lambda: gapbeam.solve(pulled()),
     "tipping": lambda: gapbeam.solve(tipping()),
+    "ground": lambda: gapbeam.solve(stopped()),
+    "events on ground": lambda: gapbeam.solve(stopped(follow="events")),
     "no step": lambda: gapbeam.solve({**tipping(), "analysis": {}}),
     "no event": lambda: gapbeam.solve(scene([1.0], BELOW[:1], [force(1.0, 3.0, case="dead")], analysis={"follow": "events"})),
     "case": lambda: gapbeam.prepare(pulled()).result([2.0, 1.0, -1.0]),

@@ -6,6 +6,8 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 from .branches import BranchPath
+from .ground_path import GroundEvent
+from .path import Event
 from .result import Fields, Result
 from .step import Step
 
@@ -51,15 +53,32 @@ def result_data(
     if result.limits:
         data["limit"] = limit_data(result)
     if scene.analysis.follow == "events":
-        data["events"] = [
-            {"factor": e.factor, "support": e.support, "x": e.x, "event": e.event} for e in result.events
-        ]
+        data["events"] = [event_data(event) for event in result.events]
     if result.steps:
         data["fields"] = columns
         data["extremes"] = {
             name: {which: list(pair) for which, pair in row.items()} for name, row in result.extremes().items()
         }
     return data
+
+
+def event_data(event: Event | GroundEvent) -> dict[str, Any]:
+    """Give an event as plain data.
+
+    Parameters
+    ----------
+    event : Event or GroundEvent
+        Of a support, or of a zone of contact with the ground.
+
+    Returns
+    -------
+    dict
+        ``support`` or ``foundation`` is there, the number of what changes; ``branch`` only beyond the first.
+    """
+    what = {"support": event.support} if event.support is not None else {"foundation": event.foundation}
+    branch = getattr(event, "branch", 1)
+    further = {"branch": branch} if branch != 1 else {}
+    return {"factor": event.factor, **what, "x": event.x, "event": event.event, **further}
 
 
 def limit_data(result: Result) -> dict[str, Any]:
@@ -123,6 +142,32 @@ def support_data(result: Result, step: Step, x: list[float]) -> list[dict[str, A
     ]
 
 
+def ground_data(result: Result, step: Step) -> dict[str, Any]:
+    """Give contact with the ground and free spans of a state as plain data.
+
+    Parameters
+    ----------
+    result : Result
+        What `gapbeam.solve` returned.
+    step : Step
+        The state.
+
+    Returns
+    -------
+    dict
+        Empty without foundations.
+    """
+    if not result.scene.foundation:
+        return {}
+    return {
+        "contact": [
+            {"foundation": c.foundation, "from": c.from_, "to": c.to, "state": c.state, "resultant": c.resultant}
+            for c in step.contact
+        ],
+        "free_spans": [{"foundation": f.foundation, "from": f.from_, "to": f.to, "sag": f.sag} for f in step.free_spans],
+    }
+
+
 def step_data(result: Result) -> Iterator[dict[str, Any]]:
     """Give the steps as plain data, each made when its turn comes.
 
@@ -150,6 +195,7 @@ def step_data(result: Result) -> Iterator[dict[str, Any]]:
             "solves": step.solves,
             "seconds": step.seconds,
             "supports": support_data(result, step, x),
+            **ground_data(result, step),
             "undecided": list(step.undecided),
             "indifferent": step.indifferent,
             "certificate": step.certificate,

@@ -5,6 +5,8 @@ import statistics
 from collections import Counter
 from collections.abc import Iterable, Sequence
 
+import numpy as np
+
 from ..base.characters import visible
 from ..scene.structs import Scene
 
@@ -182,15 +184,16 @@ def unit(scene: Scene, quantity: str) -> str:
     force, length = visible(scene.units.force), visible(scene.units.length)
     if quantity == "rotation":
         return "rad"
-    if quantity in ("x", "deflection", "opening", "set", "gap", "axial_displacement"):
+    if quantity in ("x", "deflection", "opening", "set", "gap", "sag", "length", "axial_displacement"):
         return length
-    if quantity in ("reaction", "force", "shear", "axial_force"):
+    if quantity in ("reaction", "force", "resultant", "shear", "axial_force"):
         return force
     if quantity == "curvature":
         return f"1/{length}" if length else ""
     if not force or not length:
         return ""
     patterns = {"moment": "{f} {l}", "couple": "{f} {l}", "EI": "{f} {l}^2", "uniform": "{f}/{l}"}
+    patterns |= {"pressure": "{f}/{l}", "k": "{f}/{l}^2"}
     return patterns[quantity].format(f=force, l=length)
 
 
@@ -209,6 +212,12 @@ def with_unit(scene: Scene, quantity: str, name: str | None = None) -> str:
     name = name or quantity.replace("_", " ")
     label = unit(scene, quantity)
     return f"{name} [{label}]" if label else name
+
+
+def stacked(scene: Scene, quantity: str, name: str | None = None) -> str:
+    """Word a heading with the unit on a second line, which keeps columns narrow."""
+    label = unit(scene, quantity)
+    return (name or quantity) + (f"\n{label}" if label else "")
 
 
 def beam_in_words(scene: Scene) -> str:
@@ -244,6 +253,22 @@ def supports_in_words(scene: Scene) -> str:
     ]
     words = [f"{quantity:,} {kind}" for quantity, kind in kinds if quantity]
     return f"{len(scene.supports):,}: " + ", ".join(words) if words else "none"
+
+
+def foundations_in_words(scene: Scene) -> str:
+    """Tell how many foundations there are of which kind, in one line."""
+    foundations = scene.foundation
+    kinds = [
+        (sum(item.side == "both" for item in foundations), "bilateral"),
+        (sum(item.side == "below" for item in foundations), "one-sided from below"),
+        (sum(item.side == "above" for item in foundations), "one-sided from above"),
+        (sum(np.max(item.gap) > 0.0 for item in foundations), "with a gap"),
+        (sum(np.min(item.gap) < 0.0 for item in foundations), "with lack of fit"),
+        (sum(item.profile is not None for item in foundations), "with a profile"),
+        (sum(item.law is not None for item in foundations), "with a law"),
+    ]
+    words = [f"{quantity:,} {kind}" for quantity, kind in kinds if quantity]
+    return f"{len(foundations):,}: " + ", ".join(words) if words else "none"
 
 
 def loads_in_words(scene: Scene) -> str:

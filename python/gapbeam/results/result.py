@@ -16,16 +16,18 @@ from ..base.errors import EngineError, Status
 from ..base.memory import refuse_beyond
 from ..base.records import Pickled, Record
 from ..engine.arrays import Solution
-from ..engine.beam import FIELDS, METHODS, Beam
+from ..engine.beam import METHODS, Beam
 from ..scene.structs import Scene
 from ..scene.wording import shown
 from .arguments import finite, numbers, whole
+from .ground import with_ends_of_zones
 from .motion import describe_motion
 from .step import Step, solve_step
 from .steps import LoadSteps, Steps
 
 if TYPE_CHECKING:
     from .branches import BranchPath, Limit
+    from .ground_path import GroundEvent, GroundPath
     from .path import Event, Path, Segment
 
 BYTES_PER_PLACE = 120
@@ -39,7 +41,7 @@ class System:
     Attributes
     ----------
     nodes : int
-        Nodes: beam ends, supports, hinges.
+        Nodes: beam ends, supports, hinges; with foundations also the ends of the zones of contact in the last step.
     unknowns : int
         Unknowns of the bending system of the last step.
     half_bandwidth : int
@@ -80,6 +82,8 @@ class Fields(Record):
         Place and values; rotation is that of the section.
     axial_force, axial_displacement : numpy.ndarray or None
         Only with axial loads.
+    pressure : numpy.ndarray or None
+        Of all foundations on the beam, force per length, positive upward; only with foundations.
     """
 
     x: np.ndarray
@@ -89,6 +93,7 @@ class Fields(Record):
     shear: np.ndarray
     axial_force: np.ndarray | None = None
     axial_displacement: np.ndarray | None = None
+    pressure: np.ndarray | None = None
 
     def to_dict(self) -> dict[str, list[float]]:
         """As lists by name, what is not there left out.
@@ -129,7 +134,7 @@ class Result(Pickled):
     steps : sequence of Step
         The load steps up to there; following events, the states at every event and at the end. What is kept of a step is
         its scheme; its values are solved for when it is looked at.
-    path : Path, BranchPath or None
+    path : Path, BranchPath, GroundPath or None
         Following events, the schemes along the load; with supports whose state depends on it always.
     """
 
@@ -143,7 +148,7 @@ class Result(Pickled):
         self.steps: Steps = LoadSteps(beam, rule, np.ones(beam.supports, dtype=np.int32), 0)
         self.beam = beam
         self.rule = rule
-        self.path: Path | BranchPath | None = None
+        self.path: Path | BranchPath | GroundPath | None = None
 
     def __eq__(self, other: object) -> bool:
         """Whether scene, outcome, events and all steps are equal."""
@@ -159,8 +164,8 @@ class Result(Pickled):
         )
 
     @property
-    def events(self) -> list[Event]:
-        """Every change of the working scheme with its exact load factor, following events."""
+    def events(self) -> list[Event] | list[GroundEvent]:
+        """Every change of the working scheme and of zones of contact with its load factor, following events."""
         return [] if self.path is None else self.path.events
 
     @property
@@ -259,15 +264,16 @@ class Result(Pickled):
         """What the system of equations consisted of."""
         beam = self.beam
         method = self.steps[-1].solution.method if self.steps else 0
-        nodes = beam.links + 1
+        ground = self.steps[-1].solution.ground if self.steps else None
+        nodes = 1 + (beam.links if ground is None else ground.stretches)
         three_moment = METHODS[method] == "three-moment"
         needed = {
             "axial": beam.bars >= 0,
             "shear": beam.has_shear,
-            "foundation": False,
+            "foundation": beam.ground_layers > 0,
             "hinges": beam.has_hinges,
             "rotational restraints": beam.has_restraints,
-            "iteration": beam.is_one_sided,
+            "iteration": beam.is_one_sided or (beam.ground_layers > 0 and bool(beam.layers.side.any())),
             "deflections": not three_moment,
         }
         return System(
@@ -335,8 +341,7 @@ class Result(Pickled):
 
     def _fields(self, x: np.ndarray, piece: np.ndarray, distance: np.ndarray, state: Step) -> Fields:
         values = self.beam.values(state.factor, state.starts, state.solution, piece, distance)
-        columns = zip(FIELDS[: 4 if self.beam.bars < 0 else 6], (row.reshape(x.shape) for row in values), strict=False)
-        return Fields(x, **dict(columns))
+        return Fields(x, **{name: values[row].reshape(x.shape) for name, row in self.beam.fields.items()})
 
     def fields(self, step: int | None = None, points: int = 20) -> Fields:
         """Tabulate all fields, for drawing.
@@ -351,7 +356,8 @@ class Result(Pickled):
         Returns
         -------
         Fields
-            With every place between two pieces twice: the values left of it, then those right of it.
+            With every place between two pieces twice: the values left of it, then those right of it. On the ground the ends
+            of the zones of contact are among them.
 
         Raises
         ------
@@ -370,7 +376,9 @@ class Result(Pickled):
         piece = np.repeat(np.arange(len(lengths), dtype=np.int32), parts + 1)
         place = np.arange(len(piece)) - np.repeat(np.cumsum(parts + 1) - (parts + 1), parts + 1)
         distance = lengths[piece] * (place / parts[piece])
-        x = np.where(place == parts[piece], places.point_x[piece + 1], places.point_x[piece] + distance)
+        if state.solution.ground is not None:
+            piece, distance = with_ends_of_zones(piece, distance, self.beam, state.solution.ground)
+        x = np.where(distance == lengths[piece], places.point_x[piece + 1], places.point_x[piece] + distance)
         return self._fields(x, piece + np.int32(1), distance, state)
 
     def extremes(self, step: int | None = None) -> dict[str, dict[str, tuple[float, float]]]:
@@ -397,7 +405,7 @@ class Result(Pickled):
         values, x = self.beam.extremes(state.factor, state.starts, state.solution)
         return {
             name: {"max": (float(values[0, k]), float(x[0, k])), "min": (float(values[1, k]), float(x[1, k]))}
-            for k, name in enumerate(FIELDS[: 4 if self.beam.bars < 0 else 6])
+            for name, k in self.beam.fields.items()
         }
 
     def history(self) -> list[tuple[float, tuple[str, ...]]]:

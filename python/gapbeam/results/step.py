@@ -15,6 +15,7 @@ from ..base.records import Pickled, read_only
 from ..engine.arrays import Solution
 from ..engine.beam import SOLVED, Beam
 from ..engine.units import bound_in_scene, scaled
+from .ground import Contact, FreeSpan, find_contact, find_free_spans
 from .kinks import piece_of
 from .smooth import solve_on_curves
 
@@ -187,7 +188,7 @@ class Step(Pickled):
     @property
     def certificate(self) -> dict[str, float | None]:
         """The residuals, and bounds of the errors relative to the largest value of each kind; computed when first asked for."""
-        fields = self._beam.largest_fields(self.factor, self.starts).tolist()
+        fields = self._beam.largest_fields(self.factor, self.starts, self.solution).tolist()
         largest = dict(zip(BOUNDED, [*fields, float(np.abs(self.solution.reaction).max(initial=0.0))], strict=True))
         relative = {kind: _relative(bound, largest[kind]) for kind, bound in self._inner_bounds.items()}
         return {
@@ -200,6 +201,16 @@ class Step(Pickled):
     def undecided(self) -> tuple[int, ...]:
         """Supports whose reaction or opening is zero, even in quadruple precision: they may be closed or open."""
         return tuple(dict.fromkeys(self._beam.numbers[self.solution.undecided == 1].tolist()))
+
+    @cached_property
+    def contact(self) -> tuple[Contact, ...]:
+        """The zones in which the ground acts, foundation by foundation from left to right."""
+        return find_contact(self._beam, self.solution.ground)
+
+    @cached_property
+    def free_spans(self) -> tuple[FreeSpan, ...]:
+        """The stretches in which the beam has no contact with ground that is there."""
+        return find_free_spans(self._beam, self.solution.ground)
 
     @cached_property
     def starts(self) -> np.ndarray:

@@ -15,6 +15,7 @@ from ..scene.structs import Scene
 from ..scene.wording import shown
 from .arguments import scheme
 from .branches import follow_branches
+from .ground_path import follow_on_ground
 from .path import follow
 from .result import Result
 from .steps import LoadSteps, PathSteps
@@ -65,10 +66,12 @@ def solve(
     rule = choose_rule(scene, rule)
     closed = starting_scheme(beam, start)
     result = Result(scene, beam, rule)
+    if beam.ground_layers:
+        _refuse_on_ground(scene, beam)
     if beam.depends_on_path or scene.analysis.history != [1.0]:
         return _on_path(result)
     if scene.analysis.follow == "events":
-        result.path = follow(result, rule, closed)
+        result.path = follow_on_ground(result, rule, closed) if beam.ground_layers else follow(result, rule, closed)
         if result.segments:
             result.steps = PathSteps(beam, rule, result.path)
         return result
@@ -78,6 +81,15 @@ def solve(
         factor, motion = fallen
         result.refuse(f"at load factor {factor:g}", motion)
     return result
+
+
+def _refuse_on_ground(scene: Scene, beam: Beam) -> None:
+    """Refuse what cannot be had on a foundation."""
+    if beam.depends_on_path or beam.curves:
+        what = "whose state depends on the way of the load" if beam.depends_on_path else "that are curves"
+        raise SceneError("supports", f"laws {what} cannot stand beside a foundation in this version; use polylines that rise")
+    if scene.analysis.history != [1.0]:
+        raise SceneError("analysis.history", "a beam on a foundation goes back along its path; leave it out")
 
 
 def _on_path(result: Result) -> Result:

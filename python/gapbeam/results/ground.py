@@ -1,0 +1,256 @@
+"""Where the ground acts on the beam, and where the beam hangs free above it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..engine.arrays import Ground
+from ..engine.beam import Beam
+from ..engine.units import scaled
+
+THIN = 2.0**-46
+"""Zones of a smaller share of the beam only touch: rounding of the load factor makes them and takes them away."""
+
+
+@dataclass(frozen=True, slots=True)
+class Contact:
+    """A zone in which a foundation acts.
+
+    Attributes
+    ----------
+    foundation : int
+        Number of the foundation in the scene.
+    from_, to : float
+        Its ends (length from the left end of the beam).
+    state : str
+        ``closed``, or ``bilateral`` where the foundation holds both ways; with a law ``branch 1``, ``branch 2`` and so on.
+    resultant : float
+        Force on the beam, positive upward.
+    """
+
+    foundation: int
+    from_: float
+    to: float
+    state: str
+    resultant: float
+
+
+@dataclass(frozen=True, slots=True)
+class FreeSpan:
+    """A stretch in which the beam does not touch a one-sided foundation that is there.
+
+    Attributes
+    ----------
+    foundation : int
+        Number of the foundation in the scene.
+    from_, to : float
+        Its ends (length from the left end of the beam).
+    sag : float
+        Largest distance between beam and ground.
+    """
+
+    foundation: int
+    from_: float
+    to: float
+    sag: float
+
+
+@dataclass(slots=True)
+class Zone:
+    """A zone in which a layer of ground acts, at least on some branch of its law.
+
+    Attributes
+    ----------
+    from_, to : float
+        Its ends (length from the left end of the beam).
+    at_left, at_right : bool
+        Whether that is an end of the foundation or of the beam.
+    """
+
+    from_: float
+    to: float
+    at_left: bool
+    at_right: bool
+
+    @property
+    def middle(self) -> float:
+        """Place between its ends."""
+        return self.from_ + (self.to - self.from_) / 2
+
+    def meets(self, other: Zone) -> bool:
+        """Whether two zones have a stretch in common."""
+        return max(self.from_, other.from_) < min(self.to, other.to)
+
+
+@dataclass(frozen=True, slots=True)
+class _Run:
+    """Stretches beside each other in which a layer does the same."""
+
+    foundation: int
+    side: int
+    law_pieces: int
+    acts: int
+    from_: float
+    to: float
+    resultant: float
+    way: float
+
+
+def find_contact(beam: Beam, ground: Ground | None) -> tuple[Contact, ...]:
+    """Find the zones in which the ground acts.
+
+    Parameters
+    ----------
+    beam : Beam
+        The beam.
+    ground : Ground or None
+        Its solution on the ground.
+
+    Returns
+    -------
+    tuple of Contact
+        Foundation by foundation from left to right.
+    """
+    if ground is None:
+        return ()
+    return tuple(
+        Contact(run.foundation, run.from_, run.to, _name(run), run.resultant) for run in _runs(beam, ground) if run.acts
+    )
+
+
+def find_free_spans(beam: Beam, ground: Ground | None) -> tuple[FreeSpan, ...]:
+    """Find the stretches in which the beam has no contact with one-sided ground.
+
+    Parameters
+    ----------
+    beam, ground
+        As for `find_contact`.
+
+    Returns
+    -------
+    tuple of FreeSpan
+        Foundation by foundation from left to right; of one that holds both ways there are none.
+    """
+    if ground is None:
+        return ()
+    runs = _runs(beam, ground)
+    both_ways = {run.foundation for run in runs if run.side > 0} & {run.foundation for run in runs if run.side < 0}
+    return tuple(
+        FreeSpan(run.foundation, run.from_, run.to, run.way)
+        for run in runs
+        if not run.acts and run.foundation not in both_ways
+    )
+
+
+def joined(contacts: Sequence[Contact]) -> list[Contact]:
+    """Join what touches: zones without the branches of a law in them.
+
+    Parameters
+    ----------
+    contacts : sequence of Contact
+        As from `find_contact`.
+
+    Returns
+    -------
+    list of Contact
+        In the same order, each with the state at its left end.
+
+    Examples
+    --------
+    >>> zones = [Contact(0, 1.0, 2.0, "branch 1", 3.0), Contact(0, 2.0, 4.0, "branch 2", 9.0), Contact(0, 5.0, 6.0, "closed", 1.0)]
+    >>> [(zone.from_, zone.to, zone.resultant) for zone in joined(zones)]
+    [(1.0, 4.0, 12.0), (5.0, 6.0, 1.0)]
+    """
+    found: list[Contact] = []
+    for zone in contacts:
+        last = found[-1] if found else None
+        if last is not None and (last.foundation, last.to) == (zone.foundation, zone.from_):
+            found[-1] = replace(last, to=zone.to, resultant=last.resultant + zone.resultant)
+        else:
+            found.append(zone)
+    return found
+
+
+def find_zones(beam: Beam, ground: Ground) -> dict[tuple[int, int, int], list[Zone]]:
+    """Find the zones in which one-sided ground acts, also those of every branch of a law and what is beyond.
+
+    Parameters
+    ----------
+    beam, ground
+        As for `find_contact`.
+
+    Returns
+    -------
+    dict
+        By foundation, side (-1 below, 1 above) and branch, from left to right; none for ground without contact.
+    """
+    thin = THIN * beam.places.end
+    found: dict[tuple[int, int, int], list[Zone]] = {}
+    by_layer: dict[tuple[int, int], list[_Run]] = {}
+    for run in _runs(beam, ground):
+        if not run.side:
+            continue
+        runs = by_layer.setdefault((run.foundation, -run.side), [])
+        if runs and runs[-1].to == run.from_ and run.to - run.from_ <= thin:
+            runs[-1] = replace(runs[-1], to=run.to)  # as if what is before went on
+        elif runs and runs[-1].to == run.from_ and runs[-1].to - runs[-1].from_ <= thin:
+            runs[-1] = replace(run, from_=runs[-1].from_)
+        else:
+            runs.append(run)
+    for (foundation, side), runs in by_layer.items():
+        for branch in range(1, max(run.acts for run in runs) + 1):
+            zones = found.setdefault((foundation, side, branch), [])
+            joins = False
+            for k, run in enumerate(runs):
+                if run.acts < branch:
+                    joins = False
+                    continue
+                at_left = k == 0 or runs[k - 1].to != run.from_
+                at_right = k == len(runs) - 1 or runs[k + 1].from_ != run.to
+                if joins and not at_left:
+                    zones[-1].to, zones[-1].at_right = run.to, at_right
+                else:
+                    zones.append(Zone(run.from_, run.to, at_left, at_right))
+                joins = True
+    return found
+
+
+def with_ends_of_zones(piece: np.ndarray, distance: np.ndarray, beam: Beam, ground: Ground) -> tuple[np.ndarray, np.ndarray]:
+    """Put the ends of zones among places given by piece and distance, unless they are there.
+
+    Parameters
+    ----------
+    piece : numpy.ndarray of int
+        The pieces, from 0, ascending.
+    distance : numpy.ndarray
+        Distances from their left ends, ascending in each.
+    beam, ground
+        As for `find_contact`.
+
+    Returns
+    -------
+    piece, distance : numpy.ndarray
+    """
+    of = ground.values[0].astype(piece.dtype) - 1
+    inside = np.append(of[1:] == of[:-1], False)
+    piece = np.append(piece, of[inside])
+    distance = np.append(distance, scaled(ground.values[2, inside], beam.units.length))
+    order = np.lexsort((distance, piece))
+    piece, distance = piece[order], distance[order]
+    new = np.append(True, (np.diff(piece) != 0) | (np.diff(distance) != 0.0))
+    return piece[new], distance[new]
+
+
+def _name(run: _Run) -> str:
+    if run.law_pieces:
+        return f"branch {run.acts}"
+    return "closed" if run.side else "bilateral"
+
+
+def _runs(beam: Beam, ground: Ground) -> list[_Run]:
+    """All layers, stretches in which one does the same joined, by foundation and from left to right."""
+    about, values = beam.ground_runs(ground)
+    return [_Run(*codes, *numbers) for codes, numbers in zip(about.tolist(), values.tolist(), strict=True)]

@@ -1,0 +1,165 @@
+"""Beams on the ground: against a reference solution in 25 digits, and against themselves."""
+
+import pickle
+from itertools import pairwise
+
+import gapbeam
+import numpy as np
+import pytest
+from foundation_scenes import random_scene
+from mpmath import mp
+from oracle_foundation import solve as reference
+
+SEEDS = 150
+TIE = 1e-9
+"""Nearer to another state than this zones need not be unique."""
+
+
+def zones_of(contact):
+    """Zones by foundation; those of a law that follow each other, or of both sides, are one."""
+    found = {}
+    for zone in sorted(contact, key=lambda c: (c.foundation, c.from_)):
+        zones = found.setdefault(zone.foundation, [])
+        if zones and zones[-1][1] == zone.from_:
+            zones[-1] = [zones[-1][0], zone.to, zones[-1][2] + zone.resultant]
+        else:
+            zones.append([zone.from_, zone.to, zone.resultant])
+    return found
+
+
+def close(actual, expected, rel):
+    """Whether arrays agree relative to the largest number."""
+    actual, expected = np.asarray(actual, float), np.asarray(expected, float)
+    return np.abs(actual - expected).max(initial=0.0) <= rel * np.abs(expected).max(initial=0.0)
+
+
+@pytest.mark.parametrize("first", range(0, SEEDS, 10))
+def test_random_scenes_agree_with_the_reference(first):
+    solved = 0
+    for seed in range(first, first + 10):
+        made = random_scene(seed)
+        result = gapbeam.solve(made)
+        with mp.workdps(50):
+            right = reference(made, digits=25)
+            assert result.status == right.status, seed
+            if result.status != "solved":
+                continue
+            solved += 1
+            step, length = result.steps[-1], sum(made["beam"]["spans"])
+            x = np.linspace(0.013, 0.987, 17) * length
+            fields = result.at(x)
+            for name, of in (("deflection", right.w), ("moment", right.moment), ("shear", right.shear)):
+                assert close(getattr(fields, name), [of(place) for place in x], 1e-12), (seed, name)
+            assert close(step.reaction, [held.reaction for held in right.supports], 1e-11), seed
+            if right.margin < TIE:
+                continue
+            zones = zones_of(step.contact)
+            expected = {i: [[z.start, z.end, z.resultant] for z in of] for i, of in enumerate(right.contact) if of}
+            assert zones.keys() == expected.keys(), seed
+            for i, of in expected.items():
+                found, of = np.array(zones[i]), np.array(sorted(of), dtype=float)
+                assert found.shape == of.shape, seed
+                assert np.abs(found[:, :2] - of[:, :2]).max() <= 1e-11 * length, seed
+                assert close(found[:, 2], of[:, 2], 1e-10), seed
+    assert solved > 3
+
+
+@pytest.fixture
+def made():
+    """A beam that lifts off in two places."""
+    return {
+        "beam": {"spans": [30.0], "EI": 1.0},
+        "foundation": [{"k": 4.0, "side": "below"}],
+        "loads": [
+            {"type": "uniform", "q": 1.0, "case": "dead"},
+            {"type": "force", "x": 15.0, "F": 16.0},
+            {"type": "force", "x": 25.0, "F": -8.0},
+        ],
+    }
+
+
+def test_how_the_beam_is_cut_does_not_matter(made):
+    one = gapbeam.solve(made)
+    cut = {**made, "beam": {"spans": [0.1, 6.9, 12.75, 0.25, 10.0], "EI": 1.0}}
+    cut["foundation"] = [{"k": 4.0, "side": "below", "from": a, "to": b} for a, b in pairwise([0.0, 3.3, 20.0, 29.95, 30.0])]
+    many = gapbeam.solve(cut)
+    x = np.linspace(0.0, 30.0, 61)
+    for name in ("deflection", "rotation", "moment", "shear"):
+        assert close(getattr(many.at(x), name), getattr(one.at(x), name), 1e-13), name
+    ends = [end for zone in one.steps[-1].contact for end in (zone.from_, zone.to)]
+    of_all = [end for zone in many.steps[-1].contact for end in (zone.from_, zone.to)]
+    assert all(min(abs(end - other) for other in of_all) < 1e-12 for end in ends)
+    total = sum(zone.resultant for zone in many.steps[-1].contact)
+    assert total == pytest.approx(30.0 + 16.0 - 8.0, rel=1e-14)
+
+
+def test_mirrored(made):
+    one = gapbeam.solve(made)
+    other = {**made, "loads": [made["loads"][0], *({**load, "x": 30.0 - load["x"]} for load in made["loads"][1:])]}
+    mirrored = gapbeam.solve(other)
+    x = np.linspace(0.25, 29.75, 41)
+    assert close(mirrored.at(30.0 - x).deflection, one.at(x).deflection, 1e-14)
+    assert close(mirrored.at(30.0 - x).shear, -one.at(x, side="left").shear, 1e-14)
+
+
+def test_steps_and_events_end_in_the_same_state(made):
+    by_steps = gapbeam.solve({**made, "analysis": {"steps": 3}})
+    by_events = gapbeam.solve({**made, "analysis": {"follow": "events"}})
+    assert [event.event for event in by_events.events] == ["zone splits"]
+    event = by_events.events[0]
+    # Where it splits, the beam only touches the ground
+    state = by_events.state(event.factor)
+    assert abs(by_events.at(event.x, factor=event.factor).deflection) < 1e-13
+    assert len(state.contact) in (1, 2)
+    assert by_events.steps[-1].contact == by_steps.steps[-1].contact
+    np.testing.assert_array_equal(by_events.fields().moment, by_steps.fields().moment)
+
+
+def test_prepared_cases(made):
+    prepared = gapbeam.prepare(made)
+    factors = np.array([[1.0, 1.0, 1.0], [1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [2.0, 1.0, 0.5]])
+    cases = prepared.solve(factors)
+    assert cases.status.tolist() == [0, 0, 1, 0]
+    assert np.isnan(cases.deflection[2]).all()
+    np.testing.assert_array_equal(cases.deflection[0], gapbeam.solve(made).at(prepared.node_x).deflection)
+    assert cases.deflection[1] == pytest.approx(0.25, rel=1e-15)
+
+
+def test_pickled(made):
+    result = gapbeam.solve(made)
+    again = pickle.loads(pickle.dumps(result))
+    assert again == result
+    assert again.steps[-1].contact == result.steps[-1].contact
+
+
+def test_extremes_are_not_exceeded(made):
+    made = {**made, "foundation": [{"k": [4.0, 1.0], "side": "below", "profile": [[0.0, 0.1], [9.0, -0.3], [30.0, 0.2]]}]}
+    result = gapbeam.solve(made)
+    extremes = result.extremes()
+    x = np.linspace(0.0, 30.0, 3001)
+    fields = result.at(x)
+    for name in ("deflection", "rotation", "moment", "shear", "pressure"):
+        values, (top, at_top), (bottom, at_bottom) = getattr(fields, name), extremes[name]["max"], extremes[name]["min"]
+        size = np.abs(values).max()
+        assert values.max() <= top + 1e-13 * size, name
+        assert values.min() >= bottom - 1e-13 * size, name
+        near = [result.at([at_top, at_bottom], side=side) for side in ("left", "right")]
+        assert min(abs(getattr(of, name)[0] - top) for of in near) <= 1e-13 * size, name
+        assert min(abs(getattr(of, name)[1] - bottom) for of in near) <= 1e-13 * size, name
+        if name != "shear":  # which jumps
+            assert top <= values.max() + 1e-3 * size, name
+
+
+def test_free_spans_and_their_sag():
+    made = {
+        "beam": {"spans": [10.0], "EI": 50.0},
+        "foundation": [{"k": 1e4, "side": "below", "profile": [[0.0, 0.0], [4.0, 0.0], [5.0, 0.4], [6.0, 0.0], [10.0, 0.0]]}],
+        "loads": [{"type": "uniform", "q": 1.0}],
+    }
+    result = gapbeam.solve(made)
+    (span,) = result.steps[-1].free_spans
+    # It touches a little beyond the shoulders, where it is pressed in
+    assert 4.0 < span.from_ < 4.01
+    assert 5.99 < span.to < 6.0
+    assert span.from_ + span.to == pytest.approx(10.0, abs=1e-11)
+    assert span.sag == pytest.approx(0.4 - result.at(5.0).deflection, rel=1e-12)
