@@ -12,12 +12,15 @@ from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from textwrap import shorten
 from traceback import extract_tb
-from typing import NoReturn
+from typing import TYPE_CHECKING, NoReturn
 
 from ..base.characters import visible
 from ..base.errors import GapbeamError, SceneError, Status
 from ..base.files import remove_unfinished
 from .outputs import Outputs, source, until_closed
+
+if TYPE_CHECKING:
+    from ..scene.structs import Scene
 
 #: Exit statuses
 SOLVED, NO_SOLUTION, REFUSED, FAILED, INTERRUPTED = 0, 1, 2, 3, 130
@@ -168,9 +171,11 @@ def _parser() -> argparse.ArgumentParser:
     run.add_argument("--json", metavar="FILE", help="write everything as JSON (.json); - is standard output, without report")
     run.add_argument("--csv", metavar="FILE", help="write the fields along the beam at the last load step as a table "
                      "(.csv); - is standard output, without report")  # fmt: skip
-    run.add_argument("--plot", metavar="FILE", help="draw beam, deflection, moment and shear (.png, .pdf or .svg)")
-    run.add_argument("--path", metavar="FILE", help="draw reactions and openings (with laws deflections) over the load "
-                     "factor, every event marked; best with follow = \"events\" (.png, .pdf or .svg)")  # fmt: skip
+    run.add_argument("--plot", metavar="FILE", help="draw beam, deflection, moment, shear, with foundations pressure "
+                     "(.png, .pdf or .svg)")  # fmt: skip
+    run.add_argument("--path", metavar="FILE", help="draw reactions and openings (with laws deflections), with foundations zones "
+                     "of contact, over the load factor, every event marked; best with follow = \"events\" (.png, .pdf or "
+                     ".svg)")  # fmt: skip
     run.add_argument("--quiet", action="store_true", help="print no report")
     run.set_defaults(command=_run)
 
@@ -259,11 +264,20 @@ def _check(arguments: argparse.Namespace) -> int:
     parts = [
         f"{count(len(scene.beam.spans), 'span')}, {length}",
         f"{count(len(scene.supports), 'support')}, {one_sided:,} of them one-sided",
+        *_foundations(scene),
         count(len(scene.loads), "load"),
     ]
     with until_closed():
         print(f"{visible(arguments.scene)}: valid: " + "; ".join(parts))
     return SOLVED
+
+
+def _foundations(scene: "Scene") -> list[str]:
+    """Count the foundations, if there are any."""
+    from ..results.formatting import count
+
+    one_sided = sum(item.side != "both" for item in scene.foundation)
+    return [f"{count(len(scene.foundation), 'foundation')}, {one_sided:,} of them one-sided"] if scene.foundation else []
 
 
 def _schema(_: argparse.Namespace) -> int:

@@ -58,6 +58,16 @@ def add_studies(commands: argparse._SubParsersAction) -> None:
     contact.add_argument("--largest", metavar="N", type=int, default=10**4, help="most spans (default 10000)")
     _add_tables(contact)
     contact.set_defaults(command=_study_contact)
+    foundation = studies.add_parser(
+        "foundation", help="error against run time on a one-sided foundation, beside springs", formatter_class=PLAIN,
+        description="Solve beams on a one-sided foundation, and with up to 100,001 springs in its place by gapbeam, by scipy and,\n"
+        "where it is installed, by OpenSees; print true errors of contact ends, deflections and moments, and times. Needs scipy.\n"
+        "Takes five minutes, --largest 1000 one.",
+    )  # fmt: skip
+    foundation.add_argument("--largest", metavar="N", type=int, default=10**5, help="most elements (default 100000)")
+    _add_tables(foundation)
+    foundation.add_argument("--plot", metavar="FILE", help="draw error against run time (.png, .pdf or .svg)")
+    foundation.set_defaults(command=_study_foundation)
     kernel = studies.add_parser(
         "kernel", help="time and memory traffic a node, beside LAPACK's dgbsv", formatter_class=PLAIN,
         description="Solve one linear beam of up to a million nodes by the engine's elimination and by LAPACK's dgbsv, and print\n"
@@ -130,9 +140,8 @@ def _study_accuracy(arguments: argparse.Namespace) -> int:
         return picture(accuracy_figure(comparisons), outputs.suffix("--plot"))
 
     def page(comparisons: list) -> str:
-        beside = os.path.relpath(arguments.plot, Path(arguments.markdown).parent) if arguments.plot else ""
         options = [arguments.scene or "", *(f"--family {name}" for name in arguments.family)]
-        return to_markdown(comparisons, beside, remark, " ".join(options))
+        return to_markdown(comparisons, _beside(arguments), remark, " ".join(options))
 
     forms = {"--csv": to_csv, "--plot": drawing, "--markdown": page}
     return _tell(outputs, forms, lambda comparisons: print_comparisons(comparisons, remark), comparisons)
@@ -143,6 +152,28 @@ def _study_contact(arguments: argparse.Namespace) -> int:
     from ..studies.contact import PAGE, contact, table, values
 
     return _tell_page(arguments, outputs, PAGE, list(contact(arguments.largest)), table, values)
+
+
+def _study_foundation(arguments: argparse.Namespace) -> int:
+    outputs = _outputs(arguments)
+    from ..studies.foundation import MESHES, PAGE, findings, foundation, table, values
+
+    if arguments.largest < MESHES[0]:
+        raise SceneError("--largest", f"no mesh has as few as {arguments.largest} elements")
+
+    def drawing(rows: list) -> bytes:
+        from ..plots.save import picture
+        from ..studies.diagram import foundation_figure
+
+        return picture(foundation_figure(rows), outputs.suffix("--plot"))
+
+    forms = {
+        "--csv": lambda rows: PAGE.csv(values(rows)),
+        "--plot": drawing,
+        "--markdown": lambda rows: PAGE.markdown(table(rows), findings(rows), _beside(arguments)),
+    }
+    rows = list(foundation(arguments.largest))
+    return _tell(outputs, forms, lambda rows: PAGE.show(table(rows), remark=findings(rows)), rows)
 
 
 def _study_kernel(arguments: argparse.Namespace) -> int:
@@ -158,6 +189,11 @@ def _study_schemes(arguments: argparse.Namespace) -> int:
 
     forms = {"--markdown": lambda rows: PAGE.markdown(table(rows))}
     return _tell(outputs, forms, lambda rows: PAGE.show(table(rows)), list(schemes()))
+
+
+def _beside(arguments: argparse.Namespace) -> str:
+    """Name of the picture as seen from the page, if there is one."""
+    return os.path.relpath(arguments.plot, Path(arguments.markdown).parent) if arguments.plot else ""
 
 
 def _outputs(arguments: argparse.Namespace, scene: str | None = None) -> Outputs:

@@ -61,6 +61,8 @@ class SupportLanes:
         State of each support.
     width : float
         Width of the panel.
+    ground : (float, float)
+        What foundations take up below and above the axis of the beam.
 
     Attributes
     ----------
@@ -74,7 +76,7 @@ class SupportLanes:
         What the supports take up below and above the axis of the beam.
     """
 
-    def __init__(self, scene: "Scene", states: tuple[str, ...], width: float) -> None:
+    def __init__(self, scene: "Scene", states: tuple[str, ...], width: float, ground: tuple[float, float] = (0.0, 0.0)) -> None:
         supports = [support for support in scene.supports if support.direction == "normal"]
         self.x = scene.positions(scene.supports)
         self.places = np.unique(self.x)
@@ -85,7 +87,8 @@ class SupportLanes:
         if len(self.places) > MOST_SYMBOLS:
             self.rows = sorted({_group(support, state) for support, state in zip(scene.supports, states, strict=True)})
             self.size = 6.0
-            below += 4.0 + 11.0 * len(self.rows)
+            self.first_row = max(below, ground[0]) + 9.0
+            below = self.first_row + 11.0 * len(self.rows) - 5.0
         elif supports:
             elastic = any(map(_is_elastic, supports))
             gap = any(support.gap > 0 for support in supports)
@@ -94,6 +97,7 @@ class SupportLanes:
             above += depth if any(support.side != "below" and support.rotation != "fixed" for support in supports) else 0
             if any(support.rotation != "free" for support in supports):
                 below, above = max(below, 13.0), max(above, 12.0)
+        below, above = max(below, ground[0]), max(above, ground[1])
         self.labels = _labels(scene, self.x, width, -below - 2.0)
         self.bottom = min((y - LINE * (1 + text.count("\n")) for _, y, text in self.labels), default=-below - 2.0) - 1.0
         self.top = above + 2.0
@@ -155,7 +159,7 @@ def draw_contacts(axes: Axes, scene: "Scene", states: tuple[str, ...], largest: 
                 groups[state, sign].append((float(x), y))
     for (state, sign), points in groups.items():
         x, y = np.transpose(points)
-        axes.scatter(x, y, marker=_turned(_TRIANGLE, sign), s=_area(5.0), facecolors=_face(state),
+        axes.scatter(x, y, marker=_turned(_TRIANGLE, sign), s=_area(5.0), facecolors=face(state),
                      edgecolors="black", linewidths=0.6, zorder=4, label=f"contact {state}")  # fmt: skip
     return [point for points in groups.values() for point in points]
 
@@ -168,14 +172,25 @@ def known_states(states: tuple[str, ...]) -> list[str]:
 def legend_handles(states: tuple[str, ...]) -> list[Line2D]:
     """Make the entries of the legend for the states that occur."""
     return [
-        Line2D([], [], linestyle="none", marker="^", markersize=5.5, markerfacecolor=_face(state), markeredgecolor="black",
+        Line2D([], [], linestyle="none", marker="^", markersize=5.5, markerfacecolor=face(state), markeredgecolor="black",
                markeredgewidth=0.8, label=state)
         for state in known_states(states)
     ]  # fmt: skip
 
 
-def _face(state: str) -> str:
-    """Give the fill of a state."""
+def face(state: str) -> str:
+    """Give the fill of a state.
+
+    Parameters
+    ----------
+    state : str
+        Of a support, or of a zone of the ground.
+
+    Returns
+    -------
+    str
+        Colour.
+    """
     if state in FACES:
         return FACES[state]
     return BRANCHES[min(int(state.rpartition(" ")[2]), len(BRANCHES)) - 1]
@@ -255,7 +270,7 @@ def _symbols(axes: Axes, scene: "Scene", states: tuple[str, ...], lanes: Support
             ground[sign].append((x, -sign * y))
     for (label, sign), points in symbols.items():
         x, y = np.transpose(points)
-        axes.scatter(x, y, marker=_turned(_TRIANGLE, sign), s=_area(lanes.size), facecolors=_face(label.rpartition(" ")[0]),
+        axes.scatter(x, y, marker=_turned(_TRIANGLE, sign), s=_area(lanes.size), facecolors=face(label.rpartition(" ")[0]),
                      edgecolors="black", linewidths=0.8, zorder=5, label=label)  # fmt: skip
     for name, path, sets in (("springs", _SPRING, springs), ("ground", _GROUND, ground)):
         for sign, points in sets.items():
@@ -293,7 +308,7 @@ def _ticks(axes: Axes, scene: "Scene", states: tuple[str, ...], lanes: SupportLa
     for support, state, x in zip(scene.supports, states, lanes.x, strict=True):
         groups[_group(support, state)].append(x)
     for row, label in enumerate(lanes.rows):
-        y = -HALF - 9.0 - 11.0 * row
+        y = -lanes.first_row - 11.0 * row
         x = groups[label]
         axes.scatter(x, [y] * len(x), marker="|", s=64, c="black", linewidths=min(1.5, max(0.25, 0.6 * lanes.spacing)),
                      zorder=4, label=label)  # fmt: skip

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import textwrap
+from itertools import chain
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,6 +14,7 @@ from matplotlib.figure import Figure
 from ..results import formatting as fmt
 from ..results.branches import BranchPath
 from .branches import KINK, MARKERS, Trace, draw_trace, name_limits
+from .ground_path import draw_extremes, draw_zones, note_on_ground, states_on_ground
 from .result import LEFT, WIDTH, outcome
 from .save import literal, save
 
@@ -28,6 +30,8 @@ NAME, SAMPLE, OFF = 9.5, 24.0, 8.0
 PANELS = (("reaction", "reaction, upward positive"), ("opening", "opening"))
 OF_LAWS = (PANELS[0], ("deflection", "deflection, downward positive"))
 """Quantities and words; a support with a law is hardly ever open."""
+ZONES, ALONG = ("x", "x of contact"), ("deflection", "deflection, downward positive")
+"""On the ground the zones of contact come first; without supports the largest deflections follow."""
 
 MOST_LINES = 12
 """Supports in a panel; of more those with the largest values."""
@@ -57,7 +61,7 @@ def plot_path(result: Result, path: str | os.PathLike) -> None:
 
 
 def path_figure(result: Result) -> Figure:
-    """Draw reactions and openings over the load factor, every event marked.
+    """Draw reactions and openings, and zones of contact with the ground over the load factor, every event marked.
 
     Parameters
     ----------
@@ -69,7 +73,8 @@ def path_figure(result: Result) -> Figure:
     matplotlib.figure.Figure
         Two panels, each line named at its right end; with support laws deflections instead of openings. Following events
         the lines are exact, and go where the load goes, back and forth; by load steps they are straight between the
-        steps, which are dots where they are few.
+        steps, which are dots where they are few. With foundations there is a panel of the zones of contact above these; without
+        supports the largest and the smallest deflection are below it.
 
     Raises
     ------
@@ -81,53 +86,82 @@ def path_figure(result: Result) -> Figure:
     scene = result.scene
     dots = result.path is None and len(result.steps) <= MOST_DOTS
     trace = Trace(result) if isinstance(result.path, BranchPath) else None
-    states = _states(result, dots) if trace is None else trace.states
+    stretches = _stretches(result, dots) if scene.foundation else []
+    states = list(chain(*stretches)) or (_states(result, dots) if trace is None else trace.states)
     factors = np.array([step.factor for step in states])
-    end = len(factors) - 1 if trace is None else trace.end()
+    normal = [k for k, support in enumerate(scene.supports) if support.direction == "normal"]
+    panels = OF_LAWS if any(support.law is not None for support in scene.supports) else PANELS
+    if stretches:
+        panels = (ZONES, *(panels if normal else (ALONG,)))
     note = "dots: load steps" if dots else _note(result) if trace is None else trace.note()
-    lines = [] if trace is None else textwrap.wrap(note, 105)
+    lines = textwrap.wrap(note, 105) if trace is not None or stretches else []
+    if stretches:
+        lines += textwrap.wrap(note_on_ground(result), 105)
     foot = FOOT + 0.15 * len(lines)
-    height = (0.35 if result.status == "solved" else 0.65) + 2 * (GAP + PANEL) + foot
+    height = (0.35 if result.status == "solved" else 0.65) + len(panels) * (GAP + PANEL) + foot
     picture = Figure(figsize=(WIDTH, height), dpi=200)
     picture.text(0.02, 1 - 0.22 / height, fmt.title(scene), fontsize=11, fontweight="bold", va="center")
     if result.status != "solved":
         picture.text(0.02, 1 - 0.36 / height, outcome(result), fontsize=8, va="top", color="0.3", linespacing=1.3)
-    normal = [k for k, support in enumerate(scene.supports) if support.direction == "normal"]
-    folded = bool((np.diff(factors) < 0.0).any())
-    panels = OF_LAWS if any(support.law is not None for support in scene.supports) else PANELS
-    tables = {name: np.array([getattr(step, name) for step in states]) for name, _ in panels}
+    of_supports = [] if stretches and not normal else [name for name, _ in panels if name != ZONES[0]]
+    tables = {name: np.array([getattr(step, name) for step in states]) for name in of_supports}
     drawn = {name: _largest(table, normal) for name, table in tables.items()}
-    shown = {k for supports in drawn.values() for k in supports}
-    if trace is None:
-        styles = {k: _style(order) for order, k in enumerate(sorted(shown))}
-    else:
-        laws = {k for k in shown if scene.supports[k].law is not None}
-        # Dots are for what is unstable; what the picture is about is drawn through
-        styles = {k: _style(order, NO_DOTS) for order, k in enumerate([*sorted(laws), *sorted(shown - laws)])}
+    styles = _styles(result, drawn, trace)
     for row, (name, words) in enumerate(panels):
-        bottom, width = foot + (1 - row) * (PANEL + GAP), WIDTH - LEFT - NAMES
+        above, width = len(panels) - 1 - row, WIDTH - LEFT - NAMES
+        bottom = foot + above * (PANEL + GAP)
         axes = picture.add_axes((LEFT / WIDTH, bottom / height, width / WIDTH, PANEL / height))
         axes.set_xlim(min(0.0, factors.min()), factors.max() or 1.0)
-        table = tables[name]
-        for k in drawn[name]:
-            if trace is not None:
-                draw_trace(axes, trace, k, table[:, k], styles[k], arrows=folded and k in _few(table, laws))
-                continue
-            axes.plot(factors, table[:, k], linewidth=1.3, marker="." if dots else None, markersize=4.5, clip_on=False,
-                      label=f"support {k}", **styles[k])  # fmt: skip
-            _mark_events(axes, result, k, factors, table[:, k])
-        _frame(axes, fmt.with_unit(scene, name, words), last=row == 1)
-        _name_lines(axes, {k: float(table[end, k]) for k in drawn[name]}, styles)
-        moving = int((np.abs(table[:, normal]).max(axis=0, initial=0.0) > 0.0).sum())
-        if moving > len(drawn[name]):
-            axes.set_title(f"the {len(drawn[name])} largest of {moving}", loc="right", fontsize=8, color="0.3")
-    if trace is None:
-        axes.set_xlabel("load factor" + (f" ({note})" if note else ""), fontsize=9)
-    else:
+        if name in tables:
+            _draw_supports(axes, result, trace, factors, tables[name], drawn[name], styles, dots)
+        elif name == ZONES[0]:
+            draw_zones(axes, result, stretches)
+        else:
+            draw_extremes(axes, result, states, dots)
+        _frame(axes, fmt.with_unit(scene, name, words), last=not above)
+        if name in tables:
+            end = len(factors) - 1 if trace is None else trace.end()
+            _name_lines(axes, {k: float(tables[name][end, k]) for k in drawn[name]}, styles)
+            moving = int((np.abs(tables[name][:, normal]).max(axis=0, initial=0.0) > 0.0).sum())
+            if moving > len(drawn[name]):
+                axes.set_title(f"the {len(drawn[name])} largest of {moving}", loc="right", fontsize=8, color="0.3")
+    axes.set_xlabel("load factor" + (f" ({note})" if note and not lines else ""), fontsize=9)
+    if trace is not None:
         name_limits(picture.axes[0], trace)
-        axes.set_xlabel("load factor", fontsize=9)
+    if lines:
         picture.text(LEFT / WIDTH, 0.05 / height, "\n".join(lines), fontsize=8, va="bottom", color="0.3")
     return literal(picture)
+
+
+def _stretches(result: Result, dots: bool) -> list[list[Step]]:
+    """Choose states on the ground: from event to event, or every load step by itself."""
+    return states_on_ground(result) if result.segments else [[step] for step in _states(result, dots)]
+
+
+def _styles(result: Result, drawn: dict[str, list[int]], trace: Trace | None) -> dict[int, dict]:
+    """Give every support that is drawn a line of its own."""
+    shown = {k for supports in drawn.values() for k in supports}
+    if trace is None:
+        return {k: _style(order) for order, k in enumerate(sorted(shown))}
+    laws = {k for k in shown if result.scene.supports[k].law is not None}
+    # Dots are for what is unstable; what the picture is about is drawn through
+    return {k: _style(order, NO_DOTS) for order, k in enumerate([*sorted(laws), *sorted(shown - laws)])}
+
+
+def _draw_supports(
+    axes: Axes, result: Result, trace: Trace | None, factors: np.ndarray, table: np.ndarray, drawn: list[int],
+    styles: dict[int, dict], dots: bool,
+) -> None:  # fmt: skip
+    """Draw one quantity of the supports over the load factor."""
+    folded = bool((np.diff(factors) < 0.0).any())
+    laws = {k for k in styles if result.scene.supports[k].law is not None}
+    for k in drawn:
+        if trace is not None:
+            draw_trace(axes, trace, k, table[:, k], styles[k], arrows=folded and k in _few(table, laws))
+            continue
+        axes.plot(factors, table[:, k], linewidth=1.3, marker="." if dots else None, markersize=4.5, clip_on=False,
+                  label=f"support {k}", **styles[k])  # fmt: skip
+        _mark_events(axes, result, k, factors, table[:, k])
 
 
 def _states(result: Result, dots: bool) -> list[Step]:
@@ -146,16 +180,16 @@ def _states(result: Result, dots: bool) -> list[Step]:
 
 def _note(result: Result) -> str:
     """Say what the marks of events mean."""
-    kinds = {event.event for event in result.events}
+    kinds = {event.event for event in result.events if event.support is not None}
     law = "squares, it passes a kink of its law" if kinds - {"closes", "opens", "turns"} else ""
-    return "; ".join(filter(None, ["circles: filled, the support closes; open, it opens" if result.events else "", law]))
+    return "; ".join(filter(None, ["circles: filled, the support closes; open, it opens" if kinds else "", law]))
 
 
 def _bends(result: Result) -> list[int]:
     """Find the steps at which lines may bend: with another working scheme than the one before or after."""
     schemes = [states for _, states in result.steps.history()]
     last = len(schemes) - 1
-    every = max(1, last // CURVE) if result.beam.smooth else last + 1
+    every = max(1, last // CURVE) if result.beam.smooth or result.beam.ground_layers else last + 1
     return [k for k in range(last + 1) if k in (0, last) or k % every == 0 or not schemes[k - 1] == schemes[k] == schemes[k + 1]]
 
 

@@ -15,12 +15,15 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..results import formatting as fmt
+from ..results.ground import joined
 from .beam import SupportLanes, draw_beam, draw_contacts, known_states, legend_handles
+from .ground import GroundLanes, draw_ground, draw_surface, points_a_span, zone_handles
 from .loads import LoadLanes, draw_loads
 from .save import literal, save
 from .thin import outline
 
 if TYPE_CHECKING:
+    from ..results.ground import Contact
     from ..results.result import Result
     from ..scene.structs import Scene
 
@@ -38,6 +41,7 @@ PANELS = (
     ("moment", "moment", True),
     ("shear", "shear", False),
     ("axial_force", "axial force", False),
+    ("pressure", "pressure", False),
 )
 
 
@@ -76,9 +80,11 @@ def figure(result: "Result", step: int = -1) -> Figure:
     scene = result.scene
     stands = result.status != "no-equilibrium" and len(result.steps) > 0
     panels = [("motion", "free motion", True)]
+    contact: tuple[Contact, ...] = ()
     states = tuple("bilateral" if support.side == "both" else "one-sided" for support in scene.supports)
     if stands:
-        points = max(2, min(40, MOST_POINTS // len(scene.beam.spans)))
+        contact = result.steps[step].contact
+        points = int(max(2, min(max(40, points_a_span(scene, result.beam)), MOST_POINTS // len(scene.beam.spans))))
         fields = result.fields(step, points=points)
         panels = [panel for panel in PANELS if getattr(fields, panel[0]) is not None]
         states = result.steps[step].state
@@ -86,7 +92,8 @@ def figure(result: "Result", step: int = -1) -> Figure:
         panels = []
 
     width = (WIDTH - LEFT - RIGHT) * 72
-    supports = SupportLanes(scene, states, width)
+    ground = GroundLanes(scene, width)
+    supports = SupportLanes(scene, states, width, (ground.below, ground.above))
     loads = LoadLanes(scene, supports.top, width)
     beam = (loads.top - supports.bottom) / 72
     heading = 0.6 if stands else 0.75
@@ -97,9 +104,10 @@ def figure(result: "Result", step: int = -1) -> Figure:
     axes = _axes(picture, scene, top - beam, beam)
     axes.set_axis_off()
     axes.set_ylim(supports.bottom, loads.top)  # one unit is one point
+    draw_ground(axes, ground, contact)
     draw_beam(axes, scene, states, supports)
     draw_loads(axes, loads)
-    _headings(picture, result, step if stands else None, states, len(supports.rows))
+    _headings(picture, result, step if stands else None, states, contact, symbols=not supports.rows)
     bottom = top - beam - SPACE
     for quantity, words, downward in panels:
         bottom -= PANEL
@@ -110,6 +118,8 @@ def figure(result: "Result", step: int = -1) -> Figure:
             if quantity == "deflection":
                 contacts = draw_contacts(panel, scene, states, float(np.abs(fields.deflection).max()))
             _curve(panel, fields.x, getattr(fields, quantity), result.extremes(step)[quantity], contacts)
+            if quantity == "deflection":
+                draw_surface(panel, scene, width)
         else:
             _motion(panel, result)
         bottom -= SPACE
@@ -130,7 +140,9 @@ def _axes(picture: Figure, scene: "Scene", bottom: float, height: float) -> Axes
     return axes
 
 
-def _headings(picture: Figure, result: "Result", step: int | None, states: tuple[str, ...], rows: int) -> None:
+def _headings(
+    picture: Figure, result: "Result", step: int | None, states: tuple[str, ...], contact: "tuple[Contact, ...]", symbols: bool
+) -> None:
     height = picture.get_figheight()
     left = LEFT / WIDTH * 0.25
     title = fmt.title(result.scene, "Beam")
@@ -145,10 +157,13 @@ def _headings(picture: Figure, result: "Result", step: int | None, states: tuple
         text += "".join(
             f", {counts[state]:,} {'on ' if state.startswith('branch') else ''}{state}" for state in known_states(states)
         )
+        if contact:
+            text += f", contact in {fmt.count(len(joined(contact)), 'zone')}"
     picture.text(left, 1 - 0.34 / height, text, fontsize=8, va="top", color="0.3", linespacing=1.4)
-    if rows == 0:
+    handles = legend_handles(states) * symbols + zone_handles(contact)
+    if handles:
         picture.legend(
-            handles=legend_handles(states), loc="center right", bbox_to_anchor=(1 - RIGHT / WIDTH, 1 - 0.42 / height),
+            handles=handles, loc="center right", bbox_to_anchor=(1 - RIGHT / WIDTH, 1 - 0.42 / height),
             ncols=4, frameon=False, fontsize=7.5, handletextpad=0.1, columnspacing=1.0, borderpad=0,
         )  # fmt: skip
 
@@ -180,6 +195,8 @@ def _frame(axes: Axes, scene: "Scene", quantity: str, words: str, downward: bool
     label = "scale arbitrary" if quantity == "motion" else fmt.with_unit(scene, quantity, words)
     if quantity == "moment":
         label += "\ndrawn on the tension side"
+    elif quantity == "pressure":
+        label += "\npositive upward"
     elif quantity in ("deflection", "motion"):
         label = f"{words}\n{label}" if quantity == "motion" else label + "\npositive downward"
     axes.set_ylabel(label, fontsize=8, linespacing=1.3)

@@ -1,9 +1,17 @@
-"""The history of the working scheme (which supports act) over the load, as rows of text."""
+"""The history of the working scheme (which supports act) over the load, and its events, as rows of text."""
+
+from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from string import ascii_lowercase
+from typing import TYPE_CHECKING
 
-from ..results.formatting import number, ranges
+from ..results.formatting import number, ranges, with_unit
+
+if TYPE_CHECKING:
+    from ..results.ground_path import GroundEvent
+    from ..results.path import Event
+    from ..scene.structs import Scene
 
 #: State -> character; the second where the terminal knows only ASCII
 SYMBOLS = {"closed": ("●", "#"), "open": ("○", "o"), "bilateral": ("▲", "^")}
@@ -96,6 +104,34 @@ def scheme_table(history: History, width: int, plain: bool = False) -> tuple[lis
     if supports <= MOST_SYMBOLS:
         return _grouped(factors, rows, width, plain)
     return _changes(factors, rows)
+
+
+def event_table(
+    scene: Scene, events: Sequence[Event] | Sequence[GroundEvent]
+) -> tuple[list[str], list[list[str]], tuple[int, ...]]:
+    """Give headings and rows of the events, and the columns that are flush left.
+
+    Parameters
+    ----------
+    scene : Scene
+        With foundations every row says whether it is about one of them or a support.
+    events : sequence of Event or GroundEvent
+        In the order of the load.
+
+    Returns
+    -------
+    headings : list of str
+    rows : list of list of str
+    left : tuple of int
+    """
+    mixed = bool(scene.foundation)
+    rows = []
+    for event in events:
+        what = f"foundation {event.foundation}" if event.support is None else f"{'support ' * mixed}{event.support}"
+        branch = getattr(event, "branch", 1)
+        happens = event.event + (f" (branch {branch})" if branch > 1 else "")
+        rows.append([number(event.factor, 10), what, number(event.x), happens])
+    return ["load factor", "at" if mixed else "support", with_unit(scene, "x"), "event"], rows, (1, 3) if mixed else (3,)
 
 
 def _span(first: float, last: float) -> str:

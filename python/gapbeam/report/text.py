@@ -19,14 +19,14 @@ from ..results import formatting as fmt
 from ..results.data import result_data, step_data
 from ..results.result import Fields
 from ..results.step import BOUNDED
-from .scheme import legend, merged, scheme_table, symbol
+from .ground import ground_in_words, write_contact, write_contact_history, write_foundations
+from .scheme import event_table, legend, merged, scheme_table, symbol
 
 if TYPE_CHECKING:
     from rich.console import Console
 
     from ..results.result import Result
     from ..results.step import Step
-    from ..scene.structs import Scene
     from .writer import Writer
 
 LEFT_OUT = {
@@ -70,7 +70,10 @@ def print_report(result: "Result", console: "Console | None" = None) -> None:
         at += ", the last step that stands"
     _history(say, result)
     _events(say, result)
+    write_contact_history(say, result)
     _supports(say, result, at)
+    write_foundations(say, result, at)
+    write_contact(say, result, at)
     _extremes(say, result, at)
     _steps(say, result)
 
@@ -229,6 +232,8 @@ def _headline(say: "Writer", result: "Result") -> None:
     if result.path is not None and result.path.nodes:
         solves += f" and {fmt.count(result.path.nodes, 'node')} anew"
     say.line(f"solved in {way}, {solves}, {fmt.duration(result.seconds)}")
+    for line in ground_in_words(result):
+        say.line(line)
 
 
 def _system(say: "Writer", result: "Result") -> None:
@@ -243,6 +248,7 @@ def _system(say: "Writer", result: "Result") -> None:
         [
             ("beam", fmt.beam_in_words(scene)),
             ("supports", fmt.supports_in_words(scene)),
+            *([("foundations", fmt.foundations_in_words(scene))] if scene.foundation else []),
             ("loads", fmt.loads_in_words(scene)),
             ("equations", equations),
             ("left out", ", ".join(left_out) + " (this scene needs none)" if left_out else "nothing"),
@@ -304,10 +310,10 @@ def _supports(say: "Writer", result: "Result", at: str) -> None:
     for digits in (6, 5, 4, 3):
         columns = [
             ("", [str(index) for index in range(len(sides))]),
-            (_stacked(scene, "x"), fmt.column(scene.positions(scene.supports))),
+            (fmt.stacked(scene, "x"), fmt.column(scene.positions(scene.supports))),
             ("side", sides),
             ("state", states),
-            *((_stacked(scene, name), fmt.column(values, digits)) for name, values in quantities.items()),
+            *((fmt.stacked(scene, name), fmt.column(values, digits)) for name, values in quantities.items()),
         ]
         if sum(1 + max(map(len, (*name.split("\n"), *texts))) for name, texts in columns) <= say.width:
             break  # numbers are shortened rather than broken
@@ -332,12 +338,6 @@ def _restraints_of_open_supports(say: "Writer", result: "Result") -> None:
     if held:
         more = f" and {len(held) - 10} more" if len(held) > 10 else ""
         say.line(f"Open, but still held in rotation, as by a guide: support {', '.join(held[:10])}{more}.")
-
-
-def _stacked(scene: "Scene", quantity: str) -> str:
-    """Put the unit of a heading on a second line, which keeps columns narrow."""
-    label = fmt.unit(scene, quantity)
-    return quantity + (f"\n{label}" if label else "")
 
 
 def _extremes(say: "Writer", result: "Result", at: str) -> None:
@@ -410,7 +410,6 @@ def _events(say: "Writer", result: "Result") -> None:
         say.line(f"The working scheme is the same {reach}.")
         return
     shown = result.events[:MOST_EVENTS]
-    rows = [[fmt.number(e.factor, 10), str(e.support), fmt.number(e.x), e.event] for e in shown]
-    say.table(["load factor", "support", fmt.with_unit(result.scene, "x", "x"), "event"], rows, left=(3,))
+    say.table(*event_table(result.scene, shown))
     if len(result.events) > len(shown):
         say.line(f"... and {len(result.events) - len(shown)} more; --json has all.", "dim")

@@ -1,0 +1,230 @@
+"""The ground in pictures: hatched under or over the beam, with the zones of contact, and its surface beside the deflection."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
+from matplotlib.lines import Line2D
+
+from ..results.formatting import stretch
+from .beam import HALF, OFF, face
+from .labels import LINE, text_width
+from .thin import outline
+
+if TYPE_CHECKING:
+    from ..engine.beam import Beam
+    from ..results.ground import Contact
+    from ..scene.structs import Foundation, Scene
+
+STRIP = 6.0
+"""Depth of the hatched strip, points."""
+SWING = 9.0
+"""How far off the surface is drawn where its gap is largest, when gaps vary, points."""
+MOST_NAMES = 12
+"""Foundations up to which they are named."""
+HATCHES = {"below": "/////", "above": "/////", "both": "xxxxx"}
+PER_LENGTH = 20
+"""Points of a curve in every length of (4 EI/k)^(1/4), within which it bends."""
+
+
+@dataclass
+class Layer:
+    """A foundation as it is drawn.
+
+    Attributes
+    ----------
+    number : int
+        In the scene.
+    side : str
+        As in the scene; what acts from both sides is drawn below.
+    x, y : numpy.ndarray
+        Its surface: places, heights in points.
+    rim : float
+        Where the strip ends.
+    name : str
+        Written beside the strip; may be empty.
+    """
+
+    number: int
+    side: str
+    x: np.ndarray
+    y: np.ndarray
+    rim: float
+    name: str
+
+
+class GroundLanes:
+    """Where foundations are drawn: heights in points; those that overlap on one side lie under one another.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    width : float
+        Width of the panel.
+
+    Attributes
+    ----------
+    layers : list of Layer
+        The foundations.
+    below, above : float
+        What they take up below and above the axis of the beam; 0 where there is none.
+    """
+
+    def __init__(self, scene: Scene, width: float) -> None:
+        self.layers: list[Layer] = []
+        self.width = width
+        end = float(scene.span_ends()[-1])
+        scale = (width - 60.0) / end
+        surfaces = [surface(scene, item) for item in scene.foundation]
+        low = min((gap.min() for _, gap in surfaces), default=0.0)
+        high = max((gap.max() for _, gap in surfaces), default=0.0)
+        varying = any(np.ptp(gap) > 0.0 for _, gap in surfaces)
+        named = 1 < len(surfaces) <= MOST_NAMES
+        self.below = self.above = 0.0
+        lanes: dict[int, list[list[float]]] = {1: [], -1: []}  # ends of what lies there, and where it begins and ends in height
+        for number, (item, (x, gap)) in enumerate(zip(scene.foundation, surfaces, strict=True)):
+            sign = -1 if item.side == "above" else 1
+            off = np.where(gap > 0.0, OFF, 0.0)
+            if varying:
+                off = SWING * (gap - min(low, 0.0)) / (high - min(low, 0.0))
+            lane = next((lane for lane in lanes[sign] if lane[0] <= x[0]), None)
+            name = f"foundation {number}" if named and text_width(f"foundation {number}") < (x[-1] - x[0]) * scale else ""
+            if lane is None:
+                top = lanes[sign][-1][2] + 3.0 if lanes[sign] else HALF + 0.8
+                lane = [x[-1], top, top + STRIP + max(SWING * varying, OFF) + LINE * named]
+                lanes[sign].append(lane)
+            lane[0] = x[-1]
+            self.layers.append(Layer(number, item.side, x, -sign * (lane[1] + off), -sign * (lane[2] - LINE * named), name))
+        self.below, self.above = (max((lane[2] for lane in lanes[sign]), default=0.0) for sign in (1, -1))
+
+
+def surface(scene: Scene, item: Foundation) -> tuple[np.ndarray, np.ndarray]:
+    """Give the gap along a foundation.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    item : Foundation
+        One of its foundations.
+
+    Returns
+    -------
+    x, gap : numpy.ndarray
+        From its left to its right end, straight in between.
+    """
+    from_, to = stretch(scene, item)
+    if item.profile is None:
+        return np.array([from_, to]), np.array(np.broadcast_to(item.gap, 2), dtype=float)
+    points = np.asarray(item.profile, dtype=float)
+    inside = points[(points[:, 0] > from_) & (points[:, 0] < to)]
+    ends = np.interp([from_, to], points[:, 0], points[:, 1])
+    return np.r_[from_, inside[:, 0], to], np.r_[ends[0], inside[:, 1], ends[1]]
+
+
+def draw_ground(axes: Axes, lanes: GroundLanes, contact: tuple[Contact, ...]) -> None:
+    """Draw the foundations in the panel of the beam, thick where they carry.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+        The panel; its vertical unit is one point.
+    lanes : GroundLanes
+        Where to draw.
+    contact : tuple of Contact
+        The zones of contact.
+    """
+    zones: dict[str, list[np.ndarray]] = {}
+    for layer in lanes.layers:
+        x, y = outline(layer.x, layer.y, lanes.width)
+        axes.fill_between(x, y, layer.rim, facecolor="white", edgecolor="0.6", linewidth=0.0, hatch=HATCHES[layer.side], zorder=1,
+                          label=f"ground {layer.number}")  # fmt: skip
+        axes.plot(x, y, color="0.35", linewidth=0.7, zorder=2, label=f"surface {layer.number}")
+        if layer.name:
+            upward = layer.side == "above"
+            axes.text((x[0] + x[-1]) / 2, layer.rim + (1.0 if upward else -1.0), layer.name, fontsize=6.5, color="0.25",
+                      ha="center", va="bottom" if upward else "top", zorder=7,
+                      bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.4, "alpha": 0.8})  # fmt: skip
+        for zone in contact:
+            if zone.foundation == layer.number:
+                inside = slice(*np.searchsorted(x, [zone.from_, zone.to]))
+                places = np.r_[zone.from_, x[inside], zone.to]
+                zones.setdefault(zone.state, []).append(np.column_stack((places, np.interp(places, x, y))))
+    for state, lines in zones.items():
+        axes.add_collection(LineCollection(lines, colors=_shade(state), linewidths=2.6, capstyle="butt", joinstyle="round",
+                                           zorder=2.5, label=f"contact {state}"))  # fmt: skip
+
+
+def zone_handles(contact: tuple[Contact, ...]) -> list[Line2D]:
+    """Make the entries of the legend for the zones of contact."""
+    states = sorted({zone.state for zone in contact})
+    names = {"closed": "in contact", "bilateral": "bilateral ground"}
+    return [
+        Line2D([], [], linestyle="none", marker="_", markersize=8, markeredgewidth=2.6, color=_shade(state),
+               label=names.get(state, f"ground on {state}"))
+        for state in states
+    ]  # fmt: skip
+
+
+def draw_surface(axes: Axes, scene: Scene, width: float) -> None:
+    """Draw in the panel of the deflection where the ground begins to act, as far as that is near the beam.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+        The panel with the deflection, positive downward.
+    scene : Scene
+        The scene.
+    width : float
+        Width of the panel in points.
+    """
+    high, low = sorted(axes.get_ylim())
+    size = low - high
+    levels = []
+    for number, item in enumerate(scene.foundation):
+        x, gap = surface(scene, item)
+        for sign in {"below": (1.0,), "above": (-1.0,), "both": (1.0, -1.0)}[item.side]:
+            if item.side != "both" or gap.any():
+                levels.append((number, sign, *outline(x, sign * gap, width)))
+    seen = np.concatenate([y for *_, y in levels] or [np.zeros(0)])
+    seen = seen[(seen > high - size / 2) & (seen < low + size / 2)]
+    high, low = min([high, *(seen - 0.05 * size)]), max([low, *(seen + 0.05 * size)])
+    for number, sign, x, y in levels:
+        axes.fill_between(x, y, y + sign * 0.05 * size, facecolor="none", edgecolor="0.65", linewidth=0.0, hatch="//////", zorder=2)
+        axes.plot(x, y, color="0.45", linewidth=0.8, zorder=2, label=f"surface {number}")
+    axes.set_ylim(low, high)
+
+
+def points_a_span(scene: Scene, beam: Beam) -> float:
+    """Count the points that a span needs so that fields on stiff ground look smooth.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    beam : Beam
+        Made of it.
+
+    Returns
+    -------
+    float
+        0 without foundations.
+    """
+    columns = beam.columns
+    moduli = [columns.foundation[2:4, :-1].max(initial=0.0)]
+    which, (way, force) = columns.ground_law_foundations[:-1], columns.ground_law[:, :-1]
+    first = np.append(True, np.diff(which) != 0)[: len(which)]
+    ways, forces = (np.where(first, values, np.diff(values, prepend=0.0)) for values in (way, force))
+    moduli.append(np.divide(forces, ways, out=np.zeros(len(ways)), where=ways > 0.0).max(initial=0.0))
+    stiffness = float(beam.places.pieces[:, 1].min())
+    return PER_LENGTH * max(scene.beam.spans) * (max(moduli) / (4.0 * stiffness)) ** 0.25
+
+
+def _shade(state: str) -> str:
+    """Give the grey of a zone: bilateral ground is fainter than one-sided ground in contact."""
+    return "0.6" if state == "bilateral" else face(state)

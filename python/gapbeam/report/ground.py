@@ -1,0 +1,216 @@
+"""The ground in the report: the foundations, the zones in which they act, the stretches in which the beam hangs free."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from ..results import formatting as fmt
+from ..results.ground import Contact, FreeSpan, joined
+from .scheme import symbol
+from .writer import LONGEST, Writer
+
+if TYPE_CHECKING:
+    from ..results.result import Result
+    from ..results.step import Step
+    from ..scene.structs import Foundation
+
+MOST_ROWS = 24
+"""Zones and free spans that are listed, a dozen of each; of more some in the middle are left out, and a summary stands below."""
+MOST_IN_A_ROW = 3
+"""Zones whose ends are written out for every load step."""
+
+
+def ground_in_words(result: "Result") -> list[str]:
+    """Say how much of one-sided ground carries at the last step.
+
+    Parameters
+    ----------
+    result : Result
+        A solved one.
+
+    Returns
+    -------
+    list of str
+        Lines; none where nothing can lift off.
+    """
+    step, scene = result.steps[-1], result.scene
+    zones, spans = joined(step.contact), step.free_spans
+    if not spans and all(zone.state == "bilateral" for zone in zones):
+        return []
+    of = _with_label(result, sum(_length(fmt.stretch(scene, item)) for item in scene.foundation))
+    contact = f"contact in {fmt.count(len(zones), 'zone')} over {_number(_together(zones))} of {of}"
+    lines = [contact if zones else "no contact with the ground"]
+    if spans:
+        longest = _with_label(result, max(map(_length, map(_ends, spans))))
+        sag = _with_label(result, max(span.sag for span in spans))
+        lines.append(f"{fmt.count(len(spans), 'free span')}, {'up to ' if len(spans) > 1 else ''}{longest} long, sag {sag}")
+    return lines
+
+
+def write_foundations(say: Writer, result: "Result", at: str) -> None:
+    """List the foundations with what they carry.
+
+    Parameters
+    ----------
+    say : Writer
+        Where to write.
+    result : Result
+        With a step.
+    at : str
+        The load factor in words.
+    """
+    scene, step = result.scene, result.steps[-1]
+    if not scene.foundation:
+        return
+    say.heading(f"Foundations {at}")
+    carried, touched = [0.0] * len(scene.foundation), [0.0] * len(scene.foundation)
+    for zone in step.contact:
+        carried[zone.foundation] += zone.resultant
+    for zone in joined(step.contact):
+        touched[zone.foundation] += _length(_ends(zone))
+    from_, to = zip(*(fmt.stretch(scene, item) for item in scene.foundation), strict=True)
+    columns = [
+        ("", [str(number) for number in range(len(scene.foundation))]),
+        (fmt.stacked(scene, "x", "from"), fmt.column(from_)),
+        (fmt.stacked(scene, "x", "to"), fmt.column(to)),
+        ("side", [item.side for item in scene.foundation]),
+        (fmt.stacked(scene, "k"), ["law" if item.law is not None else _pair(item.k) for item in scene.foundation]),
+        (fmt.stacked(scene, "gap"), [_gap(item) for item in scene.foundation]),
+        (fmt.stacked(scene, "length", "in contact"), fmt.column(touched)),
+        (fmt.stacked(scene, "resultant"), fmt.column(carried)),
+    ]
+    say.table([name for name, _ in columns], list(zip(*(texts for _, texts in columns), strict=True)), left=(3,))
+    label = fmt.unit(scene, "force")
+    say.line(f"Resultants (upward positive) add up to {_number(sum(carried))} {label}".rstrip() + ".", "dim")
+
+
+def write_contact(say: Writer, result: "Result", at: str) -> None:
+    """List zones of contact and free spans along the beam.
+
+    Parameters
+    ----------
+    say, result, at
+        As for `write_foundations`.
+    """
+    scene, step = result.scene, result.steps[-1]
+    if not ground_in_words(result):
+        return
+    say.heading(f"Contact with the ground {at}")
+    stretches = sorted([*step.contact, *step.free_spans], key=lambda item: (item.foundation, item.from_, item.to))
+    ends = [_ends(item) for item in stretches]
+    places = fmt.column(x for both in ends for x in both)
+    free = [isinstance(item, FreeSpan) for item in stretches]
+    states = ["free" if isinstance(item, FreeSpan) else item.state for item in stretches]
+    columns = [
+        (fmt.stacked(scene, "x", "from"), places[::2]),
+        (fmt.stacked(scene, "x", "to"), places[1::2]),
+        (fmt.stacked(scene, "length"), fmt.column(map(_length, ends))),
+        ("state", [f"{symbol('open' if state == 'free' else state, say.plain)} {state}" for state in states]),
+        (fmt.stacked(scene, "resultant"), _some([None if isinstance(item, FreeSpan) else item.resultant for item in stretches])),
+        (fmt.stacked(scene, "sag"), _some([item.sag if isinstance(item, FreeSpan) else None for item in stretches])),
+    ]
+    if not any(free):
+        del columns[-1]
+    if len(scene.foundation) > 1:
+        columns.insert(0, ("foundation", [str(item.foundation) for item in stretches]))
+    left = next(k for k, (name, _) in enumerate(columns) if name == "state")
+    say.table([name for name, _ in columns], list(zip(*(texts for _, texts in columns), strict=True)), (left,), MOST_ROWS)
+    if len(stretches) > MOST_ROWS:
+        _summary(say, result, step)
+    if any(free):
+        say.line("Sag: largest distance between beam and ground.", "dim")
+
+
+def write_contact_history(say: Writer, result: "Result") -> None:
+    """Tell where the beam lay on the ground at every load step.
+
+    Parameters
+    ----------
+    say, result
+        As for `write_foundations`.
+    """
+    steps = result.steps
+    if len(steps) < 2 or not ground_in_words(result):
+        return
+    say.heading("Contact with the ground over the load")
+    not_shown = range(LONGEST // 2, len(steps) - LONGEST // 2)
+    shown = [k for k in range(len(steps)) if k not in not_shown]
+    rows = [_step_in_a_row(result.scene.foundation, steps[k]) for k in shown]
+    columns = [fmt.column([steps[k].factor for k in shown]), *(fmt.column(values) for values in list(zip(*rows, strict=True))[:3])]
+    texts = iter(zip(*columns, [row[3] for row in rows], strict=True))
+    headings = ["load factor", fmt.stacked(result.scene, "length", "in contact"), fmt.stacked(result.scene, "resultant"),
+                fmt.stacked(result.scene, "sag"), fmt.stacked(result.scene, "x", "zones of contact")]  # fmt: skip
+    say.table(headings, [() if k in not_shown else next(texts) for k in range(len(steps))], left=(4,))
+
+
+def _step_in_a_row(foundations: Sequence["Foundation"], step: "Step") -> tuple[float, float, float, str]:
+    """Length in contact, resultant, largest sag, and the zones in words."""
+    zones = joined(step.contact)
+    words = fmt.count(len(zones), "zone")
+    if not zones:
+        words = "none"
+    elif len(zones) <= MOST_IN_A_ROW and len(foundations) == 1:
+        words = ", ".join(f"{_number(zone.from_)}-{_number(zone.to)}" for zone in zones)
+    resultant, sag = sum(zone.resultant for zone in zones), max((span.sag for span in step.free_spans), default=0.0)
+    return _together(zones), resultant, sag, words
+
+
+def _summary(say: Writer, result: "Result", step: "Step") -> None:
+    """Tell what is most in a long list of zones and free spans."""
+    zones, spans = joined(step.contact), step.free_spans
+    words = []
+    if zones:
+        longest = max(zones, key=lambda zone: _length(_ends(zone)))
+        heaviest = max(zones, key=lambda zone: abs(zone.resultant))
+        words.append(
+            f"{fmt.count(len(zones), 'zone')} of contact, together {_with_label(result, _together(zones))}: the longest "
+            f"{_place(longest)}, the largest resultant {_with_label(result, heaviest.resultant, 'force')} {_place(heaviest)}."
+        )
+    if spans:
+        longest, deepest = max(spans, key=lambda span: _length(_ends(span))), max(spans, key=lambda span: span.sag)
+        words.append(
+            f"{fmt.count(len(spans), 'free span')}, together {_with_label(result, _together(spans))}: the longest "
+            f"{_place(longest)}, the largest sag {_with_label(result, deepest.sag)} {_place(deepest)}."
+        )
+    say.line(" ".join(words))
+
+
+def _ends(item: Contact | FreeSpan) -> tuple[float, float]:
+    return item.from_, item.to
+
+
+def _length(ends: tuple[float, float]) -> float:
+    return ends[1] - ends[0]
+
+
+def _together(items: Sequence[Contact] | Sequence[FreeSpan]) -> float:
+    return sum(_length(_ends(item)) for item in items)
+
+
+def _place(item: Contact | FreeSpan) -> str:
+    return f"from x = {_number(item.from_)} to {_number(item.to)}"
+
+
+def _number(value: float) -> str:
+    return fmt.number(value, 4)
+
+
+def _with_label(result: "Result", value: float, quantity: str = "length") -> str:
+    return f"{_number(value)} {fmt.unit(result.scene, quantity)}".rstrip()
+
+
+def _some(values: Sequence[float | None]) -> list[str]:
+    """Write a column in which some places stay empty."""
+    texts = iter(fmt.column(value for value in values if value is not None))
+    return ["" if value is None else next(texts) for value in values]
+
+
+def _pair(value: float | Sequence[float] | None) -> str:
+    """Write a number, or the two at both ends."""
+    if value is None:
+        return ""
+    first, last = (value, value) if isinstance(value, int | float) else value
+    return _number(first) if first == last else f"{_number(first)} to {_number(last)}"
+
+
+def _gap(item: "Foundation") -> str:
+    return _pair(item.gap) if item.profile is None else "profile"
