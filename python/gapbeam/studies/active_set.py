@@ -19,14 +19,18 @@ MOST_SOLVES = 200
 """Linear solves before giving up."""
 
 
+class NoScheme(GapbeamError):
+    """A program gave up before it had a working scheme."""
+
+
 @dataclass
 class ActiveSet:
     """What the active set found.
 
     Attributes
     ----------
-    deflection, reaction : numpy.ndarray
-        At the supports of the scene.
+    deflection, reaction, moment : numpy.ndarray
+        At the supports of the scene; moments sagging, right of them.
     closed : numpy.ndarray of bool
         Which of them act.
     solves : int
@@ -35,6 +39,7 @@ class ActiveSet:
 
     deflection: np.ndarray
     reaction: np.ndarray
+    moment: np.ndarray
     closed: np.ndarray
     solves: int
 
@@ -59,7 +64,9 @@ def active_set(scene: Mapping[str, Any], parts: int, incremental: bool = False) 
     Raises
     ------
     GapbeamError
-        scipy is missing, or no scheme was found.
+        scipy is missing.
+    NoScheme
+        No scheme was found.
     """
     try:
         from scipy.linalg import cho_solve_banded, cholesky_banded
@@ -68,7 +75,7 @@ def active_set(scene: Mapping[str, Any], parts: int, incremental: bool = False) 
     spans, EI = np.array(scene["beam"]["spans"]), scene["beam"]["EI"]
     ends = np.concatenate(([0.0], np.cumsum(spans)))
     h = np.repeat(spans / parts, parts)
-    load = _loads(scene, ends, h, parts)
+    load, q = _loads(scene, ends, h, parts)
     band = np.zeros((4, len(load)))
     k = 2.0 * EI / h**3
     for row, column, value in (
@@ -110,17 +117,18 @@ def active_set(scene: Mapping[str, Any], parts: int, incremental: bool = False) 
         last = largest if same else np.inf
         closed = u[springs] > gap
     else:
-        raise GapbeamError(f"the active set found no working scheme in {MOST_SOLVES} solves")
+        raise NoScheme(f"the active set found no working scheme in {MOST_SOLVES} solves")
     acts = np.ones(len(at), dtype=bool)
     acts[elastic] = closed
     reaction = np.zeros(len(at))
     reaction[elastic] = np.where(closed, c * (u[springs] - gap), 0.0)
     reaction[~elastic] = (load - _element_forces(u, h, EI))[pinned]
-    return ActiveSet(u[at], reaction, acts, solves)
+    moment = np.append(_end_couples(u, h, EI)[0] - q * h**2 / 12.0, 0.0)
+    return ActiveSet(u[at], reaction, moment[at // 2], acts, solves)
 
 
-def _loads(scene: Mapping[str, Any], ends: np.ndarray, h: np.ndarray, parts: int) -> np.ndarray:
-    """Consistent nodal loads, (w, rotation) node by node."""
+def _loads(scene: Mapping[str, Any], ends: np.ndarray, h: np.ndarray, parts: int) -> tuple[np.ndarray, np.ndarray]:
+    """Consistent nodal loads, (w, rotation) node by node, and the uniform load on every element."""
     uniform = [load for load in scene["loads"] if load["type"] == "uniform"]
     start = np.rint(np.interp([load.get("from", 0.0) for load in uniform], ends, np.arange(len(ends)))).astype(int)
     stop = np.rint(np.interp([load.get("to", ends[-1]) for load in uniform], ends, np.arange(len(ends)))).astype(int)
@@ -143,15 +151,20 @@ def _loads(scene: Mapping[str, Any], ends: np.ndarray, h: np.ndarray, parts: int
     for force in scene["loads"]:
         if force["type"] == "force":
             load[2 * int(np.argmin(np.abs(nodes - force["x"])))] += force["F"]
-    return load
+    return load, q
 
 
-def _element_forces(u: np.ndarray, h: np.ndarray, EI: float) -> np.ndarray:
-    """Forces of all elements on their nodes, from the turns of their ends against their chords: differences first."""
+def _end_couples(u: np.ndarray, h: np.ndarray, EI: float) -> tuple[np.ndarray, np.ndarray]:
+    """Couples of all elements at their ends, from the turns of these against their chords: differences first."""
     chord = np.diff(u[::2]) / h
     first, last = u[1:-2:2] - chord, u[3::2] - chord
     k = 2.0 * EI / h
-    near, far = k * (2.0 * first + last), k * (first + 2.0 * last)
+    return k * (2.0 * first + last), k * (first + 2.0 * last)
+
+
+def _element_forces(u: np.ndarray, h: np.ndarray, EI: float) -> np.ndarray:
+    """Forces of all elements on their nodes."""
+    near, far = _end_couples(u, h, EI)
     shear = (near + far) / h
     force = np.zeros(len(u))
     force[:-2:2] += shear

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
+from math import isfinite
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator
 
 from ..plots.save import literal, save
+from . import foundation as ground
 from .accuracy import Comparison
 from .methods import front
 
@@ -32,6 +34,14 @@ STYLES = {
     "gapbeam.solve, events": ("#cc79a7", "-", "x"),
 }
 """Colour (Okabe and Ito 2008), line and marker of every method."""
+GROUND_STYLES = {
+    ground.OWN: ("black", "none", "*"),
+    ground.SPRINGS: ("#0072b2", "-", "o"),
+    ground.PLAIN: ("#d55e00", "-", "v"),
+    ground.INCREMENTAL: ("#d55e00", "--", "v"),
+    ground.OPENSEES: ("#009e73", "-", "s"),
+}
+"""The same for foundations and springs."""
 LOWEST, HIGHEST = 3e-17, 4.0
 """Errors shown; those beyond stand on the edge."""
 
@@ -97,7 +107,12 @@ def _panel(axes: Axes, name: str, members: Sequence[Comparison]) -> None:
         axes.plot(*zip(*points, strict=True), line, marker=marker, color=color, linewidth=1.2, markersize=4, label=method)
     sizes = [member.elements for member in members]
     span = f"{sizes[0]:,} to {sizes[-1]:,} elements" if len(sizes) > 1 else f"{sizes[0]:,} elements"
-    axes.set_title(f"{name}: {span}", fontsize=9, loc="left")
+    _decorate(axes, f"{name}: {span}", "largest relative error")
+
+
+def _decorate(axes: Axes, title: str, error: str) -> None:
+    """Axes of error over run time."""
+    axes.set_title(title, fontsize=9, loc="left")
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_ylim(LOWEST / 2, HIGHEST * 2)
@@ -107,11 +122,45 @@ def _panel(axes: Axes, name: str, members: Sequence[Comparison]) -> None:
     axes.xaxis.set_major_formatter(lambda seconds, _: _time(seconds))
     axes.yaxis.set_major_formatter(lambda error, _: f"{error:.0e}" if error < 1.0 else "1")
     axes.set_xlabel("time of one solve", fontsize=8)
-    axes.set_ylabel("largest relative error", fontsize=8)
+    axes.set_ylabel(error, fontsize=8)
     axes.tick_params(labelsize=8)
     axes.grid(True, color="0.92", linewidth=0.6)
     for spine in ("top", "right"):
         axes.spines[spine].set_visible(False)
+
+
+def foundation_figure(rows: Sequence[ground.Row]) -> Figure:
+    """Draw error against run time of a foundation and of springs, a row of panels for every problem.
+
+    Parameters
+    ----------
+    rows : sequence of Row
+        From `studies.foundation.foundation`.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The points of a line are meshes of more and more springs; what has other zones stands on the upper edge.
+    """
+    problems = list(dict.fromkeys(row.problem for row in rows))
+    kinds = (("ends", "contact ends"), ("deflection", "deflection"), ("moment", "moment"))
+    picture = Figure(figsize=(9.6, 2.9 * len(problems) + 0.5), dpi=150, layout="constrained")
+    panels = picture.subplots(len(problems), 3, squeeze=False, sharex=True, sharey=True)
+    for line, problem in zip(panels, problems, strict=True):
+        for axes, (kind, name) in zip(line, kinds, strict=True):
+            for program, (color, style, marker) in GROUND_STYLES.items():
+                found = [row for row in rows if (row.problem, row.program) == (problem, program) and isfinite(row.seconds)]
+                points = [(row.seconds, min(max(getattr(row, kind), LOWEST), HIGHEST)) for row in found]
+                if points:
+                    size = 11 if program == ground.OWN else 4
+                    look = {"marker": marker, "color": color, "markersize": size, "linewidth": 1.2, "label": program}
+                    axes.plot(*zip(*points, strict=True), linestyle=style, clip_on=False, **look)
+            _decorate(axes, f"{problem}: {name}", "relative error")
+    for axes in panels.flat:
+        axes.label_outer()
+    lines = panels[0, 0].get_legend_handles_labels()
+    picture.legend(*lines, loc="outside lower center", ncols=3, frameon=False, fontsize=8)
+    return literal(picture)
 
 
 def _time(seconds: float) -> str:

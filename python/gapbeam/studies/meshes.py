@@ -197,6 +197,7 @@ def mesh(source: Mapping[str, Any] | Scene | str, parts: int, name: str = "") ->
     places = arrays.node_points[arrays.support_nodes]
     for wrong, what in (
         (np.any(arrays.kinds == HINGE), "hinges"),
+        (len(scene.foundation) > 0, "foundations"),
         (np.any(clamps & ~at_ends) or np.isfinite(arrays.turning[clamps]).any(), "a rotational support that is no clamp at an end"),
         (np.isfinite(arrays.pieces[:, 2]).any(), "shear flexibility"),
         (np.isinf(arrays.pieces[:, 1]).any(), "a rigid stretch"),

@@ -27,6 +27,10 @@ class Page:
         Headings of the table; the first column names what a group of rows is about.
     texts : int
         How many columns are texts, the others are numbers.
+    file : str
+        Name of its page, where that is another than the study's.
+    caption : str
+        What its picture shows, if it has one.
     """
 
     study: str
@@ -34,8 +38,10 @@ class Page:
     words: Sequence[str]
     columns: Sequence[str]
     texts: int
+    file: str = ""
+    caption: str = ""
 
-    def markdown(self, cells: list[list[str]], remark: str = "") -> str:
+    def markdown(self, cells: list[list[str]], remark: str = "", picture: str = "") -> str:
         """Write the page of the documentation.
 
         Parameters
@@ -44,13 +50,17 @@ class Page:
             The rows.
         remark : str
             What is to be said of them.
+        picture : str
+            Name of the picture's file beside the page, if there is one.
 
         Returns
         -------
         str
         """
-        made = f"This page is made by `gapbeam study {self.study} --markdown docs/{self.study}.md`."
-        said = ["", remark] if remark else []
+        file = self.file or self.study
+        drawn = f" --plot docs/{file}.svg" if picture else ""
+        made = f"This page is made by `gapbeam study {self.study} --markdown docs/{file}.md{drawn}`."
+        said = (["", f"![{self.caption}]({picture})"] if picture else []) + (["", remark] if remark else [])
         table = markdown_table(self.columns, cells, self.texts)
         return "\n".join([f"# {self.title}", "", made, "", *self.words, *said, "", *table]) + "\n"
 
