@@ -42,6 +42,16 @@ class Model(c.Structure):
         ("law_points", c.c_int),
         ("law_support", INTEGER),
         *((f"law_{name}", REAL) for name in ("displacement", "force")),
+        ("foundations", c.c_int),
+        *((f"foundation_{name}", REAL) for name in ("from", "to")),
+        ("foundation_side", INTEGER),
+        *((f"foundation_{name}", REAL) for name in ("k", "k_to", "gap", "gap_to")),
+        ("profile_points", c.c_int),
+        ("profile_foundation", INTEGER),
+        *((f"profile_{name}", REAL) for name in ("x", "gap")),
+        ("ground_law_points", c.c_int),
+        ("ground_law_foundation", INTEGER),
+        *((f"ground_law_{name}", REAL) for name in ("displacement", "force")),
     )
 
 
@@ -146,7 +156,27 @@ def columns(scene):
         "law_support": np.array([k for k, *_ in law], dtype=np.int32),
         "law_displacement": np.array([d for _, d, _ in law], dtype=float),
         "law_force": np.array([f for *_, f in law], dtype=float),
+        **ground_columns(scene.get("foundation", ()), end),
     }
+
+
+def ground_columns(foundations, end):
+    """The arrays of the C interface for foundations."""
+    ends = {key: [np.broadcast_to(f.get(key, 0.0), 2) for f in foundations] for key in ("k", "gap")}
+    made = {
+        "foundation_from": [f.get("from", 0.0) for f in foundations],
+        "foundation_to": [f.get("to", end) for f in foundations],
+        **{f"foundation_{key}": [pair[0] for pair in pairs] for key, pairs in ends.items()},
+        **{f"foundation_{key}_to": [pair[1] for pair in pairs] for key, pairs in ends.items()},
+    }
+    made = {key: np.array(values, dtype=float) for key, values in made.items()}
+    made["foundation_side"] = np.array([SIDES[f.get("side", "both")] for f in foundations], dtype=np.int32)
+    for name, key, pair in (("profile", "profile", ("x", "gap")), ("ground_law", "law", ("displacement", "force"))):
+        points = [(k, *point) for k, f in enumerate(foundations) for point in f.get(key, ())]
+        made[f"{name}_foundation"] = np.array([k for k, *_ in points], dtype=np.int32)
+        for i, column in enumerate(pair, 1):
+            made[f"{name}_{column}"] = np.array([point[i] for point in points], dtype=float)
+    return made
 
 
 def pointer(array):
@@ -171,7 +201,8 @@ class Library:
         assert self.c.gapbeam_model_init(c.byref(made), c.c_size_t(c.sizeof(made))) == 0
         for name, array in arrays.items():
             setattr(made, name, pointer(array))
-        sizes = {"spans": "length", "hinges": "hinge_x", "supports": "support_x", "loads": "load_value", "law_points": "law_force"}
+        sizes = {"spans": "length", "hinges": "hinge_x", "supports": "support_x", "loads": "load_value", "law_points": "law_force",
+                 "foundations": "foundation_k", "profile_points": "profile_x", "ground_law_points": "ground_law_force"}  # fmt: skip
         for name, key in sizes.items():
             setattr(made, name, len(arrays[key]))
         return made
@@ -295,6 +326,41 @@ class CBeam:
         assert self.c.gapbeam_get_motion(self.handle, self.state, pointer(x), pointer(motion)) == 0
         return x, motion
 
+    def contact(self):
+        """Foundation, ends, condition and resultant of every zone of contact."""
+        number = c.c_int(-1)
+        assert self.c.gapbeam_get_contact(self.handle, self.state, 0, None, None, None, None, None, c.byref(number)) == 0
+        n = number.value
+        values, codes = np.empty((3, n)), np.empty((2, n), np.int32)
+        at = [codes[0], values[0], values[1], codes[1], values[2]]
+        assert self.c.gapbeam_get_contact(self.handle, self.state, n, *map(pointer, at), None) == 0
+        return list(zip(*(column.tolist() for column in at), strict=True))
+
+    def free_spans(self):
+        """Foundation, ends and sag of every free span."""
+        number = c.c_int(-1)
+        assert self.c.gapbeam_get_free_spans(self.handle, self.state, 0, None, None, None, None, c.byref(number)) == 0
+        n = number.value
+        at = [np.empty(n, np.int32), *np.empty((3, n))]
+        assert self.c.gapbeam_get_free_spans(self.handle, self.state, n, *map(pointer, at), None) == 0
+        return list(zip(*(column.tolist() for column in at), strict=True))
+
+    def pressure(self, x, left=False):
+        """Pressure of the ground at places."""
+        x = np.array(x, dtype=float)
+        found = np.full(len(x), np.nan)
+        status = self.c.gapbeam_get_pressure(
+            self.handle, self.state, len(x), pointer(x), int(left), pointer(found), None, c.c_size_t(0)
+        )
+        assert status == 0
+        return found
+
+    def pressure_extremes(self):
+        """Maximum and minimum, and their places."""
+        value, x = np.empty(2), np.empty(2)
+        assert self.c.gapbeam_get_pressure_extremes(self.handle, self.state, pointer(value), pointer(x)) == 0
+        return value, x
+
     def certificate(self):
         """The structure gapbeam_certificate, and which supports are undecided."""
         found, undecided = Certificate(c.sizeof(Certificate)), np.empty(self.supports, np.int32)
@@ -308,6 +374,7 @@ class F77Beam:
     def __init__(self, library, scene):
         self.c, a = library.c, columns(scene)
         self.supports, self.hinges, self.loads = len(scene["supports"]), len(a["hinge_x"]), len(a["load_x"])
+        self.on_ground = len(a["length"]) + 2 * len(a["foundation_k"]) + len(a["profile_x"])
         span = np.array([a["length"], a["EI"], a["GA"], a["EA"]]).T.copy()
         sup = np.array([a[f"support_{n}"] for n in ("x", "stiffness", "gap", "settlement", "rotation")]).T.copy()
         isup = np.array([a[f"support_{n}"] for n in ("side", "direction", "node")], np.int32).T.copy()
@@ -315,9 +382,15 @@ class F77Beam:
         iload = np.array([a[f"load_{n}"] for n in ("kind", "case", "node")], np.int32).T.copy()
         model = [len(span), span, self.hinges, a["hinge_x"], len(sup), isup, sup, len(aload), iload, aload]
         alaw, ilaw = np.array([a["law_displacement"], a["law_force"]]).T.copy(), a["law_support"] + np.int32(1)
-        prepare = "gbprlw" if len(ilaw) else "gbprep"
-        if len(ilaw):
+        sides, foundations = a["foundation_side"], ("from", "to", "k", "k_to", "gap", "gap_to")
+        prepare = "gbprfd" if len(sides) else "gbprlw" if len(ilaw) else "gbprep"
+        if len(ilaw) or len(sides):
             model += [len(ilaw), ilaw, alaw, a["support_unloading"]]
+        if len(sides):
+            model += [len(sides), sides, np.array([a[f"foundation_{n}"] for n in foundations]).T.copy()]
+            for name, pair in (("profile", ("x", "gap")), ("ground_law", ("displacement", "force"))):
+                points = np.array([a[f"{name}_{column}"] for column in pair]).T.copy()
+                model += [len(points), a[f"{name}_foundation"] + np.int32(1), points]
         real, integer = np.zeros(1), np.zeros(1, np.int32)
         self.info_ = self.call(prepare, *model, real, -1, integer, -1)
         if self.info_ == 0:
@@ -339,11 +412,53 @@ class F77Beam:
         return info.value
 
     def solve(self, factor, rule="block", start=0):
-        """INFO of GBSOLV."""
-        return self.call(
-            "gbsolv", self.work, self.iwork, float(factor), RULES[rule], start,
-            self.state, len(self.state), self.istate, len(self.istate),
-        )  # fmt: skip
+        """INFO of GBSOLV; with longer arrays where these are too short for a state on the ground."""
+        for _ in range(2):
+            info = self.call(
+                "gbsolv", self.work, self.iwork, float(factor), RULES[rule], start,
+                self.state, len(self.state), self.istate, len(self.istate),
+            )  # fmt: skip
+            if info not in (-7, -9):
+                break
+            start = 0
+            self.state, self.istate = np.empty(int(self.state[0])), np.empty(self.istate[0], np.int32)
+            self.both = (self.work, self.iwork, self.state, self.istate)
+        return info
+
+    def replace_loads(self, scene):
+        """INFO of taking the loads of another scene."""
+        a = columns(scene)
+        aload = np.array([a[f"load_{n}"] for n in ("x", "to", "value", "value_to")]).T.copy()
+        iload = np.array([a[f"load_{n}"] for n in ("kind", "case", "node")], np.int32).T.copy()
+        return self.call("gbload", len(aload), iload, aload, self.work, len(self.work), self.iwork, len(self.iwork))
+
+    def contact(self):
+        """As CBeam.contact."""
+        n = np.zeros(1, np.int32)
+        assert self.call("gbcont", *self.both, 0, n, n, n) == 0
+        zone, codes = np.empty((n[0], 3)), np.empty((n[0], 2), np.int32)
+        assert self.call("gbcont", *self.both, int(n[0]), n, zone, codes) == 0
+        return [(k - 1, a, b, state, r) for (a, b, r), (k, state) in zip(zone.tolist(), codes.tolist(), strict=True)]
+
+    def free_spans(self):
+        """As CBeam.free_spans."""
+        n = np.zeros(1, np.int32)
+        assert self.call("gbfree", *self.both, 0, n, n, n) == 0
+        free, which = np.empty((n[0], 3)), np.empty(n[0], np.int32)
+        assert self.call("gbfree", *self.both, int(n[0]), n, free, which) == 0
+        return [(k - 1, *values) for k, values in zip(which.tolist(), free.tolist(), strict=True)]
+
+    def pressure(self, x, left=False):
+        """As CBeam.pressure."""
+        found = np.full(len(x), np.nan)
+        assert self.call("gbpres", *self.both, len(x), np.array(x, dtype=float), int(left), found) == 0
+        return found
+
+    def pressure_extremes(self):
+        """As CBeam.pressure_extremes."""
+        value, x = np.empty(2), np.empty(2)
+        assert self.call("gbpxtr", *self.both, value, x) == 0
+        return value, x
 
     def follow(self, factor, rule="block"):
         """INFO and events of GBEVNT."""
@@ -400,7 +515,7 @@ class F77Beam:
 
     def motion(self):
         """As CBeam.motion."""
-        room = self.hinges + self.supports + 2 * self.loads + 2
+        room = self.hinges + self.supports + 2 * self.loads + 2 + self.on_ground
         n, x, motion = np.zeros(1, np.int32), np.empty(room), np.empty(room)
         assert self.call("gbmotn", *self.both, room, n, x, motion) == 0
         return x[: n[0]], motion[: n[0]]

@@ -8,11 +8,12 @@ from pathlib import Path
 import gapbeam
 import pytest
 from gapbeam.cli import main
-from gapbeam.plots import plot_path
+from gapbeam.plots import plot, plot_path
 
 TOP = Path(__file__).resolve().parent.parent
-PAGES = ["laws", "examples"]
-PICTURES = ["snap_through", "rubber_stops", "pile_head", "shaft_jack_up"]
+PAGES = ["laws", "examples", "foundation"]
+PATHS = ["snap_through", "rubber_stops", "pile_head", "shaft_jack_up"]
+BEAMS = ["rail_lift_off", "strip_footing", "slab_on_mound", "seabed_pipe", "laterally_loaded_pile"]
 
 
 def page(name):
@@ -43,10 +44,10 @@ def test_scene_and_report_of_the_worked_example(capsys):
     assert re.search(r"```text\n(.*?)```", page("laws"), re.DOTALL)[1].strip() in printed
 
 
-@pytest.mark.parametrize("name", PICTURES)
-def test_pictures_are_what_is_drawn(name, tmp_path):
+@pytest.mark.parametrize(("name", "draw"), [*((name, plot_path) for name in PATHS), *((name, plot) for name in BEAMS)])
+def test_pictures_are_what_is_drawn(name, draw, tmp_path):
     """Compare the texts in the picture; the rest depends on the version of matplotlib."""
-    plot_path(gapbeam.solve(TOP / "examples" / f"{name}.toml"), tmp_path / "new.svg")
+    draw(gapbeam.solve(TOP / "examples" / f"{name}.toml"), tmp_path / "new.svg")
     texts = [
         re.findall(r"<text[^>]*>([^<]+)</text>", path.read_text(encoding="utf-8"))
         for path in (TOP / "docs" / f"{name}.svg", tmp_path / "new.svg")

@@ -9,6 +9,7 @@ import gapbeam
 import numpy as np
 import pytest
 from clibrary import F77Beam
+from foundation_scenes import random_scene as ground_scene
 from gapbeam.base.errors import EngineError, SceneError
 from gapbeam.results.branches import BranchPath
 from gapbeam.studies.schemes import gapped_spans
@@ -243,3 +244,64 @@ def test_laws_agree(library, family):
         beam.close()
     assert seen & {"events", ""}
     assert family == "hardening" or kinds
+
+
+def assert_same_ground(beam, f77, result, scene, rng):
+    """Where the ground acts, and its pressure."""
+    step, end = result.steps[-1], result.beam.places.end
+    contact = [(z.foundation, z.from_, z.to, CONDITIONS[z.state], z.resultant) for z in step.contact]
+    free = [(f.foundation, f.from_, f.to, f.sag) for f in step.free_spans]
+    x = np.clip([0.0, end, *(rng.uniform(0.0, end) for _ in range(4)), *nodes_of(scene)], 0.0, end)
+    top, bottom = (result.extremes()["pressure"][key] for key in ("max", "min"))
+    for one in (beam, f77):
+        assert one.contact() == contact
+        assert one.free_spans() == free
+        for left in (False, True):
+            np.testing.assert_array_equal(one.pressure(x, left), result.at(x, side="left" if left else "right").pressure)
+        value, place = one.pressure_extremes()
+        assert list(zip(value, place, strict=True)) == [top, bottom]
+    return len(contact), len(free)
+
+
+@pytest.mark.parametrize("first", range(0, 600, 100))
+def test_foundations_agree(library, first):
+    """Beams on foundations, also with other loads than they were prepared with."""
+    seen, zones, spans = set(), 0, 0
+    for seed in range(first, first + 100):
+        scene, rule, steps = ground_scene(seed), ("block", "single")[seed % 2], 1 + seed // 2 % 2
+        scene.pop("sections", None)
+        scene["analysis"] = {"rule": rule, "steps": steps}
+        result = python_result(scene)
+        # Every third one prepared under other loads, at other places
+        before = scene | {"loads": [{"type": "force", "x": 0.0, "F": 1.0}] * len(scene["loads"])} if seed % 3 == 0 else scene
+        beam, message = library.prepare(before)
+        assert not message
+        f77 = F77Beam(library, before)
+        assert f77.info_ == 0
+        if before is not scene:
+            assert (beam.replace_loads(library, scene), f77.replace_loads(scene)) == (0, 0)
+        solves = []
+        for k in range(1, steps + 1):
+            status, message = beam.solve(k / steps, rule)
+            assert f77.solve(k / steps, rule, start=min(k - 1, 1)) == status
+            if status != 0:
+                break
+            solves.append(beam.info().solves)
+        seen.add(status)
+        if isinstance(result, EngineError):
+            assert (status > 10, message) == (True, str(result))
+        elif result.status == "no-equilibrium":
+            assert status == 1
+            for one in (beam, f77):
+                assert list(zip(*one.motion(), strict=True)) == result.motion
+        else:
+            assert (status, solves) == (0, [step.solves for step in result.steps])
+            assert_same_state(beam, f77, result, scene, random.Random(seed))
+            found = assert_same_ground(beam, f77, result, scene, random.Random(seed))
+            zones, spans = zones + found[0], spans + found[1]
+            assert beam.follow(1.0)[:2] == (11, "events on foundations are available from Python only: solve at load factors")
+            assert f77.follow(1.0)[0] == -1
+            assert beam.follow_history([1.0], "stop")[0] == 11
+        beam.close()
+    assert {0, 1} <= seen
+    assert min(zones, spans) > 50

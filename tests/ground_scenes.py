@@ -1,0 +1,47 @@
+"""Small scenes on the ground for the tests of report and pictures."""
+
+import scenes
+
+UNITS = {"units": {"force": "kN", "length": "m"}}
+
+
+def on_ground(spans, ground, loads, supports=(), **keys):
+    """A scene with foundations, in kN and m."""
+    return scenes.scene(spans, supports, loads, **keys) | {"foundation": list(ground)} | UNITS
+
+
+def rail(**analysis):
+    """A long rail under a force: it lies on the ground under the force and at both ends, and lifts off between."""
+    loads = [scenes.force(15.0, 2.0), scenes.uniform(0.001, case="dead")]
+    return on_ground([15.0, 15.0], [{"k": 4.0, "side": "below"}], loads, analysis=analysis)
+
+
+def stopped(**analysis):
+    """A beam turns about its end until ground near its tip, then a support under the tip stops it."""
+    supports = [scenes.at(0), scenes.at(1, side="below", gap=0.02)]
+    ground = [{"k": 10.0, "side": "below", "gap": 0.01, "from": 1.0}]
+    return on_ground([2.0], ground, [scenes.uniform(10.0)], supports, EI=100.0, analysis=analysis)
+
+
+def patches(count):
+    """A beam on short patches of ground."""
+    ground = [{"k": 100.0, "side": "below", "from": 2.0 * i, "to": 2.0 * i + 1.0} for i in range(count)]
+    return on_ground([2.0 * count], ground, [scenes.uniform(1.0)], EI=10.0)
+
+
+def two():
+    """Ground that holds both ways, and beside it, below a part of it, one-sided ground with a growing gap."""
+    ground = [{"k": 100.0, "to": 12.0}, {"k": [50.0, 500.0], "side": "below", "gap": [0.0, 0.05], "from": 8.0}]
+    return on_ground([10.0, 10.0], ground, [scenes.force(4.0, 20.0), scenes.force(17.0, 50.0), scenes.force(12.0, -10.0)], EI=1e3)
+
+
+def yielding():
+    """Ground with a law of two branches."""
+    loads = [scenes.force(5.0, 100.0), scenes.uniform(1.0, case="dead")]
+    return on_ground([5.0, 5.0], [{"side": "below", "law": [[0.01, 20.0], [0.05, 30.0]]}], loads, EI=1e3)
+
+
+def footing(steps=1):
+    """A short beam that tips off its ground the more the load grows."""
+    loads = [scenes.force(1.0, 300.0), scenes.uniform(12.0, case="dead")]
+    return on_ground([6.0], [{"k": 2e4, "side": "below"}], loads, EI=5e4, analysis={"steps": steps})
