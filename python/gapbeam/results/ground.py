@@ -188,6 +188,10 @@ def find_zones(beam: Beam, ground: Ground) -> dict[tuple[int, int, int], list[Zo
         By foundation, side (-1 below, 1 above) and branch, from left to right; none for ground without contact.
     """
     thin = THIN * beam.places.end
+    layers = beam.layers
+    with_gap = layers.foundation[np.any(layers.levels != 0.0, axis=1)]
+    two_sided = np.intersect1d(layers.foundation[layers.side > 0], layers.foundation[layers.side < 0])
+    both_ways = set(np.setdiff1d(two_sided, with_gap).tolist())
     found: dict[tuple[int, int, int], list[Zone]] = {}
     by_layer: dict[tuple[int, int], list[_Run]] = {}
     for run in _runs(beam, ground):
@@ -201,7 +205,8 @@ def find_zones(beam: Beam, ground: Ground) -> dict[tuple[int, int, int], list[Zo
         else:
             runs.append(run)
     for (foundation, side), runs in by_layer.items():
-        for branch in range(1, max(run.acts for run in runs) + 1):
+        # Ground that holds both ways from the beginning only changes its direction where the deflection is zero
+        for branch in range(2 if foundation in both_ways else 1, max(run.acts for run in runs) + 1):
             zones = found.setdefault((foundation, side, branch), [])
             joins = False
             for k, run in enumerate(runs):
