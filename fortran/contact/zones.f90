@@ -249,7 +249,9 @@ contains
             integer :: i, k, law, crossings
 
             length = ground%pieces(piece)%length
-            cuts = zones%to(first:last)
+            if (allocated(cuts)) deallocate (cuts)
+            allocate (cuts(last - first + 1))
+            cuts(:) = zones%to(first:last)
             do k = ground%first(piece), ground%first(piece + 1) - 1
                 associate (layer => ground%layers(k))
                     if (layer%side == 0) cycle

@@ -155,12 +155,16 @@ contains
         type(ground_type) :: ground
 
         ground%beam = lowered%beam
-        ground%pieces = lowered%pieces
-        ground%dead = lowered%dead
-        ground%live = lowered%live
-        ground%layers = lowered%layers
-        ground%first = lowered%layer_first
-        ground%laws = lowered%law_pieces
+        associate (n => size(lowered%pieces))
+            allocate (ground%pieces(n), ground%dead(n), ground%live(n), ground%layers(size(lowered%layers)), ground%first(n + 1), &
+                      ground%laws(size(lowered%law_pieces)))
+        end associate
+        ground%pieces(:) = lowered%pieces
+        ground%dead(:) = lowered%dead
+        ground%live(:) = lowered%live
+        ground%layers(:) = lowered%layers
+        ground%first(:) = lowered%layer_first
+        ground%laws(:) = lowered%law_pieces
     end function ground_of
 
     !> Say what it was where the engine left the range of double precision

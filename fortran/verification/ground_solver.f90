@@ -140,7 +140,8 @@ contains
         if (on_edge .and. outcome%status == gapbeam_no_equilibrium) then
             ! The last spring alone holds what no zone can, however short: the beam tips over the edge of the ground
             if (size(outcome%motion) /= size(grounded%node)) then
-                motion = outcome%motion(grounded%node)
+                allocate (motion(0:size(ground%pieces)))
+                motion(:) = outcome%motion(grounded%node)
                 call move_alloc(motion, outcome%motion)
             end if
             return
@@ -156,12 +157,16 @@ contains
         type(fine_ground_type), intent(out) :: fine
 
         call refine_beam(ground%beam, detail, fine%beam)
-        fine%pieces = fine_piece(ground%pieces)
-        fine%dead = fine_load(ground%dead)
-        fine%live = fine_load(ground%live)
-        fine%layers = fine_layer(ground%layers)
-        fine%first = ground%first
-        fine%laws = fine_law(ground%laws)
+        associate (n => size(ground%pieces))
+            allocate (fine%pieces(n), fine%dead(n), fine%live(n), fine%layers(size(ground%layers)), fine%first(n + 1), &
+                      fine%laws(size(ground%laws)))
+        end associate
+        fine%pieces(:) = fine_piece(ground%pieces)
+        fine%dead(:) = fine_load(ground%dead)
+        fine%live(:) = fine_load(ground%live)
+        fine%layers(:) = fine_layer(ground%layers)
+        fine%first(:) = ground%first
+        fine%laws(:) = fine_law(ground%laws)
     end subroutine refine_ground
 
     !> A layer in quadruple precision
@@ -226,7 +231,8 @@ contains
         if (.not. settled) then
             ! So it tips over the edge
             outcome = outcome_type(status=gapbeam_no_equilibrium)
-            outcome%motion = solution%deflection/maxval(abs(solution%deflection))
+            allocate (outcome%motion(0:size(fine%pieces)))
+            outcome%motion(:) = solution%deflection/maxval(abs(solution%deflection))
             return
         end if
         if (all(abs(solution%deflection) <= huge(1.0_wp)) .and. all(abs(solution%moment_left) <= huge(1.0_wp))) return
@@ -324,14 +330,11 @@ contains
         integer :: i, k, m
 
         m = size(zones%piece)
-        solution%piece = zones%piece
-        solution%from = real(zones%from, wp)
-        solution%to = real(zones%to, wp)
-        solution%acts = zones%acts
-        if (allocated(solution%stretches)) deallocate (solution%stretches, solution%loads, solution%ends, solution%rotation, &
-                                                       solution%shear, solution%resultant)
-        allocate (solution%resultant(size(zones%acts, 1), m), solution%stretches(m), solution%loads(m), solution%ends(m), &
-                  solution%rotation(2, m), solution%shear(2, m))
+        call make_room(solution, m, size(zones%acts, 1), size(fine%pieces), size(closed))
+        solution%piece(:) = zones%piece
+        solution%from(:) = real(zones%from, wp)
+        solution%to(:) = real(zones%to, wp)
+        solution%acts(:, :) = zones%acts
         do i = 1, m
             call drop_rounding(grounded, i, work)
             ends = ends_of(work, i)
@@ -353,8 +356,6 @@ contains
         allocate (margin(size(closed)), rounding(size(closed)))
         call find_margins(grounded%beam%supports, closed, work%answers, work%deflection_size, work%reaction, work%reaction_error, &
                           margin, rounding)
-        if (allocated(solution%undecided)) deallocate (solution%undecided)
-        allocate (solution%undecided(size(closed)))
         do k = 1, size(closed)
             solution%undecided(k) = .false.
             if (.not. is_watched_in(grounded%beam%supports, closed, k)) cycle
@@ -362,12 +363,30 @@ contains
             if (closed(k) .and. abs(margin(k)) <= fine_width*rounding(k)) work%reaction(k) = 0.0_qp
         end do
         associate (a => work%answers(grounded%node))
-            solution%deflection = real(a%deflection, wp)
-            solution%moment_left = real(a%moment_left, wp)
-            solution%moment_right = real(a%moment_right, wp)
+            solution%deflection(:) = real(a%deflection, wp)
+            solution%moment_left(:) = real(a%moment_left, wp)
+            solution%moment_right(:) = real(a%moment_right, wp)
         end associate
-        solution%reaction = real(work%reaction, wp)
+        solution%reaction(:) = real(work%reaction, wp)
     end subroutine take_rounded
+
+    !> A solution without numbers, but for those of the solves
+    pure subroutine make_room(solution, stretches, layers, pieces, supports)
+        type(ground_solution_type), intent(inout) :: solution
+        !> Stretches, most layers under one, pieces of the beam, supports
+        integer, intent(in) :: stretches, layers, pieces, supports
+        type(ground_solution_type) :: empty
+        integer :: solves
+
+        solves = solution%solves
+        solution = empty
+        solution%solves = solves
+        allocate (solution%piece(stretches), solution%from(stretches), solution%to(stretches), solution%acts(layers, stretches), &
+                  solution%stretches(stretches), solution%loads(stretches), solution%ends(stretches), &
+                  solution%rotation(2, stretches), solution%shear(2, stretches), solution%resultant(layers, stretches))
+        allocate (solution%deflection(0:pieces), solution%moment_left(0:pieces), solution%moment_right(0:pieces), &
+                  solution%reaction(supports), solution%undecided(supports))
+    end subroutine make_room
 
     !> Moments that are nothing but rounding beside what the stretch right of them could make are zero
     subroutine drop_rounding(grounded, i, work)

@@ -105,6 +105,7 @@ class GroundPath:
         self.segments = [
             Segment(start, stop, k)
             for k, (start, stop) in enumerate(zip(factors, [*factors[1:], self._last], strict=True))
+            if changes
         ]
         if self._yields and 0.0 < self._last < 1.0:
             self.limits.append(Limit(self._last, "mechanism", 0, (), None, None, True))
