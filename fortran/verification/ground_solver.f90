@@ -36,6 +36,8 @@ module gapbeam_ground_solver
     integer, parameter :: spring_numbers(0:4) = [0, 64, 512, 4096, 32768]
     !> Springs that are pressed at most where the beam stands on edges
     integer, parameter :: edge_parts = 4
+    !> Part of the largest displacement of a motion that is none
+    real(wp), parameter :: no_way = 1e-6_wp
     !> Roundings in quadruple precision below which a reaction is none
     real(qp), parameter :: fine_width = 4096.0_qp
     !> Zones of less than this share of the beam only touch: they have less than this share of the largest force
@@ -119,7 +121,7 @@ contains
                 call search_springs(ground, factor, rule, spring_numbers(try), closed, zones, solves, outcome, error)
                 solution%solves = solution%solves + solves
                 if (allocated(error) .or. outcome%status /= gapbeam_solved) return
-                on_edge = sum(zones%to - zones%from, any(zones%acts > 0, 1)) &
+                on_edge = any(zones%acts > 0) .and. sum(zones%to - zones%from, any(zones%acts > 0, 1)) &
                     <= edge_parts*sum(ground%pieces%length)/spring_numbers(try)
             end if
             call settle_zones(ground, factor, rule, rough, zones, closed, grounded, work, outcome, known, moved, error)
@@ -144,11 +146,27 @@ contains
                 motion(:) = outcome%motion(grounded%node)
                 call move_alloc(motion, outcome%motion)
             end if
-            return
+            if (.not. is_stopped(ground, outcome%motion)) return
         end if
         call fatal_error(error, gapbeam_not_converged, "the zones in which the beam touches the ground could not be settled: "// &
                          "look for a load at the very end of the ground, or for ground that is far stiffer than the beam")
     end subroutine solve_on_ground
+
+    !> Would some support stop a motion sooner or later
+    pure function is_stopped(ground, motion) result(stopped)
+        type(ground_type), intent(in) :: ground
+        !> Of the nodes, largest 1, shape (0:n)
+        real(wp), intent(in) :: motion(0:)
+        logical :: stopped
+        integer :: k
+
+        stopped = .false.
+        do k = 1, size(ground%beam%supports)
+            associate (s => ground%beam%supports(k), way => motion(ground%beam%supports(k)%node))
+                stopped = stopped .or. s%side*way > no_way .or. (s%side == 0 .and. abs(way) > no_way)
+            end associate
+        end do
+    end function is_stopped
 
     !> The beam and its ground in quadruple precision
     subroutine refine_ground(ground, detail, fine)
