@@ -326,6 +326,17 @@ class CBeam:
         assert self.c.gapbeam_get_motion(self.handle, self.state, pointer(x), pointer(motion)) == 0
         return x, motion
 
+    def follow_ground(self, factor, rule="block"):
+        """Status and events of a beam on foundations: factor, support, foundation, place, change, branch."""
+        options, number, most = Options(c.sizeof(Options), RULES[rule], 0), c.c_int(-1), 1000
+        values, codes = np.empty((2, most)), np.empty((4, most), np.int32)
+        status = self.c.gapbeam_follow_ground(
+            self.handle, c.c_double(factor), c.byref(options), most, pointer(values[0]), *map(pointer, codes[:3]),
+            pointer(values[1]), pointer(codes[3]), c.byref(number), self.state, None, c.c_size_t(0),
+        )  # fmt: skip
+        columns = (values[0], codes[0], codes[1], values[1], codes[3], codes[2])
+        return status, list(zip(*(column[: number.value].tolist() for column in columns), strict=True))
+
     def contact(self):
         """Foundation, ends, condition and resultant of every zone of contact."""
         number = c.c_int(-1)
@@ -469,6 +480,17 @@ class F77Beam:
         )  # fmt: skip
         n = number[0]
         return info, [(f, k - 1, s) for f, (k, s) in zip(at[:n], which[:n], strict=True)]
+
+    def follow_ground(self, factor, rule="block"):
+        """As CBeam.follow_ground."""
+        number, at, which = np.zeros(1, np.int32), np.empty((1000, 2)), np.empty((1000, 4), np.int32)
+        info = self.call(
+            "gbgevt", self.work, self.iwork, float(factor), RULES[rule], 1000,
+            self.state, len(self.state), self.istate, len(self.istate), number, at, which,
+        )  # fmt: skip
+        n = number[0]
+        found = zip(at[:n].tolist(), which[:n].tolist(), strict=True)
+        return info, [(f, k - 1, g - 1, x, change, branch) for (f, x), (k, g, branch, change) in found]
 
     def follow_history(self, factors, at_limit):
         """INFO and the history."""

@@ -3,12 +3,13 @@ program test_api_ground
     use, intrinsic :: iso_fortran_env, only: wp => real64
     use testing, only: check, check_close, finish
     use gapbeam, only: model_type, span_type, support_type, law_point_type, foundation_type, ground_point_type, &
-        ground_law_point_type, load_type, point_force, uniform_load, prepared_type, options_type, result_type, certificate_type, &
-        event_type, history_type, error_type, contact_type, free_span_type, prepare_model, replace_loads, solve_beam, follow_load, &
-        follow_history, get_supports, get_fields, get_extremes, get_motion, get_certificate, get_contact, get_free_spans, &
-        get_pressure, get_pressure_extremes, count_nodes, count_supports, gapbeam_infinity, gapbeam_below, &
-        gapbeam_above, gapbeam_dead, gapbeam_closed, gapbeam_bilateral, gapbeam_branch, gapbeam_plastic, gapbeam_limit_stop, &
-        gapbeam_solved, gapbeam_no_equilibrium, gapbeam_bad_input, gapbeam_not_prepared, gapbeam_not_finite
+        ground_law_point_type, point_force, uniform_load, prepared_type, options_type, result_type, certificate_type, &
+        event_type, ground_event_type, history_type, error_type, contact_type, free_span_type, prepare_model, replace_loads, &
+        solve_beam, follow_load, follow_ground, follow_history, gapbeam_leaves, get_supports, get_fields, get_extremes, &
+        get_motion, get_certificate, get_contact, get_free_spans, get_pressure, get_pressure_extremes, count_nodes, &
+        count_supports, gapbeam_infinity, gapbeam_below, gapbeam_above, gapbeam_dead, gapbeam_closed, gapbeam_bilateral, &
+        gapbeam_branch, gapbeam_plastic, gapbeam_limit_stop, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_bad_input, &
+        gapbeam_not_prepared, gapbeam_not_finite
     implicit none
     integer :: status
 
@@ -18,6 +19,7 @@ program test_api_ground
     call it_is_lifted_off()
     call a_beam_in_the_air()
     call other_loads()
+    call its_edge_lifts()
     call extreme_units()
     call everything_refused()
     call finish(status)
@@ -327,6 +329,44 @@ contains
                                          > 0, error%message)
     end subroutine extreme_units
 
+    !> The edge of a rigid beam lifts where the resultant of its weight and of a force at the other end leaves the middle third;
+    !> the whole beam where as much pulls it up as it weighs
+    subroutine its_edge_lifts()
+        type(model_type) :: model
+        type(prepared_type) :: beam
+        type(result_type) :: result
+        type(ground_event_type), allocatable :: events(:)
+        type(contact_type), allocatable :: zones(:)
+        type(error_type), allocatable :: error
+        real(wp), allocatable :: x(:), motion(:)
+
+        call tipped(model)
+        model%loads = [uniform_load(5.0_wp, 0.0_wp, 12.0_wp, case=gapbeam_dead), point_force(60.0_wp, x=0.0_wp)]
+        call prepare_model(model, beam, error)
+        call follow_ground(beam, 1.0_wp, options_type(), events, result, error)
+        call check(.not. allocated(error) .and. result%status == gapbeam_solved, "it stands")
+        call check(size(events) == 1, "one event")
+        call check(all([events(1)%support, events(1)%foundation, events(1)%change] == [0, 1, gapbeam_leaves]), "the end leaves")
+        call check_close([events(1)%factor, events(1)%x], [0.5_wp, 12.0_wp], "at half the force")
+        call get_contact(beam, result, zones, error)
+        call check_close([zones(1)%to, zones(1)%resultant], [9.0_wp, 120.0_wp], "the state at the end of the path")
+        model%loads(2) = point_force(-100.0_wp, x=6.0_wp)
+        call replace_loads(beam, model%loads, error)
+        call follow_ground(beam, 1.0_wp, options_type(), events, result, error)
+        call check(.not. allocated(error) .and. result%status == gapbeam_no_equilibrium, "it is lifted off")
+        call check_close(result%factor, 0.6_wp, "where the load is its weight")
+        allocate (x(count_nodes(beam)), motion(count_nodes(beam)))
+        call get_motion(beam, result, x, motion, error)
+        call check(all(abs(motion + 1.0_wp) < 1e-12_wp), "as a whole")
+        call follow_ground(beam, 0.0_wp, options_type(), events, result, error)
+        call check(error%code == gapbeam_bad_input, "no way to go")
+        model%foundations = [foundation_type ::]
+        model%supports = [support_type(node=0), support_type(node=1)]
+        call prepare_model(model, beam, error)
+        call follow_ground(beam, 1.0_wp, options_type(), events, result, error)
+        call check(error%code == gapbeam_bad_input .and. index(error%message, "follow_load") > 0, "no ground")
+    end subroutine its_edge_lifts
+
     !> Everything that cannot be had
     subroutine everything_refused()
         type(model_type) :: model
@@ -348,9 +388,9 @@ contains
         call get_pressure_extremes(beam, result, value, x, error)
         call check(error%code == gapbeam_not_prepared, "and no extremes")
         call follow_load(beam, 1.0_wp, options_type(), events, result, error)
-        call check(error%code == gapbeam_bad_input .and. index(error%message, "Python only") > 0, "events")
+        call check(error%code == gapbeam_bad_input .and. index(error%message, "follow_ground") > 0, "events")
         call follow_history(beam, [1.0_wp], gapbeam_limit_stop, history, error)
-        call check(error%code == gapbeam_bad_input .and. index(error%message, "Python only") > 0, "histories")
+        call check(error%code == gapbeam_bad_input .and. index(error%message, "follow_ground") > 0, "histories")
         call solve_beam(beam, 1.0_wp, options_type(), result, error)
         call get_pressure(beam, result, [1.0_wp], pressure, error)
         call check(error%code == gapbeam_bad_input .and. index(error%message, "2 entries, expected 1") > 0, "array too long")

@@ -502,9 +502,13 @@ static void foundations(void)
           "certificate");
     check(gapbeam_get_info(state, &info) == GAPBEAM_SOLVED && info.solves > 1, "rounds");
     check(gapbeam_follow(beam, 1.0, NULL, 0, NULL, NULL, NULL, NULL, state, message, sizeof message) == GAPBEAM_BAD_INPUT
-          && strstr(message, "Python only"), "no events");
+          && strstr(message, "follow_ground"), "its events are found otherwise");
     check(gapbeam_follow_history(beam, 1, one, GAPBEAM_LIMIT_STOP, &history, message, sizeof message) == GAPBEAM_BAD_INPUT
-          && strstr(message, "Python only"), "no history");
+          && strstr(message, "follow_ground"), "no history");
+    check(gapbeam_follow_ground(beam, 1.0, NULL, 0, NULL, NULL, NULL, NULL, NULL, NULL, &number, state, NULL, 0) == GAPBEAM_SOLVED
+          && number == 0, "zones that do not depend on the load");
+    check(gapbeam_follow_ground(beam, 0.0, NULL, 0, NULL, NULL, NULL, NULL, NULL, NULL, NULL, state, NULL, 0) == GAPBEAM_BAD_INPUT,
+          "no way to go");
     model.load_value = sixty;
     check(gapbeam_replace_loads(beam, &model, NULL, 0) == GAPBEAM_SOLVED, "twice the load");
     check(gapbeam_get_pressure_extremes(beam, state, value, x) == GAPBEAM_NOT_PREPARED, "for which nothing is solved");

@@ -427,7 +427,7 @@ C     a distance of 2 from its left end: contact over three times that
       INTEGER IZ(2,2), IE(4,1), IS(6,1), N(5), INFO, LW1, LI1, LS, LT
       INTEGER NZ, KNOWN, I
       EXTERNAL GBINF, GBPRFD, GBSOLV, GBLOAD, GBCONT, GBFREE, GBPRES
-      EXTERNAL GBPXTR, GBFLDS, GBEVNT, GBHIST, GBHSOL, GBCERT
+      EXTERNAL GBPXTR, GBFLDS, GBEVNT, GBGEVT, GBHIST, GBHSOL, GBCERT
       SPAN(1,1) = 12.0D0
       SPAN(2,1) = GBINF()
       SPAN(3,1) = GBINF()
@@ -558,7 +558,13 @@ C     a distance of 2 from its left end: contact over three times that
       FACT(1) = 1.0D0
       CALL GBEVNT(WORK, IWORK, 1.0D0, 0, 1, STATE, LS, ISTATE, LT, N(1),
      +            EF, IE, INFO)
-      CALL EXPECT(INFO, -1, 'no events on the ground')
+      CALL EXPECT(INFO, -1, 'on the ground by GBGEVT')
+      CALL GBGEVT(WORK, IWORK, 1.0D0, 0, -1, STATE, 4000, ISTATE, 1000,
+     +            N(1), EF, IE, INFO)
+      CALL EXPECT(INFO, -5, 'MAXEV = -1')
+      CALL GBGEVT(WORK, IWORK, 1.0D0, 0, 0, STATE, 4000, ISTATE, 1000,
+     +            N(1), EF, IE, INFO)
+      CALL CHECK(INFO .EQ. 0 .AND. N(1) .EQ. 0, 'no change')
       CALL GBHIST(WORK, IWORK, 1, FACT, 0, 1, SF, IS, 1, EF, IE, 0, EF,
      +            IE, N, INFO)
       CALL EXPECT(INFO, -1, 'no history')

@@ -12,6 +12,7 @@ from clibrary import F77Beam
 from foundation_scenes import random_scene as ground_scene
 from gapbeam.base.errors import EngineError, SceneError
 from gapbeam.results.branches import BranchPath
+from gapbeam.results.ground_path import EVENTS
 from gapbeam.studies.schemes import gapped_spans
 from law_scenes import FAMILIES, law_scene
 from scenes import nodes_of, random_scene
@@ -299,9 +300,38 @@ def test_foundations_agree(library, first):
             assert_same_state(beam, f77, result, scene, random.Random(seed))
             found = assert_same_ground(beam, f77, result, scene, random.Random(seed))
             zones, spans = zones + found[0], spans + found[1]
-            assert beam.follow(1.0)[:2] == (11, "events on foundations are available from Python only: solve at load factors")
+            assert beam.follow(1.0)[:2] == (11, "the beam is on a foundation: use follow_ground")
             assert f77.follow(1.0)[0] == -1
             assert beam.follow_history([1.0], "stop")[0] == 11
         beam.close()
     assert {0, 1} <= seen
     assert min(zones, spans) > 50
+
+
+def test_load_paths_on_foundations_agree(library):
+    """Events of zones and supports along the load, and the state at its end."""
+    found = []
+    for seed in range(40):
+        scene, rule = ground_scene(seed), ("block", "single")[seed % 2]
+        scene.pop("sections", None)
+        scene["analysis"] = {"rule": rule, "follow": "events"}
+        result = python_result(scene)
+        beam, _ = library.prepare(scene)
+        f77 = F77Beam(library, scene)
+        status, events = beam.follow_ground(1.0, rule)
+        info, same = f77.follow_ground(1.0, rule)
+        assert (info, same) == (status, events)
+        if isinstance(result, EngineError):
+            assert status > 10
+        else:
+            assert status == (0 if result.status == "solved" else 1)
+            names = [(f, k, g, x, EVENTS[change], branch) for f, k, g, x, change, branch in events]
+            assert names == [
+                (e.factor, *(-1 if number is None else number for number in (e.support, e.foundation)), e.x, e.event, e.branch)
+                for e in result.events
+            ]
+            found += events
+            if status == 0:
+                assert_same_state(beam, f77, result, scene, random.Random(seed))
+        beam.close()
+    assert {change for *_, change, _ in found} >= {0, 1, 20, 21, 24}

@@ -84,7 +84,7 @@ contains
 
         if (size(actual) /= size(expected)) then
             call check(.false., name)
-            write (error_unit, "(2a, 2(a, i0))") name, ": sizes differ: ", size(actual), " found, expected ", size(expected)
+            write (error_unit, "(2a, 2(i0, a))") name, ": sizes differ: ", size(actual), " found, expected ", size(expected), ""
             return
         end if
 

@@ -27,7 +27,7 @@ module gapbeam_api
     public :: prepare_model, replace_loads, count_supports, count_nodes
     public :: solve_beam, follow_load, get_supports, get_fields, get_extremes, get_motion, get_certificate
     ! For gapbeam_api_history and gapbeam_api_ground
-    public :: require_beam, require_no_ground, require_result, require_size, make_state, summarise
+    public :: require_beam, require_no_ground, require_no_path, require_result, require_size, check_call, make_state, summarise
 
     !> A prepared beam: opaque
     type :: prepared_type
@@ -227,7 +227,7 @@ contains
     end subroutine solve_beam
 
     !> Follow the load from factor 0 upwards: every change of the working scheme at its exact load factor; not of beams that
-    !> solve_beam refuses, nor on foundations
+    !> solve_beam refuses; follow_ground is for beams on foundations
     subroutine follow_load(beam, factor, options, events, result, error)
         !> Prepared
         type(prepared_type), intent(in) :: beam
@@ -445,13 +445,13 @@ contains
         end if
     end subroutine require_no_path
 
-    !> Refuse a beam on a foundation, whose way is followed in Python only
+    !> Refuse a beam on a foundation, whose way is followed apart
     subroutine require_no_ground(beam, error)
         type(prepared_type), intent(in) :: beam
         type(error_type), allocatable, intent(out) :: error
 
         if (.not. allocated(beam%lowered%layers)) return
-        call fatal_error(error, gapbeam_bad_input, "events on foundations are available from Python only: solve at load factors")
+        call fatal_error(error, gapbeam_bad_input, "the beam is on a foundation: use follow_ground")
     end subroutine require_no_ground
 
     !> Refuse a result of another beam or of another status

@@ -1,21 +1,82 @@
-!> Beams on foundations, for Fortran: where the ground acts, where the beam hangs free above it, and its pressure. As in gapbeam_api
-!> nothing is printed or kept, and the floating-point environment is that of the caller. Without foundations there is no contact
-!> and no free span, and the pressure is 0
+!> Beams on foundations, for Fortran: where the ground acts, where the beam hangs free above it, its pressure, and its load path.
+!> As in gapbeam_api nothing is printed or kept, and the floating-point environment is that of the caller. Without foundations
+!> there is no contact and no free span, and the pressure is 0
 module gapbeam_api_ground
     use, intrinsic :: ieee_arithmetic, only: ieee_status_type, ieee_get_status, ieee_set_status, ieee_set_halting_mode, &
         ieee_set_rounding_mode, ieee_nearest, ieee_all
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, no_memory, gapbeam_solved
+    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_bad_input
+    use gapbeam_words, only: shown
     use gapbeam_query, only: find_pieces
     use gapbeam_ground_zones, only: contact_type, free_span_type, find_contact, find_free_spans
     use gapbeam_pressure, only: pressure_in_pieces, extremes_of_pressure
-    use gapbeam_api, only: prepared_type, result_type, require_result, require_size
+    use gapbeam_ground_path, only: ground_event_type, ground_path_type, follow_on_ground
+    use gapbeam_api, only: prepared_type, result_type, options_type, require_result, require_size, require_beam, require_no_path, &
+        check_call, make_state, summarise
+    use gapbeam_solution, only: close_all
     implicit none
     private
-    public :: contact_type, free_span_type
-    public :: get_contact, get_free_spans, get_pressure, get_pressure_extremes
+    public :: contact_type, free_span_type, ground_event_type
+    public :: follow_ground, get_contact, get_free_spans, get_pressure, get_pressure_extremes
 
 contains
+
+    !> Follow the load of a beam on foundations from factor 0 upwards: every change of zones of contact and of supports at its load
+    !> factor, to the last digit. Changes that undo each other within 1/64 of the way are not seen
+    subroutine follow_ground(beam, factor, options, events, result, error)
+        !> Prepared, with foundations
+        type(prepared_type), intent(in) :: beam
+        !> Where the path ends, above 0
+        real(wp), intent(in) :: factor
+        type(options_type), intent(in) :: options
+        !> The events in their order
+        type(ground_event_type), allocatable, intent(out) :: events(:)
+        !> The state at `factor`; or, with status gapbeam_no_equilibrium, the motion that begins at result%factor
+        type(result_type), intent(inout) :: result
+        !> As for solve_beam; gapbeam_bad_input also without foundations; events are then not allocated
+        type(error_type), allocatable, intent(out) :: error
+        type(ieee_status_type) :: environment
+        type(ground_path_type) :: path
+        integer :: stat
+
+        call ieee_get_status(environment)
+        call ieee_set_halting_mode(ieee_all, .false.)
+        call ieee_set_rounding_mode(ieee_nearest)
+        result%status = -1
+        call require_beam(beam, error)
+        if (.not. allocated(error)) call require_no_path(beam, error)
+        if (.not. allocated(error)) call check_call(factor, options, error)
+        if (.not. allocated(error)) call check_way()
+        if (.not. allocated(error)) call make_state(beam, result, error)
+        if (.not. allocated(error)) then
+            call close_all(beam%lowered, result%state%closed)
+            call follow_on_ground(beam%lowered, factor, options%rule, result%state, path, error)
+        end if
+        if (.not. allocated(error)) then
+            allocate (events(path%number), stat=stat)
+            if (stat == 0) then
+                events(:) = path%events(:path%number)
+                if (result%state%status /= gapbeam_solved) result%state%factor = path%last
+                result%state%solves = path%solves
+                call summarise(result)
+            else
+                call no_memory(error)
+            end if
+        end if
+        call ieee_set_status(environment)
+
+    contains
+
+        !> Is there ground, and a way to go
+        subroutine check_way()
+            if (.not. allocated(beam%lowered%layers)) then
+                call fatal_error(error, gapbeam_bad_input, "the beam has no foundation: use follow_load")
+            else if (.not. factor > 0.0_wp) then
+                call fatal_error(error, gapbeam_bad_input, "factor: expected a number above 0, got "//trim(shown(factor)))
+            end if
+        end subroutine check_way
+
+    end subroutine follow_ground
 
     !> Zones in which the ground acts
     subroutine get_contact(beam, result, zones, error)

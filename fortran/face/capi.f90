@@ -14,7 +14,7 @@ module gapbeam_capi
     private
     public :: c_options, c_info, c_certificate
     ! For gapbeam_capi_history and gapbeam_capi_ground
-    public :: beam_handle, state_handle, get_beam, get_both, check_points, report
+    public :: beam_handle, state_handle, get_beam, get_both, read_options, check_points, report
 
     !> Mirrors of the header's structures; tests/test_capi.c compares their sizes
     type, bind(c) :: c_options

@@ -2,12 +2,52 @@
 module gapbeam_capi_ground
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_char, c_size_t, c_ptr
     use gapbeam_error, only: error_type
-    use gapbeam_api_ground, only: contact_type, free_span_type, get_contact, get_free_spans, get_pressure, get_pressure_extremes
-    use gapbeam_capi, only: beam_handle, state_handle, get_both, check_points, report
+    use gapbeam_api, only: options_type
+    use gapbeam_api_ground, only: contact_type, free_span_type, ground_event_type, follow_ground, get_contact, get_free_spans, &
+        get_pressure, get_pressure_extremes
+    use gapbeam_capi, only: beam_handle, state_handle, c_options, get_both, read_options, check_points, report
     implicit none
     private
 
 contains
+
+    !> See the header
+    function c_follow_ground(beam, factor, options, capacity, event_factor, event_support, event_foundation, event_branch, &
+                             event_x, event_change, number, state, message, message_size) result(status) &
+        bind(c, name="gapbeam_follow_ground")
+        type(c_ptr), intent(in), value :: beam, state
+        real(c_double), intent(in), value :: factor
+        type(c_options), intent(in), optional :: options
+        integer(c_int), intent(in), value :: capacity
+        real(c_double), intent(inout), optional :: event_factor(*), event_x(*)
+        integer(c_int), intent(inout), optional :: event_support(*), event_foundation(*), event_branch(*), event_change(*)
+        integer(c_int), intent(inout), optional :: number
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), intent(in), value :: message_size
+        integer(c_int) :: status
+        type(beam_handle), pointer :: prepared
+        type(state_handle), pointer :: solved
+        type(options_type) :: chosen
+        type(ground_event_type), allocatable :: events(:)
+        type(error_type), allocatable :: error
+        integer :: k
+
+        call get_both(beam, state, prepared, solved, error)
+        if (.not. allocated(error)) call read_options(options, chosen, error)
+        if (.not. allocated(error)) call follow_ground(prepared%beam, factor, chosen, events, solved%result, error)
+        call report(error, status, message, message_size)
+        if (allocated(error)) return
+        status = solved%result%status
+        if (present(number)) number = size(events)
+        do k = 1, min(int(capacity), size(events))
+            if (present(event_factor)) event_factor(k) = events(k)%factor
+            if (present(event_support)) event_support(k) = events(k)%support - 1
+            if (present(event_foundation)) event_foundation(k) = events(k)%foundation - 1
+            if (present(event_branch)) event_branch(k) = events(k)%branch
+            if (present(event_x)) event_x(k) = events(k)%x
+            if (present(event_change)) event_change(k) = events(k)%change
+        end do
+    end function c_follow_ground
 
     !> See the header
     function c_get_contact(beam, state, capacity, foundation, from, to, condition, resultant, number) result(status) &

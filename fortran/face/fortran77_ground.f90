@@ -14,7 +14,8 @@
 !                       before
 !
 ! How many zones of contact there are shows only when a beam is solved. GBSOLV asked for LSTATE and LISTAT gives lengths that are
-! hardly ever exceeded; see there. Events and histories (GBEVNT, GBHIST, GBHSOL) are not for beams on foundations.
+! hardly ever exceeded; see there. Events are found by GBGEVT; GBEVNT, GBHIST and GBHSOL are not for beams
+! on foundations.
 
 ! Prepare a beam on foundations, whose supports may follow laws
 subroutine gbprfd(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, nlaw, ilaw, alaw, iunl, nfound, ifound, found, &
@@ -38,6 +39,59 @@ subroutine gbprfd(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, alo
     call prepare_beam(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, nlaw, ilaw, alaw, iunl, nfound, ifound, &
                       found, nprof, iprof, aprof, nflaw, iflaw, aflaw, work, lwork, iwork, liwork, info)
 end subroutine gbprfd
+
+! Follow the load from factor 0: every change of zones of contact and of supports at its load factor, to the last digit. Changes
+! that undo each other within 1/64 of the way are not seen
+subroutine gbgevt(work, iwork, factor, rule, maxev, state, lstate, istate, listat, nev, event, ievent, info)
+    use gapbeam_error, only: error_type, gapbeam_bad_input
+    use gapbeam_api, only: prepared_type, result_type, options_type
+    use gapbeam_api_ground, only: ground_event_type, follow_ground
+    use gapbeam_work, only: begin_result, put_result
+    implicit none
+    ! Beam on foundations
+    double precision, intent(in) :: work(*)
+    integer, intent(in) :: iwork(*)
+    ! End of the path, above 0
+    double precision, intent(in) :: factor
+    ! As for GBSOLV; room in EVENT and IEVENT
+    integer, intent(in) :: rule, maxev
+    ! Lengths, or -1
+    integer, intent(in) :: lstate, listat
+    ! The state at FACTOR; without equilibrium the motion that begins at the factor GBINFO gives
+    double precision, intent(inout) :: state(*)
+    integer, intent(inout) :: istate(*)
+    ! Number of events, which may be more than MAXEV
+    integer, intent(inout) :: nev
+    ! The first MAXEV of them: load factor, place; support or else foundation, 0 the other; branch of the foundation's law, 1 is the
+    ! zone of contact; of a support 0 opens, 1 closes, 4 yields, 5 hardens, 8 unloads; of a zone 20 appears, 21 vanishes, 22 merges
+    ! with the next, 23 splits; 24 an end reaches, 25 leaves that of the foundation or of the beam
+    double precision, intent(inout) :: event(2, *)
+    integer, intent(inout) :: ievent(4, *)
+    ! -1: no beam in WORK, or one without foundations, or whose state depends on the way of the load; -3, -4, -5; -7, -9: too short;
+    ! 1, 12 to 15
+    integer, intent(out) :: info
+    type(prepared_type) :: beam
+    type(result_type) :: result
+    type(error_type), allocatable :: error
+    type(ground_event_type), allocatable :: events(:)
+    integer :: k
+
+    call begin_result(work, iwork, factor, rule, state, lstate, istate, listat, beam, info)
+    if (maxev < 0) info = -5
+    if (.not. factor > 0) info = -3
+    if (info /= 0 .or. lstate == -1 .or. listat == -1) return
+    call follow_ground(beam, factor, options_type(rule), events, result, error)
+    if (allocated(error)) then
+        info = merge(-1, error%code, error%code == gapbeam_bad_input)
+        return
+    end if
+    nev = size(events)
+    do k = 1, min(maxev, nev)
+        event(:, k) = [events(k)%factor, events(k)%x]
+        ievent(:, k) = [events(k)%support, events(k)%foundation, events(k)%branch, events(k)%change]
+    end do
+    call put_result(result, state, lstate, istate, listat, info)
+end subroutine gbgevt
 
 ! Where foundations act
 subroutine gbcont(work, iwork, state, istate, maxzn, nzone, zone, izone, info)

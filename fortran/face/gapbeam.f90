@@ -47,14 +47,15 @@ module gapbeam
     use gapbeam_state, only: event_type
     use gapbeam_pieces, only: gapbeam_open, gapbeam_closed, gapbeam_bilateral, gapbeam_branch, &
         gapbeam_opens, gapbeam_closes, gapbeam_turns, gapbeam_yields, gapbeam_hardens, gapbeam_softens, gapbeam_breaks, &
-        gapbeam_unloads
+        gapbeam_unloads, gapbeam_appears, gapbeam_vanishes, gapbeam_merges, gapbeam_splits, gapbeam_reaches, gapbeam_leaves
     use gapbeam_api, only: prepared_type, options_type, result_type, certificate_type, &
         prepare_model, replace_loads, count_supports, count_nodes, &
         solve_beam, follow_load, get_supports, get_fields, get_extremes, get_motion, get_certificate
     use gapbeam_api_history, only: history_type, stretch_type, limit_type, follow_history, solve_on_path, &
         gapbeam_limit_stop, gapbeam_limit_jump, gapbeam_limit_follow, &
         gapbeam_arrived, gapbeam_limit_point, gapbeam_bifurcation, gapbeam_mechanism, gapbeam_path_ended
-    use gapbeam_api_ground, only: contact_type, free_span_type, get_contact, get_free_spans, get_pressure, get_pressure_extremes
+    use gapbeam_api_ground, only: contact_type, free_span_type, ground_event_type, follow_ground, get_contact, get_free_spans, &
+        get_pressure, get_pressure_extremes
     implicit none
     public
 end module gapbeam

@@ -10,6 +10,7 @@ module gapbeam_handle
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_cases, only: case_loads_type
     use gapbeam_history, only: history_type
+    use gapbeam_ground_path, only: ground_path_type
     use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type
     use gapbeam_ground_solver, only: ground_solution_type
     implicit none
@@ -27,6 +28,8 @@ module gapbeam_handle
         type(case_loads_type), allocatable :: cases
         !> The way of the load followed last
         type(history_type), allocatable :: history
+        !> The same on the ground, until it is taken
+        type(ground_path_type), allocatable :: ground_path
     end type handle_type
 
     !> A solution on the ground that waits to be taken

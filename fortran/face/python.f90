@@ -344,35 +344,6 @@ subroutine gbgval(beam, ng, nr, nb, nx, ground, u, pull, piece, dist, value, sta
     call report(error, status, message)
 end subroutine gbgval
 
-! The layers of ground under the pieces
-subroutine gbglay(beam, np, ny, first, codes, level)
-    use gapbeam_handle, only: handle_type, handle_of
-    use gapbeam_layers, only: pieces_of_law
-    implicit none
-    integer(8), intent(in) :: beam
-    ! Pieces, and layers
-    integer, intent(in) :: np, ny
-    ! First layer of every piece, from 0
-    integer, intent(out) :: first(np + 1)
-    ! Foundation (from 0), side, pieces of its law (0: linear)
-    integer, intent(out) :: codes(3, ny)
-    ! Deflections at which they begin to act at both ends of the piece, in the scene's units
-    double precision, intent(out) :: level(2, ny)
-    type(handle_type), pointer :: handle
-    integer :: k
-
-    handle => handle_of(beam)
-    associate (lowered => handle%lowered)
-        first = lowered%layer_first - 1
-        do k = 1, ny
-            associate (layer => lowered%layers(k))
-                codes(:, k) = [layer%foundation - 1, layer%side, layer%law_last - layer%law_first + 1]
-                level(:, k) = scale([layer%contact_a, layer%contact_b], lowered%units%deflection)
-            end associate
-        end do
-    end associate
-end subroutine gbglay
-
 ! Stretches beside each other in which a layer does the same joined: by foundation, below before above, from left to right
 subroutine gbgrun(beam, ng, nr, ground, number, about, values, status, message)
     use gapbeam_error, only: error_type

@@ -10,6 +10,7 @@ module gapbeam_pieces
     public :: gapbeam_open, gapbeam_closed, gapbeam_bilateral, gapbeam_branch
     public :: gapbeam_opens, gapbeam_closes, gapbeam_turns, gapbeam_yields, gapbeam_hardens, gapbeam_softens, gapbeam_breaks, &
         gapbeam_unloads
+    public :: gapbeam_appears, gapbeam_vanishes, gapbeam_merges, gapbeam_splits, gapbeam_reaches, gapbeam_leaves
 
     !> States of a support
     integer, parameter :: gapbeam_open = event_opens, gapbeam_closed = event_closes, gapbeam_bilateral = 2
@@ -19,6 +20,9 @@ module gapbeam_pieces
     integer, parameter :: gapbeam_opens = event_opens, gapbeam_closes = event_closes, gapbeam_turns = event_turns
     !> Of supports with a law: on to a piece that is flatter, or steeper; on which the force falls, or drops at once; back
     integer, parameter :: gapbeam_yields = 4, gapbeam_hardens = 5, gapbeam_softens = 6, gapbeam_breaks = 7, gapbeam_unloads = 8
+    !> Of zones of contact with the ground; of their ends, at those of the foundation or of the beam
+    integer, parameter :: gapbeam_appears = 20, gapbeam_vanishes = 21, gapbeam_merges = 22, gapbeam_splits = 23, &
+                          gapbeam_reaches = 24, gapbeam_leaves = 25
     !> No event
     integer, parameter :: nothing = -1
 

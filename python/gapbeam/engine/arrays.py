@@ -100,28 +100,52 @@ class Ground(Record):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Layers(Record):
-    """The layers of ground under the pieces of a beam.
+class GroundChanges(Record):
+    """What changes along the load of a beam on the ground, as in gapbeam_ground_path.
 
     Attributes
     ----------
-    first : numpy.ndarray of int
-        First layer of every piece, and how many there are.
-    foundation : numpy.ndarray of int
-        Number of the foundation in the scene.
-    side : numpy.ndarray of int
-        1 below, -1 above, 0 both.
-    law_pieces : numpy.ndarray of int
-        Pieces of its law; 0 without one.
-    levels : numpy.ndarray
-        Deflections at which they begin to act at both ends of the piece, layers by 2, in the scene's units.
+    factor, x : numpy.ndarray
+        Load factor and place of every event.
+    support, foundation : numpy.ndarray of int
+        Number in the scene of what changes; -1 for the other.
+    branch : numpy.ndarray of int
+        Of a foundation the first of the branches of its law that make up the zone.
+    event : numpy.ndarray of int
+        What happens, as in gapbeam_pieces.
+    begins : numpy.ndarray
+        Load factor at which every segment begins; none if there is no equilibrium at the first.
+    closed : numpy.ndarray of int
+        Its scheme, segments by supports of the engine.
+    last, beyond : float
+        Load factor that the path goes to; one above which there is no equilibrium for sure.
+    at_limit : bool
+        Whether it ends where ground that yields carries no more.
+    status : int
+        SOLVED, or NO_EQUILIBRIUM above `last`.
+    motion : numpy.ndarray
+        Of the nodes there, as in `Solution`.
+    slides : bool
+        Whether nothing holds the beam along its axis.
+    solves : int
+        Linear solves.
     """
 
-    first: np.ndarray
+    factor: np.ndarray
+    x: np.ndarray
+    support: np.ndarray
     foundation: np.ndarray
-    side: np.ndarray
-    law_pieces: np.ndarray
-    levels: np.ndarray
+    branch: np.ndarray
+    event: np.ndarray
+    begins: np.ndarray
+    closed: np.ndarray
+    last: float
+    beyond: float
+    at_limit: bool
+    status: int
+    motion: np.ndarray
+    slides: bool
+    solves: int
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -10,7 +10,7 @@ import numpy as np
 from ..base.errors import EngineError, Status, check_status
 from ..base.records import read_only
 from . import calls as _engine  # the compiled layer itself, but for Ctrl-C
-from .arrays import Columns, Ground, History, Layers, Places, Solution, Stretch
+from .arrays import Columns, Ground, GroundChanges, History, Places, Solution, Stretch
 from .units import Units, scaled
 
 SOLVED, NO_EQUILIBRIUM = Status.SOLVED, Status.NO_EQUILIBRIUM
@@ -338,6 +338,35 @@ class Beam:
             which.T[:limits], ways.T[:others], schemes.T[:others, :-1], ENDINGS[ending], motion if motion.any() else None, solves,
         )  # fmt: skip
 
+    def follow_on_ground(self, rule: str, closed: np.ndarray) -> GroundChanges:
+        """Follow the load of a beam on the ground from factor 0 to 1.
+
+        Parameters
+        ----------
+        rule : {"block", "single"}
+            How schemes of the supports are found.
+        closed : numpy.ndarray of int
+            Where every search starts.
+
+        Returns
+        -------
+        GroundChanges
+
+        Raises
+        ------
+        EngineError
+            A state that cannot be settled, or numbers out of range.
+        """
+        sizes, ends, motion, status, message = _engine.gbgpth(self.handle, self.links, RULES[rule], _scheme(closed))
+        check_status(status, message)
+        events, segments, solves, at_limit, slides = sizes.tolist()
+        at, which, begins, schemes = _engine.gbgpte(self.handle, self.supports + 1, events + 1, segments + 1)
+        at, which = at[:, :events], which[:, :events]
+        return GroundChanges(
+            at[0], at[1], which[0] - 1, which[1] - 1, which[2], which[3], begins[:segments], schemes.T[:segments, :-1],
+            float(ends[0]), float(ends[1]), bool(at_limit), status, motion, bool(slides), solves,
+        )  # fmt: skip
+
     def recover(self, factor: float, solution: Solution) -> np.ndarray:
         """Fields at the left end of every piece.
 
@@ -509,14 +538,10 @@ class Beam:
         there = [0, 1, 2, 3] + [4, 5] * (self.bars >= 0) + [6] * (self.ground_layers > 0)
         return {FIELDS[k]: k for k in there}
 
-    @cached_property
-    def layers(self) -> Layers:
-        """The layers of ground under its pieces."""
-        if not self.ground_layers:
-            none = np.zeros(0, np.int32)
-            return Layers(np.zeros(self.pieces + 1, np.int32), none, none, none, np.zeros((0, 2)))
-        first, codes, levels = _engine.gbglay(self.handle, self.pieces, self.ground_layers)
-        return Layers(first, *codes, levels.T)
+    @property
+    def has_one_sided_ground(self) -> bool:
+        """Whether some foundation acts one way only, or by a law."""
+        return bool(self.columns.foundation_sides[:-1].any()) or len(self.columns.ground_law_foundations) > 1
 
     def ground_runs(self, ground: Ground) -> tuple[np.ndarray, np.ndarray]:
         """Join stretches beside each other in which a layer of ground does the same.

@@ -164,7 +164,7 @@ gbsize = _engine.gbsize
 gbnumb = _engine.gbnumb
 gbhget = _engine.gbhget
 gbgget = _engine.gbgget
-gbglay = _engine.gbglay
+gbgpte = _engine.gbgpte
 gbmake = interruptible(
     _engine.gbmake,
     lambda span, hinge, section, codes, support, *rest: span.shape[1] + support.shape[1] + rest[-3].shape[1],  # of profiles
@@ -174,6 +174,7 @@ gbplac = interruptible(_engine.gbplac, lambda beam, pieces, *_: pieces)
 gbsolv = interruptible(_engine.gbsolv, lambda beam, links, *_: links)
 gbpath = interruptible(_engine.gbpath)
 gbhist = interruptible(_engine.gbhist)
+gbgpth = interruptible(_engine.gbgpth)
 gblaws = interruptible(_engine.gblaws)
 gbreco = interruptible(_engine.gbreco, lambda beam, pieces, *_: pieces)
 gbcert = interruptible(_engine.gbcert, lambda beam, factor, closed, w, *_: 3 * len(w))

@@ -11,9 +11,6 @@ from ..engine.arrays import Ground
 from ..engine.beam import Beam
 from ..engine.units import scaled
 
-THIN = 2.0**-46
-"""Zones of a smaller share of the beam only touch: rounding of the load factor makes them and takes them away."""
-
 
 @dataclass(frozen=True, slots=True)
 class Contact:
@@ -56,33 +53,6 @@ class FreeSpan:
     from_: float
     to: float
     sag: float
-
-
-@dataclass(slots=True)
-class Zone:
-    """A zone in which a layer of ground acts, at least on some branch of its law.
-
-    Attributes
-    ----------
-    from_, to : float
-        Its ends (length from the left end of the beam).
-    at_left, at_right : bool
-        Whether that is an end of the foundation or of the beam.
-    """
-
-    from_: float
-    to: float
-    at_left: bool
-    at_right: bool
-
-    @property
-    def middle(self) -> float:
-        """Place between its ends."""
-        return self.from_ + (self.to - self.from_) / 2
-
-    def meets(self, other: Zone) -> bool:
-        """Whether two zones have a stretch in common."""
-        return max(self.from_, other.from_) < min(self.to, other.to)
 
 
 @dataclass(frozen=True, slots=True)
@@ -171,55 +141,6 @@ def joined(contacts: Sequence[Contact]) -> list[Contact]:
             found[-1] = replace(last, to=zone.to, resultant=last.resultant + zone.resultant)
         else:
             found.append(zone)
-    return found
-
-
-def find_zones(beam: Beam, ground: Ground) -> dict[tuple[int, int, int], list[Zone]]:
-    """Find the zones in which one-sided ground acts, also those of every branch of a law and what is beyond.
-
-    Parameters
-    ----------
-    beam, ground
-        As for `find_contact`.
-
-    Returns
-    -------
-    dict
-        By foundation, side (-1 below, 1 above) and branch, from left to right; none for ground without contact.
-    """
-    thin = THIN * beam.places.end
-    layers = beam.layers
-    with_gap = layers.foundation[np.any(layers.levels != 0.0, axis=1)]
-    two_sided = np.intersect1d(layers.foundation[layers.side > 0], layers.foundation[layers.side < 0])
-    both_ways = set(np.setdiff1d(two_sided, with_gap).tolist())
-    found: dict[tuple[int, int, int], list[Zone]] = {}
-    by_layer: dict[tuple[int, int], list[_Run]] = {}
-    for run in _runs(beam, ground):
-        if not run.side:
-            continue
-        runs = by_layer.setdefault((run.foundation, -run.side), [])
-        if runs and runs[-1].to == run.from_ and run.to - run.from_ <= thin:
-            runs[-1] = replace(runs[-1], to=run.to)  # as if what is before went on
-        elif runs and runs[-1].to == run.from_ and runs[-1].to - runs[-1].from_ <= thin:
-            runs[-1] = replace(run, from_=runs[-1].from_)
-        else:
-            runs.append(run)
-    for (foundation, side), runs in by_layer.items():
-        # Ground that holds both ways from the beginning only changes its direction where the deflection is zero
-        for branch in range(2 if foundation in both_ways else 1, max(run.acts for run in runs) + 1):
-            zones = found.setdefault((foundation, side, branch), [])
-            joins = False
-            for k, run in enumerate(runs):
-                if run.acts < branch:
-                    joins = False
-                    continue
-                at_left = k == 0 or runs[k - 1].to != run.from_
-                at_right = k == len(runs) - 1 or runs[k + 1].from_ != run.to
-                if joins and not at_left:
-                    zones[-1].to, zones[-1].at_right = run.to, at_right
-                else:
-                    zones.append(Zone(run.from_, run.to, at_left, at_right))
-                joins = True
     return found
 
 

@@ -1,25 +1,15 @@
-"""The load path of a beam on the ground: every change of zones of contact and of supports at its load factor.
-
-Between two changes the ends of the zones move smoothly with the load, and no formula gives the factor of the next change. So
-states are solved on a grid of factors, and where what acts differs between two neighbours, the change between them is found by
-bisection, down to neighbouring doubles. Changes that undo each other between two places of the grid are not seen.
-"""
+"""The load path of a beam on the ground: every change of zones of contact and of supports at its load factor."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import pairwise
 from time import perf_counter
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..base.errors import EngineError, Status
-from ..engine.arrays import Solution
 from ..engine.beam import NO_EQUILIBRIUM, Beam
 from .branches import Limit
-from .ground import Zone, find_zones
 from .motion import describe_motion
 from .path import Segment
 from .step import Step
@@ -27,12 +17,13 @@ from .step import Step
 if TYPE_CHECKING:
     from .result import Result
 
-GRID = 64
-"""Parts into which the way of the load is cut before changes are looked for."""
-NEAR = 2.0**-44
-"""Distance of load factors at which it is enough to know that states between them cannot be settled."""
 BEGIN = 2.0**-40
 """What acts here acts from the beginning: at factor 0 a beam without dead load lies on the ground without any force."""
+EVENTS = {
+    0: "opens", 1: "closes", 4: "yields", 5: "hardens", 6: "softens", 7: "breaks", 8: "unloads",
+    20: "zone appears", 21: "zone vanishes", 22: "zones merge", 23: "zone splits", 24: "end reaches", 25: "end leaves",
+}  # fmt: skip
+"""What happens, by the codes of gapbeam_pieces."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,7 +41,8 @@ class GroundEvent:
     x : float
         Its place.
     event : str
-        Of a support ``opens`` or ``closes``; of a zone ``zone appears``, ``zone vanishes``, ``zones merge``, ``zone splits``,
+        Of a support ``opens`` or ``closes``, with a law also ``yields``, ``hardens``, ``unloads``; of a zone
+        ``zone appears``, ``zone vanishes``, ``zones merge``, ``zone splits``,
         ``end reaches`` and ``end leaves`` (an end of the foundation or of the beam).
     branch : int
         Of a foundation with a law the first of its branches that make up the zone; 1 is the zone of contact.
@@ -83,32 +75,32 @@ class GroundPath:
         The load factor that ground which yields can carry at most, if the path ends there.
     beyond : float
         A load factor above the last segment at which there is no equilibrium for sure.
-    end : Solution or None
-        The state without equilibrium above the last segment.
+    motion : numpy.ndarray or None
+        How the beam moves there; None if it stands to the end, or slides along its axis.
+    stands : bool
+        Whether it stands to the end.
     """
 
     nodes = 0
 
     def __init__(self, beam: Beam, rule: str, closed: np.ndarray):
         begin = perf_counter()
-        self._beam, self._rule, self._start = beam, rule, closed
-        self.solves = 0
-        self.events: list[GroundEvent] = []
-        self.end: Solution | None = None
-        self.limits: list[Limit] = []
-        self._yields = _yields(beam)
-        self._trouble: EngineError | None = None
-        self.beyond = 1.0
-        changes = self._follow()
-        self._schemes = [acting.closed for _, acting in changes]
-        factors = [0.0, *(factor for factor, _ in changes[1:])]
-        self.segments = [
-            Segment(start, stop, k)
-            for k, (start, stop) in enumerate(zip(factors, [*factors[1:], self._last], strict=True))
-            if changes
+        self._beam, self._rule = beam, rule
+        found = beam.follow_on_ground(rule, closed)
+        self._schemes = found.closed
+        self.solves = found.solves
+        self.beyond = found.beyond
+        self.stands = found.status != NO_EQUILIBRIUM
+        self.motion = None if self.stands or found.slides else found.motion
+        columns = (found.factor, found.support, found.foundation, found.x, found.event, found.branch)
+        self.events = [
+            GroundEvent(factor, k if k >= 0 else None, f if f >= 0 else None, x, EVENTS[event], branch)
+            for factor, k, f, x, event, branch in zip(*(column.tolist() for column in columns), strict=True)
         ]
-        if self._yields and 0.0 < self._last < 1.0:
-            self.limits.append(Limit(self._last, "mechanism", 0, (), None, None, True))
+        starts = found.begins.tolist()
+        ends = [*starts[1:], found.last][: len(starts)]
+        self.segments = [Segment(start, stop, k) for k, (start, stop) in enumerate(zip(starts, ends, strict=True))]
+        self.limits = [Limit(found.last, "mechanism", 0, (), None, None, True)] if found.at_limit else []
         self.seconds = perf_counter() - begin
 
     def closed(self, segment: Segment) -> np.ndarray:
@@ -127,131 +119,6 @@ class GroundPath:
     def at(self, factor: float) -> np.ndarray:
         """Give the scheme of the supports at a load factor, as `Path.at`."""
         return self.closed([segment for segment in self.segments if segment.start <= max(factor, 0.0)][-1])
-
-    def _follow(self) -> list[tuple[float, _Acting]]:
-        """Find what acts from which factor on, and name what changes."""
-        begin = self._solve(BEGIN)
-        if begin is None:
-            if self._trouble is not None:
-                raise self._trouble
-            self._last = 0.0
-            return []
-        found, now, at = [(0.0, begin)], begin, BEGIN
-        for factor in (k / GRID for k in range(1, GRID + 1)):
-            while (then := self._solve(factor)) is None or not then.like(now):
-                below, before, above, after = self._bisect(at, now, factor, then)
-                if after is None:
-                    self._last = below
-                    self.beyond = self._prove_end(below)
-                    return found
-                self.events += self._compare(above, before, after)
-                found.append((above, after))
-                now, at = after, above
-            at = factor
-        self._last = 1.0
-        return found
-
-    def _prove_end(self, last: float) -> float:
-        """Find a factor just above the last one at which there is no equilibrium for sure."""
-        if self._trouble is None:
-            return last
-        for power in range(-50, -9, 4):
-            self.end = None
-            factor = last * (1.0 + 2.0**power)
-            self._solve(factor)
-            if self.end is not None:
-                return factor
-        raise self._trouble
-
-    def _bisect(
-        self, low: float, now: _Acting, high: float, then: _Acting | None
-    ) -> tuple[float, _Acting, float, _Acting | None]:
-        """Find the first change between two factors: neighbouring factors around it, and what acts at these."""
-        while True:
-            middle = low + (high - low) / 2
-            # Where states cannot be settled, what is beyond must be proved anyway (_prove_end)
-            near = self._trouble is not None and then is None and high - low <= NEAR * high
-            if middle <= low or middle >= high or near:
-                return low, now, high, then
-            between = self._solve(middle)
-            if between is not None and between.like(now):
-                low, now = middle, between
-            else:
-                high, then = middle, between
-
-    def _solve(self, factor: float) -> _Acting | None:
-        """Find what acts at a factor; None without equilibrium."""
-        try:
-            solution = self._beam.solve(factor, self._rule, self._start)
-        except EngineError as error:
-            # Just below the last load factor next to nothing holds the beam; _prove_end sees to it that it is the last
-            if error.status in (Status.NOT_CONVERGED, Status.NOT_FINITE):
-                self._trouble = error
-                return None
-            raise
-        self.solves += solution.solves
-        if solution.status == NO_EQUILIBRIUM:
-            self.end, self._trouble = solution, None
-            return None
-        return _Acting(solution.closed, find_zones(self._beam, solution.ground))
-
-    def _compare(self, factor: float, before: _Acting, after: _Acting) -> Iterator[GroundEvent]:
-        """Name what changes."""
-        beam = self._beam
-        changed = np.flatnonzero(before.closed != after.closed)
-        places = beam.node_x[beam.places.support_nodes]
-        for k in changed.tolist():
-            name = "closes" if after.closed[k] else "opens"
-            yield GroundEvent(factor, int(beam.numbers[k]), None, float(places[k]), name)
-        for key in sorted(before.zones.keys() | after.zones.keys()):
-            foundation, _, branch = key
-            for x, name in _compare_zones(before.zones.get(key, []), after.zones.get(key, [])):
-                yield GroundEvent(factor, None, foundation, x, name, branch)
-
-
-def _yields(beam: Beam) -> bool:
-    """Whether some ground carries no more than so much."""
-    points, force = beam.columns.ground_law_foundations[:-1], beam.columns.ground_law[1, :-1]
-    return bool(np.any((np.diff(points) == 0) & (np.diff(force) == 0.0)))
-
-
-class _Acting:
-    """What holds the beam: supports, and the zones of every foundation."""
-
-    def __init__(self, closed: np.ndarray, zones: dict[tuple[int, int, int], list[Zone]]):
-        self.closed, self.zones = closed, zones
-
-    def like(self, other: _Acting) -> bool:
-        """Whether the same supports act, and as many zones with ends of the same kind."""
-        if not np.array_equal(self.closed, other.closed) or self.zones.keys() != other.zones.keys():
-            return False
-        return all(
-            [(zone.at_left, zone.at_right) for zone in zones] == [(zone.at_left, zone.at_right) for zone in other.zones[key]]
-            for key, zones in self.zones.items()
-        )
-
-
-def _compare_zones(before: list[Zone], after: list[Zone]) -> Iterator[tuple[float, str]]:
-    """Tell how the zones of one layer become others: where, and what."""
-    for zone in after:
-        met = [other for other in before if other.meets(zone)]
-        if not met:
-            yield zone.middle, "zone appears"
-        for left, right in pairwise(met):
-            yield (left.to + right.from_) / 2, "zones merge"
-    for zone in before:
-        met = [other for other in after if other.meets(zone)]
-        if not met:
-            yield zone.middle, "zone vanishes"
-        for left, right in pairwise(met):
-            yield (left.to + right.from_) / 2, "zone splits"
-        if len(met) == 1 and sum(other.meets(met[0]) for other in before) == 1:
-            for at, reaches, place in (
-                (zone.at_left, met[0].at_left, met[0].from_ if met[0].at_left else zone.from_),
-                (zone.at_right, met[0].at_right, met[0].to if met[0].at_right else zone.to),
-            ):
-                if at != reaches:
-                    yield place, "end reaches" if reaches else "end leaves"
 
 
 def follow_on_ground(result: Result, rule: str, closed: np.ndarray) -> GroundPath | None:
@@ -277,11 +144,11 @@ def follow_on_ground(result: Result, rule: str, closed: np.ndarray) -> GroundPat
         last, beyond = path.limits[0].factor, path.beyond
         where = f"between the load factors {last:.12g} and {beyond:.12g}" if beyond > last else f"beyond load factor {last:.12g}"
         result.reason = f"limit load: nothing more resists the load {where}"
-        if path.end is not None:
-            result.motion = list(zip(result.beam.node_x.tolist(), path.end.motion.tolist(), strict=True))
-            result.reason += f"; {describe_motion(result.beam, path.end.motion)}"
+        if path.motion is not None:
+            result.motion = list(zip(result.beam.node_x.tolist(), path.motion.tolist(), strict=True))
+            result.reason += f"; {describe_motion(result.beam, path.motion)}"
         return path
-    if path.end is not None and (not path.segments or path.segments[-1].stop < 1.0):
+    if not path.stands:
         where = f"above load factor {path.segments[-1].stop:.16g}" if path.segments else "at load factor 0"
-        result.refuse(where, None if path.end.slides else path.end.motion)
+        result.refuse(where, path.motion)
     return path if path.segments else None

@@ -273,7 +273,7 @@ class Result(Pickled):
             "foundation": beam.ground_layers > 0,
             "hinges": beam.has_hinges,
             "rotational restraints": beam.has_restraints,
-            "iteration": beam.is_one_sided or (beam.ground_layers > 0 and bool(beam.layers.side.any())),
+            "iteration": beam.is_one_sided or beam.has_one_sided_ground,
             "deflections": not three_moment,
         }
         return System(
