@@ -6,11 +6,11 @@ program test_ground
     use gapbeam_element, only: field_type
     use gapbeam_scene, only: span_type, foundation_type, ground_point_type, load_type, uniform_load, &
         point_force, gapbeam_below
-    use gapbeam_band, only: node_type, rhs_type, answer_type, hinge, restrained, band_ok, band_mechanism
+    use gapbeam_band, only: node_type, rhs_type, pivot_type, answer_type, hinge, restrained, band_ok, band_mechanism
     use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_link_type, condense_stretch, load_stretch
-    use gapbeam_foundation_chain, only: foundation_pivot_type, factor_foundation_chain, solve_foundation_chain
+    use gapbeam_foundation_chain, only: factor_foundation_chain, solve_foundation_chain
     use gapbeam_layers, only: layer_type, law_piece_type, pieces_of_law, law_piece
-    use gapbeam_ground, only: ground_type, zones_type, grounded_type, full_contact, place_stretches, steps_of_piece
+    use gapbeam_ground, only: ground_type, zones_type, grounded_type, full_contact, steps_of_piece
     use gapbeam_zones, only: settle_zones
     use gapbeam_springs, only: search_springs
     use gapbeam_workspace, only: workspace_type
@@ -45,7 +45,7 @@ contains
         type(stretch_link_type) :: links(n)
         type(node_type) :: nodes(0:n)
         type(rhs_type) :: rhs(0:n), eliminated(0:n)
-        type(foundation_pivot_type) :: pivots(0:n)
+        type(pivot_type) :: pivots(0:n)
         type(answer_type) :: answers(0:n)
         real(wp) :: r(6), lengths(n), turn(2), shear(2), psi(2, n), v(2, n), rotation, largest(2), worst(2)
         integer :: trial, i, state, place
@@ -123,7 +123,7 @@ contains
     subroutine the_chain_finds_mechanisms()
         type(stretch_link_type) :: links(2)
         type(node_type) :: nodes(0:2)
-        type(foundation_pivot_type) :: pivots(0:2)
+        type(pivot_type) :: pivots(0:2)
         integer :: state, place
 
         call condense_stretch(stretch_type(1.0_wp, 1.0_wp), links(1))

@@ -28,6 +28,8 @@ module gapbeam_band
     public :: node_type, rhs_type, pivot_type, answer_type, factor_chain, solve_chain, correct_chain
     public :: band_ok, band_mechanism, band_needs_pivoting
     public :: plain, hinge, restrained
+    ! For gapbeam_foundation_chain, which eliminates likewise
+    public :: full, w_known, m_known, both_known, statics, end_of_beam
 
     !> What factor_chain found
     integer, parameter :: band_ok = 0, band_mechanism = 1, band_needs_pivoting = 2

@@ -8,27 +8,12 @@
 module gapbeam_foundation_chain
     use gapbeam_kinds, only: wp
     use gapbeam_require, only: checked, require
-    use gapbeam_band, only: node_type, rhs_type, answer_type, plain, hinge, restrained, band_ok, band_mechanism, &
-        band_needs_pivoting
+    use gapbeam_band, only: node_type, rhs_type, pivot_type, answer_type, plain, hinge, restrained, band_ok, band_mechanism, &
+        band_needs_pivoting, full, w_known, m_known, both_known, statics, end_of_beam
     use gapbeam_foundation, only: stretch_link_type
     implicit none
     private
-    public :: foundation_pivot_type, factor_foundation_chain, solve_foundation_chain
-
-    !> How a node was eliminated
-    integer, parameter :: full = 1, w_known = 2, m_known = 3, both_known = 4, statics = 5, end_of_beam = 6
-
-    !> The factor at a node, as in gapbeam_band
-    type :: foundation_pivot_type
-        !> One of the kinds above
-        integer :: kind = full
-        !> Is the moment left of the node known by statics
-        logical :: floating = .false.
-        !> What the left side passes on: flexibility, ratio, stiffness
-        real(wp) :: phi = 0.0_wp, beta = 0.0_wp, delta = 0.0_wp
-        !> Pivot [-a b; b c] and the reciprocal of what is divided by
-        real(wp) :: a = 0.0_wp, b = 0.0_wp, c = 0.0_wp, reciprocal = 0.0_wp
-    end type foundation_pivot_type
+    public :: factor_foundation_chain, solve_foundation_chain
 
 contains
 
@@ -38,7 +23,7 @@ contains
         type(node_type), intent(in) :: nodes(0:)
         type(stretch_link_type), intent(in) :: links(:)
         !> The factor, shape (0:n)
-        type(foundation_pivot_type), intent(inout) :: pivots(0:)
+        type(pivot_type), intent(inout) :: pivots(0:)
         !> band_ok; band_mechanism, also where ground that softens makes it unstable; or band_needs_pivoting: a rigid stretch
         !> over too many rigid supports
         integer, intent(out) :: state
@@ -58,7 +43,11 @@ contains
         do i = 0, n
             place = i
             associate (node => nodes(i), p => pivots(i))
-                p = foundation_pivot_type(floating=floating, phi=phi, beta=beta, delta=delta)
+                p%floating = floating
+                p%phi = phi
+                p%beta = beta
+                p%delta = delta
+                p%reciprocal = 0.0_wp
                 if (node%kind == restrained) then
                     if (floating) then
                         phi = node%compliance
@@ -132,7 +121,7 @@ contains
         type(stretch_link_type), intent(in) :: link
         !> What comes from the left, and the stiffness of what stands at the node with it
         real(wp), intent(in) :: phi, beta, carried
-        type(foundation_pivot_type), intent(in) :: pivot
+        type(pivot_type), intent(in) :: pivot
         real(wp) :: next(3)
 
         associate (a => pivot%a, b => pivot%b, c => carried + link%gaa)
@@ -146,7 +135,7 @@ contains
     !> The right end of the beam: no link follows
     pure subroutine factor_last(node, pivot, phi, beta, floating, state)
         type(node_type), intent(in) :: node
-        type(foundation_pivot_type), intent(inout) :: pivot
+        type(pivot_type), intent(inout) :: pivot
         real(wp), intent(in) :: phi, beta
         logical, intent(in) :: floating
         integer, intent(inout) :: state
@@ -166,7 +155,7 @@ contains
         type(stretch_link_type), intent(in) :: links(:)
         !> Lengths of the links, shape (n)
         real(wp), intent(in) :: lengths(:)
-        type(foundation_pivot_type), intent(in) :: pivots(0:)
+        type(pivot_type), intent(in) :: pivots(0:)
         !> Right-hand side, shape (0:n), and workspace for the eliminated one
         type(rhs_type), intent(in) :: rhs(0:)
         type(rhs_type), intent(inout) :: eliminated(0:)
@@ -186,7 +175,7 @@ contains
         type(node_type), intent(in) :: nodes(0:)
         type(stretch_link_type), intent(in) :: links(:)
         real(wp), intent(in) :: lengths(:)
-        type(foundation_pivot_type), intent(in) :: pivots(0:)
+        type(pivot_type), intent(in) :: pivots(0:)
         type(rhs_type), intent(inout) :: rhs(0:)
         type(answer_type), intent(inout) :: answers(0:)
         real(wp) :: e, p, m, w, divisor
@@ -248,7 +237,7 @@ contains
 
     !> Is what carries a node so soft that the link beside it is stiff
     pure function is_weak(pivot, link) result(weak)
-        type(foundation_pivot_type), intent(in) :: pivot
+        type(pivot_type), intent(in) :: pivot
         type(stretch_link_type), intent(in) :: link
         logical :: weak
 
@@ -260,7 +249,7 @@ contains
         type(node_type), intent(in) :: nodes(0:)
         type(stretch_link_type), intent(in) :: links(:)
         real(wp), intent(in) :: lengths(:)
-        type(foundation_pivot_type), intent(in) :: pivots(0:)
+        type(pivot_type), intent(in) :: pivots(0:)
         !> Right-hand side as it was, and eliminated
         type(rhs_type), intent(in) :: given(0:), rhs(0:)
         type(answer_type), intent(inout) :: answers(0:)

@@ -12,7 +12,8 @@ module gapbeam_ground
     implicit none
     private
     public :: ground_type, zones_type, grounded_type
-    public :: full_contact, place_stretches, contact_line, along, between, steps_of_piece, line_of_kink, combined_load
+    public :: new_zones, resize, full_contact, place_stretches, contact_line, along, between, steps_of_piece
+    public :: line_of_kink, piece_of_deflection, slope_of_layer, combined_load
 
     !> A beam and the ground under it
     type :: ground_type
@@ -51,6 +52,30 @@ module gapbeam_ground
 
 contains
 
+    !> Room for stretches
+    pure subroutine new_zones(stretches, layers, zones)
+        !> Number of stretches, most layers of a piece
+        integer, intent(in) :: stretches, layers
+        !> Nothing set yet
+        type(zones_type), intent(out) :: zones
+
+        allocate (zones%piece(stretches), zones%from(stretches), zones%to(stretches), zones%acts(layers, stretches))
+    end subroutine new_zones
+
+    !> Room for another number of stretches, the first ones kept
+    pure subroutine resize(zones, room, kept)
+        type(zones_type), intent(inout) :: zones
+        integer, intent(in) :: room, kept
+        type(zones_type) :: other
+
+        call new_zones(room, size(zones%acts, 1), other)
+        other%piece(:kept) = zones%piece(:kept)
+        other%from(:kept) = zones%from(:kept)
+        other%to(:kept) = zones%to(:kept)
+        other%acts(:, :kept) = zones%acts(:, :kept)
+        zones = other
+    end subroutine resize
+
     !> All layers act everywhere, on the first piece of their law
     pure subroutine full_contact(ground, zones)
         type(ground_type), intent(in) :: ground
@@ -62,7 +87,7 @@ contains
         do j = 1, size(ground%pieces)
             m = m + steps_of_piece(ground, j)
         end do
-        allocate (zones%piece(m), zones%from(m), zones%to(m), zones%acts(most_layers(ground), m))
+        call new_zones(m, most_layers(ground), zones)
         m = 0
         do j = 1, size(ground%pieces)
             steps = steps_of_piece(ground, j)
@@ -157,6 +182,31 @@ contains
         level = contact_line(layer, distance, length) + layer%side*piece%displacement
     end function line_of_kink
 
+    !> The piece of its law on which a layer is at a deflection, 0: it is not reached
+    pure function piece_of_deflection(ground, layer, w, distance, length) result(number)
+        type(ground_type), intent(in) :: ground
+        type(layer_type), intent(in) :: layer
+        !> Deflection at a distance from the left end of the piece, and length of the piece
+        real(wp), intent(in) :: w, distance, length
+        integer :: number
+
+        do number = pieces_of_law(layer), 1, -1
+            if (layer%side*(w - line_of_kink(ground, layer, number, distance, length)) > 0.0_wp) exit
+        end do
+    end function piece_of_deflection
+
+    !> Force per length and deflection of a layer on a piece of its law, at a distance from the left end of the piece
+    elemental function slope_of_layer(layer, law, distance, length) result(slope)
+        type(layer_type), intent(in) :: layer
+        !> The piece of its law
+        type(law_piece_type), intent(in) :: law
+        real(wp), intent(in) :: distance, length
+        real(wp) :: slope
+
+        slope = law%slope
+        if (layer%law_last < layer%law_first) slope = along(layer%modulus_a, layer%modulus_b, distance, length)
+    end function slope_of_layer
+
     !> The beam as it is on its zones
     pure subroutine place_stretches(ground, zones, grounded)
         type(ground_type), intent(in) :: ground
@@ -214,8 +264,7 @@ contains
                 associate (layer => ground%layers(k), acts => zones%acts(k - ground%first(j) + 1, i))
                     if (acts == 0) cycle
                     law = law_piece(layer, ground%laws, acts)
-                    slope(:) = law%slope
-                    if (layer%law_last < layer%law_first) slope(:) = along(layer%modulus_a, layer%modulus_b, [from, to], p%length)
+                    slope(:) = slope_of_layer(layer, law, [from, to], p%length)
                     contact(:) = contact_line(layer, [from, to], p%length)
                     offset = layer%side*(law%force - law%slope*law%displacement)
                     s%modulus_a = s%modulus_a + slope(1)

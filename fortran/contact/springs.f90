@@ -15,7 +15,8 @@ module gapbeam_springs
     use gapbeam_model, only: beam_type, node_support_type, order_supports
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_scheme, only: find_scheme, outcome_type
-    use gapbeam_ground, only: ground_type, zones_type, contact_line, line_of_kink, between, steps_of_piece
+    use gapbeam_ground, only: ground_type, zones_type, new_zones, resize, contact_line, line_of_kink, piece_of_deflection, &
+        between, steps_of_piece
     implicit none
     private
     public :: search_springs
@@ -194,14 +195,12 @@ contains
         integer, intent(in) :: parts(:), node(0:)
         type(workspace_type), intent(in) :: work
         type(zones_type), intent(out) :: zones
-        type(zones_type) :: all_parts
         integer, allocatable :: acts(:)
         integer :: i, j, m, most, each
 
         most = maxval(ground%first(2:) - ground%first(:size(parts)))
-        associate (n => node(ubound(node, 1)))
-            allocate (all_parts%piece(n), all_parts%from(n), all_parts%to(n), all_parts%acts(most, n), acts(most))
-        end associate
+        allocate (acts(most))
+        call new_zones(node(ubound(node, 1)), most, zones)
         m = 0
         do j = 1, size(parts)
             each = parts(j)/steps_of_piece(ground, j)
@@ -209,23 +208,19 @@ contains
                 call judge_part(j, i)
                 ! Steps of ground that varies stay
                 if (i > 1 .and. mod(i - 1, each) > 0) then
-                    if (all(acts == all_parts%acts(:, m))) then
-                        all_parts%to(m) = place(j, i)
+                    if (all(acts == zones%acts(:, m))) then
+                        zones%to(m) = place(j, i)
                         cycle
                     end if
                 end if
                 m = m + 1
-                all_parts%piece(m) = j
-                all_parts%from(m) = place(j, i - 1)
-                all_parts%to(m) = place(j, i)
-                all_parts%acts(:, m) = acts
+                zones%piece(m) = j
+                zones%from(m) = place(j, i - 1)
+                zones%to(m) = place(j, i)
+                zones%acts(:, m) = acts
             end do
         end do
-        allocate (zones%piece(m), zones%from(m), zones%to(m), zones%acts(most, m))
-        zones%piece(:) = all_parts%piece(:m)
-        zones%from(:) = all_parts%from(:m)
-        zones%to(:) = all_parts%to(:m)
-        zones%acts(:, :) = all_parts%acts(:, :m)
+        call resize(zones, m, m)
 
     contains
 
@@ -261,11 +256,8 @@ contains
             associate (a => work%answers(node(piece - 1) + part - 1), b => work%answers(node(piece - 1) + part))
                 w = a%deflection + (b%deflection - a%deflection)/2
             end associate
-            do law = pieces_of_law(layer), 1, -1
-                if (layer%side*(w - line_of_kink(ground, layer, law, between(0.0_wp, ground%pieces(piece)%length, 2*part - 1, &
-                                                                             2*parts(piece)), &
-                                                 ground%pieces(piece)%length)) > 0.0_wp) exit
-            end do
+            law = piece_of_deflection(ground, layer, w, between(0.0_wp, ground%pieces(piece)%length, 2*part - 1, 2*parts(piece)), &
+                                      ground%pieces(piece)%length)
         end function acts_between
 
         !> Does the beam press a layer at an end of a part

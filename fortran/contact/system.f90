@@ -115,9 +115,9 @@ contains
         integer, intent(out) :: state, place
 
         work%method = method_mixed
-        call factor_foundation_chain(work%nodes, beam%ground, work%ground_pivots, state, place)
+        call factor_foundation_chain(work%nodes, beam%ground, work%pivots, state, place)
         if (state /= band_ok) return
-        call solve_foundation_chain(work%nodes, beam%ground, beam%links%length, work%ground_pivots, work%rhs, work%eliminated, &
+        call solve_foundation_chain(work%nodes, beam%ground, beam%links%length, work%pivots, work%rhs, work%eliminated, &
                                     work%answers)
     end subroutine solve_on_ground
 

@@ -4,7 +4,6 @@ module gapbeam_workspace
     use gapbeam_require, only: checked, require
     use gapbeam_band, only: node_type, rhs_type, pivot_type, answer_type
     use gapbeam_residual, only: size_type
-    use gapbeam_foundation_chain, only: foundation_pivot_type
     use gapbeam_plain, only: plain_type, is_plain, prepare_plain
     use gapbeam_law, only: add_supports, nodes_at_a_time
     use gapbeam_model, only: beam_type
@@ -30,8 +29,7 @@ module gapbeam_workspace
         !> Loads of the current factor; with the supports of the scheme; and what elimination makes of it
         type(rhs_type), allocatable :: loads(:), rhs(:), eliminated(:)
         type(pivot_type), allocatable :: pivots(:)
-        !> The same on elastic ground, and the shears at the two ends of every link there, shape (2, n)
-        type(foundation_pivot_type), allocatable :: ground_pivots(:)
+        !> On elastic ground, the shears at the two ends of every link, shape (2, n)
         real(wp), allocatable :: end_shear(:, :), end_shear_error(:, :)
         !> For plain beams: can the loads and the scheme at hand be solved so
         type(plain_type) :: plain
@@ -94,7 +92,7 @@ contains
         work%fixity = 0.0_wp
         where (beam%links%bending > 0.0_wp) work%fixity = 1/beam%links%bending
         if (allocated(beam%ground)) then
-            allocate (work%ground_pivots(0:n), work%end_shear(2, n), work%end_shear_error(2, n))
+            allocate (work%end_shear(2, n), work%end_shear_error(2, n))
         else if (is_plain(beam%links, beam%kind)) then
             call prepare_plain(beam%links, work%plain)
         end if

@@ -13,8 +13,8 @@ module gapbeam_zones
     use gapbeam_layers, only: pieces_of_law
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_scheme, only: find_scheme, outcome_type
-    use gapbeam_ground, only: ground_type, zones_type, grounded_type, place_stretches, steps_of_piece, between, line_of_kink, &
-        combined_load
+    use gapbeam_ground, only: ground_type, zones_type, grounded_type, new_zones, resize, place_stretches, steps_of_piece, &
+        between, line_of_kink, piece_of_deflection, combined_load
     implicit none
     private
     public :: settle_zones, polish_zones, find_zones, ends_of, fields_at_ends
@@ -58,7 +58,6 @@ contains
         !> As for find_scheme
         type(error_type), allocatable, intent(out) :: error
         type(zones_type) :: found, last
-        type(workspace_type) :: fresh
         real(wp) :: before
         integer :: round, solves
 
@@ -66,13 +65,7 @@ contains
         moved = huge(moved)
         solves = 0
         do round = 1, most_rounds
-            call place_stretches(ground, zones, grounded)
-            call new_workspace(grounded%beam, fresh)
-            call set_loads(grounded%beam, factor, fresh)
-            call find_scheme(grounded%beam, factor, rule, closed, fresh, outcome, error)
-            solves = solves + fresh%solves
-            work = fresh
-            work%solves = solves
+            call solve_on_zones(ground, factor, rule, zones, solves, closed, grounded, work, outcome, error)
             if (allocated(error)) return
             if (outcome%status /= gapbeam_solved) return
             call find_zones(ground, grounded, zones, factor, work, found)
@@ -102,20 +95,13 @@ contains
         logical, intent(out) :: settled
         type(error_type), allocatable, intent(out) :: error
         type(zones_type) :: found
-        type(workspace_type) :: fresh
         real(wp) :: moved
         integer :: round, solves
 
         settled = .false.
         solves = 0
         do round = 1, most_polishing
-            call place_stretches(ground, zones, grounded)
-            call new_workspace(grounded%beam, fresh)
-            call set_loads(grounded%beam, factor, fresh)
-            call find_scheme(grounded%beam, factor, rule, closed, fresh, outcome, error)
-            solves = solves + fresh%solves
-            work = fresh
-            work%solves = solves
+            call solve_on_zones(ground, factor, rule, zones, solves, closed, grounded, work, outcome, error)
             if (allocated(error)) return
             if (outcome%status /= gapbeam_solved) return
             call move_ends(ground, grounded, zones, factor, work, found)
@@ -125,6 +111,29 @@ contains
             if (settled) return
         end do
     end subroutine polish_zones
+
+    !> Solve the beam on given zones
+    subroutine solve_on_zones(ground, factor, rule, zones, solves, closed, grounded, work, outcome, error)
+        !> As for settle_zones
+        type(ground_type), intent(in) :: ground
+        real(wp), intent(in) :: factor
+        integer, intent(in) :: rule
+        type(zones_type), intent(in) :: zones
+        !> Linear solves so far in and out; those of the workspace are all of them
+        integer, intent(inout) :: solves
+        logical, intent(inout) :: closed(:)
+        type(grounded_type), intent(out) :: grounded
+        type(workspace_type), intent(out) :: work
+        type(outcome_type), intent(out) :: outcome
+        type(error_type), allocatable, intent(out) :: error
+
+        call place_stretches(ground, zones, grounded)
+        call new_workspace(grounded%beam, work)
+        call set_loads(grounded%beam, factor, work)
+        call find_scheme(grounded%beam, factor, rule, closed, work, outcome, error)
+        solves = solves + work%solves
+        work%solves = solves
+    end subroutine solve_on_zones
 
     !> Move every end along the tangent at it
     pure subroutine move_ends(ground, grounded, zones, factor, work, found)
@@ -219,7 +228,7 @@ contains
         integer :: j, first, last, m, number, room
 
         room = 4*size(zones%piece)
-        call make_room(next, room, size(zones%acts, 1), 0)
+        call new_zones(room, size(zones%acts, 1), next)
         m = 0
         last = 0
         do j = 1, size(ground%pieces)
@@ -228,15 +237,12 @@ contains
             call cut_piece(j)
             if (m + number > room) then
                 room = 2*(m + number)
-                call make_room(next, room, size(zones%acts, 1), m)
+                call resize(next, room, m)
             end if
             call judge_piece(j)
         end do
-        allocate (found%piece(m), found%from(m), found%to(m), found%acts(size(zones%acts, 1), m))
-        found%piece(:) = next%piece(:m)
-        found%from(:) = next%from(:m)
-        found%to(:) = next%to(:m)
-        found%acts(:, :) = next%acts(:, :m)
+        call resize(next, m, m)
+        found = next
 
     contains
 
@@ -331,8 +337,8 @@ contains
             !> Layer, stretch, and distance from the left end of the piece
             integer, intent(in) :: k, i
             real(wp), intent(in) :: distance
-            integer :: acts
-            real(wp) :: w, psi, moment, shear, length, past
+            integer :: acts, before, law
+            real(wp) :: w, psi, moment, shear, length
 
             associate (layer => ground%layers(k))
                 acts = 1
@@ -340,11 +346,14 @@ contains
                 length = ground%pieces(zones%piece(i))%length
                 call fields_at(grounded%stretches(i), load_of(i), ends_of(work, i), &
                                (distance - zones%from(i))/(zones%to(i) - zones%from(i)), w, psi, moment, shear)
-                do acts = pieces_of_law(layer), 1, -1
-                    past = layer%side*(w - line_of_kink(ground, layer, acts, distance, length))
-                    if (past > 0.0_wp) exit
-                    ! A beam that lies on it without any load stays as it is
-                    if (.not. past < 0.0_wp .and. zones%acts(k - ground%first(zones%piece(i)) + 1, i) >= acts) exit
+                acts = piece_of_deflection(ground, layer, w, distance, length)
+                before = zones%acts(k - ground%first(zones%piece(i)) + 1, i)
+                if (before <= acts) return
+                ! A beam that lies on it without any load stays as it is
+                do law = before, acts + 1, -1
+                    if (abs(w - line_of_kink(ground, layer, law, distance, length)) > 0.0_wp) cycle
+                    acts = law
+                    return
                 end do
             end associate
         end function piece_at
@@ -370,22 +379,6 @@ contains
             ends = stretch_ends_type(a%deflection, b%deflection, a%moment_right, b%moment_left)
         end associate
     end function ends_of
-
-    !> Arrays of some length, the first entries kept
-    pure subroutine make_room(zones, room, layers, kept)
-        type(zones_type), intent(inout) :: zones
-        integer, intent(in) :: room, layers, kept
-        type(zones_type) :: longer
-
-        allocate (longer%piece(room), longer%from(room), longer%to(room), longer%acts(layers, room))
-        if (kept > 0) then
-            longer%piece(:kept) = zones%piece(:kept)
-            longer%from(:kept) = zones%from(:kept)
-            longer%to(:kept) = zones%to(:kept)
-            longer%acts(:, :kept) = zones%acts(:, :kept)
-        end if
-        zones = longer
-    end subroutine make_room
 
     !> How far the ends have moved, relative to the shorter of the stretches beside them; huge if the zones are others
     pure function way_of_ends(zones, found) result(way)

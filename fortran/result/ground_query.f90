@@ -4,8 +4,8 @@ module gapbeam_ground_query
     use gapbeam_element, only: field_type
     use gapbeam_foundation, only: stretch_load_type, stretch_ends_type, fields_at
     use gapbeam_foundation_roots, only: find_peaks
-    use gapbeam_layers, only: layer_type, law_piece_type, law_piece
-    use gapbeam_ground, only: contact_line, along
+    use gapbeam_layers, only: law_piece_type, law_piece
+    use gapbeam_ground, only: contact_line, slope_of_layer, along
     use gapbeam_ground_solver, only: ground_solution_type
     use gapbeam_lowered, only: lowered_type
     implicit none
@@ -170,7 +170,7 @@ contains
         type(ground_solution_type), intent(in) :: solution
         integer, intent(in) :: i
         real(wp), intent(in) :: xi
-        real(wp) :: pressure, place, slope, push
+        real(wp) :: pressure, place, push
         type(field_type) :: field
         type(law_piece_type) :: law
         integer :: k
@@ -183,9 +183,7 @@ contains
                 if (solution%acts(k - lowered%layer_first(j) + 1, i) == 0) cycle
                 associate (layer => lowered%layers(k), length => lowered%pieces(j)%length)
                     law = law_piece(layer, lowered%law_pieces, solution%acts(k - lowered%layer_first(j) + 1, i))
-                    slope = law%slope
-                    if (layer%law_last < layer%law_first) slope = along(layer%modulus_a, layer%modulus_b, place, length)
-                    push = slope*(field%deflection - contact_line(layer, place, length)) &
+                    push = slope_of_layer(layer, law, place, length)*(field%deflection - contact_line(layer, place, length)) &
                         + layer%side*(law%force - law%slope*law%displacement)
                     ! At an end of a zone it is zero but for rounding
                     if (layer%side /= 0) push = layer%side*max(0.0_wp, layer%side*push)

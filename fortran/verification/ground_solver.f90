@@ -13,6 +13,7 @@ module gapbeam_ground_solver
     use gapbeam_springs, only: search_springs
     use gapbeam_workspace, only: workspace_type
     use gapbeam_scheme, only: outcome_type
+    use gapbeam_law, only: is_blocked
     use gapbeam_rules, only: first_width
     use gapbeam_referee, only: detail_type, refine_beam, fine_piece, fine_load
     use gapbeam_foundation_quad, only: fine_stretch_type => stretch_type, fine_stretch_load_type => stretch_load_type, &
@@ -20,7 +21,7 @@ module gapbeam_ground_solver
     use gapbeam_layers, only: layer_type, law_piece_type
     use gapbeam_layers_quad, only: fine_layer_type => layer_type, fine_law_piece_type => law_piece_type, law_piece
     use gapbeam_ground_quad, only: fine_ground_type => ground_type, fine_zones_type => zones_type, &
-        fine_grounded_type => grounded_type, combined_load, contact_line, along
+        fine_grounded_type => grounded_type, new_zones, combined_load, contact_line, slope_of_layer
     use gapbeam_zones_quad, only: settle_fine_zones => settle_zones, polish_zones, ends_of, fields_at_ends
     use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type
     use gapbeam_scheme_quad, only: fine_outcome_type => outcome_type
@@ -146,27 +147,12 @@ contains
                 motion(:) = outcome%motion(grounded%node)
                 call move_alloc(motion, outcome%motion)
             end if
-            if (.not. is_stopped(ground, outcome%motion)) return
+            ! No support would stop it sooner or later
+            if (.not. is_blocked(ground%beam%supports, merge(0.0_wp, outcome%motion, abs(outcome%motion) <= no_way))) return
         end if
         call fatal_error(error, gapbeam_not_converged, "the zones in which the beam touches the ground could not be settled: "// &
                          "look for a load at the very end of the ground, or for ground that is far stiffer than the beam")
     end subroutine solve_on_ground
-
-    !> Would some support stop a motion sooner or later
-    pure function is_stopped(ground, motion) result(stopped)
-        type(ground_type), intent(in) :: ground
-        !> Of the nodes, largest 1, shape (0:n)
-        real(wp), intent(in) :: motion(0:)
-        logical :: stopped
-        integer :: k
-
-        stopped = .false.
-        do k = 1, size(ground%beam%supports)
-            associate (s => ground%beam%supports(k), way => motion(ground%beam%supports(k)%node))
-                stopped = stopped .or. s%side*way > no_way .or. (s%side == 0 .and. abs(way) > no_way)
-            end associate
-        end do
-    end function is_stopped
 
     !> The beam and its ground in quadruple precision
     subroutine refine_ground(ground, detail, fine)
@@ -223,9 +209,7 @@ contains
         type(fine_outcome_type) :: found
         real(qp) :: moved
 
-        associate (m => size(rough_zones%piece))
-            allocate (zones%piece(m), zones%from(m), zones%to(m), zones%acts(size(rough_zones%acts, 1), m))
-        end associate
+        call new_zones(size(rough_zones%piece), size(rough_zones%acts, 1), zones)
         zones%piece(:) = rough_zones%piece
         zones%from(:) = rough_zones%from
         zones%to(:) = exact_ends(rough_zones, fine)
@@ -466,7 +450,7 @@ contains
                 if (zones%acts(k, i) == 0) cycle
                 associate (layer => fine%layers(fine%first(j) + k - 1))
                     law = law_piece(layer, fine%laws, zones%acts(k, i))
-                    slope = slopes_of(fine, zones, i, layer, law)
+                    slope = slope_of_layer(layer, law, [zones%from(i), zones%to(i)], fine%pieces(j)%length)
                     contact = contact_line(layer, [zones%from(i), zones%to(i)], fine%pieces(j)%length)
                     forces(k) = layer%side*(law%force - law%slope*law%displacement)*length &
                         - length*(dot_product(slope, contact)/2 - (slope(2) - slope(1))*(contact(2) - contact(1))/6)
@@ -506,19 +490,5 @@ contains
         end function integral
 
     end subroutine sum_layers
-
-    !> Slope of a layer at the two ends of a stretch
-    pure function slopes_of(fine, zones, i, layer, law) result(slope)
-        type(fine_ground_type), intent(in) :: fine
-        type(fine_zones_type), intent(in) :: zones
-        integer, intent(in) :: i
-        type(fine_layer_type), intent(in) :: layer
-        type(fine_law_piece_type), intent(in) :: law
-        real(qp) :: slope(2)
-
-        slope = law%slope
-        if (layer%law_last >= layer%law_first) return
-        slope = along(layer%modulus_a, layer%modulus_b, [zones%from(i), zones%to(i)], fine%pieces(zones%piece(i))%length)
-    end function slopes_of
 
 end module gapbeam_ground_solver

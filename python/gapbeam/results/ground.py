@@ -56,8 +56,24 @@ class FreeSpan:
 
 
 @dataclass(frozen=True, slots=True)
-class _Run:
-    """Stretches beside each other in which a layer does the same."""
+class Run:
+    """Stretches beside each other in which a layer does the same.
+
+    Attributes
+    ----------
+    foundation : int
+        Number of the foundation in the scene.
+    side : int
+        1 below (pushes up only), -1 above (pushes down only), 0 both.
+    law_pieces, acts : int
+        Pieces of its law, 0: linear; the one on which it acts, from 1, 0: not in contact.
+    from_, to : float
+        Its ends (length from the left end of the beam).
+    resultant : float
+        Force on the beam, positive upward.
+    way : float
+        Largest distance between beam and layer, 0 in contact.
+    """
 
     foundation: int
     side: int
@@ -69,8 +85,8 @@ class _Run:
     way: float
 
 
-def find_contact(beam: Beam, ground: Ground | None) -> tuple[Contact, ...]:
-    """Find the zones in which the ground acts.
+def find_runs(beam: Beam, ground: Ground | None) -> tuple[Run, ...]:
+    """Find what every layer of ground does along the beam.
 
     Parameters
     ----------
@@ -81,32 +97,44 @@ def find_contact(beam: Beam, ground: Ground | None) -> tuple[Contact, ...]:
 
     Returns
     -------
-    tuple of Contact
-        Foundation by foundation from left to right.
+    tuple of Run
+        All layers, stretches in which one does the same joined, by foundation and from left to right.
     """
     if ground is None:
         return ()
-    return tuple(
-        Contact(run.foundation, run.from_, run.to, _name(run), run.resultant) for run in _runs(beam, ground) if run.acts
-    )
+    about, values = beam.ground_runs(ground)
+    return tuple(Run(*codes, *numbers) for codes, numbers in zip(about.tolist(), values.tolist(), strict=True))
 
 
-def find_free_spans(beam: Beam, ground: Ground | None) -> tuple[FreeSpan, ...]:
+def find_contact(runs: Sequence[Run]) -> tuple[Contact, ...]:
+    """Find the zones in which the ground acts.
+
+    Parameters
+    ----------
+    runs : sequence of Run
+        From `find_runs`.
+
+    Returns
+    -------
+    tuple of Contact
+        Foundation by foundation from left to right.
+    """
+    return tuple(Contact(run.foundation, run.from_, run.to, _name(run), run.resultant) for run in runs if run.acts)
+
+
+def find_free_spans(runs: Sequence[Run]) -> tuple[FreeSpan, ...]:
     """Find the stretches in which the beam has no contact with one-sided ground.
 
     Parameters
     ----------
-    beam, ground
-        As for `find_contact`.
+    runs : sequence of Run
+        From `find_runs`.
 
     Returns
     -------
     tuple of FreeSpan
         Foundation by foundation from left to right; of one that holds both ways there are none.
     """
-    if ground is None:
-        return ()
-    runs = _runs(beam, ground)
     both_ways = {run.foundation for run in runs if run.side > 0} & {run.foundation for run in runs if run.side < 0}
     return tuple(
         FreeSpan(run.foundation, run.from_, run.to, run.way)
@@ -154,7 +182,7 @@ def with_ends_of_zones(piece: np.ndarray, distance: np.ndarray, beam: Beam, grou
     distance : numpy.ndarray
         Distances from their left ends, ascending in each.
     beam, ground
-        As for `find_contact`.
+        As for `find_runs`.
 
     Returns
     -------
@@ -170,13 +198,7 @@ def with_ends_of_zones(piece: np.ndarray, distance: np.ndarray, beam: Beam, grou
     return piece[new], distance[new]
 
 
-def _name(run: _Run) -> str:
+def _name(run: Run) -> str:
     if run.law_pieces:
         return f"branch {run.acts}"
     return "closed" if run.side else "bilateral"
-
-
-def _runs(beam: Beam, ground: Ground) -> list[_Run]:
-    """All layers, stretches in which one does the same joined, by foundation and from left to right."""
-    about, values = beam.ground_runs(ground)
-    return [_Run(*codes, *numbers) for codes, numbers in zip(about.tolist(), values.tolist(), strict=True)]

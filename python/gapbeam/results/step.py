@@ -15,7 +15,7 @@ from ..base.records import Pickled, read_only
 from ..engine.arrays import Solution
 from ..engine.beam import SOLVED, Beam
 from ..engine.units import bound_in_scene, scaled
-from .ground import Contact, FreeSpan, find_contact, find_free_spans
+from .ground import Contact, FreeSpan, Run, find_contact, find_free_spans, find_runs
 from .kinks import piece_of
 from .smooth import solve_on_curves
 
@@ -203,14 +203,18 @@ class Step(Pickled):
         return tuple(dict.fromkeys(self._beam.numbers[self.solution.undecided == 1].tolist()))
 
     @cached_property
+    def _runs(self) -> tuple[Run, ...]:
+        return find_runs(self._beam, self.solution.ground)
+
+    @cached_property
     def contact(self) -> tuple[Contact, ...]:
         """The zones in which the ground acts, foundation by foundation from left to right."""
-        return find_contact(self._beam, self.solution.ground)
+        return find_contact(self._runs)
 
     @cached_property
     def free_spans(self) -> tuple[FreeSpan, ...]:
         """The stretches in which the beam has no contact with ground that is there."""
-        return find_free_spans(self._beam, self.solution.ground)
+        return find_free_spans(self._runs)
 
     @cached_property
     def starts(self) -> np.ndarray:
