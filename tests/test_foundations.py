@@ -64,6 +64,22 @@ def test_random_scenes_agree_with_the_reference(first):
     assert solved > 3
 
 
+def test_a_couple_on_a_zone_of_no_length():
+    """Nothing pushes the beam down, so nothing bears a couple: not the edge of the ground either."""
+    ground = {"from": 0.625, "to": 3.625, "side": "below", "law": [[0.00158, 28.8], [0.0036, 141.0]]}
+    made = {"beam": {"spans": [4.25], "EI": 11.7, "GA": 90.1}, "foundation": [ground]}
+    made["loads"] = [{"type": "moment", "x": 0.0, "M": -0.818}]
+    assert gapbeam.solve(made).status == "no-equilibrium"
+
+
+def test_free_to_move_off_a_support_that_carries_nothing():
+    made = {"beam": {"spans": [5.75], "EI": 0.78}, "foundation": [{"side": "below", "k": 0.00535, "gap": 67.7}]}
+    made["supports"] = [{"x": 0.5, "stiffness": 0.0678, "rotation": "fixed", "side": "below"}]
+    made["loads"] = [{"type": "moment", "x": 3.875, "M": 2.3}, {"type": "moment", "x": 4.875, "M": 1.48}]
+    result = gapbeam.solve(made)
+    assert (result.status, result.steps[-1].indifferent) == ("solved", True)
+
+
 @pytest.fixture
 def made():
     """A beam that lifts off in two places."""

@@ -26,6 +26,7 @@ module gapbeam_ground_solver
     use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type
     use gapbeam_scheme_quad, only: fine_outcome_type => outcome_type
     use gapbeam_law_quad, only: find_margins, is_watched_in
+    use gapbeam_kinematics_quad, only: held_by_ties
     implicit none
     private
     public :: ground_solution_type, solve_on_ground
@@ -225,11 +226,10 @@ contains
             solution%solves = solution%solves + work%solves
             if (allocated(error) .or. .not. settled) return
         end if
-        outcome = outcome_type(status=found%status, indifferent=found%indifferent)
         call take_rounded(fine, factor, zones, grounded, closed, work, solution)
-        ! A load at the very end of the ground would need a zone of no length
-        settled = .not. any(zones%to - zones%from <= thinnest*sum(fine%pieces%length) .and. &
-                            maxval(abs(solution%resultant), 1) > nothing*maxval(abs(solution%resultant)))
+        outcome = outcome_type(status=found%status, indifferent=found%indifferent .or. &
+                               held_by_ties(grounded%beam, closed, solution%undecided))
+        settled = .not. stands_on_edge(solution, zones%to - zones%from <= thinnest*sum(fine%pieces%length))
         if (.not. settled) then
             ! So it tips over the edge
             outcome = outcome_type(status=gapbeam_no_equilibrium)
@@ -241,6 +241,26 @@ contains
         call fatal_error(error, gapbeam_not_finite, "numbers left the range of double precision: choose units "// &
                          "in which lengths, stiffnesses and loads are nearer to 1")
     end subroutine settle_finely
+
+    !> Does a zone of no length carry what none can: a force, as under a load at the very end of the ground, or a couple
+    pure function stands_on_edge(solution, thin) result(stands)
+        type(ground_solution_type), intent(in) :: solution
+        !> Which stretches have no length
+        logical, intent(in) :: thin(:)
+        logical :: stands
+        real(wp) :: most(3)
+        integer :: i
+
+        associate (ends => solution%ends, shear => solution%shear, forces => solution%resultant)
+            most = [maxval(abs(forces)), maxval(max(abs(ends%moment_a), abs(ends%moment_b))), maxval(abs(shear))]
+            stands = .false.
+            do i = 1, size(solution%piece)
+                if (.not. thin(i) .or. .not. any(solution%acts(:, i) > 0)) cycle
+                stands = stands .or. any([maxval(abs(forces(:, i))), abs(ends(i)%moment_b - ends(i)%moment_a), &
+                                          abs(shear(2, i) - shear(1, i))] > nothing*most)
+            end do
+        end associate
+    end function stands_on_edge
 
     !> How good the solution is. It is rounded from quadruple precision; what its data lost when they were rounded to doubles moves
     !> it as much as double precision moved its own solution, some times over
