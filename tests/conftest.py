@@ -20,6 +20,18 @@ settings.register_profile("explore", deadline=None, max_examples=3000, suppress_
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "fixed"))
 
 
+BUILDS = {"installed", "installed_openblas"}
+"""Fixtures that take a build of the library: processes beside each other (pytest -n) share none, so one of them runs all that
+want them."""
+
+
+def pytest_collection_modifyitems(items):
+    """Say which tests go to the same process."""
+    for item in items:
+        if BUILDS & set(getattr(item, "fixturenames", ())):
+            item.add_marker(pytest.mark.xdist_group("builds"))
+
+
 @pytest.fixture(scope="session")
 def installed(tmp_path_factory):
     """The library as `meson install` puts it in place."""

@@ -6,6 +6,8 @@ are drawn from a `random.Random`, seeded or driven by hypothesis.
 
 import copy
 import math
+from fractions import Fraction
+from itertools import accumulate
 
 INF = math.inf
 
@@ -66,9 +68,9 @@ def stretch(start, end, **keys):
 
 
 def nodes_of(scene):
-    """The x of the nodes."""
-    spans = scene["beam"]["spans"]
-    return [math.fsum(spans[:i]) for i in range(len(spans) + 1)]
+    """The x of the nodes, each rounded once."""
+    spans = map(Fraction, map(float, scene["beam"]["spans"]))
+    return [float(x) for x in accumulate(spans, initial=Fraction(0))]
 
 
 def place(scene, item):

@@ -18,6 +18,7 @@ from gapbeam.engine import calls
 from gapbeam.studies.schemes import gapped_spans
 from scenes import random_scene
 
+pytestmark = pytest.mark.alone
 SECOND = 1.0
 
 
