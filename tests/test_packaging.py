@@ -15,10 +15,10 @@ from installation import LANGUAGES, TOP, install
 
 @pytest.fixture(scope="session")
 def installed_openblas(tmp_path_factory):
-    """The library with PyPI's LAPACK, as it is built where the system has none."""
+    """The library with PyPI's LAPACK, as it is built where the system has none; not optimized, which takes half the time."""
     if find_spec("scipy_openblas32") is None:
         pytest.skip("scipy-openblas32 is not in this environment")
-    return install(tmp_path_factory.mktemp("openblas"), "-Dlapack=scipy-openblas32")
+    return install(tmp_path_factory.mktemp("openblas"), "-Dlapack=scipy-openblas32", "-Doptimization=0")
 
 
 def search_path(installation, library):
@@ -69,7 +69,8 @@ def test_wheel_brings_openblas_along(installed_openblas, tmp_path, python_digits
     """The extensions look for it beside themselves, never in the folder of the build; the wheel asks for no other package."""
     pytest.importorskip("mesonpy")
     pytest.importorskip("numpy", minversion="2.1")  # for building; in the environment of tests/lowest it is older
-    options = ["--no-deps", "--no-build-isolation", "--quiet", "-Csetup-args=-Dlapack=scipy-openblas32"]
+    options = ["--no-deps", "--no-build-isolation", "--quiet"]
+    options += ["-Csetup-args=-Dlapack=scipy-openblas32", "-Csetup-args=-Doptimization=0"]
     installed_openblas.run(sys.executable, "-m", "pip", "wheel", *options, "-w", tmp_path, TOP)
     (wheel,) = tmp_path.glob("gapbeam-*.whl")
     unpacked = tmp_path / "unpacked"

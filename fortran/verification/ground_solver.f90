@@ -26,7 +26,7 @@ module gapbeam_ground_solver
     use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type
     use gapbeam_scheme_quad, only: fine_outcome_type => outcome_type
     use gapbeam_law_quad, only: find_margins, is_watched_in
-    use gapbeam_kinematics_quad, only: held_by_ties
+    use gapbeam_ground_ties, only: stands_on_edge, may_move
     implicit none
     private
     public :: ground_solution_type, solve_on_ground
@@ -42,9 +42,6 @@ module gapbeam_ground_solver
     real(wp), parameter :: no_way = 1e-6_wp
     !> Roundings in quadruple precision below which a reaction is none
     real(qp), parameter :: fine_width = 4096.0_qp
-    !> Zones of less than this share of the beam only touch: they have less than this share of the largest force
-    real(qp), parameter :: thinnest = 4*epsilon(1.0_wp)
-    real(wp), parameter :: nothing = 1e-6_wp
     !> Numbers that are smaller beside the terms they are made of are nothing but rounding in quadruple precision
     real(qp), parameter :: no_number = 2.0_qp**(-90)
     !> Differences are taken so many times
@@ -122,7 +119,12 @@ contains
                 if (allocated(error)) return
                 call search_springs(ground, factor, rule, spring_numbers(try), closed, zones, solves, outcome, error)
                 solution%solves = solution%solves + solves
-                if (allocated(error) .or. outcome%status /= gapbeam_solved) return
+                if (allocated(error)) then
+                    ! Other springs may tell
+                    if (error%code == gapbeam_no_memory .or. try == ubound(spring_numbers, 1)) return
+                    cycle
+                end if
+                if (outcome%status /= gapbeam_solved) return
                 on_edge = any(zones%acts > 0) .and. sum(zones%to - zones%from, any(zones%acts > 0, 1)) &
                     <= edge_parts*sum(ground%pieces%length)/spring_numbers(try)
             end if
@@ -227,9 +229,8 @@ contains
             if (allocated(error) .or. .not. settled) return
         end if
         call take_rounded(fine, factor, zones, grounded, closed, work, solution)
-        outcome = outcome_type(status=found%status, indifferent=found%indifferent .or. &
-                               held_by_ties(grounded%beam, closed, solution%undecided))
-        settled = .not. stands_on_edge(solution, zones%to - zones%from <= thinnest*sum(fine%pieces%length))
+        outcome = outcome_type(status=found%status, indifferent=found%indifferent)
+        settled = .not. stands_on_edge(fine, factor, zones, grounded, work)
         if (.not. settled) then
             ! So it tips over the edge
             outcome = outcome_type(status=gapbeam_no_equilibrium)
@@ -237,30 +238,12 @@ contains
             outcome%motion(:) = solution%deflection/maxval(abs(solution%deflection))
             return
         end if
+        if (.not. outcome%indifferent) &
+            outcome%indifferent = may_move(fine, factor, zones, grounded, closed, solution%undecided, work)
         if (all(abs(solution%deflection) <= huge(1.0_wp)) .and. all(abs(solution%moment_left) <= huge(1.0_wp))) return
         call fatal_error(error, gapbeam_not_finite, "numbers left the range of double precision: choose units "// &
                          "in which lengths, stiffnesses and loads are nearer to 1")
     end subroutine settle_finely
-
-    !> Does a zone of no length carry what none can: a force, as under a load at the very end of the ground, or a couple
-    pure function stands_on_edge(solution, thin) result(stands)
-        type(ground_solution_type), intent(in) :: solution
-        !> Which stretches have no length
-        logical, intent(in) :: thin(:)
-        logical :: stands
-        real(wp) :: most(3)
-        integer :: i
-
-        associate (ends => solution%ends, shear => solution%shear, forces => solution%resultant)
-            most = [maxval(abs(forces)), maxval(max(abs(ends%moment_a), abs(ends%moment_b))), maxval(abs(shear))]
-            stands = .false.
-            do i = 1, size(solution%piece)
-                if (.not. thin(i) .or. .not. any(solution%acts(:, i) > 0)) cycle
-                stands = stands .or. any([maxval(abs(forces(:, i))), abs(ends(i)%moment_b - ends(i)%moment_a), &
-                                          abs(shear(2, i) - shear(1, i))] > nothing*most)
-            end do
-        end associate
-    end function stands_on_edge
 
     !> How good the solution is. It is rounded from quadruple precision; what its data lost when they were rounded to doubles moves
     !> it as much as double precision moved its own solution, some times over

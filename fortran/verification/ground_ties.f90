@@ -1,0 +1,195 @@
+!> Zones of contact that carry nothing, or are too short for what they would have to carry
+module gapbeam_ground_ties
+    use gapbeam_kinds, only: wp, qp
+    use gapbeam_ground_quad, only: ground_type, zones_type, grounded_type, line_of_kink
+    use gapbeam_zones_quad, only: fields_at_ends
+    use gapbeam_workspace_quad, only: workspace_type
+    use gapbeam_model_quad, only: beam_type
+    use gapbeam_law_quad, only: leaves_all
+    use gapbeam_kinematics_quad, only: free_motions, motion_type
+    implicit none
+    private
+    public :: stands_on_edge, may_move
+
+    !> Zones of less than this share of the beam have no length
+    real(qp), parameter :: thinnest = 4*epsilon(1.0_wp)
+    !> Share of all loads, or of what they bend the beam by, that is nothing
+    real(qp), parameter :: nothing = 1e-6_qp
+    !> The same where quadruple precision has settled all zones
+    real(qp), parameter :: no_force = 1e-20_qp
+
+contains
+
+    !> Does a zone of no length carry what none can: a force, as under a load at the very end of the ground, or a couple; or is the
+    !> beam pressed into the ground there, which is so where it turns over an edge without end
+    pure function stands_on_edge(ground, factor, zones, grounded, work) result(stands)
+        !> The beam and its ground, and the load factor
+        type(ground_type), intent(in) :: ground
+        real(qp), intent(in) :: factor
+        !> The zones that its solution asks for, and the beam on those before, as many
+        type(zones_type), intent(in) :: zones
+        type(grounded_type), intent(in) :: grounded
+        type(workspace_type), intent(in) :: work
+        logical :: stands
+        real(qp) :: length, force, way
+        integer :: i
+
+        length = sum(ground%pieces%length)
+        call size_of_loads(ground, factor, force, way)
+        associate (supports => grounded%beam%supports)
+            do i = 1, size(supports)
+                if (abs(work%reaction(i)) > 0.0_qp) way = max(way, abs(work%answers(supports(i)%node)%deflection))
+            end do
+        end associate
+        stands = .false.
+        do i = 1, size(zones%piece)
+            if (zones%to(i) - zones%from(i) > thinnest*length .or. .not. any(zones%acts(:, i) > 0)) cycle
+            stands = stands .or. force_on(grounded, factor, work, i, length) > nothing*force &
+                .or. depth_in(ground, zones, work, i) > nothing*way
+        end do
+    end function stands_on_edge
+
+    !> Force, or couple by the length of the beam, of the ground on a stretch: what shear and moment gain
+    pure function force_on(grounded, factor, work, i, length) result(force)
+        type(grounded_type), intent(in) :: grounded
+        real(qp), intent(in) :: factor
+        type(workspace_type), intent(in) :: work
+        !> Number of the stretch, and length of the beam
+        integer, intent(in) :: i
+        real(qp), intent(in) :: length
+        real(qp) :: force, rotation(2), shear(2)
+
+        call fields_at_ends(grounded, factor, work, i, rotation, shear)
+        force = max(abs(shear(2) - shear(1)), abs(work%answers(i)%moment_left - work%answers(i - 1)%moment_right)/length)
+    end function force_on
+
+    !> How deep the beam is pressed into the ground at the ends of a stretch, in the layers that act one way
+    pure function depth_in(ground, zones, work, i) result(depth)
+        type(ground_type), intent(in) :: ground
+        type(zones_type), intent(in) :: zones
+        type(workspace_type), intent(in) :: work
+        integer, intent(in) :: i
+        real(qp) :: depth
+        integer :: k
+
+        depth = 0.0_qp
+        associate (j => zones%piece(i), a => work%answers(i - 1), b => work%answers(i))
+            do k = ground%first(j), ground%first(j + 1) - 1
+                associate (layer => ground%layers(k), length => ground%pieces(j)%length)
+                    if (layer%side == 0 .or. zones%acts(k - ground%first(j) + 1, i) == 0) cycle
+                    depth = max(depth, layer%side*(a%deflection - line_of_kink(ground, layer, 1, zones%from(i), length)), &
+                                layer%side*(b%deflection - line_of_kink(ground, layer, 1, zones%to(i), length)))
+                end associate
+            end do
+        end associate
+    end function depth_in
+
+    !> Sum of the sizes of all loads as forces, imposed curvatures by what would straighten the beam; and how far loads and gaps
+    !> may move it
+    pure subroutine size_of_loads(ground, factor, force, way)
+        type(ground_type), intent(in) :: ground
+        real(qp), intent(in) :: factor
+        real(qp), intent(out) :: force, way
+        real(qp) :: length, kappa, bent, modulus
+        integer :: j
+
+        length = sum(ground%pieces%length)
+        force = sum(abs(ground%beam%force(1, :) + factor*ground%beam%force(2, :))) &
+            + sum(abs(ground%beam%couple(1, :) + factor*ground%beam%couple(2, :)))/length
+        kappa = 0.0_qp
+        bent = 0.0_qp
+        do j = 1, size(ground%pieces)
+            associate (dead => ground%dead(j), live => ground%live(j))
+                force = force + ground%pieces(j)%length*max(abs(dead%qa + factor*live%qa), abs(dead%qb + factor*live%qb))
+                kappa = max(kappa, abs(dead%kappa + factor*live%kappa))
+                if (ground%pieces(j)%flexibility > 0.0_qp) &
+                    bent = max(bent, abs(dead%kappa + factor*live%kappa)/(ground%pieces(j)%flexibility*length))
+            end associate
+        end do
+        modulus = maxval([ground%layers%modulus_a, ground%layers%modulus_b, ground%laws%slope])
+        way = kappa*length**2 + maxval(abs([ground%layers%contact_a, ground%layers%contact_b])) &
+            + force*length*(maxval(ground%pieces%flexibility)*length**2 + maxval(ground%pieces%shear_flexibility)) &
+            + force/(length*modulus)
+        force = force + bent
+    end subroutine size_of_loads
+
+    !> May the beam move although it is in equilibrium: off supports and ground that carry nothing, and against nothing else
+    function may_move(ground, factor, zones, grounded, closed, undecided, work) result(free)
+        !> As for stands_on_edge
+        type(ground_type), intent(in) :: ground
+        real(qp), intent(in) :: factor
+        type(zones_type), intent(in) :: zones
+        type(grounded_type), intent(in) :: grounded
+        !> States of the supports, and which of them are at zero
+        logical, intent(in) :: closed(:), undecided(:)
+        type(workspace_type), intent(in) :: work
+        logical :: free
+        type(beam_type) :: beam
+        type(motion_type), allocatable :: motions(:)
+        logical :: idle(size(zones%piece))
+        real(qp) :: forces(size(zones%piece)), length, force, way
+        integer :: i, m, sense
+
+        free = .false.
+        length = sum(ground%pieces%length)
+        call size_of_loads(ground, factor, force, way)
+        do i = 1, size(zones%piece)
+            forces(i) = force_on(grounded, factor, work, i, length)
+        end do
+        force = max(force, maxval(forces), maxval([0.0_qp, abs(work%reaction)]))
+        do i = 1, size(zones%piece)
+            idle(i) = acts_one_way(i) .and. forces(i) <= no_force*force
+        end do
+        if (.not. (any(idle) .or. any(closed .and. undecided))) return
+        beam = grounded%beam
+        where (idle) beam%ground%gaa = 0.0_qp
+        call free_motions(beam, closed .and. .not. undecided, motions)
+        do m = 1, size(motions)
+            do sense = -1, 1, 2
+                associate (motion => motions(m))
+                    free = free .or. (leaves_all(beam%supports, undecided, motion%first, motion%last, motion%displacement, sense) &
+                                      .and. leaves_ground(motion, sense))
+                end associate
+            end do
+        end do
+
+    contains
+
+        !> Do all layers of a stretch that act push one way only
+        pure function acts_one_way(i) result(one_way)
+            integer, intent(in) :: i
+            logical :: one_way
+            integer :: k
+
+            one_way = any(zones%acts(:, i) > 0)
+            associate (first => ground%first(zones%piece(i)))
+                do k = first, ground%first(zones%piece(i) + 1) - 1
+                    if (zones%acts(k - first + 1, i) > 0 .and. ground%layers(k)%side == 0) one_way = .false.
+                end do
+            end associate
+        end function acts_one_way
+
+        !> Does a motion press on no ground that is touched
+        pure function leaves_ground(motion, sense) result(leaves)
+            type(motion_type), intent(in) :: motion
+            integer, intent(in) :: sense
+            logical :: leaves
+            integer :: i, k, node
+
+            leaves = .true.
+            do i = 1, size(idle)
+                if (.not. idle(i)) cycle
+                associate (first => ground%first(zones%piece(i)))
+                    do k = first, ground%first(zones%piece(i) + 1) - 1
+                        if (zones%acts(k - first + 1, i) == 0) cycle
+                        do node = max(i - 1, motion%first), min(i, motion%last)
+                            leaves = leaves .and. sense*ground%layers(k)%side*motion%displacement(node) <= thinnest
+                        end do
+                    end do
+                end associate
+            end do
+        end function leaves_ground
+
+    end function may_move
+
+end module gapbeam_ground_ties
