@@ -185,6 +185,7 @@ gbgext = interruptible(_engine.gbgext, lambda beam, ground, *_: ground.shape[1])
 gbgrun = interruptible(_engine.gbgrun, lambda beam, ground: ground.shape[1])
 gbextr = interruptible(_engine.gbextr, lambda beam, factor, starts, *_: starts.shape[1])
 gblarg = interruptible(_engine.gblarg, lambda beam, factor, starts, *_: starts.shape[1])
+gbcomb = interruptible(_engine.gbcomb)
 gbshar = interruptible(lambda beam, _: _engine.gbshar(beam), lambda beam, count: count)
 _long_cases = interruptible(_engine.gbcase)
 

@@ -22,7 +22,7 @@ from ..scene.reading import read_beam
 from ..scene.structs import Scene
 from .arguments import numbers, scheme
 from .result import Result
-from .stepping import choose_rule, starting_scheme
+from .following import choose_rule, starting_scheme
 from .steps import LoadSteps
 
 

@@ -6,6 +6,7 @@ axial forces in tension, axial displacements to the right.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -367,6 +368,33 @@ class Result(Pickled):
             There is no such step.
         """
         state = self._chosen(step)
+        piece, distance = self.places_along(points)
+        lengths, places = self.beam.places.pieces[:, 0], self.beam.places
+        if state.solution.ground is not None:
+            piece, distance = with_ends_of_zones(piece, distance, self.beam, state.solution.ground)
+        x = np.where(distance == lengths[piece], places.point_x[piece + 1], places.point_x[piece] + distance)
+        return self._fields(x, piece + np.int32(1), distance, state)
+
+    def places_along(self, points: int) -> tuple[np.ndarray, np.ndarray]:
+        """Choose places for a table of fields.
+
+        Parameters
+        ----------
+        points : int
+            Equal divisions of every span, beside all places where something changes.
+
+        Returns
+        -------
+        piece : numpy.ndarray of int
+            Piece of every place, from 0.
+        distance : numpy.ndarray
+            Distance from its left end.
+
+        Raises
+        ------
+        ValueError
+            `points` is no whole number, or less than 1 or more than memory holds.
+        """
         points = whole("points", points, least=1)
         rows = float(min(points, 2**62)) * len(self.scene.beam.spans)
         refuse_beyond("points", f"fields at {shown(points)} points a span", rows * BYTES_PER_PLACE, "give fewer")
@@ -375,11 +403,12 @@ class Result(Pickled):
         parts = np.maximum(np.ceil(points * (lengths / spans)).astype(int), 1)
         piece = np.repeat(np.arange(len(lengths), dtype=np.int32), parts + 1)
         place = np.arange(len(piece)) - np.repeat(np.cumsum(parts + 1) - (parts + 1), parts + 1)
-        distance = lengths[piece] * (place / parts[piece])
-        if state.solution.ground is not None:
-            piece, distance = with_ends_of_zones(piece, distance, self.beam, state.solution.ground)
-        x = np.where(distance == lengths[piece], places.point_x[piece + 1], places.point_x[piece] + distance)
-        return self._fields(x, piece + np.int32(1), distance, state)
+        return piece, lengths[piece] * (place / parts[piece])
+
+    @property
+    def combinations(self) -> Mapping[str, Result]:
+        """Results of the combinations by name; empty where the scene has none."""
+        return {}
 
     def extremes(self, step: int | None = None) -> dict[str, dict[str, tuple[float, float]]]:
         """Exact largest and smallest values of every field with their places.

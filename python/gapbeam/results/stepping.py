@@ -1,4 +1,4 @@
-"""Solve a scene at factors 1/n, 2/n, ..., 1, each step starting from the last scheme, or from event to event."""
+"""Solve a scene: its one load, or all its combinations."""
 
 from __future__ import annotations
 
@@ -6,19 +6,12 @@ import os
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-import numpy as np
-
-from ..base.errors import SceneError
-from ..engine.beam import RULES, Beam
+from ..scene.names import names_in_errors
 from ..scene.reading import read_beam
 from ..scene.structs import Scene
-from ..scene.wording import shown
-from .arguments import scheme
-from .branches import follow_branches
-from .ground_path import follow_on_ground
-from .path import follow
+from .combined import solve_combined
+from .following import choose_rule, follow_load, starting_scheme
 from .result import Result
-from .steps import LoadSteps, PathSteps
 
 
 def solve(
@@ -42,7 +35,7 @@ def solve(
     Returns
     -------
     Result
-        With status ``solved`` or ``no-equilibrium``.
+        With status ``solved``, ``no-equilibrium`` or ``limit-load``; of a scene with combinations a `CombinedResult`.
 
     Raises
     ------
@@ -65,93 +58,7 @@ def solve(
     scene, beam = read_beam(source)
     rule = choose_rule(scene, rule)
     closed = starting_scheme(beam, start)
-    result = Result(scene, beam, rule)
-    if beam.ground_layers:
-        _refuse_on_ground(scene, beam)
-    if beam.depends_on_path or scene.analysis.history != [1.0]:
-        return _on_path(result)
-    if scene.analysis.follow == "events":
-        result.path = follow_on_ground(result, rule, closed) if beam.ground_layers else follow(result, rule, closed)
-        if result.segments:
-            result.steps = PathSteps(beam, rule, result.path)
-        return result
-    result.steps = LoadSteps(beam, rule, closed, scene.analysis.steps)
-    fallen = result.steps.solve_all()
-    if fallen is not None:
-        factor, motion = fallen
-        result.refuse(f"at load factor {factor:g}", motion)
-    return result
-
-
-def _refuse_on_ground(scene: Scene, beam: Beam) -> None:
-    """Refuse what cannot be had on a foundation."""
-    if beam.depends_on_path or beam.curves:
-        what = "whose state depends on the way of the load" if beam.depends_on_path else "that are curves"
-        raise SceneError("supports", f"laws {what} cannot stand beside a foundation in this version; use polylines that rise")
-    if scene.analysis.history != [1.0]:
-        raise SceneError("analysis.history", "a beam on a foundation goes back along its path; leave it out")
-
-
-def _on_path(result: Result) -> Result:
-    """Solve a scene whose state depends on the way of the load."""
-    analysis = result.scene.analysis
-    by_steps = analysis.follow == "steps"
-    if by_steps and analysis.at_limit == "follow":
-        raise SceneError("analysis.at_limit", '"follow" needs follow = "events": with falling load there is no state by steps')
-    if by_steps and analysis.history != [1.0]:
-        raise SceneError("analysis.history", 'a history needs follow = "events"')
-    result.path = follow_branches(result)
-    factors = [(k + 1) / analysis.steps for k in range(analysis.steps)] if by_steps else None
-    result.steps = PathSteps(result.beam, result.rule, result.path, factors)
-    return result
-
-
-def choose_rule(scene: Scene, rule: str | None) -> str:
-    """Take the rule that the caller gives, or else that of the scene.
-
-    Parameters
-    ----------
-    scene : Scene
-        The scene.
-    rule : str or None
-        What the caller gives.
-
-    Returns
-    -------
-    str
-        ``block`` or ``single``.
-
-    Raises
-    ------
-    SceneError
-        There is no such rule.
-    """
-    rule = scene.analysis.rule if rule is None else rule
-    if not isinstance(rule, str) or rule not in RULES:
-        raise SceneError("rule", f"expected one of {', '.join(RULES)}, got {shown(rule)}")
-    return rule
-
-
-def starting_scheme(beam: Beam, start: Sequence[bool] | None = None) -> np.ndarray:
-    """Give the scheme from which the first search starts.
-
-    Parameters
-    ----------
-    beam : Beam
-        The beam.
-    start : sequence of bool, optional
-        As for `solve`; default all closed, laws on their first piece.
-
-    Returns
-    -------
-    numpy.ndarray of int
-    """
-    closed = np.ones(beam.supports, dtype=np.int32)
-    if start is None:
-        for kinks, middle, _ in beam.laws.values() if beam.has_laws else ():
-            closed[kinks.start + max(middle, 1) : kinks.stop] = 0  # on its first piece
-        return closed
-    one_sided = np.flatnonzero(beam.sides)
-    of_all = np.ones(beam.scene_supports, dtype=np.int32)
-    of_all[one_sided] = scheme(start, len(one_sided), "one-sided support")
-    return of_all[beam.numbers]
+    with names_in_errors(scene):
+        if scene.combinations:
+            return solve_combined(scene, beam, rule, closed)
+        return follow_load(scene, beam, rule, closed)

@@ -24,7 +24,6 @@ SIDES = {"both": 0, "below": 1, "above": -1}
 DIRECTIONS = {"normal": 0, "axial": 1}
 UNLOADING = {"elastic": 0, "plastic": 1, "broken": 2}
 ROTATIONS = {"free": 0.0, "fixed": np.inf}
-CASES = {"live": 0, "dead": 1}
 FORCE, COUPLE, DISTRIBUTED, CURVATURE, AXIAL_FORCE = 1, 2, 3, 4, 5
 KINDS = {
     ForceLoad: (FORCE, "F"),
@@ -167,7 +166,8 @@ def _laws(items: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
 def _loads(items: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
     codes, found = _empty(3, len(items), np.int32), _empty(4, len(items))
     (kinds, cases, nodes), (left, right, values, values_to) = codes[:, :-1], found[:, :-1]
-    cases[:] = _words(items, "case", CASES)
+    of = _column(items, "case")
+    cases[:] = of == "dead" if isinstance(of, str | np.ndarray) else [case == "dead" for case in of]
     for one, some in _groups(items).items():
         group = items if isinstance(some, slice) else [items[k] for k in some.tolist()]
         kind, key = KINDS[one]

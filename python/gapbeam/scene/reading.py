@@ -13,8 +13,10 @@ from typing import Any
 from ..base.errors import EngineError, SceneError
 from ..engine.beam import Beam, RefusalError
 from .columns import columns, curves
+from .combinations import plan_combinations
 from .files import read_file
 from .laws import HardeningLaw, PlasticLaw, is_smooth, wrong_parameter
+from .names import check_names, names_in_errors
 from .refusals import refusal
 from .structs import Scene
 from .tables import Table, take_profiles, take_tables
@@ -53,6 +55,9 @@ def read_scene(source: Scene | Mapping[str, Any] | str | os.PathLike) -> Scene:
     scene = _structured(source)
     with suppress(EngineError):  # it makes sense, though it cannot be solved in double precision
         _prepared(scene)
+    if scene.combinations:
+        with names_in_errors(scene):
+            plan_combinations(scene)
     return scene
 
 
@@ -83,11 +88,12 @@ def read_beam(source: Scene | Mapping[str, Any] | str | os.PathLike) -> tuple[Sc
 
 
 def _prepared(scene: Scene) -> Beam:
-    try:
-        taken = columns(scene)
-        return Beam(taken, curves(scene, taken))
-    except RefusalError as refused:
-        raise refusal(scene, *refused.codes) from None
+    with names_in_errors(scene):
+        try:
+            taken = columns(scene)
+            return Beam(taken, curves(scene, taken))
+        except RefusalError as refused:
+            raise refusal(scene, *refused.codes) from None
 
 
 def _structured(source: Scene | Mapping[str, Any] | str | os.PathLike) -> Scene:
@@ -103,8 +109,10 @@ def _structured(source: Scene | Mapping[str, Any] | str | os.PathLike) -> Scene:
         setattr(scene, key, table)
     for i, profile in profiles.items():
         scene.foundation[i].profile = profile
-    _check_laws(scene)
-    _check_foundations(scene)
+    check_names(scene)
+    with names_in_errors(scene):
+        _check_laws(scene)
+        _check_foundations(scene)
     if scene.analysis.steps < 1:
         raise SceneError("analysis.steps", f"expected a whole number, 1 or more, got {shown(scene.analysis.steps)}")
     if not scene.analysis.history:

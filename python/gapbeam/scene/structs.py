@@ -101,10 +101,13 @@ class _Point(Table, forbid_unknown_fields=True, kw_only=True, gc=False):
         Place by node: 0 = left end, i = right end of the i-th span. Give either node or x.
     x : float, optional
         Place by distance from the left end (length). Give either node or x.
+    name : str, optional
+        Its name, unique among supports or among loads; shown instead of its number.
     """
 
     node: Node | None = None
     x: float | None = None
+    name: str | None = None
 
 
 class Section(_Stretch, kw_only=True, gc=False):
@@ -187,6 +190,8 @@ class Foundation(_Stretch, kw_only=True, gc=False):
         Instead of k: points (displacement past the gap, force per length) from (0, 0) on, which is left out. The force never
         falls, and no displacement stands there twice; the last slope goes on; with side both the law is mirrored. Or a table
         with a type, plastic or hardening, of numbers per length: stiffness and slope in force/length^2, limit in force/length.
+    name : str, optional
+        Its name, unique among foundations; shown instead of its number.
     """
 
     k: NotNegative | tuple[NotNegative, NotNegative] | None = None
@@ -194,6 +199,7 @@ class Foundation(_Stretch, kw_only=True, gc=False):
     gap: float | tuple[float, float] = 0.0
     profile: list[tuple[float, float]] | None = None
     law: Law | None = None
+    name: str | None = None
 
 
 class _PointLoad(_Point, kw_only=True, gc=False, tag_field="type"):
@@ -201,16 +207,28 @@ class _PointLoad(_Point, kw_only=True, gc=False, tag_field="type"):
 
     Parameters
     ----------
-    case : {"live", "dead"}
-        live (default) is scaled by the load factor, dead acts in full from the start.
+    case : str
+        Its load case, any name: dead acts in full from the start, all others (default live) are scaled by the load factor.
+        Combinations give cases factors by these names.
     """
 
-    case: Literal["live", "dead"] = "live"
+    case: str = "live"
 
 
 class _StretchLoad(_Stretch, kw_only=True, gc=False, tag_field="type"):
-    __doc__ = _PointLoad.__doc__
-    case: Literal["live", "dead"] = "live"
+    """A load over a stretch.
+
+    Parameters
+    ----------
+    name : str, optional
+        Its name, unique among loads; shown instead of its number.
+    case : str
+        Its load case, any name: dead acts in full from the start, all others (default live) are scaled by the load factor.
+        Combinations give cases factors by these names.
+    """
+
+    name: str | None = None
+    case: str = "live"
 
 
 class ForceLoad(_PointLoad, kw_only=True, gc=False, tag="force"):
@@ -288,6 +306,34 @@ class CurvatureLoad(_StretchLoad, kw_only=True, gc=False, tag="curvature"):
 Load = ForceLoad | MomentLoad | UniformLoad | LinearLoad | CurvatureLoad | AxialLoad
 
 
+class Combination(Table, forbid_unknown_fields=True, kw_only=True):
+    """Load cases that act together, each with a factor; solved in a working scheme of its own.
+
+    Parameters
+    ----------
+    name : str
+        Its name, unique among combinations.
+    factors : dict of float
+        Factor of every case that acts; a case that is not listed does not act.
+    settlements : dict of float
+        Further movement of supports (length, positive downward; of an axial one to the right), by name or number. Like
+        settlement it is there in full from the start.
+    scheme_of : str, optional
+        Name of another combination: this one is solved with the supports that act there. Those that are open there stay open,
+        those that are closed hold both ways.
+    expand : dict of {"signs", "spans"}
+        Cases that stand for several combinations. signs: with its factor and with that factor negative; spans: its distributed
+        loads on every choice of the spans that they reach, none included. Several cases: every pattern of each with every
+        pattern of the others.
+    """
+
+    name: str
+    factors: dict[str, float]
+    settlements: dict[int | str, float] = {}
+    scheme_of: str | None = None
+    expand: dict[str, Literal["signs", "spans"]] = {}
+
+
 class Analysis(Table, forbid_unknown_fields=True, kw_only=True):
     """How the load is followed.
 
@@ -332,7 +378,9 @@ class Scene(Table, forbid_unknown_fields=True, kw_only=True):
     foundation : list of Foundation
         Elastic ground under stretches of the beam.
     loads : list of ForceLoad, MomentLoad, UniformLoad, LinearLoad, CurvatureLoad, AxialLoad
-        Loads, dead and live.
+        Loads, each of a load case.
+    combinations : list of Combination
+        Combinations of load cases; without any there is one, all cases with factor 1.
     analysis : Analysis
         Load steps and rule.
     """
@@ -344,6 +392,7 @@ class Scene(Table, forbid_unknown_fields=True, kw_only=True):
     supports: list[Support] = []
     foundation: list[Foundation] = []
     loads: list[Load] = []
+    combinations: list[Combination] = []
     analysis: Analysis = field(default_factory=Analysis)
 
     def span_ends(self) -> np.ndarray:

@@ -244,6 +244,8 @@ def _clean(kind: Any, name: str, value: Any) -> Any:
     words = {word for part in (kind, *get_args(kind)) for word in get_args(part) if isinstance(word, str)}
     if np.ma.isMaskedArray(value) or array.ndim != many + (kind == tuple[float, float]):
         return None
+    if array.dtype.kind == "U" and name in ("name", "case"):
+        return _own(value)
     if array.dtype.kind == "U" and words:
         return _own(value) if set(np.unique(array).tolist()) <= words else None
     if array.dtype.kind not in "iuf" or array.dtype.itemsize > 8 or (words and name != "rotation"):

@@ -149,6 +149,10 @@ def explain(error: msgspec.ValidationError, source: Any, struct: type) -> SceneE
         kind = _inside(kind, value, name, int(index or 0))
         value = value[name] if name else value[int(index)]
         place += (f".{name}" if place else name) if name else f"[{index}]"
+    if isinstance(table := _core(kind), inspect.DictType) and isinstance(value, Mapping):
+        wrong = next((key for key, entry in value.items() if not _fits(table.value_type, entry)), None)
+        if wrong is not None:
+            kind, place, value = table.value_type, f"{place}.{key_of(wrong)}", value[wrong]
     if text.startswith("Object missing"):
         return _missing(kind, value, place)
     if text.startswith("Object contains unknown"):
@@ -163,8 +167,31 @@ def _place(path: str) -> str:
     return path.rpartition("$")[2].strip("`.") or "the scene"
 
 
-def _key(name: str) -> str:
-    """Write a key as TOML does: in quotes where it is empty or holds more than letters, digits, _ and -."""
+def _fits(kind: inspect.Type, value: Any) -> bool:
+    """Whether a value of a table of numbers or words is one."""
+    if isinstance(kind, inspect.LiteralType):
+        return isinstance(value, str) and value in kind.values
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def key_of(name: str) -> str:
+    """Write a key as TOML does: in quotes where it is empty or holds more than letters, digits, _ and -.
+
+    Parameters
+    ----------
+    name : str
+        The key.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> key_of("R-104"), key_of("wind left")
+    ('R-104', '"wind left"')
+    """
+    name = str(name)
     return name if re.fullmatch(r"[A-Za-z0-9_-]{1,60}", name) else shown(name)
 
 
@@ -218,6 +245,8 @@ def _described(kind: inspect.Type, plural: bool = False) -> str:
             return f"a list of {_described(item, plural=True)}"
         case inspect.StructType():
             return "tables" if plural else "a table"
+        case inspect.DictType(value_type=value):
+            return f"a table of {_described(value, plural=True) if isinstance(value, inspect.FloatType) else 'words'}"
         case inspect.UnionType(types=types) if not plural:
             values = [shown(value) for member in types for value in getattr(member, "values", ())]
             others = dict.fromkeys(_described(member) for member in types if not hasattr(member, "values"))
@@ -247,7 +276,7 @@ def _unknown(kind: inspect.Type, value: Mapping, place: str) -> SceneError:
     if struct.tag_field:
         known.insert(0, struct.tag_field)
     key = next(key for key in value if key not in known)
-    where = f"{place}.{_key(key)}" if place else _key(key)
+    where = f"{place}.{key_of(key)}" if place else key_of(key)
     folded = {name.casefold(): name for name in known}
     near = difflib.get_close_matches(key.casefold().strip("_ "), folded, n=1, cutoff=0.55)
     if near:

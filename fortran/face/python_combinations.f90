@@ -1,0 +1,82 @@
+! Combinations for Python, in the manner of face/python.f90, which says what the arguments BEAM, NS, NM, STATUS and MESSAGE are
+
+! Solve NC combinations of loads at full load; one that is not solved has values that are not numbers
+subroutine gbcomb(beam, ns, nd, nm, nc, nx, factor, settle, rule, closed, piece, dist, value, extr, place, field, solves, status, &
+                  bad, message)
+    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
+    use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_memory
+    use gapbeam_handle, only: handle_type, handle_of, report
+    use gapbeam_solution, only: state_type
+    use gapbeam_combinations, only: combination_type, combine, solve_combination, values_of_combination
+    implicit none
+    integer(8), intent(in) :: beam
+    ! One more than there are: supports of the engine, loads, supports of the scene, places; combinations
+    integer, intent(in) :: ns, nd, nm, nx, nc
+    ! Factor of every load, further movement of every support
+    double precision, intent(in) :: factor(nd, nc), settle(nm, nc)
+    integer, intent(in) :: rule
+    ! Schemes: start in, working scheme out, all open where there is none
+    integer, intent(inout) :: closed(ns, nc)
+    ! Places, as for GBVALU
+    integer, intent(in) :: piece(nx)
+    double precision, intent(in) :: dist(nx)
+    ! Reaction, deflection, opening, couple of the supports
+    double precision, intent(out) :: value(nm, 4, nc)
+    ! Maximum and minimum of the fields of GBGVAL, and where they are; the fields at the places
+    double precision, intent(out) :: extr(2, 7, nc), place(2, 7, nc), field(7, nx, nc)
+    ! The first combination with an error, from 1, 0: none; its message
+    integer, intent(out) :: solves(nc), status(nc), bad
+    character(len=240), intent(out) :: message
+    !f2py threadsafe
+    !f2py integer, intent(hide), depend(closed) :: ns = shape(closed, 0)
+    !f2py integer, intent(hide), depend(factor) :: nd = shape(factor, 0)
+    !f2py integer, intent(hide), depend(factor) :: nc = shape(factor, 1)
+    !f2py integer, intent(hide), depend(settle) :: nm = shape(settle, 0)
+    !f2py integer, intent(hide), depend(piece) :: nx = shape(piece, 0)
+    type(handle_type), pointer :: handle
+    type(combination_type) :: combined
+    type(state_type) :: state
+    type(error_type), allocatable :: error
+    double precision :: nan
+    integer :: i, code
+
+    handle => handle_of(beam)
+    nan = ieee_value(nan, ieee_quiet_nan)
+    value = nan
+    extr = nan
+    place = nan
+    field = nan
+    solves = 0
+    bad = 0
+    message = " "
+    do i = 1, nc
+        call combine(handle%lowered, factor(:nd - 1, i), settle(:nm - 1, i), combined, error)
+        if (.not. allocated(error)) then
+            call solve_combination(combined%lowered, rule, closed(:ns - 1, i) /= 0, state, error)
+        end if
+        closed(:, i) = 0
+        if (.not. allocated(error)) then
+            solves(i) = state%solves
+            status(i) = state%status
+            if (state%status == gapbeam_solved) then
+                call values_of_combination(combined%lowered, state, piece(:nx - 1), dist(:nx - 1), value(:nm - 1, :, i), &
+                                           extr(:, :, i), place(:, :, i), field(:, :nx - 1, i), error)
+                closed(:ns - 1, i) = merge(1, 0, state%closed)
+            end if
+        end if
+        if (.not. allocated(error)) cycle
+        status(i) = error%code
+        value(:, :, i) = nan
+        extr(:, :, i) = nan
+        place(:, :, i) = nan
+        field(:, :, i) = nan
+        closed(:, i) = 0
+        if (bad /= 0) cycle
+        bad = i
+        call report(error, code, message)
+        if (code == gapbeam_no_memory) then
+            status(i:) = code
+            return
+        end if
+    end do
+end subroutine gbcomb

@@ -1,0 +1,122 @@
+!> Combinations of loads: every load times a factor, dead ones as dead ones, and supports that have moved; each solved in a
+!> working scheme of its own, from the same start, so that none depends on those before it
+module gapbeam_combinations
+    use gapbeam_kinds, only: wp
+    use gapbeam_error, only: error_type, no_memory, gapbeam_solved
+    use gapbeam_lowered, only: lowered_type, copy_model
+    use gapbeam_lower, only: lower_model
+    use gapbeam_lower_loads, only: lower_loads
+    use gapbeam_solution, only: state_type, new_state
+    use gapbeam_state, only: solve_state
+    use gapbeam_query, only: support_values, extremes_of_fields, fields_in_pieces, make_starts, field_count
+    use gapbeam_pressure, only: pressure_in_pieces, extremes_of_pressure
+    implicit none
+    private
+    public :: combination_type, combine, solve_combination, values_of_combination
+
+    !> A beam under a combination, made again for the next one
+    type :: combination_type
+        type(lowered_type), allocatable :: lowered
+        !> Have supports moved
+        logical :: moved = .false.
+    end type combination_type
+
+contains
+
+    !> Put a combination on a beam
+    subroutine combine(base, factors, settlements, combined, error)
+        !> The beam
+        type(lowered_type), intent(in) :: base
+        !> Factor of every load, shape (nload); the products are within range
+        real(wp), intent(in) :: factors(:)
+        !> Further movement of every support, down (of an axial one to the right), shape (nsupport)
+        real(wp), intent(in) :: settlements(:)
+        !> Nothing, or an earlier combination on the same beam, in
+        type(combination_type), intent(inout) :: combined
+        !> Supports that leave no room for each other, numbers out of range, or no memory
+        type(error_type), allocatable, intent(out) :: error
+        logical :: moves
+        integer :: stat
+
+        moves = any(abs(settlements) > 0.0_wp)
+        stat = 0
+        if (moves .or. combined%moved) then
+            if (allocated(combined%lowered)) deallocate (combined%lowered)
+            allocate (combined%lowered, stat=stat)
+            if (stat == 0) call copy_model(base%model, combined%lowered%model, stat)
+        else if (.not. allocated(combined%lowered)) then
+            allocate (combined%lowered, source=base, stat=stat)
+        end if
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        associate (lowered => combined%lowered, loads => base%model%loads)
+            lowered%model%loads%value = factors*loads%value
+            lowered%model%loads%value_to = factors*loads%value_to
+            if (moves .or. combined%moved) then
+                lowered%model%supports%settlement = lowered%model%supports%settlement + settlements
+                call lower_model(lowered, error)
+            else
+                call lower_loads(lowered, error)
+            end if
+        end associate
+        ! What an error leaves behind is no beam to go on with
+        combined%moved = moves .or. allocated(error)
+    end subroutine combine
+
+    !> Solve a combination at full load
+    subroutine solve_combination(lowered, rule, closed, state, error)
+        !> By combine
+        type(lowered_type), intent(in) :: lowered
+        !> rule_block or rule_single of gapbeam_search
+        integer, intent(in) :: rule
+        !> Where the search for the scheme starts, shape (size(beam%supports))
+        logical, intent(in) :: closed(:)
+        !> Solved, or with the status gapbeam_no_equilibrium
+        type(state_type), intent(out) :: state
+        !> As for solve_state
+        type(error_type), allocatable, intent(out) :: error
+
+        call new_state(lowered, state, error)
+        if (allocated(error)) return
+        state%closed(:) = closed
+        call solve_state(lowered, 1.0_wp, rule, state, error)
+    end subroutine solve_combination
+
+    !> What a solved combination says, in the user's units
+    subroutine values_of_combination(lowered, state, piece, distance, at_supports, extremes, places, fields, error)
+        type(lowered_type), intent(in) :: lowered
+        type(state_type), intent(inout) :: state
+        !> Places of the fields: piece, and distance from its left end, shape (n)
+        integer, intent(in) :: piece(:)
+        real(wp), intent(in) :: distance(:)
+        !> Reaction, deflection, opening and couple of the supports, shape (nsupport, 4)
+        real(wp), intent(out) :: at_supports(:, :)
+        !> Maximum and minimum of every field and of the pressure of the ground, and where they are, shape (2, field_count + 1)
+        real(wp), intent(inout) :: extremes(:, :), places(:, :)
+        !> The same at the places, shape (field_count + 1, n)
+        real(wp), intent(inout) :: fields(:, :)
+        !> A value out of range, or no memory
+        type(error_type), allocatable, intent(out) :: error
+        integer :: conditions(size(at_supports, 1))
+
+        call support_values(lowered, state, at_supports(:, 1), at_supports(:, 2), at_supports(:, 3), at_supports(:, 4), conditions)
+        extremes(:, field_count + 1) = 0.0_wp
+        places(:, field_count + 1) = 0.0_wp
+        call extremes_of_fields(lowered, state, extremes(:, :field_count), places(:, :field_count), error)
+        if (allocated(state%ground) .and. .not. allocated(error)) then
+            call extremes_of_pressure(lowered, state%ground, extremes(:, field_count + 1), places(:, field_count + 1), error)
+        end if
+        if (allocated(error) .or. size(piece) == 0) return
+        if (.not. allocated(state%ground)) call make_starts(lowered, state, error)
+        if (allocated(error)) return
+        fields(field_count + 1, :) = 0.0_wp
+        call fields_in_pieces(lowered, 1.0_wp, state%starts, state%displacement, state%tension, piece, distance, &
+                              fields(:field_count, :), error, state%ground)
+        if (allocated(state%ground) .and. .not. allocated(error)) then
+            call pressure_in_pieces(lowered, state%ground, piece, distance, fields(field_count + 1, :), error)
+        end if
+    end subroutine values_of_combination
+
+end module gapbeam_combinations

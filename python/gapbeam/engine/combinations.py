@@ -1,0 +1,160 @@
+"""Combinations of loads on one beam, many in one call of the compiled layer."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, fields
+from time import perf_counter
+
+import numpy as np
+
+from ..base.errors import Status, check_status
+from ..base.records import Record
+from . import calls as _engine
+from .beam import RULES, Beam
+
+NODES_AT_A_TIME = 20_000
+"""Nodes of all combinations in the first call; later calls take about `SECONDS`, by what the one before took."""
+SECONDS = 0.1
+NUMBERS_AT_A_TIME = 4_000_000
+"""Values at places in one call."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Combined(Record):
+    """Combinations at full load, in the scene's units; values are not-a-number where one is not solved.
+
+    Attributes
+    ----------
+    status : numpy.ndarray of int
+        0 solved, 1 no equilibrium, above 10 the code of an error.
+    closed : numpy.ndarray of int
+        Working schemes, combinations by supports of the engine.
+    at_supports : numpy.ndarray
+        Reaction, deflection, opening and couple (rows) of the scene's supports, combinations by 4 by supports.
+    extremes, places : numpy.ndarray
+        Maximum and minimum of every field in the order of `FIELDS`, and where they are, combinations by fields by 2.
+    fields : numpy.ndarray
+        The fields at the places asked for, combinations by places by fields.
+    solves : numpy.ndarray of int
+        Linear solves.
+    """
+
+    status: np.ndarray
+    closed: np.ndarray
+    at_supports: np.ndarray
+    extremes: np.ndarray
+    places: np.ndarray
+    fields: np.ndarray
+    solves: np.ndarray
+
+
+@dataclass(frozen=True, slots=True)
+class Failure:
+    """Why a combination has no unique answer.
+
+    Attributes
+    ----------
+    number : int
+        Which one, from 0.
+    status : Status
+        Code of the error.
+    message : bytes
+        In the engine's words.
+    """
+
+    number: int
+    status: Status
+    message: bytes
+
+
+def solve_combinations(
+    beam: Beam, factors: np.ndarray, settlements: np.ndarray, rule: str, closed: np.ndarray,
+    piece: np.ndarray | None = None, distance: np.ndarray | None = None,
+) -> Iterator[tuple[slice, Combined, Failure | None]]:  # fmt: skip
+    """Solve combinations, so many at a time that each call is a short one.
+
+    Parameters
+    ----------
+    beam : Beam
+        The beam.
+    factors : numpy.ndarray
+        Factor of every load, combinations by loads.
+    settlements : numpy.ndarray
+        Further movement of every support, combinations by supports of the scene.
+    rule : {"block", "single"}
+        How working schemes are found.
+    closed : numpy.ndarray of int
+        Where the searches start: supports of the engine, or combinations by supports.
+    piece, distance : numpy.ndarray, optional
+        Places at which fields are wanted, as for `Beam.values`.
+
+    Yields
+    ------
+    part : slice
+        Which combinations.
+    found : Combined
+        Their results.
+    failure : Failure or None
+        The first one of them that has no unique answer.
+
+    Raises
+    ------
+    MemoryError
+        The system gives no more memory.
+    """
+    count = len(factors)
+    piece = np.zeros(0, np.int32) if piece is None else piece
+    distance = np.zeros(0) if distance is None else distance
+    about = np.append(piece, 1).astype(np.int32), np.append(distance, 0.0)
+    schemes = np.zeros((count, beam.supports + 1), dtype=np.int32)
+    schemes[:, :-1] = closed
+    most = max(NUMBERS_AT_A_TIME // (7 * (len(piece) + 1)), 1)
+    some, first = min(max(NODES_AT_A_TIME // (beam.links + 1), 1), most), 0
+    while first < count:
+        part = slice(first, min(first + some, count))
+        shares, moves = (
+            np.column_stack((rows[part], np.zeros(part.stop - first))).T for rows in (factors, settlements)
+        )
+        scheme = np.asfortranarray(schemes[part].T)
+        begin = perf_counter()
+        values, extremes, places, fields_at, solves, status, bad, message = _engine.gbcomb(
+            beam.handle, np.asfortranarray(shares), np.asfortranarray(moves), RULES[rule], scheme, *about
+        )
+        if Status.NO_MEMORY in status:
+            check_status(Status.NO_MEMORY)
+        failure = Failure(first + bad - 1, Status(int(status[bad - 1])), message) if bad else None
+        yield part, Combined(
+            status, scheme.T[:, :-1], values.T[:, :, :-1], extremes.T, places.T, fields_at.T[:, :-1], solves
+        ), failure  # fmt: skip
+        some = min(max(int(some * min(max(SECONDS / (perf_counter() - begin), 0.25), 4.0)), 1), most)
+        first = part.stop
+
+
+def all_combinations(
+    beam: Beam, factors: np.ndarray, settlements: np.ndarray, rule: str, closed: np.ndarray,
+    piece: np.ndarray | None = None, distance: np.ndarray | None = None,
+) -> tuple[Combined, Failure | None]:  # fmt: skip
+    """Solve combinations, and keep all results.
+
+    Parameters
+    ----------
+    beam, factors, settlements, rule, closed, piece, distance
+        As for `solve_combinations`.
+
+    Returns
+    -------
+    found : Combined
+        Of all of them.
+    failure : Failure or None
+        The first one that has no unique answer.
+    """
+    parts, failures = [], []
+    for _, found, failure in solve_combinations(beam, factors, settlements, rule, closed, piece, distance):
+        parts.append(found)
+        failures.append(failure)
+    failure = next((one for one in failures if one is not None), None)
+    if len(parts) == 1:
+        return parts[0], failure
+    joined = (np.concatenate([getattr(part, one.name) for part in parts]) for one in fields(Combined))
+    return Combined(*joined), failure

@@ -1,0 +1,430 @@
+"""The combinations of a scene: each has a result of its own, and all of them together an envelope."""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from time import perf_counter
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..base.errors import EngineError, SceneError, Status, check_status
+from ..base.records import Pickled, read_only
+from ..engine.beam import Beam, RefusalError
+from ..engine.combinations import Combined, Failure, all_combinations, solve_combinations
+from ..scene.columns import columns, curves
+from ..scene.combinations import Plan, plan_combinations
+from ..scene.names import find
+from ..scene.refusals import refusal
+from ..scene.structs import Scene
+from ..scene.wording import shown
+from .envelope import Envelope, Source, at_full_load
+from .following import follow_load, starting_scheme
+from .result import Result
+
+if TYPE_CHECKING:
+    from .step import Step
+
+KEPT = 64
+"""Results of combinations that stay once they have been looked at."""
+WORST = ("solved", "limit-load", "no-equilibrium")
+"""Outcomes, the worst last: that is the outcome of all combinations together."""
+
+
+class Combinations(Pickled, Mapping[str, Result]):
+    """Results by name of the combination, or by its number; each is made when it is looked at.
+
+    Parameters
+    ----------
+    plan : Plan
+        The combinations.
+    beam : Beam
+        Made of the plan's scene, nothing combined.
+    rule : {"block", "single"}
+        How working schemes are found.
+    start : numpy.ndarray of int
+        Where every search starts.
+    """
+
+    def __init__(self, plan: Plan, beam: Beam, rule: str, start: np.ndarray):
+        self._plan, self._beam, self._rule, self._start = plan, beam, rule, start
+        self._kept: OrderedDict[int, Result] = OrderedDict()
+
+    def __len__(self) -> int:
+        """Count the combinations."""
+        return len(self._plan)
+
+    def __iter__(self) -> Iterator[str]:
+        """Go through the names."""
+        return iter(self._plan.names)
+
+    def __getitem__(self, key: str | int) -> Result:
+        """Give the result of a combination.
+
+        Raises
+        ------
+        KeyError
+            There is no such combination.
+        """
+        k = self.number(key)
+        if k not in self._kept:
+            self._kept[k] = self._make(k)
+            if len(self._kept) > KEPT:
+                self._kept.popitem(last=False)
+        return self._kept[k]
+
+    def number(self, key: str | int) -> int:
+        """Find a combination.
+
+        Parameters
+        ----------
+        key : str or int
+            Its name, or its number.
+
+        Returns
+        -------
+        int
+            Its number, from 0.
+
+        Raises
+        ------
+        KeyError
+            There is no such combination.
+        """
+        names = self._plan.names
+        if isinstance(key, str) and key in names:
+            return names.index(key)
+        if isinstance(key, int) and -len(names) <= key < len(names):
+            return key % len(names)
+        few = ", ".join(map(shown, names[:12])) + (f" and {len(names) - 12} more" if len(names) > 12 else "")
+        raise KeyError(f"there is no combination {shown(key)}; there are {few}")
+
+    def beam_of(self, k: int) -> Beam:
+        """Make the beam of a combination, with its loads on it and its supports moved.
+
+        Parameters
+        ----------
+        k : int
+            Its number.
+
+        Returns
+        -------
+        Beam
+
+        Raises
+        ------
+        SceneError
+            Supports that moved leave no room for each other.
+        EngineError
+            Numbers are beyond the range of doubles.
+        """
+        plan, base = self._plan, self._beam.columns
+        load, support = base.load.copy(order="F"), base.support.copy(order="F")
+        load[2:, :-1] *= plan.factors[k]
+        support[3, :-1] += plan.settlements[k]
+        try:
+            return Beam(replace(base, load=load, support=support), self._beam.curves)
+        except RefusalError as refused:
+            raise refusal(replace_scene(plan, k), *refused.codes) from None
+
+    def _make(self, k: int) -> Result:
+        plan = self._plan
+        with _named(plan, k):
+            if plan.scheme_of[k] is None:
+                return follow_load(plan.scene_of(k), self.beam_of(k), self._rule, self._start)
+            return self._in_scheme(k, plan.scheme_of[k])
+
+    def _in_scheme(self, k: int, other: int) -> Result:
+        """Solve with the working scheme of another combination."""
+        plan, before = self._plan, self[other]
+        if before.status != "solved":
+            result = Result(plan.scene_of(k), self.beam_of(k), self._rule)
+            result.status = before.status
+            result.reason = f"the combination {shown(plan.names[other])}, whose working scheme it takes, is not solved"
+            return result
+        acts = [state != "open" for state in before.steps[-1].state]
+        scene = plan.scene_of(k, acts)
+        taken = columns(scene)
+        beam = Beam(taken, curves(scene, taken))
+        result = follow_load(scene, beam, self._rule, starting_scheme(beam))
+        if result.reason:
+            result.reason += f" (in the working scheme of {shown(plan.names[other])})"
+        return result
+
+
+def replace_scene(plan: Plan, k: int) -> Scene:
+    """Write the scene of a combination with all its loads, for the wording of refusals."""
+    return plan.scene_of(k)
+
+
+class _named:
+    """Put the name of a combination before what is raised inside."""
+
+    def __init__(self, plan: Plan, k: int) -> None:
+        self._name = f"combinations {shown(plan.names[k])}"
+
+    def __enter__(self) -> None: ...
+
+    def __exit__(self, kind: Any, error: BaseException | None, trace: Any) -> None:
+        if isinstance(error, SceneError):
+            raise SceneError(self._name, f"{error.place}: {error.problem}" if error.place else error.problem) from None
+        if isinstance(error, EngineError):
+            raise EngineError(f"{self._name}: {error}", error.status) from None
+
+
+class CombinedResult(Result):
+    """All combinations of a scene.
+
+    What a `Result` says of one load is asked of one of its `combinations`, or of the `envelope` of all.
+
+    Attributes
+    ----------
+    status : str
+        ``solved`` if all combinations are; else that of the worst.
+    reason : str or None
+        Which are not solved, and why the first of them is not.
+    names : tuple of str
+        The combinations, patterns written out.
+    statuses : tuple of str
+        The status of each.
+    idle : tuple of str
+        Load cases that act in none of them.
+    """
+
+    def __init__(self, scene: Scene, plan: Plan, beam: Beam, rule: str, start: np.ndarray):
+        super().__init__(scene, beam, rule)
+        self.names, self.idle = plan.names, plan.idle
+        self._plan, self._start = plan, start
+        self._combinations = Combinations(plan, beam, rule, start)
+        begin = perf_counter()
+        # One solve each, or the whole way of the load
+        analysis = scene.analysis
+        self._at_once = (analysis.follow, analysis.steps, analysis.history) == ("steps", 1, [1.0]) and not (
+            beam.depends_on_path or beam.curves
+        )
+        self._check_products()
+        self._found, reasons = self._solve_at_once() if self._at_once else self._solve_one_by_one()
+        self.statuses = tuple(reasons)
+        self._seconds = perf_counter() - begin
+        fallen = [k for k, status in enumerate(self.statuses) if status != "solved"]
+        if fallen:
+            self.status = max(self.statuses, key=WORST.index)
+            first = next(k for k in fallen if self.statuses[k] == self.status)
+            more = f"; {len(fallen) - 1} more of {len(self.names)} not solved" if len(fallen) > 1 else ""
+            self.reason = f"combination {shown(self.names[first])}: {self.combinations[first].reason}{more}"
+
+    def __eq__(self, other: object) -> bool:
+        """Whether scene, outcomes and all values are equal."""
+        if not isinstance(other, CombinedResult):
+            return NotImplemented
+        return self is other or (
+            self.scene == other.scene and self.rule == other.rule and self.statuses == other.statuses
+            and np.array_equal(self._found.at_supports, other._found.at_supports, equal_nan=True)
+            and np.array_equal(self._found.extremes, other._found.extremes, equal_nan=True)
+        )  # fmt: skip
+
+    __hash__ = None
+
+    @property
+    def combinations(self) -> Combinations:
+        """Results of the combinations by name or number; each is made when it is looked at."""
+        return self._combinations
+
+    @property
+    def factors(self) -> np.ndarray:
+        """Factor of every load, combinations by loads (those that patterns cut are several)."""
+        return self._plan.factors
+
+    @property
+    def solves(self) -> int:
+        """Linear solves until all schemes were found."""
+        return int(self._found.solves.sum(dtype=np.int64))
+
+    @property
+    def seconds(self) -> float:
+        """Time of these."""
+        return self._seconds
+
+    def _chosen(self, step: int | None, factor: float | None = None) -> Step:
+        raise ValueError(
+            f"the scene has {len(self.names)} combinations, each with a result of its own; take for example "
+            f"result.combinations[{self.names[0]!r}], or result.envelope()"
+        )
+
+    def state(self, factor: float) -> Step:
+        """Refuse: every combination has states of its own."""
+        return self._chosen(None, factor)
+
+    def _check_products(self) -> None:
+        """Refuse loads that leave the range of doubles with their factors."""
+        with np.errstate(over="ignore"):
+            largest = np.abs(self.beam.columns.load[2:, :-1]).max(axis=0, initial=0.0)
+            wrong = np.argwhere(~np.isfinite(self._plan.factors * largest))
+        if len(wrong):
+            k, load = wrong[0].tolist()
+            raise SceneError(f"combinations {shown(self.names[k])}", f"loads[{load}] times its factor is too great")
+
+    def _solve_at_once(self) -> tuple[Combined, list[str]]:
+        """Solve all in few calls of the engine, those in the scheme of others after them."""
+        plan = self._plan
+        found, failure = all_combinations(self.beam, plan.factors, plan.settlements, self.rule, self._start)
+        alone = [k for k, other in enumerate(plan.scheme_of) if other is not None]
+        if failure is not None and failure.number not in alone:
+            self._fail(failure)
+        statuses = ["solved" if status == Status.SOLVED else "no-equilibrium" for status in found.status.tolist()]
+        if alone:
+            found = _changeable(found)
+            for k in alone:
+                statuses[k] = self._take(found, k)
+            found.__post_init__()
+        return found, statuses
+
+    def _fail(self, failure: Failure) -> None:
+        """Raise what a combination has instead of an answer: where that can be, by trying once more for the right words."""
+        self.combinations[failure.number]
+        with _named(self._plan, failure.number):
+            check_status(failure.status, failure.message)
+
+    def _solve_one_by_one(self) -> tuple[Combined, list[str]]:
+        """Solve all one after the other, as the way of the load asks for."""
+        beam, count = self.beam, len(self.names)
+        nan = np.full
+        found = Combined(
+            np.zeros(count, np.int32), np.zeros((count, beam.supports), np.int32),
+            nan((count, 4, beam.scene_supports), np.nan), nan((count, 7, 2), np.nan), nan((count, 7, 2), np.nan),
+            np.zeros((count, 0, 7)), np.zeros(count, np.int64),
+        )  # fmt: skip
+        found = _changeable(found)
+        statuses = [self._take(found, k) for k in range(count)]
+        found.__post_init__()
+        return found, statuses
+
+    def _take(self, found: Combined, k: int) -> str:
+        """Put the state of a combination at full load into arrays."""
+        result = self.combinations[k]
+        found.status[k] = Status.SOLVED if result.status == "solved" else Status.NO_EQUILIBRIUM
+        found.at_supports[k], found.extremes[k], found.places[k], found.solves[k] = at_full_load(result)
+        return result.status
+
+    def envelope(self, points: int = 20) -> Envelope:
+        """Largest and smallest values of all combinations together.
+
+        Parameters
+        ----------
+        points : int
+            Divisions of every span at which its curves are made, when they are asked for.
+
+        Returns
+        -------
+        Envelope
+            Of the combinations that are solved, each at its full load.
+
+        Raises
+        ------
+        ValueError
+            No combination is solved.
+        """
+        sources = [Source(name) for name in self.names]
+        found = self._found
+        return Envelope(
+            self.scene, self.fields_there, sources, found.at_supports, found.extremes, found.places,
+            lambda k: self.combinations[k], lambda: self._curves(points),
+        )  # fmt: skip
+
+    @property
+    def fields_there(self) -> dict[str, int]:
+        """Names of the fields, and which of FIELDS they are."""
+        there = dict(self.beam.fields)
+        if self._plan.settlements[:, ~self.beam.across].any():
+            there |= {"axial_force": 4, "axial_displacement": 5}
+        return there
+
+    def _curves(self, points: int) -> tuple[np.ndarray, Iterator[tuple[slice, np.ndarray]]]:
+        """Places along the beam, and the fields there of some combinations at a time."""
+        piece, distance = self.places_along(points)
+        places, lengths = self.beam.places, self.beam.places.pieces[:, 0]
+        at_end = distance == lengths[piece]
+        x = np.where(at_end, places.point_x[piece + 1], places.point_x[piece] + distance)
+        return x, self._fields_at(piece + np.int32(1), distance, x, at_end)
+
+    def _fields_at(self, piece: np.ndarray, distance: np.ndarray, x: np.ndarray, left: np.ndarray) -> Iterator:
+        plan = self._plan
+        alone = [k for k in range(len(plan)) if not self._at_once or plan.scheme_of[k] is not None]
+        if self._at_once:
+            start = self._found.closed
+            for part, found, _ in solve_combinations(self.beam, plan.factors, plan.settlements, self.rule, start, piece, distance):
+                values = found.fields
+                if any(part.start <= k < part.stop for k in alone):
+                    values = values.copy()
+                    values[[k - part.start for k in alone if part.start <= k < part.stop]] = np.nan
+                yield part, values
+        for k in alone:
+            if self.statuses[k] == "solved":
+                yield slice(k, k + 1), fields_on_sides(self.combinations[k], x, left)[None]
+
+
+def fields_on_sides(result: Result, x: np.ndarray, left: np.ndarray) -> np.ndarray:
+    """Give the fields of the last state at places, each on its side.
+
+    Parameters
+    ----------
+    result : Result
+        A solved one.
+    x : numpy.ndarray
+        Places.
+    left : numpy.ndarray of bool
+        Where the value left of the place is meant.
+
+    Returns
+    -------
+    numpy.ndarray
+        Places by fields.
+    """
+    values = np.full((len(x), 7), np.nan)
+    for side, which in (("left", left), ("right", ~left)):
+        found = result.at(x[which], side=side).columns()
+        for name, column in result.beam.fields.items():
+            values[which, column] = found[name]
+    return values
+
+
+def _changeable(found: Combined) -> Combined:
+    """The same with arrays of their own that can be changed until they are protected again."""
+    made = object.__new__(Combined)
+    for name in Combined.__dataclass_fields__:
+        object.__setattr__(made, name, np.array(getattr(found, name)))
+    return made
+
+
+def solve_combined(scene: Scene, beam: Beam, rule: str, start: np.ndarray) -> CombinedResult:
+    """Solve the combinations of a scene.
+
+    Parameters
+    ----------
+    scene : Scene
+        Checked.
+    beam : Beam
+        Made of it.
+    rule : {"block", "single"}
+        How working schemes are found.
+    start : numpy.ndarray of int
+        Where every search starts: no result depends on those before it.
+
+    Returns
+    -------
+    CombinedResult
+
+    Raises
+    ------
+    SceneError
+        A combination makes no sense, or moves supports so that they leave no room for each other.
+    EngineError
+        A combination has no unique answer.
+    """
+    plan = plan_combinations(scene)
+    if plan.scene is not scene:
+        taken = columns(plan.scene)
+        beam = Beam(taken, curves(plan.scene, taken))
+    return CombinedResult(scene, plan, beam, rule, read_only(start))

@@ -1,0 +1,304 @@
+"""Envelopes: largest and smallest values over combinations, where they come from, and what goes with them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from ..base.records import Record
+from ..engine.beam import FIELDS
+from ..scene.names import names_of
+from ..scene.structs import Scene
+
+if TYPE_CHECKING:
+    from .result import Result
+
+AT_SUPPORTS = ("reaction", "deflection", "opening", "couple")
+"""Rows of the values at supports."""
+OF_SUPPORTS = ("reaction", "opening", "deflection")
+"""What an envelope tells of every support."""
+NEAR = 10.0
+"""How many error bounds from an extreme another combination is looked at for a tie."""
+
+
+class Source(NamedTuple):
+    """Where an extreme comes from.
+
+    Attributes
+    ----------
+    combination : str or None
+        Name of the combination; None in a scene without any.
+    """
+
+    combination: str | None = None
+
+    def to_dict(self) -> dict[str, Any]:
+        """As plain data.
+
+        Returns
+        -------
+        dict
+            What is None is left out.
+        """
+        return {key: value for key, value in self._asdict().items() if value is not None}
+
+
+class Extreme:
+    """The largest or smallest value of a quantity over all combinations.
+
+    Attributes
+    ----------
+    quantity : str
+        For example ``moment`` or ``reaction``.
+    value : float
+        The value.
+    x : float
+        Its place.
+    support : int or None
+        Number of the support it belongs to.
+    source : Source
+        Where it comes from: the first one of those that tie.
+    """
+
+    def __init__(self, of: Envelope, quantity: str, values: np.ndarray, which: int, x: float, support: int | None, sign: int):
+        self.quantity, self.value, self.x, self.support = quantity, float(values[which]), x, support
+        self.source = of.sources[which]
+        self._of, self._values, self._which, self._sign = of, values, which, sign
+
+    def __repr__(self) -> str:
+        """Show value, place and source."""
+        return f"Extreme({self.quantity} {self.value:.6g} at x = {self.x:.6g}, {self.source})"
+
+    @property
+    def combination(self) -> str | None:
+        """Name of the combination it comes from."""
+        return self.source.combination
+
+    @property
+    def result(self) -> Result:
+        """The result of that combination."""
+        return self._of.result_of(self._which)
+
+    @cached_property
+    def ties(self) -> tuple[Source, ...]:
+        """All sources of this value, the first one included: those whose values differ by no more than their error bounds."""
+        bound = self._of.bound(self._which, self.quantity)
+        away = self._sign * (self.value - self._values)
+        found = []
+        for k in np.flatnonzero(away <= NEAR * bound).tolist():
+            if away[k] <= 0.0 or away[k] <= bound + self._of.bound(k, self.quantity):
+                found.append(self._of.sources[k])
+        return tuple(found)
+
+    @cached_property
+    def concurrent(self) -> dict[str, float]:
+        """What the other quantities are there, in the combination it comes from.
+
+        Of a field the others at the same place, on the side of the extreme; of a support what else it has.
+        """
+        if self.support is not None:
+            rows = self._of.at_supports[self._which, :, self.support].tolist()
+            return {name: value for name, value in zip(AT_SUPPORTS, rows, strict=True) if name != self.quantity}
+        both = [self.result.at(self.x, side=side).columns() for side in ("right", "left")]
+        there = min(both, key=lambda fields: abs(float(fields[self.quantity]) - self.value))
+        return {name: float(value) for name, value in there.items() if name not in ("x", self.quantity)}
+
+    def to_dict(self) -> dict[str, Any]:
+        """As plain data: its source, all that tie with it, and the concurrent values.
+
+        Returns
+        -------
+        dict
+        """
+        ties = {"ties": [one.to_dict() for one in self.ties if one != self.source]} if len(self.ties) > 1 else {}
+        return {**self.source.to_dict(), **ties, "concurrent": self.concurrent}
+
+
+@dataclass(frozen=True, eq=False)
+class Curves(Record):
+    """Largest and smallest values of every field along the beam.
+
+    Attributes
+    ----------
+    x : numpy.ndarray
+        Places; where something changes twice: the values left of it, then those right of it.
+    largest, smallest : dict
+        By field, an array with a value for every place.
+    largest_of, smallest_of : dict
+        By field, for every place the number of the combination that gives the value: the first one of equal ones.
+    """
+
+    x: np.ndarray
+    largest: dict[str, np.ndarray]
+    smallest: dict[str, np.ndarray]
+    largest_of: dict[str, np.ndarray]
+    smallest_of: dict[str, np.ndarray]
+
+    def columns(self) -> dict[str, np.ndarray]:
+        """As columns of a table, for example for pandas.
+
+        Returns
+        -------
+        dict
+            ``x``, and of every field its largest and smallest values, as ``moment_max`` and ``moment_min``.
+        """
+        found = {"x": self.x}
+        for name in self.largest:
+            found |= {f"{name}_max": self.largest[name], f"{name}_min": self.smallest[name]}
+        return found
+
+
+class Envelope:
+    """Largest and smallest values over all combinations that are solved, each at its full load; never floored at zero.
+
+    Attributes
+    ----------
+    sources : list of Source
+        Where values may come from: the combinations.
+    extremes : dict
+        By field ``{"max": Extreme, "min": Extreme}``: exact values along the whole beam.
+    supports : list of dict
+        For every support by quantity (``reaction``, ``opening``, ``deflection``) the same.
+    """
+
+    def __init__(
+        self, scene: Scene, fields: dict[str, int], sources: Sequence[Source], at_supports: np.ndarray, extremes: np.ndarray,
+        places: np.ndarray, result_of: Callable[[int], Result],
+        curves: Callable[[], tuple[np.ndarray, Iterator[tuple[slice, np.ndarray]]]],
+    ):  # fmt: skip
+        self.scene, self.sources, self.at_supports, self.result_of = scene, list(sources), at_supports, result_of
+        self._fields, self._values, self._places, self._make = fields, extremes, places, curves
+        self._bounds: dict[int, dict[str, float]] = {}
+        if not np.isfinite(extremes[:, 2, 0]).any():
+            raise ValueError("no combination is solved, so there is no envelope")
+
+    def bound(self, k: int, quantity: str) -> float:
+        """Give the error bound of a quantity in a combination.
+
+        Parameters
+        ----------
+        k : int
+            Number of the combination.
+        quantity : str
+            Of a field or of supports; where nothing is known 0.
+
+        Returns
+        -------
+        float
+        """
+        if k not in self._bounds:
+            bounds = self.result_of(k).steps[-1].error_bounds
+            self._bounds[k] = {name: bound or 0.0 for name, bound in bounds.items()}
+        return self._bounds[k].get("deflection" if quantity == "opening" else quantity, 0.0)
+
+    @cached_property
+    def extremes(self) -> dict[str, dict[str, Extreme]]:
+        """Exact extremes of every field, by ``max`` and ``min``."""
+        found = {}
+        for name, column in self._fields.items():
+            found[name] = {}
+            for row, (kind, best, sign) in enumerate((("max", np.nanargmax, 1), ("min", np.nanargmin, -1))):
+                values = self._values[:, column, row]
+                k = int(best(values))
+                found[name][kind] = Extreme(self, name, values, k, float(self._places[k, column, row]), None, sign)
+        return found
+
+    @cached_property
+    def supports(self) -> list[dict[str, dict[str, Extreme]]]:
+        """Extremes at every support, in the order of the scene, by quantity and by ``max`` and ``min``."""
+        x = self.scene.positions(self.scene.supports).tolist()
+        rows = [AT_SUPPORTS.index(name) for name in OF_SUPPORTS]
+        most, least = (
+            best(self.at_supports[:, rows], axis=0) if x else np.zeros((len(rows), 0), int) for best in (np.nanargmax, np.nanargmin)
+        )
+        return [
+            {
+                name: {
+                    kind: Extreme(self, name, self.at_supports[:, row, k], int(which[i, k]), x[k], k, sign)
+                    for kind, which, sign in (("max", most, 1), ("min", least, -1))
+                }
+                for i, (name, row) in enumerate(zip(OF_SUPPORTS, rows, strict=True))
+            }
+            for k in range(len(x))
+        ]
+
+    @cached_property
+    def fields(self) -> Curves:
+        """Largest and smallest values of every field along the beam."""
+        x, parts = self._make()
+        shape = 2, len(x), 7
+        best, of = np.full(shape, np.nan), np.zeros(shape, dtype=np.int32)
+        for part, values in parts:
+            for row, (extreme, sign) in enumerate(((np.nanargmax, 1.0), (np.nanargmin, -1.0))):
+                known = np.where(np.isnan(values), -sign * np.inf, values)
+                k = extreme(known, axis=0)
+                there = np.take_along_axis(known, k[None], axis=0)[0]
+                better = np.isfinite(there) & ~(sign * there <= sign * best[row])
+                best[row][better], of[row][better] = there[better], k[better] + part.start
+        names = self._fields.items()
+        tables = [{name: table[row][:, column].copy() for name, column in names} for table in (best, of) for row in (0, 1)]
+        return Curves(x, *tables)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything as plain data, in the form of the JSON output.
+
+        Returns
+        -------
+        dict
+            Only numbers, strings, lists and dicts.
+        """
+        names = names_of(self.scene.supports)
+        curves = self.fields
+        return {
+            "supports": [
+                {
+                    **({} if names[k] is None else {"name": names[k]}),
+                    **{name: {kind: [one.value, one.to_dict()] for kind, one in row.items()} for name, row in support.items()},
+                }
+                for k, support in enumerate(self.supports)
+            ],
+            "extremes": {
+                name: {kind: [one.value, one.x, one.to_dict()] for kind, one in row.items()} for name, row in self.extremes.items()
+            },
+            "fields": {
+                "x": curves.x.tolist(),
+                **{
+                    name: {
+                        "max": curves.largest[name].tolist(), "min": curves.smallest[name].tolist(),
+                        "max_of": curves.largest_of[name].tolist(), "min_of": curves.smallest_of[name].tolist(),
+                    }
+                    for name in self._fields
+                },
+            },
+        }  # fmt: skip
+
+
+def at_full_load(result: Result) -> tuple[np.ndarray, np.ndarray, np.ndarray, int]:
+    """Give the state of a result at full load as arrays.
+
+    Parameters
+    ----------
+    result : Result
+        Of one load.
+
+    Returns
+    -------
+    at_supports : numpy.ndarray
+        Reaction, deflection, opening, couple (rows) of the supports; not-a-number where it is not solved.
+    extremes, places : numpy.ndarray
+        Maximum and minimum of every field, and where they are, fields by 2.
+    solves : int
+        Linear solves.
+    """
+    at_supports = np.full((4, len(result.scene.supports)), np.nan)
+    extremes, places = np.full((2, len(FIELDS), 2), np.nan)
+    if result.status == "solved":
+        at_supports = result.steps[-1].solution.at_supports
+        for name, row in result.extremes().items():
+            column = FIELDS.index(name)
+            extremes[column], places[column] = zip(row["max"], row["min"], strict=True)
+    return at_supports, extremes, places, result.solves

@@ -1,0 +1,330 @@
+"""Combinations of load cases as factors of every load and movements of every support, patterns written out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import product
+from math import isfinite
+from typing import Any
+
+import msgspec
+import numpy as np
+
+from ..base.errors import SceneError
+from ..base.records import read_only
+from .columns import SIDES
+from .names import cases_of, find, labels
+from .structs import Combination, LinearLoad, Scene, Support, UniformLoad
+from .tables import Table
+from .wording import choice, key_of, number, shown
+
+MOST = 10_000
+"""Combinations that patterns may make of those of a scene."""
+VALUES = ("F", "M", "q", "kappa")
+"""Attributes of loads that are multiplied by factors."""
+
+
+@dataclass(frozen=True)
+class Plan:
+    """The combinations of a scene as numbers.
+
+    Attributes
+    ----------
+    scene : Scene
+        The scene; distributed loads that have patterns are cut at the ends of spans.
+    names : tuple of str
+        Of all combinations, patterns written out.
+    factors : numpy.ndarray
+        Factor of every load, combinations by loads.
+    settlements : numpy.ndarray
+        Further movement of every support, combinations by supports.
+    scheme_of : tuple of (int or None)
+        The combination whose working scheme is taken, by number.
+    idle : tuple of str
+        Cases that act in none of them.
+    """
+
+    scene: Scene
+    names: tuple[str, ...]
+    factors: np.ndarray
+    settlements: np.ndarray
+    scheme_of: tuple[int | None, ...]
+    idle: tuple[str, ...]
+
+    def __len__(self) -> int:
+        """Count the combinations."""
+        return len(self.names)
+
+    def scene_of(self, k: int, acts: Sequence[bool] | None = None) -> Scene:
+        """Write a combination as a scene of its own.
+
+        Parameters
+        ----------
+        k : int
+            Which one, from 0.
+        acts : sequence of bool, optional
+            For every support, whether it acts: it holds both ways then, and else does not carry.
+
+        Returns
+        -------
+        Scene
+            Its loads are those that act, times their factors; its supports have moved.
+        """
+        scene, title = self.scene, self.names[k]
+        loads = [_times(load, factor) for load, factor in zip(scene.loads, self.factors[k].tolist(), strict=True) if factor]
+        supports: Sequence[Support] = scene.supports
+        if self.settlements[k].any() or acts is not None:
+            supports = [_moved(one, by) for one, by in zip(supports, self.settlements[k].tolist(), strict=True)]
+        if acts is not None:
+            supports = [_held(one, act) for one, act in zip(supports, acts, strict=True)]
+        title = f"{scene.title}: {title}" if scene.title else title
+        return msgspec.structs.replace(scene, title=title, loads=loads, supports=supports, combinations=[])
+
+
+def _times(load: Any, factor: float) -> Any:
+    key = next(key for key in VALUES if hasattr(load, key))
+    value = getattr(load, key)
+    value = tuple(factor * one for one in value) if isinstance(value, tuple) else factor * value
+    return msgspec.structs.replace(load, **{key: value})
+
+
+def _moved(support: Support, by: float) -> Support:
+    return msgspec.structs.replace(support, settlement=support.settlement + by) if by else support
+
+
+def _held(support: Support, acts: bool) -> Support:
+    """A support as it is in a given scheme: both ways from where it begins to act, or without stiffness."""
+    if support.side == "both":
+        return support
+    if not acts:
+        return msgspec.structs.replace(support, stiffness=0.0)
+    level = support.settlement + SIDES[support.side] * support.gap
+    return msgspec.structs.replace(support, side="both", gap=0.0, settlement=level)
+
+
+def plan_combinations(scene: Scene) -> Plan:
+    """Take the combinations of a scene.
+
+    Parameters
+    ----------
+    scene : Scene
+        Keys and types are right, and names are unique.
+
+    Returns
+    -------
+    Plan
+
+    Raises
+    ------
+    SceneError
+        A combination speaks of what is not there, or patterns make too many.
+    """
+    for i, combination in enumerate(scene.combinations):
+        _check(scene, i, combination)
+    patterned = dict.fromkeys(case for one in scene.combinations for case, rule in one.expand.items() if rule == "spans")
+    cut, spans = _cut(scene, list(patterned))
+    cases = np.array(cases_of(cut.loads), dtype=object)
+    names: list[str] = []
+    factors: list[np.ndarray] = []
+    origin: list[int] = []
+    _check_count(scene, cases, spans)
+    for i, combination in enumerate(scene.combinations):
+        plain = np.zeros(len(cases))
+        for case, factor in combination.factors.items():
+            plain[cases == case] = factor
+        for name, row in _patterns(combination, plain, cases, spans):
+            names.append(name)
+            factors.append(row)
+            origin.append(i)
+    _check_expanded(scene, names, origin)
+    table = np.array(factors).reshape(len(names), len(cases))
+    movements = np.array([_settlements(scene, i) for i in range(len(scene.combinations))]).reshape(-1, len(scene.supports))
+    idle = [case for case in dict.fromkeys(cases.tolist()) if not table[:, cases == case].any()]
+    return Plan(
+        cut, tuple(names), read_only(table), read_only(movements[origin]), _schemes(scene, names, origin), tuple(idle)
+    )
+
+
+def _check(scene: Scene, i: int, combination: Combination) -> None:
+    """Refuse cases that are not there, and numbers that are none."""
+    place = f"combinations[{i}]"
+    cases = dict.fromkeys(cases_of(scene.loads))
+    for key in (*combination.factors, *combination.expand):
+        if key not in cases:
+            where = f"{place}.{'factors' if key in combination.factors else 'expand'}.{key_of(key)}"
+            there = f"the cases are {choice(map(shown, cases), 'and')}" if cases else "the scene has no loads"
+            raise SceneError(where, f"no load is of this case; {there}")
+    for key, factor in combination.factors.items():
+        if not isfinite(factor):
+            raise SceneError(f"{place}.factors.{key_of(key)}", f"expected a finite number, got {number(factor)}")
+    for key in combination.expand:
+        if not combination.factors.get(key):
+            problem = "has no factor" if key not in combination.factors else "has the factor 0, so all its patterns are the same"
+            raise SceneError(f"{place}.expand.{key_of(key)}", f"{problem}; give it one in factors")
+
+
+def _settlements(scene: Scene, i: int) -> np.ndarray:
+    """Movements of all supports."""
+    row = np.zeros(len(scene.supports))
+    seen: dict[int, str] = {}
+    for key, value in scene.combinations[i].settlements.items():
+        place = f"combinations[{i}].settlements.{key_of(key)}"
+        k = find(scene.supports, key, place, "support")
+        if not isfinite(value):
+            raise SceneError(place, f"expected a finite number, got {number(value)}")
+        if k in seen:
+            raise SceneError(place, f"this support has a movement already, as {shown(seen[k])}; give one of the two")
+        seen[k] = str(key)
+        row[k] = value
+    return row
+
+
+def _cut(scene: Scene, cases: list[str]) -> tuple[Scene, dict[str, np.ndarray]]:
+    """Cut the distributed loads of some cases at the ends of spans.
+
+    Returns
+    -------
+    scene : Scene
+        With more loads.
+    spans : dict
+        By case the span of every load, -1 for those of other cases.
+    """
+    if not cases:
+        return scene, {}
+    ends = scene.span_ends()
+    _check_spans(scene, ends)
+    loads: list[Any] = []
+    of: list[int] = []
+    for i, load in enumerate(scene.loads):
+        if load.case not in cases:
+            loads.append(load)
+            of.append(-1)
+            continue
+        if not isinstance(load, UniformLoad | LinearLoad):
+            raise SceneError(f"loads[{i}]", f'a case with expand = "spans" has distributed loads only; give this one another '
+                             f"case than {shown(load.case)}")  # fmt: skip
+        left, right = load.from_, float(ends[-1]) if load.to is None else load.to
+        for k in range(len(ends) - 1):
+            a, b = max(left, float(ends[k])), min(right, float(ends[k + 1]))
+            if b - a <= 1e-9 * float(ends[-1]):
+                continue
+            loads.append(_part(load, left, right, a, b, k))
+            of.append(k)
+    found = np.array(of, dtype=int)
+    names = np.array([load.case for load in loads], dtype=object)
+    return (
+        msgspec.structs.replace(scene, loads=loads),
+        {case: np.where(names == case, found, -1) for case in cases},
+    )
+
+
+def _part(load: Any, left: float, right: float, a: float, b: float, span: int) -> Any:
+    """A distributed load between two places."""
+    name = None if load.name is None else f"{load.name}, span {span}"
+    if isinstance(load, UniformLoad):
+        return msgspec.structs.replace(load, from_=a, to=b, name=name)
+    at = [load.q[0] + (load.q[1] - load.q[0]) * ((x - left) / (right - left)) for x in (a, b)]
+    q = (load.q[0] if a == left else at[0], load.q[1] if b == right else at[1])
+    return msgspec.structs.replace(load, from_=a, to=b, q=q, name=name)
+
+
+def _check_spans(scene: Scene, ends: np.ndarray) -> None:
+    """Patterns go from span end to span end: a support between would be passed over without a word."""
+    x = scene.positions(scene.supports)
+    names = labels(scene.supports)
+    for k, support in enumerate(scene.supports):
+        if support.direction == "normal" and np.abs(ends - x[k]).min(initial=np.inf) > 1e-9 * ends[-1]:
+            i = next(i for i, one in enumerate(scene.combinations) if "spans" in one.expand.values())
+            case = next(case for case, rule in scene.combinations[i].expand.items() if rule == "spans")
+            raise SceneError(
+                f"combinations[{i}].expand.{key_of(case)}",
+                f'"spans" loads the spans of the beam one by one, but support {names[k]} at x = {number(x[k])} stands inside a '
+                "span; make beam.spans end at the supports",
+            )
+
+
+def _check_count(scene: Scene, cases: np.ndarray, spans: dict[str, np.ndarray]) -> None:
+    """Refuse more combinations than anybody looks at."""
+    total = 0
+    for i, combination in enumerate(scene.combinations):
+        made = 1
+        for case, rule in combination.expand.items():
+            made *= 2 if rule == "signs" else 2 ** len(set(spans[case][spans[case] >= 0].tolist()))
+        total += made
+        if total > MOST and combination.expand:
+            raise SceneError(
+                f"combinations[{i}].expand",
+                f"makes {made:,} combinations, {total:,} with those before it, and {MOST:,} is the most; name the patterns that "
+                "count as cases of their own",
+            )
+
+
+def _patterns(
+    combination: Combination, plain: np.ndarray, cases: np.ndarray, spans: dict[str, np.ndarray]
+) -> Iterator[tuple[str, np.ndarray]]:
+    """Names and factors of what a combination stands for."""
+    ways = []
+    for case, rule in combination.expand.items():
+        if rule == "signs":
+            ways.append([(f"{case} {sign}", cases == case, value) for sign, value in (("+", 1.0), ("-", -1.0))])
+            continue
+        span = spans[case]
+        reached = sorted(set(span[span >= 0].tolist()))
+        ways.append([
+            (f"{case} {''.join(map(str, bits))}", cases == case, np.isin(span, [k for k, bit in zip(reached, bits, strict=True) if bit]))
+            for bits in product((1, 0), repeat=len(reached))
+        ])  # fmt: skip
+    if not ways:
+        yield combination.name, plain
+        return
+    for chosen in product(*ways):
+        row = plain.copy()
+        for _, which, times in chosen:
+            row[which] = (plain * times)[which]
+        yield f"{combination.name} [{'; '.join(word for word, _, _ in chosen)}]", row + 0.0
+
+
+def _check_expanded(scene: Scene, names: list[str], origin: list[int]) -> None:
+    """Names of patterns must not be names of others."""
+    seen: dict[str, int] = {}
+    for name, i in zip(names, origin, strict=True):
+        if name in seen:
+            raise SceneError(f"combinations[{i}].name", f"{shown(name)} is also a pattern of combinations[{seen[name]}]; rename it")
+        seen[name] = i
+
+
+def _schemes(scene: Scene, names: list[str], origin: list[int]) -> tuple[int | None, ...]:
+    """Numbers of the combinations whose schemes are taken."""
+    found: list[int | None] = []
+    numbers = {name: k for k, name in enumerate(names)}
+    heads = [one.name for one in scene.combinations]
+    for i in origin:
+        wanted, place = scene.combinations[i].scheme_of, f"combinations[{i}].scheme_of"
+        if wanted is None:
+            found.append(None)
+            continue
+        if wanted == heads[i]:
+            raise SceneError(place, "is the combination itself; name another one, or leave it out")
+        if wanted not in numbers:
+            if wanted in heads:
+                first = next(name for name, k in zip(names, origin, strict=True) if heads[k] == wanted)
+                raise SceneError(place, f"{shown(wanted)} stands for several; name one of them, such as {shown(first)}")
+            raise SceneError(place, f"there is no combination {shown(wanted)}; there are {choice(map(shown, heads[:12]), 'and')}")
+        if scene.combinations[origin[numbers[wanted]]].scheme_of is not None:
+            raise SceneError(place, f"{shown(wanted)} itself takes the scheme of another one; name that one")
+        found.append(numbers[wanted])
+    if any(k is not None for k in found):
+        _check_schemes(scene, next(i for i, one in enumerate(scene.combinations) if one.scheme_of is not None))
+    return tuple(found)
+
+
+def _check_schemes(scene: Scene, i: int) -> None:
+    """Refuse what has no scheme of supports that are open or closed."""
+    place = f"combinations[{i}].scheme_of"
+    if scene.foundation:
+        raise SceneError(place, "the zones of contact of a foundation are no scheme that another combination can take; leave it out")
+    if not isinstance(scene.supports, Table):
+        for k, support in enumerate(scene.supports):
+            if support.law is not None:
+                raise SceneError(place, f"supports[{k}] has a law, which is not just open or closed; leave scheme_of out")
