@@ -9,6 +9,11 @@ module gapbeam_fields
     private
     public :: values_at, find_extremes
 
+    !> Degrees of the derivatives of deflection, rotation, moment, shear along a piece
+    integer, parameter :: degree(4) = [4, 3, 2, 1]
+    !> Far more than rounding makes of a field, as a share of it
+    real(wp), parameter :: margin = 1.0e-6_wp
+
 contains
 
     !> Fields at given places
@@ -47,8 +52,8 @@ contains
         integer, intent(out) :: piece(:, :)
         real(wp), intent(out) :: distance(:, :)
         type(piece_load_type) :: q
-        real(wp) :: c(0:highest_degree, 4), roots(highest_degree), slope
-        integer :: degree(4), j, k, i, number
+        real(wp) :: c(0:highest_degree, 4), roots(highest_degree), slope, left(4), right(4)
+        integer :: j, k, i, number
 
         values(1, :) = -huge(1.0_wp)
         values(2, :) = huge(1.0_wp)
@@ -56,9 +61,11 @@ contains
         distance = 0.0_wp
         do j = 1, size(pieces)
             q = combine_loads(dead(j), live(j), factor)
+            left = fields_here(0.0_wp)
+            right = fields_here(pieces(j)%length)
             do k = 1, 4
-                call consider(j, 0.0_wp, k, pieces(j), q, starts(j), values(:, k), piece(:, k), distance(:, k))
-                call consider(j, pieces(j)%length, k, pieces(j), q, starts(j), values(:, k), piece(:, k), distance(:, k))
+                call consider(j, 0.0_wp, left(k), values(:, k), piece(:, k), distance(:, k))
+                call consider(j, pieces(j)%length, right(k), values(:, k), piece(:, k), distance(:, k))
             end do
             ! Derivatives of the four fields as polynomials in the distance from the left end
             associate (f => pieces(j)%flexibility, g => pieces(j)%shear_flexibility, a => starts(j))
@@ -73,45 +80,62 @@ contains
                 c(3, 1) = f*q%qa/6
                 c(4, 1) = f*slope/24
             end associate
-            degree = [4, 3, 2, 1]
             do k = 1, 4
+                if (stays_between(c(0:degree(k), k), pieces(j)%length, left(k), values(:, k))) cycle
                 call roots_between(c(0:degree(k), k), pieces(j)%length, roots, number)
                 do i = 1, number
-                    call consider(j, roots(i), k, pieces(j), q, starts(j), values(:, k), piece(:, k), distance(:, k))
+                    right = fields_here(roots(i))
+                    call consider(j, roots(i), right(k), values(:, k), piece(:, k), distance(:, k))
                 end do
             end do
         end do
+
+    contains
+
+        !> The four fields at a distance from the left end of the piece at hand
+        pure function fields_here(s) result(found)
+            real(wp), intent(in) :: s
+            real(wp) :: found(4)
+            type(field_type) :: fields
+
+            fields = fields_at(starts(j), s, pieces(j)%length, pieces(j)%flexibility, pieces(j)%shear_flexibility, q%qa, q%qb, &
+                               q%kappa)
+            found = [fields%deflection, fields%rotation, fields%moment, fields%shear]
+        end function fields_here
+
     end subroutine find_extremes
 
-    !> Compare one field at one place with its extremes so far
-    pure subroutine consider(j, s, k, piece, load, start, values, pieces, distances)
-        !> Number of the piece, distance from its left end, number of the field
+    !> Is a field inside a piece nowhere near what is known already: it cannot go farther from its value at the left end than its
+    !> derivative adds up to in absolute values
+    pure function stays_between(derivative, length, start, known) result(yes)
+        !> Coefficients of the derivative, shape (0:degree)
+        real(wp), intent(in) :: derivative(0:)
+        !> Length of the piece, and the field at its left end
+        real(wp), intent(in) :: length, start
+        !> Largest and smallest value so far
+        real(wp), intent(in) :: known(2)
+        logical :: yes
+        real(wp) :: way
+        integer :: i
+
+        way = 0.0_wp
+        do i = ubound(derivative, 1), 0, -1
+            way = (way + abs(derivative(i))/(i + 1))*length
+        end do
+        way = way + margin*(way + abs(start))
+        yes = start + way < known(1) .and. start - way > known(2)
+    end function stays_between
+
+    !> Compare the value of a field at one place with its extremes so far
+    pure subroutine consider(j, s, value, values, pieces, distances)
+        !> Number of the piece, distance from its left end, the value there
         integer, intent(in) :: j
-        real(wp), intent(in) :: s
-        integer, intent(in) :: k
-        !> The piece, its load, the fields at its left end
-        type(piece_type), intent(in) :: piece
-        type(piece_load_type), intent(in) :: load
-        type(field_type), intent(in) :: start
+        real(wp), intent(in) :: s, value
         !> Maximum and minimum so far and their places
         real(wp), intent(inout) :: values(:)
         integer, intent(inout) :: pieces(:)
         real(wp), intent(inout) :: distances(:)
-        type(field_type) :: fields
-        real(wp) :: value
 
-        fields = fields_at(start, s, piece%length, piece%flexibility, piece%shear_flexibility, &
-                           load%qa, load%qb, load%kappa)
-        select case (k)
-        case (1)
-            value = fields%deflection
-        case (2)
-            value = fields%rotation
-        case (3)
-            value = fields%moment
-        case default
-            value = fields%shear
-        end select
         if (.not. abs(value) <= huge(value)) then
             ! Nothing is beyond it: who asked will see it
             values(:) = [ieee_value(value, ieee_positive_inf), ieee_value(value, ieee_negative_inf)]
