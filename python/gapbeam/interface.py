@@ -4,6 +4,8 @@ from importlib.metadata import version
 
 from .base.errors import EngineError, GapbeamError, SceneError, Status
 from .results.cases import Cases, Prepared, prepare
+from .results.combined import CombinedResult
+from .results.envelope import Envelope
 from .results.result import Fields, Result, System
 from .results.step import Step
 from .results.stepping import solve
@@ -11,6 +13,7 @@ from .scene import (
     Analysis,
     AxialLoad,
     Beam,
+    Combination,
     CurvatureLoad,
     ForceLoad,
     Foundation,
@@ -32,8 +35,11 @@ __all__ = [
     "AxialLoad",
     "Beam",
     "Cases",
+    "Combination",
+    "CombinedResult",
     "CurvatureLoad",
     "EngineError",
+    "Envelope",
     "Fields",
     "ForceLoad",
     "Foundation",

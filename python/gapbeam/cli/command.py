@@ -169,8 +169,8 @@ def _parser() -> argparse.ArgumentParser:
     )  # fmt: skip
     _add_scene(run)
     run.add_argument("--json", metavar="FILE", help="write everything as JSON (.json); - is standard output, without report")
-    run.add_argument("--csv", metavar="FILE", help="write the fields along the beam at the last load step as a table "
-                     "(.csv); - is standard output, without report")  # fmt: skip
+    run.add_argument("--csv", metavar="FILE", help="write the fields along the beam at the last load step, of combinations "
+                     "their envelope, as a table (.csv); - is standard output, without report")  # fmt: skip
     run.add_argument("--plot", metavar="FILE", help="draw beam, deflection, moment, shear, with foundations pressure "
                      "(.png, .pdf or .svg)")  # fmt: skip
     run.add_argument("--path", metavar="FILE", help="draw reactions and openings (with laws deflections), with foundations zones "
@@ -222,7 +222,11 @@ def _run(arguments: argparse.Namespace) -> int:
     from ..results.stepping import solve
     from ..scene.reading import read_scene
 
-    result = solve(read_scene(source(arguments.scene)))
+    scene = read_scene(source(arguments.scene))
+    if scene.combinations and "--path" in outputs:
+        raise SceneError("--path", "draws the way of one load, and the scene has combinations; leave it out, or draw that of one "
+                         "of them in Python (gapbeam.plots.plot_path)")  # fmt: skip
+    result = solve(scene)
     solved = result.status == "solved"
     from ..report.text import csv_parts, json_parts, print_report, to_json
 
@@ -230,7 +234,7 @@ def _run(arguments: argparse.Namespace) -> int:
     if "--json" in outputs:
         # A file grows part by part; what goes to standard output is made first, so that no failure cuts it off
         contents["--json"] = [to_json(result)] if outputs["--json"] == "-" else json_parts(result)
-    if "--csv" in outputs and solved:
+    if "--csv" in outputs and (solved or "solved" in getattr(result, "statuses", ())):
         contents["--csv"] = csv_parts(result)
     if "--plot" in outputs:
         from ..plots.result import figure
@@ -256,6 +260,7 @@ def _run(arguments: argparse.Namespace) -> int:
 
 def _check(arguments: argparse.Namespace) -> int:
     from ..results.formatting import count, number, unit
+    from ..scene.combinations import plan_combinations
     from ..scene.reading import read_scene
 
     scene = read_scene(source(arguments.scene))
@@ -266,6 +271,7 @@ def _check(arguments: argparse.Namespace) -> int:
         f"{count(len(scene.supports), 'support')}, {one_sided:,} of them one-sided",
         *_foundations(scene),
         count(len(scene.loads), "load"),
+        *([count(len(plan_combinations(scene)), "combination")] if scene.combinations else []),
     ]
     with until_closed():
         print(f"{visible(arguments.scene)}: valid: " + "; ".join(parts))

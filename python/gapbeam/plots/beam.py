@@ -17,6 +17,7 @@ from matplotlib.path import Path
 from matplotlib.transforms import ScaledTranslation, Transform
 
 from ..results.formatting import number, ranges, stretch
+from ..scene.names import labels
 from .labels import LINE, Labels, text_width
 
 if TYPE_CHECKING:
@@ -319,17 +320,18 @@ def _ticks(axes: Axes, scene: "Scene", states: tuple[str, ...], lanes: SupportLa
 def _labels(scene: "Scene", x: np.ndarray, width: float, top: float) -> list[tuple[float, float, str]]:
     """Lay out the numbers of the supports, as many as fit, and their gaps under them, from a height downward."""
     scale = (width - 60.0) / float(scene.span_ends()[-1])  # points per length
+    names = labels(scene.supports)
     at = defaultdict(list)
     for index, place in enumerate(x.tolist()):
         at[place].append(index)
     every = next(step for step in (1, 2, 5, 10, 20, 50, 10 ** max(2, len(str(len(at))) - 1)) if len(at) / step <= 32)
     groups: list[list[float]] = []
     for place in sorted(at)[::every]:
-        if not groups or (place - _middle(groups[-1])) * scale > (_width(at, groups[-1]) + _width(at, [place])) / 2:
+        if not groups or (place - _middle(groups[-1])) * scale > (_width(at, groups[-1], names) + _width(at, [place], names)) / 2:
             groups.append([place])
         elif every == 1:
             groups[-1].append(place)  # too near for a label of its own
-    numbers = [(_middle(group), top, _numbers(at, group)) for group in groups]
+    numbers = [(_middle(group), top, _numbers(at, group, names)) for group in groups]
     if every > 1:
         return numbers
     alone = {group[0] for group in groups if len(group) == 1}
@@ -341,14 +343,16 @@ def _middle(places: list[float]) -> float:
     return (places[0] + places[-1]) / 2
 
 
-def _width(at: dict[float, list[int]], places: list[float]) -> float:
-    return text_width(_numbers(at, places))
+def _width(at: dict[float, list[int]], places: list[float], names: list[str]) -> float:
+    return text_width(_numbers(at, places, names))
 
 
-def _numbers(at: dict[float, list[int]], places: list[float]) -> str:
-    """Write the numbers of the supports at some places."""
+def _numbers(at: dict[float, list[int]], places: list[float], names: list[str]) -> str:
+    """Write the names or numbers of the supports at some places."""
     indices = [index for place in places for index in at[place]]
-    return ", ".join(map(str, indices)) if len(indices) <= 3 else ranges(sorted(indices))
+    if len(indices) <= 3:
+        return ", ".join(names[index] for index in indices)
+    return ranges(sorted(indices))
 
 
 def _gap_labels(
@@ -358,20 +362,23 @@ def _gap_labels(
 
     Places of which the number stands `alone` need not repeat it. What is written ends before the edge of the `page`.
     """
-    labels, result = Labels(), []
+    rows, result = Labels(), []
+    names = labels(scene.supports)
     for place, indices in sorted(at.items()):
         gaps = {index: number(scene.supports[index].gap, 4) for index in indices if scene.supports[index].gap}
         if not gaps:
             continue
         sides = {scene.supports[index].side for index in indices}
-        each = [f"{index}{f' {scene.supports[index].side}' if len(sides) > 1 else ''}: gap {gap}" for index, gap in gaps.items()]
+        each = [
+            f"{names[index]}{f' {scene.supports[index].side}' if len(sides) > 1 else ''}: gap {gap}" for index, gap in gaps.items()
+        ]
         texts = ["\n".join(each)] * MOST_LINES
         if place in alone and len(gaps) == len(indices) and len(set(gaps.values())) == 1:
             texts[0] = f"gap {gaps[indices[0]]}"  # right under the numbers, and the same for all of them
         for line, text in enumerate(texts):
             middle = min(place, page - text_width(text) / 2 / scale)
             lines = line + 1 + text.count("\n")
-            if lines <= MOST_LINES and labels.take(middle * scale, top - LINE * lines, text):
+            if lines <= MOST_LINES and rows.take(middle * scale, top - LINE * lines, text):
                 result.append((middle, top - LINE * line, text))
                 break
         else:

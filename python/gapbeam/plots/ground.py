@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.lines import Line2D
 
+from ..base.characters import visible
 from ..results.formatting import stretch
 from .beam import HALF, OFF, face
 from .labels import LINE, text_width
@@ -93,7 +94,8 @@ class GroundLanes:
             if varying:
                 off = SWING * (gap - min(low, 0.0)) / (high - min(low, 0.0))
             lane = next((lane for lane in lanes[sign] if lane[0] <= x[0]), None)
-            name = f"foundation {number}" if named and text_width(f"foundation {number}") < (x[-1] - x[0]) * scale else ""
+            words = f"foundation {number}" if item.name is None else visible(item.name)
+            name = words if (named or item.name is not None) and text_width(words) < (x[-1] - x[0]) * scale else ""
             if lane is None:
                 top = lanes[sign][-1][2] + 3.0 if lanes[sign] else HALF + 0.8
                 lane = [x[-1], top, top + STRIP + max(SWING * varying, OFF) + LINE * named]

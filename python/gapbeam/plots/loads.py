@@ -12,6 +12,7 @@ from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.path import Path
 from matplotlib.transforms import Affine2D, ScaledTranslation, Transform
 
+from ..base.characters import visible
 from ..results.formatting import number, stretch, unit
 from ..scene.structs import AxialLoad, CurvatureLoad, ForceLoad, LinearLoad, MomentLoad, UniformLoad
 from .labels import LINE, Labels, text_width
@@ -219,8 +220,8 @@ def _signed(value: float, digits: int) -> str:
 
 
 def _unit_and_case(scene: "Scene", load: object, quantity: str, cases: int) -> str:
-    """Word the unit of a load, and its case where the scene has both."""
-    return f"{unit(scene, quantity)} {load.case if cases > 1 else ''}".strip()
+    """Word the unit of a load, and its name, or its case where the scene has several."""
+    return f"{unit(scene, quantity)} {visible(load.name or (load.case if cases > 1 else ''))}".strip()
 
 
 def _pack(blocks: list[Block], most: int = 6) -> int:

@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 
 from ..results import formatting as fmt
 from ..results.branches import BranchPath
+from ..scene.names import label
 from .branches import KINK, MARKERS, Trace, draw_trace, name_limits
 from .ground_path import draw_extremes, draw_zones, note_on_ground, states_on_ground
 from .result import LEFT, WIDTH, outcome
@@ -21,6 +22,7 @@ from .save import literal, save
 if TYPE_CHECKING:
     from ..results.result import Result
     from ..results.step import Step
+    from ..scene.structs import Scene
 
 #: Inches: height of a panel and of what is above it, the space below for the load factor and on the right for names
 PANEL, GAP, FOOT, NAMES = 2.1, 0.25, 0.5, 0.95
@@ -81,6 +83,8 @@ def path_figure(result: Result) -> Figure:
     ValueError
         No step stands.
     """
+    if result.combinations:
+        raise ValueError("every combination has a path of its own; draw that of one of them, result.combinations[NAME]")
     if not result.steps:
         raise ValueError(f"there is no path to draw: {result.reason}")
     scene = result.scene
@@ -121,7 +125,7 @@ def path_figure(result: Result) -> Figure:
         _frame(axes, fmt.with_unit(scene, name, words), last=not above)
         if name in tables:
             end = len(factors) - 1 if trace is None else trace.end()
-            _name_lines(axes, {k: float(tables[name][end, k]) for k in drawn[name]}, styles)
+            _name_lines(axes, scene, {k: float(tables[name][end, k]) for k in drawn[name]}, styles)
             moving = int((np.abs(tables[name][:, normal]).max(axis=0, initial=0.0) > 0.0).sum())
             if moving > len(drawn[name]):
                 axes.set_title(f"the {len(drawn[name])} largest of {moving}", loc="right", fontsize=8, color="0.3")
@@ -227,7 +231,7 @@ def _frame(axes: Axes, words: str, last: bool) -> None:
     axes.spines[["top", "right"]].set_visible(False)
 
 
-def _name_lines(axes: Axes, ends: dict[int, float], styles: dict[int, dict]) -> None:
+def _name_lines(axes: Axes, scene: Scene, ends: dict[int, float], styles: dict[int, dict]) -> None:
     """Write the name of every line beside its end, with a sample of it, one above another."""
     if not ends:
         return
@@ -242,7 +246,7 @@ def _name_lines(axes: Axes, ends: dict[int, float], styles: dict[int, dict]) -> 
     for k, end, name in zip(order, at, names, strict=True):
         axes.plot((1.0, sample[0]), (end, name), color="0.7", linewidth=0.6, **beside)
         axes.plot(sample, (name, name), linewidth=1.3, **styles[k], **beside)
-        axes.text(sample[1] + 3.0 / wide, name, str(k), fontsize=8, va="center", transform=axes.transAxes)
+        axes.text(sample[1] + 3.0 / wide, name, label(scene.supports, k)[:10], fontsize=8, va="center", transform=axes.transAxes)
     axes.text(sample[0], names[-1] + 0.8 * NAME / tall, "support", fontsize=8, transform=axes.transAxes)
 
 

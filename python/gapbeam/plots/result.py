@@ -75,8 +75,12 @@ def figure(result: "Result", step: int = -1) -> Figure:
     matplotlib.figure.Figure
         The first panel holds the beam; the symbols of all supports in the same state and on the same side are one
         collection there, labelled for example ``open below``. Without equilibrium the second panel shows the
-        free motion, else the panels are those of the fields.
+        free motion, else the panels are those of the fields. Of combinations their envelope.
     """
+    if result.combinations:
+        from .envelope import envelope_figure
+
+        return envelope_figure(result)
     scene = result.scene
     stands = result.status != "no-equilibrium" and len(result.steps) > 0
     panels = [("motion", "free motion", True)]
@@ -101,7 +105,7 @@ def figure(result: "Result", step: int = -1) -> Figure:
     picture = Figure(figsize=(WIDTH, height), dpi=200)
 
     top = height - heading
-    axes = _axes(picture, scene, top - beam, beam)
+    axes = panel_axes(picture, scene, top - beam, beam)
     axes.set_axis_off()
     axes.set_ylim(supports.bottom, loads.top)  # one unit is one point
     draw_ground(axes, ground, contact)
@@ -111,8 +115,8 @@ def figure(result: "Result", step: int = -1) -> Figure:
     bottom = top - beam - SPACE
     for quantity, words, downward in panels:
         bottom -= PANEL
-        panel = _axes(picture, scene, bottom, PANEL)
-        _frame(panel, scene, quantity, words, downward)
+        panel = panel_axes(picture, scene, bottom, PANEL)
+        frame_panel(panel, scene, quantity, words, downward)
         if stands:
             contacts = ()
             if quantity == "deflection":
@@ -129,7 +133,7 @@ def figure(result: "Result", step: int = -1) -> Figure:
     return literal(picture)
 
 
-def _axes(picture: Figure, scene: "Scene", bottom: float, height: float) -> Axes:
+def panel_axes(picture: Figure, scene: "Scene", bottom: float, height: float) -> Axes:
     """Add a panel at a height in inches; all have the same x."""
     total = picture.get_figheight()
     inside = WIDTH - LEFT - RIGHT
@@ -146,7 +150,7 @@ def _headings(
     height = picture.get_figheight()
     left = LEFT / WIDTH * 0.25
     title = fmt.title(result.scene, "Beam")
-    picture.text(left, 1 - 0.22 / height, _cut(title, 95), fontsize=10, fontweight="bold", va="center")
+    picture.text(left, 1 - 0.22 / height, cut_text(title, 95), fontsize=10, fontweight="bold", va="center")
     if step is None:
         text = outcome(result)
     else:
@@ -184,11 +188,12 @@ def outcome(result: "Result") -> str:
     return "\n".join(textwrap.wrap(begin + fmt.sentence(result.reason), 85, max_lines=2))
 
 
-def _cut(text: str, most: int) -> str:
+def cut_text(text: str, most: int) -> str:
+    """Cut a text after so many characters."""
     return text if len(text) <= most else text[: most - 3] + "..."
 
 
-def _frame(axes: Axes, scene: "Scene", quantity: str, words: str, downward: bool) -> None:
+def frame_panel(axes: Axes, scene: "Scene", quantity: str, words: str, downward: bool) -> None:
     """Write on the axes, and mark the supports with faint lines."""
     if downward:
         axes.invert_yaxis()
@@ -216,7 +221,7 @@ def _curve(
     x, values = outline(x, values, (WIDTH - LEFT - RIGHT) * 72)
     axes.fill_between(x, 0.0, values, color="0.9", linewidth=0, zorder=1)
     axes.plot(x, values, color="black", linewidth=1.1 if len(x) < 3000 else 0.6, solid_joinstyle="round", zorder=3, label="curve")
-    shown = {kind: pair for kind, pair in extreme.items() if _counts(pair[0], extreme)}
+    shown = {kind: pair for kind, pair in extreme.items() if counts(pair[0], extreme)}
     low = min([0.0, *(value for value, _ in shown.values())])
     high = max([0.0, *(value for value, _ in shown.values())])
     span = (high - low) or 1.0
@@ -224,17 +229,17 @@ def _curve(
     bounds = (low - span * (0.24 if room["min"] else 0.08), high + span * (0.24 if room["max"] else 0.08))
     axes.set_ylim(bounds[::-1] if axes.yaxis_inverted() else bounds)
     for value, place in shown.values():
-        _annotate(axes, value, place, avoid)
+        annotate(axes, value, place, avoid)
 
 
-def _counts(value: float, extreme: dict[str, tuple[float, float]]) -> bool:
+def counts(value: float, extreme: dict[str, tuple[float, float]]) -> bool:
     """Decide whether an extreme is worth words: zero at an end of the beam is not."""
     return abs(value) > 1e-6 * max(abs(pair[0]) for pair in extreme.values())
 
 
-def _annotate(axes: Axes, value: float, x: float, avoid: Sequence[Point]) -> None:
+def annotate(axes: Axes, value: float, x: float, avoid: Sequence[Point], more: str = "") -> None:
     """Write an extreme beside its place, on the side away from the axis, where it covers no point to avoid."""
-    text = f"{fmt.number(value, 4)} at {fmt.number(x, 4)}".replace("-", "\N{MINUS SIGN}")
+    text = f"{fmt.number(value, 4)} at {fmt.number(x, 4)}".replace("-", "\N{MINUS SIGN}") + more
     upward = (value > 0.0) != axes.yaxis_inverted()
     (left, right), (low, high) = axes.get_xlim(), sorted(axes.get_ylim())
     share, width = (x - left) / (right - left), (4.4 * len(text) + 8.0) / (WIDTH - LEFT - RIGHT) / 72

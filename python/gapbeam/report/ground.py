@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 
 from ..results import formatting as fmt
 from ..results.ground import Contact, FreeSpan, joined
+from ..scene.names import label
 from .scheme import symbol
 from .writer import LONGEST, Writer
 
@@ -69,7 +70,7 @@ def write_foundations(say: Writer, result: "Result", at: str) -> None:
         touched[zone.foundation] += _length(_ends(zone))
     from_, to = zip(*(fmt.stretch(scene, item) for item in scene.foundation), strict=True)
     columns = [
-        ("", [str(number) for number in range(len(scene.foundation))]),
+        ("", fmt.numbered(scene.foundation)),
         (fmt.stacked(scene, "x", "from"), fmt.column(from_)),
         (fmt.stacked(scene, "x", "to"), fmt.column(to)),
         ("side", [item.side for item in scene.foundation]),
@@ -111,7 +112,7 @@ def write_contact(say: Writer, result: "Result", at: str) -> None:
     if not any(free):
         del columns[-1]
     if len(scene.foundation) > 1:
-        columns.insert(0, ("foundation", [str(item.foundation) for item in stretches]))
+        columns.insert(0, ("foundation", [label(scene.foundation, item.foundation) for item in stretches]))
     left = next(k for k, (name, _) in enumerate(columns) if name == "state")
     say.table([name for name, _ in columns], list(zip(*(texts for _, texts in columns), strict=True)), (left,), MOST_ROWS)
     if len(stretches) > MOST_ROWS:

@@ -7,6 +7,7 @@ from string import ascii_lowercase
 from typing import TYPE_CHECKING
 
 from ..results.formatting import number, ranges, with_unit
+from ..scene.names import label
 
 if TYPE_CHECKING:
     from ..results.ground_path import GroundEvent
@@ -127,7 +128,10 @@ def event_table(
     mixed = bool(scene.foundation)
     rows = []
     for event in events:
-        what = f"foundation {event.foundation}" if event.support is None else f"{'support ' * mixed}{event.support}"
+        if event.support is None:
+            what = f"foundation {label(scene.foundation, event.foundation)}"
+        else:
+            what = f"{'support ' * mixed}{label(scene.supports, event.support)}"
         branch = getattr(event, "branch", 1)
         happens = event.event + (f" (branch {branch})" if branch > 1 else "")
         rows.append([number(event.factor, 10), what, number(event.x), happens])

@@ -19,6 +19,8 @@ from ..results import formatting as fmt
 from ..results.data import result_data, step_data
 from ..results.result import Fields
 from ..results.step import BOUNDED
+from ..scene.names import label, labels
+from .combined import write_combined
 from .ground import ground_in_words, write_contact, write_contact_history, write_foundations
 from .scheme import event_table, legend, merged, scheme_table, symbol
 
@@ -59,6 +61,9 @@ def print_report(result: "Result", console: "Console | None" = None) -> None:
     from .writer import Writer
 
     say = Writer(console or Console(highlight=False))
+    if result.combinations:
+        write_combined(say, result)
+        return
     _headline(say, result)
     _system(say, result)
     if result.status != "solved":
@@ -182,7 +187,8 @@ def to_csv(result: "Result", points: int = 20) -> str:
     Returns
     -------
     str
-        Where moment, shear or axial force jump, x appears twice: the left value, then the right one.
+        Where moment, shear or axial force jump, x appears twice: the left value, then the right one. Of combinations the
+        envelope: largest and smallest value of every field.
     """
     return "".join(csv_parts(result, points))
 
@@ -199,8 +205,9 @@ def csv_parts(result: "Result", points: int = 20) -> Iterator[str]:
     ------
     str
     """
-    columns = result.fields(points=points).columns()
-    headings = [fmt.with_unit(result.scene, name, name) for name in columns]
+    fields = result.envelope(points).fields if result.combinations else result.fields(points=points)
+    columns = fields.columns()
+    headings = [fmt.with_unit(result.scene, name.removesuffix("_max").removesuffix("_min"), name) for name in columns]
     yield _csv([headings])
     for part in parts(len(columns["x"])):
         yield _csv(zip(*(column[part].tolist() for column in columns.values()), strict=True))
@@ -215,7 +222,7 @@ def _csv(rows: Iterable[Sequence]) -> str:
 def _headline(say: "Writer", result: "Result") -> None:
     say.line(fmt.title(result.scene), "bold")
     for limit in result.limits[:MOST_LIMITS]:
-        causes = ", ".join(f"support {support} {event}" for support, event in limit.causes)
+        causes = ", ".join(f"{fmt.support(result.scene, k)} {event}" for k, event in limit.causes)
         say.line(f"{LIMITS[limit.kind]} at load factor {fmt.number(limit.factor, 10)}" + (f": {causes}" if causes else ""))
     if len(result.limits) > MOST_LIMITS:
         say.line(f"... and {len(result.limits) - MOST_LIMITS} more limits.")
@@ -273,7 +280,8 @@ def _no_solution(say: "Writer", result: "Result") -> None:
 def _landing(say: "Writer", result: "Result", landing: "Step") -> None:
     """Where the beam would be next."""
     which = [k for k, support in enumerate(result.scene.supports) if support.law is not None]
-    texts = [f"support {k} {landing.state[k]}, deflection {fmt.number(landing.deflection[k])}" for k in which[:10]]
+    scene = result.scene
+    texts = [f"{fmt.support(scene, k)} {landing.state[k]}, deflection {fmt.number(landing.deflection[k])}" for k in which[:10]]
     more = f", and {len(which) - 10} more" if len(which) > 10 else ""
     say.line(f"The next stable state along the path at this load factor (dynamics may lead elsewhere): {'; '.join(texts)}{more}.")
 
@@ -298,6 +306,7 @@ def _supports(say: "Writer", result: "Result", at: str) -> None:
     if not scene.supports:
         return
     say.heading(f"Supports {at}")
+    names = fmt.numbered(scene.supports)
     sides = ["axial" if support.direction == "axial" else support.side for support in scene.supports]
     states = [f"{symbol(state, say.plain)} {state}" for state in step.state]
     quantities = {"reaction": step.reaction, "couple": step.couple, "deflection": step.deflection}
@@ -309,7 +318,7 @@ def _supports(say: "Writer", result: "Result", at: str) -> None:
         quantities["set"] = step.set
     for digits in (6, 5, 4, 3):
         columns = [
-            ("", [str(index) for index in range(len(sides))]),
+            ("", names),
             (fmt.stacked(scene, "x"), fmt.column(scene.positions(scene.supports))),
             ("side", sides),
             ("state", states),
@@ -317,7 +326,8 @@ def _supports(say: "Writer", result: "Result", at: str) -> None:
         ]
         if sum(1 + max(map(len, (*name.split("\n"), *texts))) for name, texts in columns) <= say.width:
             break  # numbers are shortened rather than broken
-    say.table([name for name, _ in columns], list(zip(*(texts for _, texts in columns), strict=True)), left=(2, 3))
+    left = (2, 3) if names == [str(k) for k in range(len(names))] else (0, 2, 3)
+    say.table([name for name, _ in columns], list(zip(*(texts for _, texts in columns), strict=True)), left=left)
     normal = [index for index, side in enumerate(sides) if side != "axial"]
     total = sum(float(step.reaction[index]) for index in normal)
     words = [f"Reactions (upward positive) add up to {fmt.number(total)} {fmt.unit(scene, 'force')}".rstrip()]
@@ -330,8 +340,9 @@ def _supports(say: "Writer", result: "Result", at: str) -> None:
 def _restraints_of_open_supports(say: "Writer", result: "Result") -> None:
     """Say which open supports still hold the rotation of the beam."""
     step, x = result.steps[-1], result.scene.positions(result.scene.supports)
+    names = labels(result.scene.supports)
     held = [
-        f"{k} (x = {fmt.number(x[k])}, couple {fmt.number(step.couple[k])} {fmt.unit(result.scene, 'moment')}".rstrip() + ")"
+        f"{names[k]} (x = {fmt.number(x[k])}, couple {fmt.number(step.couple[k])} {fmt.unit(result.scene, 'moment')}".rstrip() + ")"
         for k, (support, state) in enumerate(zip(result.scene.supports, step.state, strict=True))
         if state == "open" and support.rotation not in ("free", 0.0)
     ]
@@ -393,7 +404,7 @@ def _doubts(say: "Writer", result: "Result") -> None:
         words = {False: "Reaction or opening zero, so neither closed nor open", True: "Exactly at a kink of its law"}
         for with_law, what in words.items():
             which = [k for k in step.undecided if (result.scene.supports[k].law is not None) == with_law]
-            names = ", ".join(f"{k} (x = {x[k]:g})" for k in which[:10])
+            names = ", ".join(f"{label(result.scene.supports, k)} (x = {x[k]:g})" for k in which[:10])
             more = f" and {len(which) - 10} more" if len(which) > 10 else ""
             if which:
                 say.line(f"{what}: support {names}{more}.")

@@ -21,8 +21,8 @@ from ..engine.beam import Beam
 from ..scene.reading import read_beam
 from ..scene.structs import Scene
 from .arguments import numbers, scheme
-from .result import Result
 from .following import choose_rule, starting_scheme
+from .result import Result
 from .steps import LoadSteps
 
 
@@ -215,6 +215,9 @@ def prepare(source: Scene | Mapping[str, Any] | str | os.PathLike, *, rule: str 
         each case is more than one solve.
     """
     scene, beam = read_beam(source)
+    if scene.combinations:
+        raise SceneError("combinations", "cases are prepared for factors of every load, which the caller gives; leave combinations "
+                         "out, or use gapbeam.solve, which solves all of them")  # fmt: skip
     if beam.depends_on_path or beam.curves:
         what = "its state depends on the way of the load" if beam.depends_on_path else "one of them is a curve"
         raise SceneError("supports", f"cases cannot be prepared with these laws, as {what}; use gapbeam.solve for each case")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import OrderedDict
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
@@ -16,7 +16,6 @@ from ..engine.beam import Beam, RefusalError
 from ..engine.combinations import Combined, Failure, all_combinations, solve_combinations
 from ..scene.columns import columns, curves
 from ..scene.combinations import Plan, plan_combinations
-from ..scene.names import find
 from ..scene.refusals import refusal
 from ..scene.structs import Scene
 from ..scene.wording import shown
@@ -25,6 +24,7 @@ from .following import follow_load, starting_scheme
 from .result import Result
 
 if TYPE_CHECKING:
+    from .hints import Hint
     from .step import Step
 
 KEPT = 64
@@ -332,6 +332,18 @@ class CombinedResult(Result):
             self.scene, self.fields_there, sources, found.at_supports, found.extremes, found.places,
             lambda k: self.combinations[k], lambda: self._curves(points),
         )  # fmt: skip
+
+    def hints(self) -> list[Hint]:
+        """Where a load factor between governs, as `Result.hints`, of every combination that has a scheme of its own.
+
+        Returns
+        -------
+        list of Hint
+        """
+        from .hints import find_hints
+
+        own = [k for k, other in enumerate(self._plan.scheme_of) if other is None]
+        return [hint for k in own for hint in find_hints(self.combinations[k], self.names[k])]
 
     @property
     def fields_there(self) -> dict[str, int]:

@@ -38,6 +38,10 @@ def result_data(
     ValueError
         `points` is no whole number, or too large.
     """
+    if result.combinations:
+        from .combined_data import combined_data
+
+        return combined_data(result, points, steps)
     scene = result.scene
     columns = fields(result.fields(points=points)) if result.steps else {}
     data: dict[str, Any] = {
@@ -60,6 +64,22 @@ def result_data(
             name: {which: list(pair) for which, pair in row.items()} for name, row in result.extremes().items()
         }
     return data
+
+
+def name_of(item: Any) -> dict[str, str]:
+    """Give the name of an entry of a scene as plain data.
+
+    Parameters
+    ----------
+    item : Support, Foundation or load
+        The entry.
+
+    Returns
+    -------
+    dict
+        Empty where it has none.
+    """
+    return {} if item.name is None else {"name": item.name}
 
 
 def event_data(event: Event | GroundEvent) -> dict[str, Any]:
@@ -126,6 +146,7 @@ def support_data(result: Result, step: Step, x: list[float]) -> list[dict[str, A
     columns = (step.deflection, step.reaction, step.opening, step.couple, step.set)
     return [
         {
+            **name_of(support),
             "x": x[k],
             "side": support.side,
             "direction": support.direction,
@@ -159,9 +180,13 @@ def ground_data(result: Result, step: Step) -> dict[str, Any]:
     """
     if not result.scene.foundation:
         return {}
+    names = [name_of(item) for item in result.scene.foundation]
     return {
         "contact": [
-            {"foundation": c.foundation, "from": c.from_, "to": c.to, "state": c.state, "resultant": c.resultant}
+            {
+                "foundation": c.foundation, **names[c.foundation],
+                "from": c.from_, "to": c.to, "state": c.state, "resultant": c.resultant,
+            }
             for c in step.contact
         ],
         "free_spans": [{"foundation": f.foundation, "from": f.from_, "to": f.to, "sag": f.sag} for f in step.free_spans],

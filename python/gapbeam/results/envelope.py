@@ -277,6 +277,39 @@ class Envelope:
         }  # fmt: skip
 
 
+def envelope_of_one(result: Result, points: int) -> Envelope:
+    """Make the envelope of one load.
+
+    Parameters
+    ----------
+    result : Result
+        A solved one.
+    points : int
+        Divisions of every span for its curves.
+
+    Returns
+    -------
+    Envelope
+
+    Raises
+    ------
+    ValueError
+        It is not solved.
+    """
+
+    def curves() -> tuple[np.ndarray, Iterator[tuple[slice, np.ndarray]]]:
+        fields = result.fields(points=points).columns()
+        values = np.full((1, len(fields["x"]), len(FIELDS)), np.nan)
+        for name, column in result.beam.fields.items():
+            values[0, :, column] = fields[name]
+        return fields["x"], iter([(slice(0, 1), values)])
+
+    at_supports, extremes, places, _ = at_full_load(result)
+    return Envelope(
+        result.scene, result.beam.fields, [Source()], at_supports[None], extremes[None], places[None], lambda _: result, curves
+    )
+
+
 def at_full_load(result: Result) -> tuple[np.ndarray, np.ndarray, np.ndarray, int]:
     """Give the state of a result at full load as arrays.
 

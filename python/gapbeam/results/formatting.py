@@ -8,7 +8,45 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from ..base.characters import visible
+from ..scene.names import DEAD, cases_of, labels
+from ..scene.names import label as name_or_number
 from ..scene.structs import Scene
+
+MOST_CASES = 8
+"""Load cases that are named in one line."""
+
+
+def support(scene: Scene, k: int) -> str:
+    """Name a support in a sentence.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    k : int
+        Number of the support.
+
+    Returns
+    -------
+    str
+        ``support R-104``, or ``support 3`` where it has no name.
+    """
+    return f"support {name_or_number(scene.supports, k)}"
+
+
+def numbered(items: Sequence) -> list[str]:
+    """Give number and name of supports or foundations, for the first column of a table.
+
+    Parameters
+    ----------
+    items : sequence
+        A list of a scene.
+
+    Returns
+    -------
+    list of str
+    """
+    return [str(k) if text == str(k) else f"{k} {text}" for k, text in enumerate(labels(items))]
 
 
 def number(value: float, digits: int = 6) -> str:
@@ -272,15 +310,16 @@ def foundations_in_words(scene: Scene) -> str:
 
 
 def loads_in_words(scene: Scene) -> str:
-    """Tell how many loads there are of which kind, dead and live, in one line."""
+    """Tell how many loads there are of which kind and of which case, in one line."""
     kinds = Counter(type(load).__struct_config__.tag for load in scene.loads)
     if not kinds:
         return "none"
-    dead = sum(load.case == "dead" for load in scene.loads)
     words = ", ".join(f"{quantity:,} {kind}" for kind, quantity in kinds.items())
-    live = len(scene.loads) - dead
-    cases = f"{dead:,} dead, {live:,} live" if dead and live else "all dead" if dead else "all live"
-    return f"{len(scene.loads):,}: {words} ({cases})"
+    cases = Counter(cases_of(scene.loads))
+    order = sorted(cases, key=lambda case: case != DEAD)
+    each = ", ".join(f"{cases[case]:,} {visible(case)}" for case in order[:MOST_CASES])
+    more = f" and {len(order) - MOST_CASES} more cases" if len(order) > MOST_CASES else ""
+    return f"{len(scene.loads):,}: {words} ({each + more if len(order) > 1 else f'all {visible(order[0])}'})"
 
 
 def _labelled(value: float, label: str) -> str:

@@ -18,6 +18,7 @@ from ..base.memory import refuse_beyond
 from ..base.records import Pickled, Record
 from ..engine.arrays import Solution
 from ..engine.beam import METHODS, Beam
+from ..scene.names import label
 from ..scene.structs import Scene
 from ..scene.wording import shown
 from .arguments import finite, numbers, whole
@@ -28,7 +29,9 @@ from .steps import LoadSteps, Steps
 
 if TYPE_CHECKING:
     from .branches import BranchPath, Limit
+    from .envelope import Envelope
     from .ground_path import GroundEvent, GroundPath
+    from .hints import Hint
     from .path import Event, Path, Segment
 
 BYTES_PER_PLACE = 120
@@ -222,7 +225,7 @@ class Result(Pickled):
             "bifurcation": "several ways go on, none of them stable, at load factor",
             "mechanism": "nothing more resists the load beyond load factor",
         }[limit.kind]
-        causes = ", ".join(f"support {support} {event}" for support, event in limit.causes)
+        causes = ", ".join(f"support {label(self.scene.supports, k)} {event}" for k, event in limit.causes)
         self.reason = f"limit load: {what} {limit.factor:.12g}" + (f", where {causes}" if causes else "")
         if limit.leg < 0:
             self.reason += ", while the dead loads are put on (they count from 0 to 1)"
@@ -409,6 +412,41 @@ class Result(Pickled):
     def combinations(self) -> Mapping[str, Result]:
         """Results of the combinations by name; empty where the scene has none."""
         return {}
+
+    def envelope(self, points: int = 20) -> Envelope:
+        """Largest and smallest values at full load, in the form of those of combinations.
+
+        Parameters
+        ----------
+        points : int
+            Divisions of every span at which its curves are made, when they are asked for.
+
+        Returns
+        -------
+        Envelope
+            Of the last load step.
+
+        Raises
+        ------
+        ValueError
+            The beam is not solved.
+        """
+        from .envelope import envelope_of_one
+
+        return envelope_of_one(self, points)
+
+    def hints(self) -> list[Hint]:
+        """Where a load factor between 0 (the dead loads alone) and 1 governs: extremes that are greater there than at 1.
+
+        Returns
+        -------
+        list of Hint
+            The load is followed from event to event, so that nothing is missed between. None for beams on foundations or with
+            smooth laws, and where the state depends on the way of the load.
+        """
+        from .hints import find_hints
+
+        return find_hints(self)
 
     def extremes(self, step: int | None = None) -> dict[str, dict[str, tuple[float, float]]]:
         """Exact largest and smallest values of every field with their places.

@@ -7,6 +7,7 @@ from .structs import (
     Analysis,
     AxialLoad,
     Beam,
+    Combination,
     CurvatureLoad,
     ForceLoad,
     Foundation,
@@ -21,7 +22,7 @@ from .structs import (
 )
 
 __all__ = [
-    "POSITION_TOLERANCE", "Analysis", "AxialLoad", "Beam", "CurvatureLoad", "ForceLoad", "Foundation",
+    "POSITION_TOLERANCE", "Analysis", "AxialLoad", "Beam", "Combination", "CurvatureLoad", "ForceLoad", "Foundation",
     "LinearLoad", "Load", "MomentLoad", "Scene", "Section", "Support", "UniformLoad", "Units", "read_scene",
     "same_place", "scene_schema",
 ]  # fmt: skip

@@ -271,10 +271,10 @@ def _patterns(
             continue
         span = spans[case]
         reached = sorted(set(span[span >= 0].tolist()))
-        ways.append([
-            (f"{case} {''.join(map(str, bits))}", cases == case, np.isin(span, [k for k, bit in zip(reached, bits, strict=True) if bit]))
-            for bits in product((1, 0), repeat=len(reached))
-        ])  # fmt: skip
+        patterns = product((1, 0), repeat=len(reached))
+        ways.append(
+            [(f"{case} {''.join(map(str, bits))}", cases == case, np.isin(span, np.compress(bits, reached))) for bits in patterns]
+        )
     if not ways:
         yield combination.name, plain
         return
@@ -323,7 +323,7 @@ def _check_schemes(scene: Scene, i: int) -> None:
     """Refuse what has no scheme of supports that are open or closed."""
     place = f"combinations[{i}].scheme_of"
     if scene.foundation:
-        raise SceneError(place, "the zones of contact of a foundation are no scheme that another combination can take; leave it out")
+        raise SceneError(place, "zones of contact with a foundation are no scheme that another combination can take; leave it out")
     if not isinstance(scene.supports, Table):
         for k, support in enumerate(scene.supports):
             if support.law is not None:

@@ -169,7 +169,8 @@ def check_names(scene: Scene) -> None:
         if not case.strip():
             raise SceneError(place, "is empty; give a name")
         if case != DEAD and case.strip().casefold() == DEAD:
-            raise SceneError(place, f'{shown(case)} is nearly "dead", which acts in full from the start; write that, or another name')
+            problem = f'{shown(case)} is nearly "dead", which acts in full from the start; write that, or another name'
+            raise SceneError(place, problem)
 
 
 @contextmanager

@@ -1,0 +1,159 @@
+"""The report on combinations: it begins with what governs."""
+
+from typing import TYPE_CHECKING
+
+from ..base.characters import visible
+from ..results import formatting as fmt
+from ..results.hints import beyond
+from ..scene.names import labels
+from .writer import Writer
+
+if TYPE_CHECKING:
+    from ..results.combined import CombinedResult
+    from ..results.envelope import Extreme
+
+MOST_FOLLOWED = 100
+"""Combinations that are followed from event to event for the report, to find factors between that govern."""
+MOST_TIES = 2
+"""Further combinations with the same value that are named."""
+PLACES = (("max", "largest"), ("min", "smallest"))
+
+
+def write_combined(say: Writer, result: "CombinedResult") -> None:
+    """Print what a person wants to know of combinations.
+
+    Parameters
+    ----------
+    say : Writer
+        Where to write.
+    result : CombinedResult
+        What `gapbeam.solve` returned.
+    """
+    scene = result.scene
+    say.line(fmt.title(scene), "bold")
+    number = result.statuses.count("solved")
+    solves = f"{fmt.count(result.solves, 'linear solve')}, {fmt.duration(result.seconds)}"
+    say.line(f"{number:,} of {fmt.count(len(result.names), 'combination')} solved, {solves}")
+    _fallen(say, result)
+    if number:
+        _fields(say, result)
+        _supports(say, result)
+        _factors_between(say, result)
+    _list(say, result)
+    for case in result.idle:
+        say.line(f"No combination has loads of the case {visible(case)}.")
+
+
+def _fallen(say: Writer, result: "CombinedResult") -> None:
+    """Say which combinations are not solved, and why."""
+    fallen = [k for k, status in enumerate(result.statuses) if status != "solved"]
+    if not fallen:
+        return
+    say.heading("Not solved")
+    for k in fallen[:10]:
+        say.line(f"{visible(result.names[k])}: {result.combinations[k].reason}.", "red")
+    if len(fallen) > 10:
+        say.line(f"... and {len(fallen) - 10} more; --json has all.", "dim")
+    if len(fallen) < len(result.names):
+        say.line("They are left out of what follows.")
+
+
+def _source(extreme: "Extreme") -> str:
+    """Name the combinations that an extreme comes from."""
+    names = [visible(source.combination or "") for source in extreme.ties]
+    more = len(names) - 1 - MOST_TIES
+    return ", ".join(names[: 1 + MOST_TIES]) + (f" and {more} more" if more > 0 else "")
+
+
+def _fields(say: Writer, result: "CombinedResult") -> None:
+    scene, envelope = result.scene, result.envelope()
+    say.heading("What governs, all combinations at full load")
+    rows = []
+    for quantity, row in envelope.extremes.items():
+        for kind, words in PLACES:
+            one = row[kind]
+            rows.append([fmt.with_unit(scene, quantity) if kind == "max" else "", words, fmt.number(one.value), fmt.number(one.x),
+                         _source(one)])  # fmt: skip
+    say.table(["", "", "value", fmt.with_unit(scene, "x", "at x"), "combination"], rows, left=(0, 1, 4))
+    say.line("Deflection downward, sagging moment, clockwise rotation: positive. Combinations with equal values stand beside "
+             "each other.", "dim")  # fmt: skip
+
+
+def _supports(say: Writer, result: "CombinedResult") -> None:
+    scene = result.scene
+    if not scene.supports:
+        return
+    say.heading("Supports, all combinations at full load")
+    one_sided = any(support.side != "both" for support in scene.supports)
+    rows = []
+    for name, row in zip(fmt.numbered(scene.supports), result.envelope().supports, strict=True):
+        for kind, words in PLACES:
+            one = row["reaction"][kind]
+            texts = [name if kind == "max" else "", words, fmt.number(one.value), _source(one)]
+            if one_sided:
+                opening = row["opening"][kind]
+                texts += [fmt.number(opening.value), _source(opening) if opening.value else ""]
+            rows.append(texts)
+    headings = ["", "", fmt.stacked(scene, "reaction"), "combination"]
+    if one_sided:
+        headings += [fmt.stacked(scene, "opening"), "combination"]
+    say.table(headings, rows, left=(0, 1, 3, 5))
+    say.line("Reactions upward positive.", "dim")
+
+
+def _factors_between(say: Writer, result: "CombinedResult") -> None:
+    """Say where a factor between governs."""
+    beam = result.beam
+    say.heading("Factors between")
+    if beam.ground_layers or beam.curves or beam.depends_on_path or result.scene.analysis.history != [1.0]:
+        say.line("Not looked for: on foundations, with smooth laws and where the state depends on the way of the load, values are "
+                 "not linear between events.")  # fmt: skip
+        return
+    if len(result.names) > MOST_FOLLOWED:
+        say.line(f"Not looked for: more than {MOST_FOLLOWED} combinations; result.hints() in Python follows all of them.")
+        return
+    envelope, scene = result.envelope(), result.scene
+    largest = {(name, None, kind): one.value for name, row in envelope.extremes.items() for kind, one in row.items()}
+    for k, row in enumerate(envelope.supports):
+        largest |= {(name, k, kind): one.value for name in ("reaction", "opening") for kind, one in row[name].items()}
+    found = list(beyond(result.hints(), largest))
+    if not found:
+        say.line("Nothing is greater where the loads (all but the dead ones) have a part of their factors only.")
+        return
+    names = labels(scene.supports)
+    words = dict(PLACES)
+    rows = [
+        [
+            hint.quantity if hint.support is None else f"{hint.quantity} of {names[hint.support]}", words[hint.kind],
+            fmt.number(hint.value), fmt.number(hint.x), visible(hint.combination or ""), fmt.number(hint.factor, 5),
+            fmt.number(largest[hint.quantity, hint.support, hint.kind]),
+        ]
+        for hint in found
+    ]  # fmt: skip
+    headings = ["", "", "value", fmt.with_unit(scene, "x", "at x"), "combination", "load factor", "at full load"]
+    say.table(headings, rows, left=(0, 1, 4))
+    say.line("With supports that open and close the full load need not be the worst: these values are greater where the loads "
+             "(all but the dead ones) have that part of their factors.")  # fmt: skip
+
+
+def _list(say: Writer, result: "CombinedResult") -> None:
+    say.heading("Combinations")
+    scene = result.scene
+    given = [
+        [
+            visible(one.name),
+            ", ".join(f"{fmt.number(factor, 4)} {visible(case)}" for case, factor in one.factors.items()) or "no load",
+            "; ".join(_about(one)),
+        ]
+        for one in scene.combinations
+    ]
+    say.table(["name", "factors of cases", ""], given, left=(0, 1, 2))
+
+
+def _about(combination: object) -> list[str]:
+    """Say what else a combination asks for."""
+    words = [f"{visible(str(key))} settles {fmt.number(value, 4)}" for key, value in combination.settlements.items()]
+    if combination.scheme_of is not None:
+        words.append(f"working scheme of {visible(combination.scheme_of)}")
+    words += [f"all patterns of {visible(case)} ({rule})" for case, rule in combination.expand.items()]
+    return words
