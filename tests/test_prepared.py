@@ -126,3 +126,45 @@ def test_mistakes():
         beam.result([[1.0, 1.0]])
     with pytest.raises(gapbeam.SceneError, match="rule: expected one of block, single"):
         gapbeam.prepare(scene([1.0], [at(0), at(1)], []), rule="fast")
+
+
+def test_fields_and_extremes_of_cases_are_those_of_their_results():
+    for seed in range(12):
+        rng = random.Random(seed)
+        made = random_scene(rng, held=rng.choice((True, None)))
+        made["analysis"] = {}
+        for k, support in enumerate(made["supports"]):
+            support["name"] = f"S{k}"
+        beam = gapbeam.prepare(made)
+        factors = [[rng.choice((0.0, 1.0, -1.0, 3.0)) for _ in made["loads"]] for _ in range(3)]
+        moved = {f"S{rng.randrange(len(made['supports']))}": [0.01, -0.02, 0.0]} if made["supports"] else None
+        x = np.linspace(0.0, sum(made["beam"]["spans"]), 9)
+        for settlements in (None, moved):
+            cases = beam.solve(factors, settlements=settlements)
+            fields, extremes = cases.at(x, side="left"), cases.extremes()
+            for k, row in enumerate(factors):
+                if cases.status[k]:
+                    assert np.isnan(fields.moment[k]).all()
+                    continue
+                one = beam.result(row, {key: values[k] for key, values in (settlements or {}).items()})
+                scale = 1e-12 * max(np.abs(row).max(initial=0.0), 1e-9) * 1e3
+                assert cases.reaction[k] == pytest.approx(one.steps[-1].reaction[beam.supports], rel=1e-11, abs=scale), seed
+                assert fields.moment[k] == pytest.approx(one.at(x, side="left").moment, rel=1e-10, abs=scale)
+                largest = one.extremes()["shear"]["max"][0]
+                assert extremes["shear"]["max"][0][k] == pytest.approx(largest, rel=1e-11, abs=scale)
+                if not one.steps[-1].indifferent:
+                    nodes = one.at(beam.node_x)
+                    assert cases.deflection[k] == pytest.approx(nodes.deflection, rel=1e-9, abs=1e-12)
+                    assert cases.moment_right[k, :-1] == pytest.approx(nodes.moment[:-1], rel=1e-10, abs=scale)
+                    left = one.at(beam.node_x, side="left").moment[1:]
+                    assert cases.moment_left[k, 1:] == pytest.approx(left, rel=1e-10, abs=scale)
+                    assert cases.moment_left[k, 0] == cases.moment_right[k, -1] == 0.0
+
+
+def test_movements_of_cases_are_checked():
+    beam = gapbeam.prepare(scene([2.0], [at(0, name="A"), at(1)], [uniform(1.0)]))
+    assert beam.solve([1.0], settlements={"A": 0.5}).deflection[0] == 0.5
+    with pytest.raises(gapbeam.SceneError, match=r'settlements\.C: there is no support "C"'):
+        beam.solve(settlements={"C": 1.0})
+    with pytest.raises(ValueError, match=r"settlements\.A: expected a finite number, or 1"):
+        beam.solve(settlements={"A": [1.0, 2.0]})

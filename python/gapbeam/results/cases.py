@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import isfinite
 from typing import Any
 
@@ -18,12 +18,57 @@ from numpy.typing import ArrayLike
 from ..base.errors import SceneError, Status
 from ..base.records import Pickled, Record, read_only
 from ..engine.beam import Beam
+from ..engine.combinations import Combined, all_combinations
+from ..scene.combinations import replace_settlements
+from ..scene.names import find
 from ..scene.reading import read_beam
 from ..scene.structs import Scene
+from ..scene.wording import key_of
 from .arguments import numbers, scheme
 from .following import choose_rule, starting_scheme
-from .result import Result
+from .result import Fields, Result, find_places
 from .steps import LoadSteps
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Asked(Record):
+    """What was asked for, so that more can be asked.
+
+    Attributes
+    ----------
+    beam : Beam
+        The prepared beam.
+    rule : str
+        How working schemes are found.
+    factors, settlements : numpy.ndarray
+        Cases by loads, cases by supports of the scene.
+    closed : numpy.ndarray of int
+        Working schemes that were found, or where the searches start: cases by supports of the engine.
+    """
+
+    beam: Beam
+    rule: str
+    factors: np.ndarray
+    settlements: np.ndarray
+    closed: np.ndarray
+
+    def solve(self, x: np.ndarray | None = None, side: str = "right") -> Combined:
+        """Solve all cases.
+
+        Parameters
+        ----------
+        x : numpy.ndarray, optional
+            Places at which fields are wanted.
+        side : {"right", "left"}
+            Which value is taken where a field jumps.
+
+        Returns
+        -------
+        Combined
+        """
+        where = () if x is None else find_places(self.beam, x, side)
+        found, _ = all_combinations(self.beam, self.factors, self.settlements, self.rule, self.closed, *where)
+        return found
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -56,6 +101,60 @@ class Cases(Record):
     moment_left: np.ndarray
     moment_right: np.ndarray
     solves: np.ndarray = field(compare=False)
+    _asked: Asked | None = field(default=None, compare=False, repr=False)
+
+    def at(self, x: ArrayLike, side: str = "right") -> Fields:
+        """Exact values anywhere along the beam, of all cases in few calls of the engine.
+
+        Parameters
+        ----------
+        x : float or array_like
+            Places along the beam.
+        side : {"right", "left"}
+            Which value is taken where a field jumps.
+
+        Returns
+        -------
+        Fields
+            Of every case a row of the shape of `x` (of one case that shape alone); not-a-number where it is not solved.
+
+        Raises
+        ------
+        ValueError
+            A place outside the beam, or something else than numbers; another side.
+
+        Examples
+        --------
+        >>> import gapbeam
+        >>> beam = gapbeam.prepare({"beam": {"spans": [4.0], "EI": 1.0}, "supports": [{"node": 0}, {"node": 1}],
+        ...                         "loads": [{"type": "uniform", "q": 1.0}]})
+        >>> beam.solve([[1.0], [3.0]]).at([1.0, 2.0]).moment
+        array([[1.5, 2. ],
+               [4.5, 6. ]])
+        """
+        places = np.array(numbers("x", x))
+        found = self._asked.solve(places.ravel(), side)
+        shape = self.status.shape + places.shape
+        of = self._asked.beam.fields
+        return Fields(places, **{name: found.fields[:, :, column].reshape(shape).copy() for name, column in of.items()})
+
+    def extremes(self) -> dict[str, dict[str, tuple[np.ndarray, np.ndarray]]]:
+        """Exact largest and smallest values of every field with their places, of all cases in few calls of the engine.
+
+        Returns
+        -------
+        dict
+            ``{"moment": {"max": (values, x), "min": (values, x)}, ...}``, arrays with an entry for every case.
+        """
+        found = self._asked.solve()
+        shape = self.status.shape
+        return {
+            name: {
+                kind: (found.extremes[:, column, row].reshape(shape), found.places[:, column, row].reshape(shape))
+                for row, kind in enumerate(("max", "min"))
+            }
+            for name, column in self._asked.beam.fields.items()
+        }
 
 
 class Prepared(Pickled):
@@ -86,7 +185,10 @@ class Prepared(Pickled):
         super().__setstate__(state)
         self._beam.split_loads()
 
-    def solve(self, factors: ArrayLike | None = None, start: Sequence[bool] | None = None) -> Cases:
+    def solve(
+        self, factors: ArrayLike | None = None, start: Sequence[bool] | None = None,
+        settlements: Mapping[str | int, ArrayLike] | None = None,
+    ) -> Cases:  # fmt: skip
         """Solve load cases.
 
         Parameters
@@ -96,6 +198,9 @@ class Prepared(Pickled):
         start : sequence of bool, optional
             Where the search for the working scheme starts: True (closed) or False for every support across the beam;
             default all closed. Every case starts from it, so its result does not depend on the other cases.
+        settlements : mapping, optional
+            Further movement of supports (length, positive downward), by name or number: one for all cases, or an array with
+            one for each.
 
         Returns
         -------
@@ -106,6 +211,8 @@ class Prepared(Pickled):
         ------
         ValueError
             Factors of another number than the loads, or that are no finite numbers; or another `start`.
+        SceneError
+            A movement of a support that is not there.
 
         Examples
         --------
@@ -128,15 +235,51 @@ class Prepared(Pickled):
         else:
             closed = scheme(start, len(self.supports), "support across the beam")
             closed = closed if carries is None else closed[carries]
+        moves = self._movements(settlements, len(many))
+        if moves.any():
+            start_of_all = np.broadcast_to(closed, (len(many), self._beam.supports))
+            return self._solve_moved(Asked(self._beam, self._rule, many, moves, start_of_all), factors.ndim == 2)
         w, left, right, reaction, closed, solves, status = self._beam.solve_cases(many, self._rule, closed)
+        asked = Asked(self._beam, self._rule, many, moves, closed)
         if carries is not None:
             closed = self._by_supports(closed, carries, np.zeros(len(many), dtype=np.int32))
             reaction = self._by_supports(reaction, carries, np.where(status == Status.SOLVED, 0.0, np.nan))
             for k in self._beam.laws if self._beam.has_laws else ():
                 closed[:, np.searchsorted(self.supports, k)] = self._acts(k, closed[:, np.searchsorted(self.supports, k)])
         if factors.ndim == 2:
-            return Cases(status, closed, reaction, w, left, right, solves)
-        return Cases(status[0], closed[0], reaction[0], w[0], left[0], right[0], solves[0])
+            return Cases(status, closed, reaction, w, left, right, solves, asked)
+        return Cases(status[0], closed[0], reaction[0], w[0], left[0], right[0], solves[0], asked)
+
+    def _movements(self, settlements: Mapping[str | int, ArrayLike] | None, count: int) -> np.ndarray:
+        """Further movements of all supports, cases by supports."""
+        moves = np.zeros((count, len(self.scene.supports)))
+        for key, given in (settlements or {}).items():
+            k = find(self.scene.supports, key, f"settlements.{key_of(key)}", "support")
+            values = np.asarray(numbers(f"settlements.{key_of(key)}", given))
+            if values.shape not in ((), (count,)) or not np.isfinite(values).all():
+                got = f"shape {values.shape}" if values.size > 1 else str(values)
+                raise ValueError(f"settlements.{key_of(key)}: expected a finite number, or {count}, one a case; got {got}")
+            moves[:, k] += values
+        return moves
+
+    def _solve_moved(self, asked: Asked, many: bool) -> Cases:
+        """Solve cases whose supports move, which the loads split one by one do not know of."""
+        beam, nodes = self._beam, len(self.node_x)
+        sides = [find_places(beam, self.node_x, side) for side in ("left", "right")]
+        piece, distance = (np.concatenate(parts) for parts in zip(*sides, strict=True))
+        found, _ = all_combinations(beam, asked.factors, asked.settlements, self._rule, asked.closed, piece, distance)
+        w, left, right = found.fields[:, nodes:, 0], found.fields[:, :nodes, 2].copy(), found.fields[:, nodes:, 2].copy()
+        solved = found.status == Status.SOLVED
+        left[solved, 0] = right[solved, -1] = 0.0  # beside the beam
+        closed = found.closed.copy()
+        asked = Asked(beam, self._rule, asked.factors, asked.settlements, closed)
+        if self._carries is not None:
+            closed = self._by_supports(closed, self._carries, np.zeros(len(closed), dtype=np.int32))
+            for k in beam.laws if beam.has_laws else ():
+                closed[:, np.searchsorted(self.supports, k)] = self._acts(k, closed[:, np.searchsorted(self.supports, k)])
+        reaction = found.at_supports[:, 0][:, self.supports]
+        values = found.status, closed, reaction, w, left, right, found.solves
+        return Cases(*(values if many else (value[0] for value in values)), asked)
 
     def _by_supports(self, values: np.ndarray, carries: np.ndarray, idle: np.ndarray) -> np.ndarray:
         """Add up the columns of the kinks of laws, and add those of supports that can carry nothing."""
@@ -161,13 +304,15 @@ class Prepared(Pickled):
             raise ValueError(f"factors: the factor of load {at[-1]} is {factors[tuple(at)]}; give a finite number")
         return factors
 
-    def result(self, factors: ArrayLike | None = None) -> Result:
+    def result(self, factors: ArrayLike | None = None, settlements: Mapping[str | int, ArrayLike] | None = None) -> Result:
         """Solve one case with all that `gapbeam.solve` gives: fields, extremes, certificate, report.
 
         Parameters
         ----------
         factors : array_like, optional
             Factor of every load of the scene; default all 1.
+        settlements : mapping, optional
+            As for `solve`, numbers only.
 
         Returns
         -------
@@ -184,8 +329,16 @@ class Prepared(Pickled):
         factors = self._checked(factors)
         if factors.ndim != 1:
             raise ValueError("factors: expected one case")
-        beam = self._beam.with_factors(factors)
-        result = Result(self.scene, beam, self._rule)
+        moves = self._movements(settlements, 1)[0]
+        base, scene = self._beam, self.scene
+        if moves.any():
+            columns = base.columns
+            support = columns.support.copy(order="F")
+            support[3, :-1] += moves
+            scene = replace_settlements(scene, moves)
+            base = Beam(replace(columns, support=support))
+        beam = base.with_factors(factors)
+        result = Result(scene, beam, self._rule)
         result.steps = LoadSteps(beam, self._rule, starting_scheme(beam), 1)
         fallen = result.steps.solve_all()
         if fallen is not None:

@@ -119,6 +119,42 @@ class Fields(Record):
         return {f.name: getattr(self, f.name) for f in fields(self) if getattr(self, f.name) is not None}
 
 
+def find_places(beam: Beam, x: np.ndarray, side: str) -> tuple[np.ndarray, np.ndarray]:
+    """Find places along a beam.
+
+    Parameters
+    ----------
+    beam : Beam
+        The beam.
+    x : numpy.ndarray
+        The places.
+    side : {"right", "left"}
+        Which side is meant where a field jumps.
+
+    Returns
+    -------
+    piece : numpy.ndarray of int
+        Pieces, from 1.
+    distance : numpy.ndarray
+        Distances from their left ends.
+
+    Raises
+    ------
+    ValueError
+        A place outside the beam; another side.
+    """
+    if not isinstance(side, str) or side not in ("right", "left"):
+        raise ValueError(f'side: expected "right" or "left", got {shown(side)}')
+    try:
+        return beam.find(x, side == "left")
+    except EngineError as error:
+        if error.status != Status.BAD_INPUT:
+            raise
+        end = beam.places.end
+        off = x[~((x >= 0) & (x <= end))].flat[0]
+        raise ValueError(f"x: the beam goes from 0 to {end:g}, got {off:g}") from None
+
+
 class Result(Pickled):
     """All load steps of a scene.
 
@@ -330,17 +366,8 @@ class Result(Pickled):
         IndexError
             There is no such step.
         """
-        if not isinstance(side, str) or side not in ("right", "left"):
-            raise ValueError(f'side: expected "right" or "left", got {shown(side)}')
         x = np.array(numbers("x", x))
-        try:
-            piece, distance = self.beam.find(x.ravel(), side == "left")
-        except EngineError as error:
-            if error.status != Status.BAD_INPUT:
-                raise
-            end = self.beam.places.end
-            off = x[~((x >= 0) & (x <= end))].flat[0]
-            raise ValueError(f"x: the beam goes from 0 to {end:g}, got {off:g}") from None
+        piece, distance = find_places(self.beam, x.ravel(), side)
         return self._fields(x, piece, distance, self._chosen(step, factor))
 
     def _fields(self, x: np.ndarray, piece: np.ndarray, distance: np.ndarray, state: Step) -> Fields:

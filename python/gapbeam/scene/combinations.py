@@ -74,12 +74,31 @@ class Plan:
         scene, title = self.scene, self.names[k]
         loads = [_times(load, factor) for load, factor in zip(scene.loads, self.factors[k].tolist(), strict=True) if factor]
         supports: Sequence[Support] = scene.supports
-        if self.settlements[k].any() or acts is not None:
-            supports = [_moved(one, by) for one, by in zip(supports, self.settlements[k].tolist(), strict=True)]
+        if self.settlements[k].any():
+            supports = replace_settlements(scene, self.settlements[k]).supports
         if acts is not None:
             supports = [_held(one, act) for one, act in zip(supports, acts, strict=True)]
         title = f"{scene.title}: {title}" if scene.title else title
         return msgspec.structs.replace(scene, title=title, loads=loads, supports=supports, combinations=[])
+
+
+def replace_settlements(scene: Scene, moves: np.ndarray) -> Scene:
+    """Move supports further.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene; left as it is.
+    moves : numpy.ndarray
+        Further movement of every support.
+
+    Returns
+    -------
+    Scene
+    """
+    return msgspec.structs.replace(
+        scene, supports=[_moved(one, by) for one, by in zip(scene.supports, moves.tolist(), strict=True)]
+    )
 
 
 def _times(load: Any, factor: float) -> Any:
@@ -139,7 +158,8 @@ def plan_combinations(scene: Scene) -> Plan:
             origin.append(i)
     _check_expanded(scene, names, origin)
     table = np.array(factors).reshape(len(names), len(cases))
-    movements = np.array([_settlements(scene, i) for i in range(len(scene.combinations))]).reshape(-1, len(scene.supports))
+    shape = len(scene.combinations), len(scene.supports)
+    movements = np.array([_settlements(scene, i) for i in range(len(scene.combinations))]).reshape(shape)
     idle = [case for case in dict.fromkeys(cases.tolist()) if not table[:, cases == case].any()]
     return Plan(
         cut, tuple(names), read_only(table), read_only(movements[origin]), _schemes(scene, names, origin), tuple(idle)
