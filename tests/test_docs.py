@@ -11,9 +11,9 @@ from gapbeam.cli import main
 from gapbeam.plots import plot, plot_path
 
 TOP = Path(__file__).resolve().parent.parent
-PAGES = ["laws", "examples", "foundation"]
+PAGES = ["laws", "examples", "foundation", "cases"]
 PATHS = ["snap_through", "rubber_stops", "pile_head", "shaft_jack_up"]
-BEAMS = ["rail_lift_off", "strip_footing", "slab_on_mound", "seabed_pipe", "laterally_loaded_pile"]
+BEAMS = ["rail_lift_off", "strip_footing", "slab_on_mound", "seabed_pipe", "laterally_loaded_pile", "pipe_rack_states"]
 
 
 def page(name):

@@ -33,6 +33,11 @@ def states(name):
     return [row[2] for row in merged(result.history())], result.steps[-1]
 
 
+def each(result):
+    """The results of the combinations, or the one there is."""
+    return list(result.combinations.values()) or [result]
+
+
 @pytest.mark.parametrize("path", SCENES, ids=lambda path: path.stem)
 def test_scene_solves_and_balances(path):
     result = gapbeam.solve(path)
@@ -40,12 +45,19 @@ def test_scene_solves_and_balances(path):
     assert path.read_text().startswith("# ")
     assert result.scene.title
     assert result.scene.units.force
+    for one in each(result):
+        balances(one)
+
+
+def balances(result):
+    """No support pulls, and reactions carry the loads."""
     for step in result.steps:
         one_sided = {"below": 1.0, "above": -1.0, "both": 0.0}
         signs = np.array([one_sided[support.side] for support in result.scene.supports])
         largest = np.abs(step.reaction).max(initial=0.0)
         assert (signs * step.reaction >= -1e-12 * largest).all()
-        assert (step.opening >= 0.0).all()
+        acting = np.array([support.stiffness > 0.0 for support in result.scene.supports], dtype=bool)
+        assert (step.opening[acting] >= 0.0).all()
         assert not (step.opening * step.reaction).any()
     ground = sum(zone.resultant for zone in step.contact)
     assert step.reaction.sum() + ground == pytest.approx(load_total(result.scene, step.factor), rel=1e-10)
@@ -53,11 +65,13 @@ def test_scene_solves_and_balances(path):
 
 @pytest.mark.parametrize("path", SCENES, ids=lambda path: path.stem)
 def test_both_rules_agree(path):
-    block, single = (gapbeam.solve(path, rule=rule).steps[-1] for rule in ("block", "single"))
-    assert block.state == single.state
-    size = np.abs(block.reaction).max(initial=0.0)
-    np.testing.assert_allclose(block.reaction, single.reaction, rtol=0, atol=1e-11 * size)
-    assert block.contact == single.contact
+    results = (each(gapbeam.solve(path, rule=rule)) for rule in ("block", "single"))
+    for one, other in zip(*results, strict=True):
+        block, single = one.steps[-1], other.steps[-1]
+        assert block.state == single.state
+        size = np.abs(block.reaction).max(initial=0.0)
+        np.testing.assert_allclose(block.reaction, single.reaction, rtol=0, atol=1e-11 * size)
+        assert block.contact == single.contact
 
 
 @pytest.mark.parametrize(("name", "reaction"), [("paper_beam", 3.8507982), ("paper_beam_printed_load", 3.7871682)])
