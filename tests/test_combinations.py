@@ -255,7 +255,7 @@ def test_json_csv_and_report():
     text = report_text(result, 110)
     assert text.index("What governs") < text.index("Supports, all combinations") < text.index("Combinations\n")
     assert "2 of 3 combinations solved" in text
-    assert "No combination has loads of the case live." in text
+    assert "No combination has loads of the case \"live\"." in text
     assert "storm: no equilibrium" in " ".join(text.split())
 
 
@@ -316,3 +316,14 @@ def test_what_cannot_be_prepared_is_refused():
         gapbeam.read_scene(made)
 
 
+
+
+def test_a_scheme_that_is_not_decided_is_named():
+    supports = [at(0), at(1, side="below", gap=0.0, name="mid"), at(2)]
+    made = scene([2.0, 2.0], supports, [force(1.0, 0.0, case="a"), force(1.0, 5.0, case="b")], EI=100.0) | {
+        "combinations": [{"name": "x", "factors": {"a": 1.0}}, {"name": "y", "factors": {"b": 1.0}, "scheme_of": "x"}]}  # fmt: skip
+    result = gapbeam.solve(made)
+    assert len(result.remarks) == 1
+    assert 'takes the scheme of "x", in which reaction or opening of support mid' in result.remarks[0]
+    with pytest.raises(IndexError, match="the scene has 2 combinations"):
+        result.steps[-1]

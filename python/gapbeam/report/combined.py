@@ -40,8 +40,8 @@ def write_combined(say: Writer, result: "CombinedResult") -> None:
         _supports(say, result)
         _factors_between(say, result)
     _list(say, result)
-    for case in result.idle:
-        say.line(f"No combination has loads of the case {visible(case)}.")
+    for remark in result.remarks:
+        say.line(fmt.sentence(visible(remark)))
 
 
 def _fallen(say: Writer, result: "CombinedResult") -> None:
@@ -65,9 +65,14 @@ def _source(extreme: "Extreme") -> str:
     return ", ".join(names[: 1 + MOST_TIES]) + (f" and {more} more" if more > 0 else "")
 
 
+def _when(result: "CombinedResult") -> str:
+    """Say which state of every combination counts."""
+    return "at full load" if result.scene.analysis.history[-1] == 1.0 else "at the end of the history"
+
+
 def _fields(say: Writer, result: "CombinedResult") -> None:
     scene, envelope = result.scene, result.envelope()
-    say.heading("What governs, all combinations at full load")
+    say.heading(f"What governs, all combinations {_when(result)}")
     rows = []
     for quantity, row in envelope.extremes.items():
         for kind, words in PLACES:
@@ -83,7 +88,7 @@ def _supports(say: Writer, result: "CombinedResult") -> None:
     scene = result.scene
     if not scene.supports:
         return
-    say.heading("Supports, all combinations at full load")
+    say.heading(f"Supports, all combinations {_when(result)}")
     one_sided = any(support.side != "both" for support in scene.supports)
     rows = []
     for name, row in zip(fmt.numbered(scene.supports), result.envelope().supports, strict=True):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import OrderedDict
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
@@ -16,6 +16,7 @@ from ..engine.beam import Beam, RefusalError
 from ..engine.combinations import Combined, Failure, all_combinations, solve_combinations
 from ..scene.columns import columns, curves
 from ..scene.combinations import Plan, plan_combinations
+from ..scene.names import label
 from ..scene.refusals import refusal
 from ..scene.structs import Scene
 from ..scene.wording import shown
@@ -127,7 +128,7 @@ class Combinations(Pickled, Mapping[str, Result]):
         try:
             return Beam(replace(base, load=load, support=support), self._beam.curves)
         except RefusalError as refused:
-            raise refusal(replace_scene(plan, k), *refused.codes) from None
+            raise refusal(self._plan.scene_of(k), *refused.codes) from None
 
     def _make(self, k: int) -> Result:
         plan = self._plan
@@ -154,9 +155,27 @@ class Combinations(Pickled, Mapping[str, Result]):
         return result
 
 
-def replace_scene(plan: Plan, k: int) -> Scene:
-    """Write the scene of a combination with all its loads, for the wording of refusals."""
-    return plan.scene_of(k)
+class NoSteps(Sequence):
+    """No steps, and what to look at instead.
+
+    Parameters
+    ----------
+    words : str
+        What is said to who asks for one.
+    """
+
+    def __init__(self, words: str):
+        self._words = words
+
+    def __len__(self) -> int:
+        """Count them."""
+        return 0
+
+    def __getitem__(self, index: int | slice) -> list:
+        """Give none."""
+        if isinstance(index, slice):
+            return []
+        raise IndexError(self._words)
 
 
 class _named:
@@ -189,15 +208,20 @@ class CombinedResult(Result):
         The combinations, patterns written out.
     statuses : tuple of str
         The status of each.
-    idle : tuple of str
-        Load cases that act in none of them.
+    remarks : list of str
+        What else is to be known: load cases that act in none of them, schemes that are not decided.
     """
 
     def __init__(self, scene: Scene, plan: Plan, beam: Beam, rule: str, start: np.ndarray):
         super().__init__(scene, beam, rule)
-        self.names, self.idle = plan.names, plan.idle
+        self.names = plan.names
         self._plan, self._start = plan, start
         self._combinations = Combinations(plan, beam, rule, start)
+        self._words = (
+            f"the scene has {len(plan)} combinations, each with a result of its own; take for example "
+            f"result.combinations[{plan.names[0]!r}], or result.envelope()"
+        )
+        self.steps = NoSteps(self._words)
         begin = perf_counter()
         # One solve each, or the whole way of the load
         analysis = scene.analysis
@@ -208,6 +232,8 @@ class CombinedResult(Result):
         self._found, reasons = self._solve_at_once() if self._at_once else self._solve_one_by_one()
         self.statuses = tuple(reasons)
         self._seconds = perf_counter() - begin
+        self.remarks = [f"no combination has loads of the case {shown(case)}" for case in plan.idle]
+        self.remarks += [words for k in range(len(plan)) if (words := self._doubt(k))]
         fallen = [k for k, status in enumerate(self.statuses) if status != "solved"]
         if fallen:
             self.status = max(self.statuses, key=WORST.index)
@@ -248,14 +274,25 @@ class CombinedResult(Result):
         return self._seconds
 
     def _chosen(self, step: int | None, factor: float | None = None) -> Step:
-        raise ValueError(
-            f"the scene has {len(self.names)} combinations, each with a result of its own; take for example "
-            f"result.combinations[{self.names[0]!r}], or result.envelope()"
-        )
+        raise ValueError(self._words)
 
     def state(self, factor: float) -> Step:
         """Refuse: every combination has states of its own."""
         return self._chosen(None, factor)
+
+    def _doubt(self, k: int) -> str:
+        """Say whether the scheme that a combination takes is not decided."""
+        other = self._plan.scheme_of[k]
+        if other is None or self.statuses[other] != "solved":
+            return ""
+        before = self.combinations[other].steps[-1]
+        if not before.undecided:
+            return ""
+        which = ", ".join(f"{label(self.scene.supports, i)} (taken as {before.state[i]})" for i in before.undecided)
+        return (
+            f"the combination {shown(self.names[k])} takes the scheme of {shown(self.names[other])}, in which reaction or opening "
+            f"of support {which} is zero, so that it may be closed or open"
+        )
 
     def _check_products(self) -> None:
         """Refuse loads that leave the range of doubles with their factors."""

@@ -35,8 +35,8 @@ def combined_data(result: CombinedResult, points: int = 20, combinations: Callab
     }
     if result.reason is not None:
         data["reason"] = result.reason
-    if result.idle:
-        data["idle_cases"] = list(result.idle)
+    if result.remarks:
+        data["remarks"] = result.remarks
     data["combinations"] = combinations(_each(result))
     if "solved" in result.statuses:
         data["envelope"] = result.envelope(points).to_dict()

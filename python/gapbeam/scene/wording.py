@@ -141,7 +141,7 @@ def explain(error: msgspec.ValidationError, source: Any, struct: type) -> SceneE
     """
     text, _, path = str(error).partition(" - at ")
     kind, value, place = inspect.type_info(struct), source, ""
-    if text == "Expected `str`" and "key" in path:
+    if path.startswith("`key`") or (text == "Expected `str`" and "key" in path):
         return SceneError(_place(path), "keys are texts, one key here is not")
     for name, index in re.findall(r"\.(\w+)|\[(\d+)\]", path):
         if name == "type" and isinstance(kind := _core(kind), inspect.UnionType):
