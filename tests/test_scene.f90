@@ -7,7 +7,8 @@ program test_scene
     use gapbeam_error, only: error_type, gapbeam_bad_input, gapbeam_not_finite
     use gapbeam_words, only: shown, whole
     use gapbeam_scene, only: model_type, span_type, section_type, support_type, load_type, point_force, point_couple, &
-        uniform_load, imposed_curvature, gapbeam_infinity, gapbeam_below, gapbeam_above, gapbeam_axial, gapbeam_distributed
+        uniform_load, imposed_curvature, gapbeam_infinity, gapbeam_below, gapbeam_above, gapbeam_axial, gapbeam_distributed, &
+        gapbeam_dead
     use gapbeam_units, only: units_type, units_with_loads, moment_unit, turning_unit, bound_outside, no_exponent
     use gapbeam_places, only: place_span_ends, locate, merge_places
     use gapbeam_refusal, only: named, of_spans, of_hinges, of_supports, of_loads, of_sections, no_span, not_expected, too_long, &
@@ -21,6 +22,7 @@ program test_scene
     use gapbeam_state, only: solve_state
     use gapbeam_query, only: support_values, fields_at_places, node_places
     use gapbeam_cases, only: case_loads_type, split_loads, solve_case, take_case
+    use gapbeam_combinations, only: combination_type, combine, solve_combination, values_of_combination
     use gapbeam_search, only: rule_block
     use gapbeam_workspace, only: workspace_type, new_workspace
     use gapbeam_model, only: beam_type
@@ -37,6 +39,7 @@ program test_scene
     call fingerprints_differ()
     call fields_of_a_simple_beam()
     call cases_are_sums_of_loads()
+    call combinations_are_sums_of_loads()
     call finish(status)
     if (status /= 0) stop 1, quiet=.true.
 
@@ -318,5 +321,53 @@ contains
         call take_case([2.0_wp, -1.0_wp, 1.0_wp], lowered, error)
         call check_close([lowered%live(1)%qa, lowered%beam%force(2, 1)], [2.0_wp, 5.0_wp], "the same as a beam of its own")
     end subroutine cases_are_sums_of_loads
+
+    !> Combinations keep dead loads apart, move supports, and are made one after the other on the same beam
+    subroutine combinations_are_sums_of_loads()
+        type(model_type) :: model
+        type(lowered_type) :: lowered
+        type(combination_type) :: combined
+        type(error_type), allocatable :: error
+
+        model = simple()
+        deallocate (model%supports)
+        allocate (model%supports(3))
+        model%supports(:) = [support_type(node=0), support_type(node=2), support_type(node=1, side=gapbeam_below, gap=1.0_wp)]
+        model%loads = [uniform_load(1.0_wp, from=0.0_wp, to=12.0_wp, case=gapbeam_dead), point_force(4.0_wp, x=6.0_wp)]
+        call lower(model, lowered, error)
+        call try_combination(lowered, [2.0_wp, 1.0_wp], [0.0_wp, 0.0_wp, 200.0_wp], combined, &
+                             [14.0_wp, 14.0_wp, 0.0_wp], "the support in the middle is far off")
+        call check_close([combined%lowered%dead(1)%qa, combined%lowered%live(1)%qa], [2.0_wp, 0.0_wp], "dead loads stay dead")
+        call try_combination(lowered, [0.0_wp, 0.5_wp], [1.0_wp, 1.0_wp, 100.0_wp], combined, &
+                             [1.0_wp, 1.0_wp, 0.0_wp], "the ends move down by 1")
+        call try_combination(lowered, [0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp, -1.0_wp], combined, &
+                             [0.0_wp, 0.0_wp, 0.0_wp], "the gap is closed, without load")
+        ! Force at the middle of the beam for a displacement: 48 EI/L**3 = 1/3
+        call try_combination(lowered, [0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp, -4.0_wp], combined, &
+                             [-0.5_wp, -0.5_wp, 1.0_wp], "lifted by 3")
+        call try_combination(lowered, [2.0_wp, 1.0_wp], [0.0_wp, 0.0_wp, 0.0_wp], combined, &
+                             [14.0_wp - 28.0_wp/3, 14.0_wp - 28.0_wp/3, 56.0_wp/3], "nothing moves")
+    end subroutine combinations_are_sums_of_loads
+
+    !> Solve a combination and compare reactions, and the moment at 3
+    subroutine try_combination(lowered, factors, settlements, combined, reactions, what)
+        type(lowered_type), intent(in) :: lowered
+        real(wp), intent(in) :: factors(:), settlements(:), reactions(:)
+        type(combination_type), intent(inout) :: combined
+        character(len=*), intent(in) :: what
+        type(error_type), allocatable :: error
+        type(state_type) :: state
+        real(wp) :: at_supports(3, 4), extremes(2, 7), places(2, 7), fields(7, 1)
+
+        call combine(lowered, factors, settlements, combined, error)
+        if (.not. allocated(error)) call solve_combination(combined%lowered, rule_block, [.true., .true., .true.], state, error)
+        if (.not. allocated(error)) then
+            call values_of_combination(combined%lowered, state, [1], [3.0_wp], at_supports, extremes, places, fields, error)
+        end if
+        call check(.not. allocated(error), what)
+        if (allocated(error)) return
+        call check_close(at_supports(:, 1), reactions, what)
+        call check_close([fields(3, 1)], [3.0_wp*reactions(1) - 4.5_wp*factors(1)], "moment: "//what)
+    end subroutine try_combination
 
 end program test_scene
