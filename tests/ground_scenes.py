@@ -41,6 +41,12 @@ def yielding():
     return on_ground([5.0, 5.0], [{"side": "below", "law": [[0.01, 20.0], [0.05, 30.0]]}], loads, EI=1e3)
 
 
+def touching(over=0.0):
+    """A simple beam that sags to the ground at midspan and no farther, but for a share of the way."""
+    ground = [{"k": 4.0, "side": "below", "gap": 5.0 * 3.0 * 8.0**4 / 384.0 * (1.0 - over)}]
+    return on_ground([8.0], ground, [scenes.uniform(3.0)], [scenes.at(0), scenes.at(1)])
+
+
 def footing(steps=1):
     """A short beam that tips off its ground the more the load grows."""
     loads = [scenes.force(1.0, 300.0), scenes.uniform(12.0, case="dead")]

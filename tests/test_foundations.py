@@ -7,6 +7,7 @@ import gapbeam
 import numpy as np
 import pytest
 from foundation_scenes import random_scene
+from ground_scenes import touching
 from mpmath import mp
 from oracle_foundation import solve as reference
 
@@ -90,6 +91,33 @@ def test_ties(seed, status, indifferent):
         step = result.steps[-1]
         assert step.indifferent == indifferent
         assert all(abs(zone.resultant) < 1e-15 for zone in step.contact)
+
+
+@pytest.mark.parametrize("over", [0.0, 1e-15, -1e-15, 1e-14, -1e-14])
+def test_a_place_that_is_only_touched(over):
+    (zone,) = gapbeam.solve(touching(over)).steps[-1].contact
+    assert (zone.state, zone.from_, zone.to, zone.resultant) == ("touching", zone.to, pytest.approx(4.0, abs=1e-7), 0.0)
+
+
+@pytest.mark.parametrize(("over", "states"), [(1e-12, ["closed"]), (-1e-12, [])])
+def test_contact_and_none_beside_a_touch(over, states):
+    assert [zone.state for zone in gapbeam.solve(touching(over)).steps[-1].contact] == states
+
+
+@pytest.mark.parametrize("gap", [{"gap": 2.0}, {"profile": [[0.0, 9.0], [1.0, 17.0 / 24.0], [2.0, 9.0]]}])
+def test_a_tip_or_a_peak_that_is_touched(gap):
+    beam = {"spans": [2.0], "EI": 1.0}
+    made = {"beam": beam, "supports": [{"node": 0, "rotation": "fixed"}], "loads": [{"type": "uniform", "q": 1.0}]}
+    (zone,) = gapbeam.solve({**made, "foundation": [{"k": 4.0, "side": "below", **gap}]}).steps[-1].contact
+    assert (zone.state, zone.from_, zone.resultant) == ("touching", 2.0 if "gap" in gap else 1.0, 0.0)
+
+
+def test_a_rigid_support_on_the_ground_is_no_touch():
+    made = {"beam": {"spans": [8.0, 8.0], "EI": 1.0}, "supports": [{"node": i} for i in range(3)]}
+    made |= {"foundation": [{"k": 4.0, "side": "below"}], "loads": [{"type": "uniform", "q": -1.0}]}
+    step = gapbeam.solve(made).steps[-1]
+    assert step.contact == ()
+    assert [(span.from_, span.to) for span in step.free_spans] == [(0.0, 16.0)]
 
 
 @pytest.fixture

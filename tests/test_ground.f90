@@ -291,7 +291,7 @@ contains
         type(error_type), allocatable :: error
         type(field_type) :: fields(3)
         real(wp) :: pressure(3), values(2, 4), distance(2, 4), pressures(2), at(2)
-        real(wp), allocatable :: way(:, :)
+        real(wp), allocatable :: way(:, :), touch(:, :, :)
         integer :: piece(2, 4), place(2)
 
         call lower(lifting(), lowered, profile=[ground_point_type(1, 0.0_wp, 0.1_wp), ground_point_type(1, 30.0_wp, 0.1_wp)])
@@ -307,8 +307,8 @@ contains
                        "the largest deflection is near the force")
             call pressure_extremes(lowered, ground, pressures, place, at)
             call check(abs(pressures(1) - 4*(values(1, 1) - 0.1_wp)) < 1e-13_wp, "and the largest pressure")
-            allocate (way(1, size(ground%piece)))
-            call largest_ways(lowered, ground, way)
+            allocate (way(1, size(ground%piece)), touch(2, 1, size(ground%piece)))
+            call largest_ways(lowered, ground, way, touch)
             call check(abs(maxval(way) - (0.1_wp - values(2, 1))) < 1e-12_wp, "and the highest place is farthest from the ground")
         end associate
     end subroutine what_is_asked_of_it

@@ -7,7 +7,7 @@ import scenes
 from gapbeam.plots import figure, ground_path, path_figure, plot
 from gapbeam.plots.ground import GroundLanes, draw_ground, surface
 from gapbeam.scene import read_scene
-from ground_scenes import footing, on_ground, rail, stopped, two, yielding
+from ground_scenes import footing, on_ground, rail, stopped, touching, two, yielding
 from matplotlib.figure import Figure
 from matplotlib.image import imread
 
@@ -55,6 +55,13 @@ def test_zones_of_contact_are_thick(on_rail, rail_picture):
     assert "load factor 1, contact in 3 zones" in texts
     (legend,) = rail_picture.legends
     assert [text.get_text() for text in legend.get_texts()] == ["in contact"]
+
+
+def test_a_touch_is_marked():
+    picture = figure(gapbeam.solve(touching()))
+    assert line(picture.axes[0], "contact touching")[:, 0].tolist() == [4.0]
+    (legend,) = picture.legends
+    assert "touching" in [text.get_text() for text in legend.get_texts()]
 
 
 def test_pressure_has_a_panel_with_its_extremes(on_rail, rail_picture):

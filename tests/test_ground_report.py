@@ -12,7 +12,7 @@ from gapbeam.cli import main
 from gapbeam.report import report_text, to_csv, to_json
 from gapbeam.results.data import event_data
 from gapbeam.results.ground_path import GroundEvent
-from ground_scenes import footing, on_ground, patches, rail, stopped, two, yielding
+from ground_scenes import footing, on_ground, patches, rail, stopped, touching, two, yielding
 
 
 @pytest.fixture(scope="module")
@@ -51,6 +51,17 @@ def test_zones_and_free_spans_stand_along_the_beam(on_rail):
     np.testing.assert_allclose(ends[1::2], [(span.from_, span.to) for span in step.free_spans], atol=1e-4)
     np.testing.assert_allclose([float(row[5]) for row in rows[::2]], [zone.resultant for zone in step.contact], rtol=1e-3)
     np.testing.assert_allclose([float(row[5]) for row in rows[1::2]], [span.sag for span in step.free_spans], rtol=1e-3)
+
+
+def test_a_touch_is_told():
+    result = gapbeam.solve(touching())
+    text = report_text(result)
+    first = [line.rstrip() for line in text.splitlines()[:3]]
+    assert first[2] == "only touching the ground at x = 4"
+    (row,) = (line.split() for line in section(text, "Contact with the ground") if "touching" in line)
+    assert [*map(float, row[:3]), row[4], float(row[5])] == [4.0, 4.0, 0.0, "touching", 0.0]
+    zones = json.loads(to_json(result))["steps"][-1]["contact"]
+    assert zones == [{"foundation": 0, "from": 4.0, "to": 4.0, "state": "touching", "resultant": 0.0}]
 
 
 def test_foundations_carry_the_load(on_rail):
@@ -153,7 +164,7 @@ def test_a_zone_vanishes_where_it_was_last():
     (zone,) = result.state(float(np.nextafter(event.factor, 0.0))).contact
     assert zone.from_ <= event.x <= zone.to
     assert zone.to - zone.from_ < 1e-5
-    assert result.state(event.factor).contact == ()
+    assert [zone.state for zone in result.state(event.factor).contact] == ["touching"]
 
 
 def test_json_has_either_support_or_foundation(following):

@@ -14,11 +14,12 @@ from gapbeam.base.errors import EngineError, SceneError
 from gapbeam.results.branches import BranchPath
 from gapbeam.results.ground_path import EVENTS
 from gapbeam.studies.schemes import gapped_spans
+from ground_scenes import touching
 from law_scenes import FAMILIES, law_scene
 from scenes import nodes_of, random_scene
 
 FIELDS = ("deflection", "rotation", "moment", "shear", "axial_force", "axial_displacement")
-CONDITIONS = {"open": 0, "closed": 1, "bilateral": 2} | {f"branch {k}": 10 + k for k in range(1, 10)}
+CONDITIONS = {"open": 0, "closed": 1, "bilateral": 2, "touching": 4} | {f"branch {k}": 10 + k for k in range(1, 10)}
 
 
 def scene_of(seed):
@@ -262,6 +263,18 @@ def assert_same_ground(beam, f77, result, scene, rng):
         value, place = one.pressure_extremes()
         assert list(zip(value, place, strict=True)) == [top, bottom]
     return len(contact), len(free)
+
+
+def test_touches_agree(library):
+    scene = {key: value for key, value in touching().items() if key != "units"}
+    scene["analysis"] = {"rule": "block", "steps": 1}
+    result = gapbeam.solve(scene)
+    assert [zone.state for zone in result.steps[-1].contact] == ["touching"]
+    beam, _ = library.prepare(scene)
+    f77 = F77Beam(library, scene)
+    assert (beam.solve(1.0), f77.solve(1.0)) == ((0, ""), 0)
+    assert_same_ground(beam, f77, result, scene, random.Random(1))
+    beam.close()
 
 
 @pytest.mark.parametrize("first", range(0, 600, 100))

@@ -110,7 +110,8 @@ subroutine gbcont(work, iwork, state, istate, maxzn, nzone, zone, izone, info)
     ! The first MAXZN of them, foundation by foundation from left to right; one that holds both ways in two layers first where it
     ! pushes up: ends, and force on the beam, up
     double precision, intent(inout) :: zone(3, *)
-    ! Foundation; 1 in contact, 2 where it holds both ways, or 10 plus the number of the piece of its law
+    ! Foundation; 1 in contact, 2 where it holds both ways, 4 where it only touches at a place, or 10 plus the number of the
+    ! piece of its law
     integer, intent(inout) :: izone(2, *)
     ! -1: no beam; -3: nothing solved, or not of this beam; -5; 14: a force out of range; 15
     integer, intent(out) :: info

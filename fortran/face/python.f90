@@ -356,10 +356,10 @@ subroutine gbgrun(beam, ng, nr, ground, number, about, values, status, message)
     double precision, intent(in) :: ground(nr, ng)
     ! How many there are
     integer, intent(out) :: number
-    ! Foundation (from 0), side, pieces of its law (0: linear), the piece on which it acts (0: no contact)
-    integer, intent(out) :: about(4, ng*(nr - 18)/2)
+    ! Foundation (from 0), side, pieces of its law (0: linear), the piece on which it acts (0: no contact), 1 if it only touches
+    integer, intent(out) :: about(5, 3*(ng*(nr - 18)/2))
     ! Ends, force on the beam (up), largest distance between beam and ground, in the scene's units
-    double precision, intent(out) :: values(4, ng*(nr - 18)/2)
+    double precision, intent(out) :: values(4, 3*(ng*(nr - 18)/2))
     integer, intent(out) :: status
     character(len=240), intent(out) :: message
     !f2py threadsafe
@@ -375,13 +375,13 @@ subroutine gbgrun(beam, ng, nr, ground, number, about, values, status, message)
     about = 0
     values = 0.0d0
     call unpack_ground(handle%lowered, ground, solution)
-    call ground_runs(handle%lowered, solution, .true., runs, error)
+    call ground_runs(handle%lowered, solution, runs, error)
     call report(error, status, message)
     if (allocated(error)) return
     number = size(runs)
     do i = 1, number
         associate (run => runs(i))
-            about(:, i) = [run%foundation - 1, run%side, run%law_pieces, run%acts]
+            about(:, i) = [run%foundation - 1, run%side, run%law_pieces, run%acts, merge(1, 0, run%touches)]
             values(:, i) = [run%from, run%to, run%resultant, run%way]
         end associate
     end do

@@ -50,7 +50,7 @@ contains
         logical, allocatable :: holds_both_ways(:)
         integer :: first, last, branch, most, number, stat
 
-        call ground_runs(lowered, solution, .false., runs, error)
+        call ground_runs(lowered, solution, runs, error)
         if (allocated(error)) return
         call join_thin(thinnest*point_x(lowered, size(lowered%pieces)), runs)
         holds_both_ways = find_two_sided(lowered)
@@ -84,7 +84,7 @@ contains
         zones(:) = found(:number)
     end subroutine find_zones
 
-    !> Join runs of next to no length to their neighbours, as if what is before went on
+    !> Join runs of next to no length to their neighbours, as if what is before went on; places that only touch are none
     pure subroutine join_thin(thin, runs)
         !> Length of what only touches
         real(wp), intent(in) :: thin
@@ -97,6 +97,7 @@ contains
         n = 0
         do i = 1, size(runs)
             run = runs(i)
+            if (run%touches .and. run%acts == 0) cycle
             if (n > 0) then
                 associate (before => joined(n))
                     if (same_layer(before, run) .and. .not. run%from > before%to) then

@@ -7,12 +7,17 @@ module gapbeam_ground_zones
     use gapbeam_refusal, only: refuse_range, named, of_foundations
     use gapbeam_scene, only: gapbeam_both, gapbeam_below
     use gapbeam_lowered, only: lowered_type, point_x
+    use gapbeam_layers, only: layer_type
     use gapbeam_ground_solver, only: ground_solution_type
-    use gapbeam_ground_query, only: largest_ways
-    use gapbeam_pieces, only: gapbeam_closed, gapbeam_bilateral, gapbeam_branch
+    use gapbeam_ground_query, only: largest_ways, is_shallow
+    use gapbeam_pieces, only: gapbeam_closed, gapbeam_bilateral, gapbeam_touching, gapbeam_branch
     implicit none
     private
     public :: run_type, contact_type, free_span_type, ground_runs, find_contact, find_free_spans
+
+    !> Places nearer to each other than this share of the beam are one: where beam and ground only touch, that is all that rounding
+    !> leaves of the place (sqrt(epsilon): their distance grows with the square of the way from it)
+    real(wp), parameter :: one_place = 16*sqrt(epsilon(1.0_wp))
 
     !> Stretches beside each other in which a layer of ground does the same
     type :: run_type
@@ -26,6 +31,8 @@ module gapbeam_ground_zones
         real(wp) :: from = 0.0_wp, to = 0.0_wp
         !> Force on the beam, up; largest distance between beam and ground
         real(wp) :: resultant = 0.0_wp, way = 0.0_wp
+        !> Is it a place at which the beam only touches the layer: a zone of no length, or one that rounding alone gives a length
+        logical :: touches = .false.
     end type run_type
 
     !> A zone in which a foundation acts
@@ -34,7 +41,8 @@ module gapbeam_ground_zones
         integer :: foundation
         !> Its ends, from the left end of the beam
         real(wp) :: from, to
-        !> gapbeam_closed, gapbeam_bilateral, or gapbeam_branch plus the number of the piece of its law
+        !> gapbeam_closed, gapbeam_bilateral, gapbeam_branch plus the number of the piece of its law; gapbeam_touching: at one place
+        !> only
         integer :: condition
         !> Force on the beam, up
         real(wp) :: resultant
@@ -64,9 +72,9 @@ contains
         type(run_type), allocatable :: runs(:)
         integer :: i, n, stat
 
-        call ground_runs(lowered, solution, .false., runs, error)
+        call ground_runs(lowered, solution, runs, error)
         if (allocated(error)) return
-        allocate (zones(count(runs%acts > 0)), stat=stat)
+        allocate (zones(count(runs%acts > 0 .or. runs%touches)), stat=stat)
         if (stat /= 0) then
             call no_memory(error)
             return
@@ -74,13 +82,17 @@ contains
         n = 0
         do i = 1, size(runs)
             associate (run => runs(i))
-                if (run%acts == 0) cycle
+                if (run%acts == 0 .and. .not. run%touches) cycle
                 if (.not. abs(run%resultant) <= huge(run%resultant)) then
                     call refuse_run(lowered, run, "the force", "force", error)
                     return
                 end if
                 n = n + 1
                 zones(n) = contact_type(run%foundation, run%from, run%to, condition_of(run), run%resultant)
+                if (.not. run%touches) cycle
+                zones(n)%from = run%from + (run%to - run%from)/2
+                zones(n)%to = zones(n)%from
+                zones(n)%resultant = 0.0_wp
             end associate
         end do
     end subroutine find_contact
@@ -90,7 +102,9 @@ contains
         type(run_type), intent(in) :: run
         integer :: condition
 
-        if (run%law_pieces > 0) then
+        if (run%touches) then
+            condition = gapbeam_touching
+        else if (run%law_pieces > 0) then
             condition = gapbeam_branch + run%acts
         else
             condition = merge(gapbeam_bilateral, gapbeam_closed, run%side == gapbeam_both)
@@ -110,11 +124,11 @@ contains
         logical, allocatable :: free(:)
         integer :: i, n, stat
 
-        call ground_runs(lowered, solution, .true., runs, error)
+        call ground_runs(lowered, solution, runs, error)
         if (allocated(error)) return
         allocate (free(size(runs)), stat=stat)
         if (stat == 0) then
-            free(:) = runs%acts == 0 .and. lowered%model%foundations(runs%foundation)%side /= gapbeam_both
+            free(:) = runs%acts == 0 .and. .not. runs%touches .and. lowered%model%foundations(runs%foundation)%side /= gapbeam_both
             allocate (spans(count(free)), stat=stat)
         end if
         if (stat /= 0) then
@@ -136,58 +150,66 @@ contains
     end subroutine find_free_spans
 
     !> All layers, stretches in which one does the same joined
-    subroutine ground_runs(lowered, solution, with_ways, runs, error)
+    subroutine ground_runs(lowered, solution, runs, error)
         !> As for find_contact
         type(lowered_type), intent(in) :: lowered
         type(ground_solution_type), intent(in) :: solution
-        !> Are the distances between beam and ground wanted; otherwise they are 0
-        logical, intent(in) :: with_ways
-        !> By foundation, of one with two layers the lower first, and from left to right
+        !> By foundation, of one with two layers the lower first, and from left to right; where a beam touches in a stretch without
+        !> contact after that stretch. At most three times as many as stretches have layers
         type(run_type), allocatable, intent(out) :: runs(:)
         !> No memory
         type(error_type), allocatable, intent(out) :: error
         type(run_type), allocatable :: found(:)
         type(run_type) :: run
-        ! Of every layer of a foundation (a key each) its last run, and the stretch in which that ends
+        ! Of every layer of a foundation (a key each) its last run, the stretch in which that ends, and where it was touched last
         integer, allocatable :: last_run(:), last_stretch(:), key(:)
-        real(wp), allocatable :: way(:, :)
+        real(wp), allocatable :: way(:, :), touch(:, :, :), last_touch(:)
+        logical, allocatable :: supported(:)
         integer(int64) :: total
+        real(wp) :: length
         integer :: i, k, m, n, stat
 
         m = size(solution%piece)
+        length = point_x(lowered, size(lowered%pieces))
         total = 0
         do i = 1, m
             total = total + lowered%layer_first(solution%piece(i) + 1) - lowered%layer_first(solution%piece(i))
         end do
-        stat = merge(1, 0, total > huge(n))
+        allocate (way(size(solution%acts, 1), m), touch(2, size(solution%acts, 1), m), supported(0:size(lowered%pieces)), stat=stat)
+        if (stat == 0) then
+            call largest_ways(lowered, solution, way, touch)
+            total = total + count(touch >= 0.0_wp, kind=int64)
+        end if
+        if (stat == 0) stat = merge(1, 0, total > huge(n))
         associate (keys => 2*size(lowered%model%foundations))
-            if (stat == 0) allocate (found(total), key(total), last_run(keys), last_stretch(keys), &
-                                     way(size(solution%acts, 1), merge(m, 0, with_ways)), stat=stat)
+            if (stat == 0) allocate (found(total), key(total), last_run(keys), last_stretch(keys), last_touch(keys), stat=stat)
         end associate
         if (stat /= 0) then
             call no_memory(error)
             return
         end if
-        if (with_ways) call largest_ways(lowered, solution, way)
+        supported(:) = .false.
+        do k = 1, size(lowered%beam%supports)
+            if (lowered%beam%supports(k)%stiffness > huge(1.0_wp)) supported(lowered%beam%supports(k)%node) = .true.
+        end do
         last_run(:) = 0
         last_stretch(:) = 0
+        last_touch(:) = -huge(1.0_wp)
         n = 0
         do i = 1, m
             associate (j => solution%piece(i), first => lowered%layer_first(solution%piece(i)))
                 do k = first, lowered%layer_first(j + 1) - 1
                     run = run_of(k, k - first + 1)
                     associate (of_layer => 2*run%foundation - merge(1, 0, run%side == gapbeam_below))
-                        if (last_run(of_layer) > 0 .and. last_stretch(of_layer) == i - 1) then
-                            if (found(last_run(of_layer))%acts == run%acts) then
-                                call lengthen(found(last_run(of_layer)), run)
-                                last_stretch(of_layer) = i
-                                cycle
-                            end if
+                        if (begins(of_layer, run)) then
+                            n = n + 1
+                            found(n) = run
+                            key(n) = of_layer
+                            last_run(of_layer) = n
+                        else
+                            call lengthen(found(last_run(of_layer)), run)
                         end if
-                        n = n + 1
-                        found(n) = run
-                        key(n) = of_layer
-                        last_run(of_layer) = n
+                        if (run%acts == 0) call add_touches(k, k - first + 1, of_layer)
                         last_stretch(of_layer) = i
                     end associate
                 end do
@@ -219,9 +241,84 @@ contains
                     if (solution%piece(i + 1) == j) made%to = point_x(lowered, j - 1) + scale(solution%to(i), units%length)
                 end if
                 made%resultant = scale(solution%resultant(row, i), units%force)
-                if (with_ways) made%way = max(0.0_wp, scale(way(row, i), units%deflection))
+                made%way = max(0.0_wp, scale(way(row, i), units%deflection))
+                if (made%acts == 1 .and. made%side /= gapbeam_both .and. made%to - made%from <= one_place*length) then
+                    made%touches = acts_beside(i - 1, l) <= 0 .and. acts_beside(i + 1, l) <= 0 .and. &
+                        is_shallow(lowered, solution, i, layer)
+                end if
             end associate
         end function run_of
+
+        !> Does a stretch begin a new run of its layer
+        pure function begins(of_layer, next)
+            integer, intent(in) :: of_layer
+            type(run_type), intent(in) :: next
+            logical :: begins
+
+            begins = last_run(of_layer) == 0 .or. last_stretch(of_layer) /= i - 1
+            if (.not. begins) begins = found(last_run(of_layer))%acts /= next%acts
+        end function begins
+
+        !> What the same layer does in another stretch: the piece on which it acts, 0: no contact, -1: it is not there
+        pure function acts_beside(other, layer) result(acts)
+            integer, intent(in) :: other
+            type(layer_type), intent(in) :: layer
+            integer :: acts, row
+
+            acts = -1
+            if (other < 1 .or. other > m) return
+            associate (first => lowered%layer_first(solution%piece(other)))
+                do row = first, lowered%layer_first(solution%piece(other) + 1) - 1
+                    if (lowered%layers(row)%foundation == layer%foundation .and. lowered%layers(row)%side == layer%side) then
+                        acts = solution%acts(row - first + 1, other)
+                    end if
+                end do
+            end associate
+        end function acts_beside
+
+        !> Where the beam touches a layer in stretch i; not at the ends of zones, and not where a rigid support is
+        subroutine add_touches(layer, row, of_layer)
+            !> As for run_of, and its key
+            integer, intent(in) :: layer, row, of_layer
+            real(wp) :: x, from, to
+            integer :: t, left, right
+
+            left = acts_beside(i - 1, lowered%layers(layer))
+            right = acts_beside(i + 1, lowered%layers(layer))
+            from = run%from
+            to = run%to
+            do t = 1, 2
+                associate (at => touch(t, row, i), j => solution%piece(i))
+                    if (at < 0.0_wp) exit
+                    x = from + (to - from)*at
+                    if (at >= 1.0_wp) x = to
+                    if (at <= 0.0_wp .and. left >= 0) cycle
+                    if (left > 0 .and. x - from <= one_place*length) cycle
+                    if (right > 0 .and. to - x <= one_place*length) cycle
+                    if (x - last_touch(of_layer) <= one_place*length) cycle
+                    if (at <= 0.0_wp .and. starts_piece(i) .and. supported(j - 1)) cycle
+                    if (at >= 1.0_wp .and. starts_piece(i + 1) .and. supported(j)) cycle
+                end associate
+                n = n + 1
+                found(n) = run
+                found(n)%from = x
+                found(n)%to = x
+                found(n)%way = 0.0_wp
+                found(n)%resultant = 0.0_wp
+                found(n)%touches = .true.
+                key(n) = of_layer
+                last_touch(of_layer) = x
+            end do
+        end subroutine add_touches
+
+        !> Does a stretch begin where its piece of the beam does, or the beam end before it
+        pure function starts_piece(stretch) result(starts)
+            integer, intent(in) :: stretch
+            logical :: starts
+
+            starts = stretch == 1 .or. stretch > m
+            if (.not. starts) starts = solution%piece(stretch) /= solution%piece(stretch - 1)
+        end function starts_piece
 
     end subroutine ground_runs
 
@@ -233,6 +330,7 @@ contains
         run%to = next%to
         run%resultant = run%resultant + next%resultant
         run%way = max(run%way, next%way)
+        run%touches = .false.
     end subroutine lengthen
 
     !> Sort runs by their keys, those of one key left in order

@@ -7,13 +7,15 @@ module gapbeam_pieces
     implicit none
     private
     public :: acting_type, acting_piece, what_happens, nothing
-    public :: gapbeam_open, gapbeam_closed, gapbeam_bilateral, gapbeam_branch
+    public :: gapbeam_open, gapbeam_closed, gapbeam_bilateral, gapbeam_touching, gapbeam_branch
     public :: gapbeam_opens, gapbeam_closes, gapbeam_turns, gapbeam_yields, gapbeam_hardens, gapbeam_softens, gapbeam_breaks, &
         gapbeam_unloads
     public :: gapbeam_appears, gapbeam_vanishes, gapbeam_merges, gapbeam_splits, gapbeam_reaches, gapbeam_leaves
 
     !> States of a support
     integer, parameter :: gapbeam_open = event_opens, gapbeam_closed = event_closes, gapbeam_bilateral = 2
+    !> Of ground: a zone of no length
+    integer, parameter :: gapbeam_touching = 4
     !> Plus the number of the piece, from 1: of a support with a law
     integer, parameter :: gapbeam_branch = 10
     !> Events. The beam has lost its hold and turns, at constant load, until the support holds it

@@ -229,7 +229,7 @@ contains
             if (allocated(error) .or. .not. settled) return
         end if
         call take_rounded(fine, factor, zones, grounded, closed, work, solution)
-        outcome = outcome_type(status=found%status, indifferent=found%indifferent)
+        outcome = outcome_type(status=found%status)
         settled = .not. stands_on_edge(fine, factor, zones, grounded, work)
         if (.not. settled) then
             ! So it tips over the edge
@@ -238,8 +238,10 @@ contains
             outcome%motion(:) = solution%deflection/maxval(abs(solution%deflection))
             return
         end if
-        if (.not. outcome%indifferent) &
+        outcome%indifferent = found%indifferent
+        if (.not. found%indifferent) then
             outcome%indifferent = may_move(fine, factor, zones, grounded, closed, solution%undecided, work)
+        end if
         if (all(abs(solution%deflection) <= huge(1.0_wp)) .and. all(abs(solution%moment_left) <= huge(1.0_wp))) return
         call fatal_error(error, gapbeam_not_finite, "numbers left the range of double precision: choose units "// &
                          "in which lengths, stiffnesses and loads are nearer to 1")

@@ -102,8 +102,9 @@ contains
             associate (dead => ground%dead(j), live => ground%live(j))
                 force = force + ground%pieces(j)%length*max(abs(dead%qa + factor*live%qa), abs(dead%qb + factor*live%qb))
                 kappa = max(kappa, abs(dead%kappa + factor*live%kappa))
-                if (ground%pieces(j)%flexibility > 0.0_qp) &
+                if (ground%pieces(j)%flexibility > 0.0_qp) then
                     bent = max(bent, abs(dead%kappa + factor*live%kappa)/(ground%pieces(j)%flexibility*length))
+                end if
             end associate
         end do
         modulus = maxval([ground%layers%modulus_a, ground%layers%modulus_b, ground%laws%slope])

@@ -555,7 +555,7 @@ class Beam:
         -------
         about : numpy.ndarray of int
             Foundation, side (1 below, -1 above, 0 both), pieces of its law (0: linear), the piece on which it acts (0: no
-            contact) of every run, runs by 4: by foundation, below before above, from left to right.
+            contact), 1 where it only touches, of every run, runs by 5: by foundation, below before above, from left to right.
         values : numpy.ndarray
             Its ends, the force on the beam (up) and the largest distance between beam and ground, runs by 4, in the scene's
             units.

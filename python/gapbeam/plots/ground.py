@@ -12,6 +12,7 @@ from matplotlib.lines import Line2D
 
 from ..base.characters import visible
 from ..results.formatting import stretch
+from ..results.ground import TOUCHING
 from .beam import HALF, OFF, face
 from .labels import LINE, text_width
 from .thin import outline
@@ -28,6 +29,8 @@ SWING = 9.0
 MOST_NAMES = 12
 """Foundations up to which they are named."""
 HATCHES = {"below": "/////", "above": "/////", "both": "xxxxx"}
+TOUCHED = "|"
+"""Mark of a place at which the beam only touches the ground."""
 PER_LENGTH = 20
 """Points of a curve in every length of (4 EI/k)^(1/4), within which it bends."""
 
@@ -157,6 +160,10 @@ def draw_ground(axes: Axes, lanes: GroundLanes, contact: tuple[Contact, ...]) ->
                 inside = slice(*np.searchsorted(x, [zone.from_, zone.to]))
                 places = np.r_[zone.from_, x[inside], zone.to]
                 zones.setdefault(zone.state, []).append(np.column_stack((places, np.interp(places, x, y))))
+    places = zones.pop(TOUCHING, None)
+    if places:
+        axes.plot(*np.concatenate([line[:1] for line in places]).T, linestyle="none", marker=TOUCHED, markersize=5,
+                  markeredgewidth=1.2, color=_shade("closed"), zorder=2.6, label=f"contact {TOUCHING}")  # fmt: skip
     for state, lines in zones.items():
         axes.add_collection(LineCollection(lines, colors=_shade(state), linewidths=2.6, capstyle="butt", joinstyle="round",
                                            zorder=2.5, label=f"contact {state}"))  # fmt: skip
@@ -165,8 +172,11 @@ def draw_ground(axes: Axes, lanes: GroundLanes, contact: tuple[Contact, ...]) ->
 def zone_handles(contact: tuple[Contact, ...]) -> list[Line2D]:
     """Make the entries of the legend for the zones of contact."""
     states = sorted({zone.state for zone in contact})
-    names = {"closed": "in contact", "bilateral": "bilateral ground"}
+    names = {"closed": "in contact", "bilateral": "bilateral ground", TOUCHING: "touching"}
     return [
+        Line2D([], [], linestyle="none", marker=TOUCHED, markersize=5, markeredgewidth=1.2, color=_shade("closed"),
+               label=names[state])
+        if state == TOUCHING else
         Line2D([], [], linestyle="none", marker="_", markersize=8, markeredgewidth=2.6, color=_shade(state),
                label=names.get(state, f"ground on {state}"))
         for state in states

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from ..results import formatting as fmt
-from ..results.ground import Contact, FreeSpan, joined
+from ..results.ground import TOUCHING, Contact, FreeSpan, joined
 from ..scene.names import label
 from .scheme import symbol
 from .writer import LONGEST, Writer
@@ -39,7 +39,13 @@ def ground_in_words(result: "Result") -> list[str]:
         return []
     of = _with_label(result, sum(_length(fmt.stretch(scene, item)) for item in scene.foundation))
     contact = f"contact in {fmt.count(len(zones), 'zone')} over {_number(_together(zones))} of {of}"
-    lines = [contact if zones else "no contact with the ground"]
+    lines = [contact] if zones else []
+    touching = [zone.from_ for zone in step.contact if zone.state == TOUCHING]
+    if touching:
+        where = f"at x = {_number(touching[0])}" if len(touching) == 1 else f"at {len(touching)} places"
+        lines.append(f"{'touching' if zones else 'only touching'} the ground {where}")
+    if not lines:
+        lines.append("no contact with the ground")
     if spans:
         longest = _with_label(result, max(map(_length, map(_ends, spans))))
         sag = _with_label(result, max(span.sag for span in spans))

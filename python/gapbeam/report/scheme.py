@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from ..scene.structs import Scene
 
 #: State -> character; the second where the terminal knows only ASCII
-SYMBOLS = {"closed": ("●", "#"), "open": ("○", "o"), "bilateral": ("▲", "^")}
+SYMBOLS = {"closed": ("●", "#"), "open": ("○", "o"), "bilateral": ("▲", "^"), "touching": ("◐", "~")}
 
 #: Up to so many supports, each has a symbol; above, the changes are listed
 MOST_SYMBOLS = 200

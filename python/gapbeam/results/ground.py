@@ -11,6 +11,9 @@ from ..engine.arrays import Ground
 from ..engine.beam import Beam
 from ..engine.units import scaled
 
+TOUCHING = "touching"
+"""State of a zone of contact that has no length."""
+
 
 @dataclass(frozen=True, slots=True)
 class Contact:
@@ -23,7 +26,8 @@ class Contact:
     from_, to : float
         Its ends (length from the left end of the beam).
     state : str
-        ``closed``, or ``bilateral`` where the foundation holds both ways; with a law ``branch 1``, ``branch 2`` and so on.
+        ``closed``, or ``bilateral`` where the foundation holds both ways; with a law ``branch 1``, ``branch 2`` and so on;
+        ``touching`` where the beam only touches the ground, at one place and without force: `from_` is `to`.
     resultant : float
         Force on the beam, positive upward.
     """
@@ -73,6 +77,8 @@ class Run:
         Force on the beam, positive upward.
     way : float
         Largest distance between beam and layer, 0 in contact.
+    touches : bool
+        Whether it is a place at which the beam only touches the layer.
     """
 
     foundation: int
@@ -83,6 +89,7 @@ class Run:
     to: float
     resultant: float
     way: float
+    touches: bool
 
 
 def find_runs(beam: Beam, ground: Ground | None) -> tuple[Run, ...]:
@@ -103,7 +110,9 @@ def find_runs(beam: Beam, ground: Ground | None) -> tuple[Run, ...]:
     if ground is None:
         return ()
     about, values = beam.ground_runs(ground)
-    return tuple(Run(*codes, *numbers) for codes, numbers in zip(about.tolist(), values.tolist(), strict=True))
+    return tuple(
+        Run(*codes, *numbers, bool(touches)) for (*codes, touches), numbers in zip(about.tolist(), values.tolist(), strict=True)
+    )
 
 
 def find_contact(runs: Sequence[Run]) -> tuple[Contact, ...]:
@@ -119,7 +128,11 @@ def find_contact(runs: Sequence[Run]) -> tuple[Contact, ...]:
     tuple of Contact
         Foundation by foundation from left to right.
     """
-    return tuple(Contact(run.foundation, run.from_, run.to, _name(run), run.resultant) for run in runs if run.acts)
+    return tuple(
+        _touching(run) if run.touches else Contact(run.foundation, run.from_, run.to, _name(run), run.resultant)
+        for run in runs
+        if run.acts or run.touches
+    )
 
 
 def find_free_spans(runs: Sequence[Run]) -> tuple[FreeSpan, ...]:
@@ -139,12 +152,12 @@ def find_free_spans(runs: Sequence[Run]) -> tuple[FreeSpan, ...]:
     return tuple(
         FreeSpan(run.foundation, run.from_, run.to, run.way)
         for run in runs
-        if not run.acts and run.foundation not in both_ways
+        if not (run.acts or run.touches or run.foundation in both_ways)
     )
 
 
 def joined(contacts: Sequence[Contact]) -> list[Contact]:
-    """Join what touches: zones without the branches of a law in them.
+    """Join what lies beside each other: zones without the branches of a law in them, and without places that only touch.
 
     Parameters
     ----------
@@ -164,6 +177,8 @@ def joined(contacts: Sequence[Contact]) -> list[Contact]:
     """
     found: list[Contact] = []
     for zone in contacts:
+        if zone.state == TOUCHING:
+            continue
         last = found[-1] if found else None
         if last is not None and (last.foundation, last.to) == (zone.foundation, zone.from_):
             found[-1] = replace(last, to=zone.to, resultant=last.resultant + zone.resultant)
@@ -196,6 +211,11 @@ def with_ends_of_zones(piece: np.ndarray, distance: np.ndarray, beam: Beam, grou
     piece, distance = piece[order], distance[order]
     new = np.append(True, (np.diff(piece) != 0) | (np.diff(distance) != 0.0))
     return piece[new], distance[new]
+
+
+def _touching(run: Run) -> Contact:
+    middle = run.from_ + (run.to - run.from_) / 2
+    return Contact(run.foundation, middle, middle, TOUCHING, 0.0)
 
 
 def _name(run: Run) -> str:
