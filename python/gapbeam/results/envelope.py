@@ -21,6 +21,8 @@ AT_SUPPORTS = ("reaction", "deflection", "opening", "couple")
 """Rows of the values at supports."""
 OF_SUPPORTS = ("reaction", "opening", "deflection")
 """What an envelope tells of every support."""
+EQUAL = 1e-12
+"""Share of the largest value along the beam by which curves of combinations that coincide differ."""
 NEAR = 10.0
 """How many error bounds from an extreme another combination is looked at for a tie."""
 
@@ -129,7 +131,8 @@ class Curves(Record):
     largest, smallest : dict
         By field, an array with a value for every place.
     largest_of, smallest_of : dict
-        By field, for every place the number of the combination that gives the value: the first one of equal ones.
+        By field, for every place the number of the combination that gives the value: the first one of those that coincide
+        there but for rounding.
     """
 
     x: np.ndarray
@@ -231,14 +234,19 @@ class Envelope:
         """Largest and smallest values of every field along the beam."""
         x, parts = self._make()
         shape = 2, len(x), 7
-        best, of = np.full(shape, np.nan), np.zeros(shape, dtype=np.int32)
+        best, of = np.full(shape, -np.inf), np.zeros(shape, dtype=np.int32)  # the smallest with the other sign
+        with np.errstate(invalid="ignore"):
+            equal = EQUAL * np.nan_to_num(np.nanmax(np.abs(self._values), axis=(0, 2), initial=0.0))
         for part, values in parts:
-            for row, (extreme, sign) in enumerate(((np.nanargmax, 1.0), (np.nanargmin, -1.0))):
-                known = np.where(np.isnan(values), -sign * np.inf, values)
-                k = extreme(known, axis=0)
-                there = np.take_along_axis(known, k[None], axis=0)[0]
-                better = np.isfinite(there) & ~(sign * there <= sign * best[row])
-                best[row][better], of[row][better] = there[better], k[better] + part.start
+            for row, sign in enumerate((1.0, -1.0)):
+                known = np.where(np.isnan(values), -np.inf, sign * values)
+                there = known.max(axis=0)
+                better = there > best[row] + equal
+                k = np.argmax(known >= there - equal, axis=0)
+                of[row][better] = k[better] + part.start
+                best[row] = np.maximum(best[row], there)
+        best[~np.isfinite(best)] = np.nan
+        best[1] *= -1.0
         names = self._fields.items()
         tables = [{name: table[row][:, column].copy() for name, column in names} for table in (best, of) for row in (0, 1)]
         return Curves(x, *tables)
