@@ -11,6 +11,9 @@ module gapbeam_fields
 
     !> Degrees of the derivatives of deflection, rotation, moment, shear along a piece
     integer, parameter :: degree(4) = [4, 3, 2, 1]
+    !> Binomial coefficients i of n, shape (1:5, 2:5)
+    real(wp), parameter :: chosen(5, 2:5) = reshape([real(wp) :: 2, 1, 0, 0, 0, 3, 3, 1, 0, 0, 4, 6, 4, 1, 0, 5, 10, 10, 5, 1], &
+                                                    [5, 4])
     !> Far more than rounding makes of a field, as a share of it
     real(wp), parameter :: margin = 1.0e-6_wp
 
@@ -105,25 +108,47 @@ contains
 
     end subroutine find_extremes
 
-    !> Is a field inside a piece nowhere near what is known already: it cannot go farther from its value at the left end than its
-    !> derivative adds up to in absolute values
+    !> Is a field inside a piece nowhere near what is known already: it stays between its Bernstein coefficients, here those on both
+    !> halves of the piece (Lane and Riesenfeld 1981)
     pure function stays_between(derivative, length, start, known) result(yes)
-        !> Coefficients of the derivative, shape (0:degree)
+        !> Coefficients of the derivative, shape (0:n - 1), n at most 5
         real(wp), intent(in) :: derivative(0:)
         !> Length of the piece, and the field at its left end
         real(wp), intent(in) :: length, start
         !> Largest and smallest value so far
         real(wp), intent(in) :: known(2)
         logical :: yes
-        real(wp) :: way
-        integer :: i
+        real(wp) :: b(0:5), power, size, low, high
+        integer :: n, i, j
 
-        way = 0.0_wp
-        do i = ubound(derivative, 1), 0, -1
-            way = (way + abs(derivative(i))/(i + 1))*length
+        n = ubound(derivative, 1) + 1
+        b(0) = start
+        size = abs(start)
+        power = 1.0_wp
+        do i = 1, n
+            power = power*length
+            b(i) = derivative(i - 1)*power/i
+            size = size + abs(b(i))
+            b(i) = b(i)/chosen(i, n)
         end do
-        way = way + margin*(way + abs(start))
-        yes = start + way < known(1) .and. start - way > known(2)
+        do i = 1, n
+            do j = n, i, -1
+                b(j) = b(j) + b(j - 1)
+            end do
+        end do
+        ! Halved (de Casteljau): those of the right half pass by at the end of the array, those of the left one are left in it
+        low = b(n)
+        high = b(n)
+        do i = 1, n
+            do j = n, i, -1
+                b(j) = 0.5_wp*(b(j) + b(j - 1))
+            end do
+            low = min(low, b(n))
+            high = max(high, b(n))
+        end do
+        low = min(low, minval(b(0:n)))
+        high = max(high, maxval(b(0:n)))
+        yes = high + margin*size < known(1) .and. low - margin*size > known(2)
     end function stays_between
 
     !> Compare the value of a field at one place with its extremes so far

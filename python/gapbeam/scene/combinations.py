@@ -139,20 +139,22 @@ def plan_combinations(scene: Scene) -> Plan:
     SceneError
         A combination speaks of what is not there, or patterns make too many.
     """
+    there = dict.fromkeys(cases_of(scene.loads))
     for i, combination in enumerate(scene.combinations):
-        _check(scene, i, combination)
+        _check(i, combination, there)
     patterned = dict.fromkeys(case for one in scene.combinations for case, rule in one.expand.items() if rule == "spans")
     cut, spans = _cut(scene, list(patterned))
     cases = np.array(cases_of(cut.loads), dtype=object)
+    loads_of = {case: np.flatnonzero(cases == case) for case in there}
     names: list[str] = []
     factors: list[np.ndarray] = []
     origin: list[int] = []
-    _check_count(scene, cases, spans)
+    _check_count(scene, spans)
     for i, combination in enumerate(scene.combinations):
         plain = np.zeros(len(cases))
         for case, factor in combination.factors.items():
-            plain[cases == case] = factor
-        for name, row in _patterns(combination, plain, cases, spans):
+            plain[loads_of[case]] = factor
+        for name, row in _patterns(combination, plain, loads_of, spans):
             names.append(name)
             factors.append(row)
             origin.append(i)
@@ -160,16 +162,15 @@ def plan_combinations(scene: Scene) -> Plan:
     table = np.array(factors).reshape(len(names), len(cases))
     shape = len(scene.combinations), len(scene.supports)
     movements = np.array([_settlements(scene, i) for i in range(len(scene.combinations))]).reshape(shape)
-    idle = [case for case in dict.fromkeys(cases.tolist()) if not table[:, cases == case].any()]
+    idle = [case for case in there if not table[:, loads_of[case]].any()]
     return Plan(
         cut, tuple(names), read_only(table), read_only(movements[origin]), _schemes(scene, names, origin), tuple(idle)
     )
 
 
-def _check(scene: Scene, i: int, combination: Combination) -> None:
+def _check(i: int, combination: Combination, cases: dict[str, None]) -> None:
     """Refuse cases that are not there, and numbers that are none."""
     place = f"combinations[{i}]"
-    cases = dict.fromkeys(cases_of(scene.loads))
     for key in (*combination.factors, *combination.expand):
         if key not in cases:
             where = f"{place}.{'factors' if key in combination.factors else 'expand'}.{key_of(key)}"
@@ -264,7 +265,7 @@ def _check_spans(scene: Scene, ends: np.ndarray) -> None:
             )
 
 
-def _check_count(scene: Scene, cases: np.ndarray, spans: dict[str, np.ndarray]) -> None:
+def _check_count(scene: Scene, spans: dict[str, np.ndarray]) -> None:
     """Refuse more combinations than anybody looks at."""
     total = 0
     for i, combination in enumerate(scene.combinations):
@@ -281,19 +282,22 @@ def _check_count(scene: Scene, cases: np.ndarray, spans: dict[str, np.ndarray]) 
 
 
 def _patterns(
-    combination: Combination, plain: np.ndarray, cases: np.ndarray, spans: dict[str, np.ndarray]
+    combination: Combination, plain: np.ndarray, loads_of: dict[str, np.ndarray], spans: dict[str, np.ndarray]
 ) -> Iterator[tuple[str, np.ndarray]]:
     """Names and factors of what a combination stands for."""
     ways = []
     for case, rule in combination.expand.items():
         if rule == "signs":
-            ways.append([(f"{case} {sign}", cases == case, value) for sign, value in (("+", 1.0), ("-", -1.0))])
+            ways.append([(f"{case} {sign}", loads_of[case], value) for sign, value in (("+", 1.0), ("-", -1.0))])
             continue
         span = spans[case]
         reached = sorted(set(span[span >= 0].tolist()))
         patterns = product((1, 0), repeat=len(reached))
         ways.append(
-            [(f"{case} {''.join(map(str, bits))}", cases == case, np.isin(span, np.compress(bits, reached))) for bits in patterns]
+            [
+                (f"{case} {''.join(map(str, bits))}", loads_of[case], np.isin(span[loads_of[case]], np.compress(bits, reached)))
+                for bits in patterns
+            ]
         )
     if not ways:
         yield combination.name, plain
@@ -301,7 +305,7 @@ def _patterns(
     for chosen in product(*ways):
         row = plain.copy()
         for _, which, times in chosen:
-            row[which] = (plain * times)[which]
+            row[which] = plain[which] * times
         yield f"{combination.name} [{'; '.join(word for word, _, _ in chosen)}]", row + 0.0
 
 
