@@ -136,6 +136,10 @@ contains
                 b(j) = b(j) + b(j - 1)
             end do
         end do
+        low = minval(b(0:n)) - margin*size
+        high = maxval(b(0:n)) + margin*size
+        yes = high < known(1) .and. low > known(2)
+        if (yes) return
         ! Halved (de Casteljau): those of the right half pass by at the end of the array, those of the left one are left in it
         low = b(n)
         high = b(n)

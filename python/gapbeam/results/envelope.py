@@ -234,19 +234,16 @@ class Envelope:
         """Largest and smallest values of every field along the beam."""
         x, parts = self._make()
         shape = 2, len(x), 7
-        best, of = np.full(shape, -np.inf), np.zeros(shape, dtype=np.int32)  # the smallest with the other sign
-        with np.errstate(invalid="ignore"):
-            equal = EQUAL * np.nan_to_num(np.nanmax(np.abs(self._values), axis=(0, 2), initial=0.0))
+        best, of = np.full(shape, np.nan), np.zeros(shape, dtype=np.int32)
+        equal = np.broadcast_to(EQUAL * np.fmax.reduce(np.abs(self._values), axis=(0, 2)), shape[1:])
         for part, values in parts:
-            for row, sign in enumerate((1.0, -1.0)):
-                known = np.where(np.isnan(values), -np.inf, sign * values)
-                there = known.max(axis=0)
-                better = there > best[row] + equal
-                k = np.argmax(known >= there - equal, axis=0)
-                of[row][better] = k[better] + part.start
-                best[row] = np.maximum(best[row], there)
-        best[~np.isfinite(best)] = np.nan
-        best[1] *= -1.0
+            for row, (extreme, sign) in enumerate(((np.fmax, 1.0), (np.fmin, -1.0))):
+                there = extreme.reduce(values, axis=0)  # passes over what is not a number
+                better = (sign * (there - best[row]) > equal) | (np.isnan(best[row]) & ~np.isnan(there))
+                if better.any():
+                    near = sign * (there[better] - values[:, better]) <= equal[better]
+                    of[row][better] = part.start + near.argmax(axis=0)
+                best[row] = extreme(best[row], there)
         names = self._fields.items()
         tables = [{name: table[row][:, column].copy() for name, column in names} for table in (best, of) for row in (0, 1)]
         return Curves(x, *tables)
