@@ -7,6 +7,7 @@ import random
 import gapbeam
 import numpy as np
 import pytest
+from gapbeam.cli import main
 from gapbeam.report.text import json_parts, report_text, to_csv, to_json
 from law_scenes import law_scene
 from scenes import at, force, random_scene, scene, uniform
@@ -327,3 +328,43 @@ def test_a_scheme_that_is_not_decided_is_named():
     assert 'takes the scheme of "x", in which reaction or opening of support mid' in result.remarks[0]
     with pytest.raises(IndexError, match="the scene has 2 combinations"):
         result.steps[-1]
+
+
+def test_the_command_writes_all_of_it(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    made = rack()
+    made["combinations"].append({"name": "snow", "factors": {"dead": 1.0, "wind": 1.5}, "expand": {"wind": "signs"}})
+    (tmp_path / "rack.json").write_text(json.dumps(made))
+    assert main(["run", "rack.json", "--quiet", "--json", "all.json", "--csv", "all.csv", "--plot", "all.svg"]) == 0
+    assert list(json.loads((tmp_path / "all.json").read_text())["envelope"]) == ["supports", "extremes", "fields"]
+    assert (tmp_path / "all.csv").read_text().startswith("x,deflection_max")
+    assert ">R-4<" in (tmp_path / "all.svg").read_text()
+    assert "snow [wind +]" in (tmp_path / "all.svg").read_text()
+    assert main(["check", "rack.json"]) == 0
+    assert "3 loads; 3 combinations" in capsys.readouterr().out
+    assert main(["run", "rack.json", "--path", "path.svg"]) == 2
+    assert "--path: draws the way of one load" in capsys.readouterr().err
+    made["combinations"].append({"name": "storm", "factors": {"wind": -3.0}})
+    (tmp_path / "rack.json").write_text(json.dumps(made))
+    assert main(["run", "rack.json", "--quiet", "--csv", "all.csv"]) == 1
+    assert 'combination "storm": no equilibrium' in capsys.readouterr().err
+    assert (tmp_path / "all.csv").read_text().startswith("x,deflection_max")
+
+
+def test_envelopes_on_the_ground_and_along_the_axis():
+    loads = [uniform(5.0, case="dead"), force(1.0, 100.0, case="crane"), {"type": "axial", "x": 10.0, "F": 10.0, "case": "brake"}]
+    made = scene([10.0], [{"node": 0, "direction": "axial", "name": "fix"}], loads, EI=2e4, EA=1e6)
+    made["foundation"] = [{"k": 5e3, "side": "below", "name": "clay"}]
+    made["combinations"] = [{"name": "g", "factors": {"dead": 1.0}},
+                            {"name": "gq", "factors": {"dead": 1.35, "crane": 1.5, "brake": 1.5}, "expand": {"brake": "signs"},
+                             "settlements": {"fix": 0.001}}]  # fmt: skip
+    result = gapbeam.solve(made)
+    assert_exact_envelope(result)
+    extremes = result.envelope().extremes
+    assert (extremes["axial_force"]["min"].value, extremes["axial_force"]["min"].combination) == (-15.0, "gq [brake -]")
+    assert extremes["axial_displacement"]["max"].value == pytest.approx(0.001 + 15.0 * 10.0 / 1e6, rel=1e-13)
+    pressure = extremes["pressure"]["max"]
+    assert pressure.value == pytest.approx(5e3 * pressure.concurrent["deflection"], rel=1e-13)
+    assert "clay" in json.dumps(result.to_dict(2))
+    assert result.hints() == []
+    assert "Not looked for" in report_text(result, 100)

@@ -13,7 +13,7 @@ from matplotlib.transforms import blended_transform_factory
 from ..base.characters import visible
 from ..results import formatting as fmt
 from .beam import SupportLanes, draw_beam
-from .ground import GroundLanes, draw_ground
+from .ground import GroundLanes, draw_ground, points_a_span
 from .labels import text_width
 from .result import (
     LEFT,
@@ -59,7 +59,7 @@ def envelope_figure(result: CombinedResult) -> Figure:
     """
     scene = result.scene
     solved = "solved" in result.statuses
-    points = int(max(2, min(40, MOST_POINTS // len(scene.beam.spans))))
+    points = int(max(2, min(max(40, points_a_span(scene, result.beam)), MOST_POINTS // len(scene.beam.spans))))
     envelope = result.envelope(points) if solved else None
     panels = [panel for panel in PANELS if envelope is not None and panel[0] in envelope.extremes]
     states = tuple("bilateral" if support.side == "both" else "one-sided" for support in scene.supports)
