@@ -11,9 +11,10 @@ from gapbeam.cli import main
 from gapbeam.plots import plot, plot_path
 
 TOP = Path(__file__).resolve().parent.parent
-PAGES = ["laws", "examples", "foundation", "cases"]
+PAGES = ["laws", "examples", "foundation", "cases", "trains"]
 PATHS = ["snap_through", "rubber_stops", "pile_head", "shaft_jack_up"]
-BEAMS = ["rail_lift_off", "strip_footing", "slab_on_mound", "seabed_pipe", "laterally_loaded_pile", "pipe_rack_states"]
+BEAMS = ["rail_lift_off", "strip_footing", "slab_on_mound", "seabed_pipe", "laterally_loaded_pile", "pipe_rack_states",
+         "crane_runway_bays"]  # fmt: skip
 
 
 def page(name):

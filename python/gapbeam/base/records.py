@@ -9,12 +9,12 @@ import numpy as np
 
 
 def read_only(value: Any) -> Any:
-    """Protect an array, or the arrays of a tuple, against changes.
+    """Protect an array, or the arrays of a tuple or a dict, against changes.
 
     Parameters
     ----------
     value : object
-        An array, or a tuple in which arrays stand; anything else is left as it is.
+        An array, or a tuple or dict in which arrays stand; anything else is left as it is.
 
     Returns
     -------
@@ -26,6 +26,8 @@ def read_only(value: Any) -> Any:
     elif isinstance(value, tuple):
         for part in value:
             read_only(part)
+    elif isinstance(value, dict):
+        read_only(tuple(value.values()))
     return value
 
 
@@ -69,4 +71,6 @@ class Pickled:
 def _same(a: Any, b: Any) -> bool:
     if isinstance(a, np.ndarray | np.generic) and isinstance(b, np.ndarray | np.generic):
         return np.array_equal(a, b, equal_nan=True)
+    if isinstance(a, dict) and isinstance(b, dict):
+        return a.keys() == b.keys() and all(_same(value, b[key]) for key, value in a.items())
     return bool(a == b)

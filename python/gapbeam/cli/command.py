@@ -170,9 +170,9 @@ def _parser() -> argparse.ArgumentParser:
     _add_scene(run)
     run.add_argument("--json", metavar="FILE", help="write everything as JSON (.json); - is standard output, without report")
     run.add_argument("--csv", metavar="FILE", help="write the fields along the beam at the last load step, of combinations "
-                     "their envelope, as a table (.csv); - is standard output, without report")  # fmt: skip
-    run.add_argument("--plot", metavar="FILE", help="draw beam, deflection, moment, shear, with foundations pressure "
-                     "(.png, .pdf or .svg)")  # fmt: skip
+                     "and trains their envelope, as a table (.csv); - is standard output, without report")  # fmt: skip
+    run.add_argument("--plot", metavar="FILE", help="draw beam, deflection, moment, shear, with foundations pressure, of "
+                     "combinations and trains their envelope (.png, .pdf or .svg)")  # fmt: skip
     run.add_argument("--path", metavar="FILE", help="draw reactions and openings (with laws deflections), with foundations zones "
                      "of contact, over the load factor, every event marked; best with follow = \"events\" (.png, .pdf or "
                      ".svg)")  # fmt: skip
@@ -272,6 +272,7 @@ def _check(arguments: argparse.Namespace) -> int:
         *_foundations(scene),
         count(len(scene.loads), "load"),
         *([count(len(plan_combinations(scene)), "combination")] if scene.combinations else []),
+        *([count(len(scene.trains), "train")] if scene.trains else []),
     ]
     with until_closed():
         print(f"{visible(arguments.scene)}: valid: " + "; ".join(parts))

@@ -138,6 +138,15 @@ class Handle(int):
             drop(self)
 
 
+class TrainHandle(int):
+    """A train in the compiled layer, which is freed with the last reference to this number."""
+
+    def __del__(self, drop: Callable = _engine.gbtdro) -> None:
+        """Free the train, also when Python ends and modules are gone."""
+        if self:
+            drop(self)
+
+
 def parts(count: int) -> Iterator[slice]:
     """Cut a long sequence into parts, for what numpy and json do in one instruction.
 
@@ -187,6 +196,11 @@ gbextr = interruptible(_engine.gbextr, lambda beam, factor, starts, *_: starts.s
 gblarg = interruptible(_engine.gblarg, lambda beam, factor, starts, *_: starts.shape[1])
 gbcomb = interruptible(_engine.gbcomb)
 gbshar = interruptible(lambda beam, _: _engine.gbshar(beam), lambda beam, count: count)
+gbtmak = interruptible(_engine.gbtmak)
+gbtget = _engine.gbtget
+gbtenv = interruptible(_engine.gbtenv)
+gbtcur = interruptible(_engine.gbtcur)
+gbtinf = interruptible(_engine.gbtinf)
 _long_cases = interruptible(_engine.gbcase)
 
 

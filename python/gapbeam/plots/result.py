@@ -75,8 +75,12 @@ def figure(result: "Result", step: int = -1) -> Figure:
     matplotlib.figure.Figure
         The first panel holds the beam; the symbols of all supports in the same state and on the same side are one
         collection there, labelled for example ``open below``. Without equilibrium the second panel shows the
-        free motion, else the panels are those of the fields. Of combinations their envelope.
+        free motion, else the panels are those of the fields. Of combinations and trains their envelope.
     """
+    if result.scene.trains:
+        from .train_envelope import train_envelope_figure
+
+        return train_envelope_figure(result)
     if result.combinations:
         from .envelope import envelope_figure
 
@@ -134,7 +138,21 @@ def figure(result: "Result", step: int = -1) -> Figure:
 
 
 def panel_axes(picture: Figure, scene: "Scene", bottom: float, height: float) -> Axes:
-    """Add a panel at a height in inches; all have the same x."""
+    """Add a panel at a height in inches; all have the same x.
+
+    Parameters
+    ----------
+    picture : matplotlib.figure.Figure
+        Where to.
+    scene : Scene
+        The scene.
+    bottom, height : float
+        Inches.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+    """
     total = picture.get_figheight()
     inside = WIDTH - LEFT - RIGHT
     axes = picture.add_axes((LEFT / WIDTH, bottom / total, inside / WIDTH, height / total))
@@ -189,12 +207,30 @@ def outcome(result: "Result") -> str:
 
 
 def cut_text(text: str, most: int) -> str:
-    """Cut a text after so many characters."""
+    """Cut a text after so many characters.
+
+    Examples
+    --------
+    >>> cut_text("a long text", 8)
+    'a lon...'
+    """
     return text if len(text) <= most else text[: most - 3] + "..."
 
 
 def frame_panel(axes: Axes, scene: "Scene", quantity: str, words: str, downward: bool) -> None:
-    """Write on the axes, and mark the supports with faint lines."""
+    """Write on the axes, and mark the supports with faint lines.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+        The panel.
+    scene : Scene
+        The scene.
+    quantity, words : str
+        What it shows, and what is written.
+    downward : bool
+        Whether positive values are drawn downward.
+    """
     if downward:
         axes.invert_yaxis()
     label = "scale arbitrary" if quantity == "motion" else fmt.with_unit(scene, quantity, words)

@@ -6,6 +6,7 @@ from ..base.characters import visible
 from ..results import formatting as fmt
 from ..results.hints import beyond
 from ..scene.names import labels
+from .trains import write_trains
 from .writer import Writer
 
 if TYPE_CHECKING:
@@ -35,7 +36,9 @@ def write_combined(say: Writer, result: "CombinedResult") -> None:
     solves = f"{fmt.count(result.solves, 'linear solve')}, {fmt.duration(result.seconds)}"
     say.line(f"{number:,} of {fmt.count(len(result.names), 'combination')} solved, {solves}")
     _fallen(say, result)
-    if number:
+    if number and scene.trains:
+        write_trains(say, result)
+    elif number:
         _fields(say, result)
         _supports(say, result)
         _factors_between(say, result)

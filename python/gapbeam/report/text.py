@@ -23,6 +23,7 @@ from ..scene.names import label, labels
 from .combined import write_combined
 from .ground import ground_in_words, write_contact, write_contact_history, write_foundations
 from .scheme import event_table, legend, merged, scheme_table, symbol
+from .trains import write_trains
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -66,6 +67,7 @@ def print_report(result: "Result", console: "Console | None" = None) -> None:
         return
     _headline(say, result)
     _system(say, result)
+    write_trains(say, result)
     if result.status != "solved":
         _no_solution(say, result)
     if not result.steps:
@@ -187,8 +189,8 @@ def to_csv(result: "Result", points: int = 20) -> str:
     Returns
     -------
     str
-        Where moment, shear or axial force jump, x appears twice: the left value, then the right one. Of combinations the
-        envelope: largest and smallest value of every field.
+        Where moment, shear or axial force jump, x appears twice: the left value, then the right one. With combinations or trains
+        the envelope: largest and smallest value of every field.
     """
     return "".join(csv_parts(result, points))
 
@@ -205,7 +207,8 @@ def csv_parts(result: "Result", points: int = 20) -> Iterator[str]:
     ------
     str
     """
-    fields = result.envelope(points).fields if result.combinations else result.fields(points=points)
+    governs = result.combinations or result.scene.trains
+    fields = result.envelope(points).fields if governs else result.fields(points=points)
     columns = fields.columns()
     headings = [fmt.with_unit(result.scene, name.removesuffix("_max").removesuffix("_min"), name) for name in columns]
     yield _csv([headings])

@@ -20,13 +20,16 @@ from ..scene.names import label
 from ..scene.refusals import refusal
 from ..scene.structs import Scene
 from ..scene.wording import shown
+from .arguments import whole
 from .envelope import Envelope, Source, at_full_load
 from .following import follow_load, starting_scheme
 from .result import Result
+from .train_envelope import Member, Standing, TrainEnvelope, places_given
 
 if TYPE_CHECKING:
     from .hints import Hint
     from .step import Step
+    from .trains import Trains
 
 KEPT = 64
 """Results of combinations that stay once they have been looked at."""
@@ -345,30 +348,50 @@ class CombinedResult(Result):
         found.at_supports[k], found.extremes[k], found.places[k], found.solves[k] = at_full_load(result)
         return result.status
 
-    def envelope(self, points: int = 20) -> Envelope:
-        """Largest and smallest values of all combinations together.
+    @property
+    def trains(self) -> Trains:
+        """Refuse: trains pass in every combination."""
+        return self._chosen(None)
+
+    def envelope(self, points: int = 20, *, x: Any = None) -> Envelope | TrainEnvelope:
+        """Largest and smallest values of all combinations together, with trains over all their positions.
 
         Parameters
         ----------
         points : int
             Divisions of every span at which its curves are made, when they are asked for.
+        x : array_like, optional
+            Places of the curves instead; where a field jumps the larger and the smaller side count.
 
         Returns
         -------
-        Envelope
+        Envelope or TrainEnvelope
             Of the combinations that are solved, each at its full load.
 
         Raises
         ------
         ValueError
-            No combination is solved.
+            No combination is solved, or a place is outside the beam.
         """
+        places = places_given(self.beam, x)
+        if self.scene.trains:
+            points = whole("points", points, least=1)
+            return TrainEnvelope(self, list(self._members()), places, points)
         sources = [Source(name) for name in self.names]
         found = self._found
         return Envelope(
             self.scene, self.fields_there, sources, found.at_supports, found.extremes, found.places,
-            lambda k: self.combinations[k], lambda: self._curves(points),
+            lambda k: self.combinations[k], lambda: self._curves(points, places), places is not None,
         )  # fmt: skip
+
+    def _members(self) -> Iterator[Member]:
+        """The trains in every combination, and those in which none acts."""
+        for k, name in enumerate(self.names):
+            result = self.combinations[k]
+            if result.scene.trains:
+                yield from result.trains.members(name)
+            elif result.status == "solved":
+                yield Standing(result, name)
 
     def hints(self) -> list[Hint]:
         """Where a load factor between governs, as `Result.hints`, of every combination that has a scheme of its own.
@@ -390,8 +413,12 @@ class CombinedResult(Result):
             there |= {"axial_force": 4, "axial_displacement": 5}
         return there
 
-    def _curves(self, points: int) -> tuple[np.ndarray, Iterator[tuple[slice, np.ndarray]]]:
+    def _curves(self, points: int, x: np.ndarray | None) -> tuple[np.ndarray, Iterator[tuple[slice, np.ndarray]]]:
         """Places along the beam, and the fields there of some combinations at a time."""
+        if x is not None:
+            piece, distance = map(np.concatenate, zip(self.beam.find(x, False), self.beam.find(x, True), strict=True))
+            x = np.tile(x, 2)
+            return x, self._fields_at(piece, distance, x, np.arange(len(x)) >= len(x) // 2)
         piece, distance = self.places_along(points)
         places, lengths = self.beam.places, self.beam.places.pieces[:, 0]
         at_end = distance == lengths[piece]

@@ -8,6 +8,7 @@ from typing import Any
 from .combined import CombinedResult
 from .data import event_data, ground_data, limit_data, step_data
 from .result import Result
+from .train_data import trains_data
 
 
 def combined_data(result: CombinedResult, points: int = 20, combinations: Callable[[Iterator], Any] = list) -> dict[str, Any]:
@@ -38,6 +39,7 @@ def combined_data(result: CombinedResult, points: int = 20, combinations: Callab
     if result.remarks:
         data["remarks"] = result.remarks
     data["combinations"] = combinations(_each(result))
+    data |= trains_data(result)
     if "solved" in result.statuses:
         data["envelope"] = result.envelope(points).to_dict()
     return data

@@ -10,6 +10,7 @@ from .ground_path import GroundEvent
 from .path import Event
 from .result import Fields, Result
 from .step import Step
+from .train_data import trains_data
 
 
 def result_data(
@@ -63,6 +64,9 @@ def result_data(
         data["extremes"] = {
             name: {which: list(pair) for which, pair in row.items()} for name, row in result.extremes().items()
         }
+    if scene.trains:
+        data |= trains_data(result)
+        data["envelope"] = result.envelope(points).to_dict()
     return data
 
 

@@ -171,10 +171,11 @@ class Envelope:
     def __init__(
         self, scene: Scene, fields: dict[str, int], sources: Sequence[Source], at_supports: np.ndarray, extremes: np.ndarray,
         places: np.ndarray, result_of: Callable[[int], Result],
-        curves: Callable[[], tuple[np.ndarray, Iterator[tuple[slice, np.ndarray]]]],
+        curves: Callable[[], tuple[np.ndarray, Iterator[tuple[slice, np.ndarray]]]], on_both_sides: bool,
     ):  # fmt: skip
         self.scene, self.sources, self.at_supports, self.result_of = scene, list(sources), at_supports, result_of
         self._fields, self._values, self._places, self._make = fields, extremes, places, curves
+        self._on_both_sides = on_both_sides  # are the second half of the curves' places the first ones again, from the left
         self._bounds: dict[int, dict[str, float]] = {}
         if not np.isfinite(extremes[:, 2, 0]).any():
             raise ValueError("no combination is solved, so there is no envelope")
@@ -244,6 +245,8 @@ class Envelope:
                     near = sign * (there[better] - values[:, better]) <= equal[better]
                     of[row][better] = part.start + near.argmax(axis=0)
                 best[row] = extreme(best[row], there)
+        if self._on_both_sides:
+            x, best, of = _joined(x, best, of)
         names = self._fields.items()
         tables = [{name: table[row][:, column].copy() for name, column in names} for table in (best, of) for row in (0, 1)]
         return Curves(x, *tables)
@@ -282,7 +285,15 @@ class Envelope:
         }  # fmt: skip
 
 
-def envelope_of_one(result: Result, points: int) -> Envelope:
+def _joined(x: np.ndarray, best: np.ndarray, of: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Of two values at every place the larger one, or the smaller one."""
+    n = len(x) // 2
+    first, second = best[:, :n], best[:, n:]
+    later = np.stack((second[0] > first[0], second[1] < first[1]))
+    return x[:n], np.where(later, second, first), np.where(later, of[:, n:], of[:, :n])
+
+
+def envelope_of_one(result: Result, points: int, x: np.ndarray | None = None) -> Envelope:
     """Make the envelope of one load.
 
     Parameters
@@ -291,6 +302,8 @@ def envelope_of_one(result: Result, points: int) -> Envelope:
         A solved one.
     points : int
         Divisions of every span for its curves.
+    x : numpy.ndarray, optional
+        Places for them instead.
 
     Returns
     -------
@@ -303,7 +316,11 @@ def envelope_of_one(result: Result, points: int) -> Envelope:
     """
 
     def curves() -> tuple[np.ndarray, Iterator[tuple[slice, np.ndarray]]]:
-        fields = result.fields(points=points).columns()
+        if x is None:
+            fields = result.fields(points=points).columns()
+        else:
+            sides = [result.at(x, side=side).columns() for side in ("right", "left")]
+            fields = {name: np.concatenate([side[name] for side in sides]) for name in sides[0]}
         values = np.full((1, len(fields["x"]), len(FIELDS)), np.nan)
         for name, column in result.beam.fields.items():
             values[0, :, column] = fields[name]
@@ -311,7 +328,8 @@ def envelope_of_one(result: Result, points: int) -> Envelope:
 
     at_supports, extremes, places, _ = at_full_load(result)
     return Envelope(
-        result.scene, result.beam.fields, [Source()], at_supports[None], extremes[None], places[None], lambda _: result, curves
+        result.scene, result.beam.fields, [Source()], at_supports[None], extremes[None], places[None], lambda _: result, curves,
+        x is not None,
     )
 
 

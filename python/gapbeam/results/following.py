@@ -16,6 +16,7 @@ from .ground_path import follow_on_ground
 from .path import follow
 from .result import Result
 from .steps import LoadSteps, PathSteps
+from .trains import refuse_trains
 
 
 def follow_load(scene: Scene, beam: Beam, rule: str, closed: np.ndarray) -> Result:
@@ -46,6 +47,7 @@ def follow_load(scene: Scene, beam: Beam, rule: str, closed: np.ndarray) -> Resu
     result = Result(scene, beam, rule)
     if beam.ground_layers:
         _refuse_on_ground(scene, beam)
+    refuse_trains(scene, beam)
     if beam.depends_on_path or scene.analysis.history != [1.0]:
         return _on_path(result)
     if scene.analysis.follow == "events":

@@ -33,6 +33,8 @@ if TYPE_CHECKING:
     from .ground_path import GroundEvent, GroundPath
     from .hints import Hint
     from .path import Event, Path, Segment
+    from .train_envelope import TrainEnvelope
+    from .trains import Trains
 
 BYTES_PER_PLACE = 120
 """Memory that a row of a table of fields takes while it is made."""
@@ -217,6 +219,13 @@ class Result(Pickled):
     def limits(self) -> list[Limit]:
         """Where the load could not go on, with supports that soften or yield."""
         return getattr(self.path, "limits", [])
+
+    @cached_property
+    def trains(self) -> Trains:
+        """Trains by name; followed over the beam when something is asked of them."""
+        from .trains import Trains
+
+        return Trains(self)
 
     @property
     def solves(self) -> int:
@@ -440,27 +449,33 @@ class Result(Pickled):
         """Results of the combinations by name; empty where the scene has none."""
         return {}
 
-    def envelope(self, points: int = 20) -> Envelope:
-        """Largest and smallest values at full load, in the form of those of combinations.
+    def envelope(self, points: int = 20, *, x: Any = None) -> Envelope | TrainEnvelope:
+        """Largest and smallest values: with trains over all their positions, else at full load in the form of combinations.
 
         Parameters
         ----------
         points : int
             Divisions of every span at which its curves are made, when they are asked for.
+        x : array_like, optional
+            Places of the curves instead; where a field jumps the larger and the smaller side count.
 
         Returns
         -------
-        Envelope
-            Of the last load step.
+        Envelope or TrainEnvelope
 
         Raises
         ------
         ValueError
-            The beam is not solved.
+            The beam is not solved, or a place is outside the beam.
         """
         from .envelope import envelope_of_one
+        from .train_envelope import TrainEnvelope, places_given
 
-        return envelope_of_one(self, points)
+        places = places_given(self.beam, x)
+        if self.scene.trains:
+            points = whole("points", points, least=1)
+            return TrainEnvelope(self, self.trains.members(), places, points)
+        return envelope_of_one(self, points, places)
 
     def hints(self) -> list[Hint]:
         """Where a load factor between 0 (the dead loads alone) and 1 governs: extremes that are greater there than at 1.

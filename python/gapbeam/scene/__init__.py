@@ -17,12 +17,13 @@ from .structs import (
     Scene,
     Section,
     Support,
+    Train,
     UniformLoad,
     Units,
 )
 
 __all__ = [
     "POSITION_TOLERANCE", "Analysis", "AxialLoad", "Beam", "Combination", "CurvatureLoad", "ForceLoad", "Foundation",
-    "LinearLoad", "Load", "MomentLoad", "Scene", "Section", "Support", "UniformLoad", "Units", "read_scene",
+    "LinearLoad", "Load", "MomentLoad", "Scene", "Section", "Support", "Train", "UniformLoad", "Units", "read_scene",
     "same_place", "scene_schema",
 ]  # fmt: skip

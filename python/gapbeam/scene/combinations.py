@@ -17,6 +17,7 @@ from .columns import SIDES
 from .names import cases_of, find, labels
 from .structs import Combination, LinearLoad, Scene, Support, UniformLoad
 from .tables import Table
+from .trains import train_name
 from .wording import choice, key_of, number, shown
 
 MOST = 10_000
@@ -41,6 +42,8 @@ class Plan:
         Further movement of every support, combinations by supports.
     scheme_of : tuple of (int or None)
         The combination whose working scheme is taken, by number.
+    trains : numpy.ndarray
+        Factor of every train, combinations by trains.
     idle : tuple of str
         Cases that act in none of them.
     """
@@ -50,6 +53,7 @@ class Plan:
     factors: np.ndarray
     settlements: np.ndarray
     scheme_of: tuple[int | None, ...]
+    trains: np.ndarray
     idle: tuple[str, ...]
 
     def __len__(self) -> int:
@@ -69,7 +73,7 @@ class Plan:
         Returns
         -------
         Scene
-            Its loads are those that act, times their factors; its supports have moved.
+            Its loads and trains are those that act, times their factors; its supports have moved.
         """
         scene, title = self.scene, self.names[k]
         loads = [_times(load, factor) for load, factor in zip(scene.loads, self.factors[k].tolist(), strict=True) if factor]
@@ -79,7 +83,12 @@ class Plan:
         if acts is not None:
             supports = [_held(one, act) for one, act in zip(supports, acts, strict=True)]
         title = f"{scene.title}: {title}" if scene.title else title
-        return msgspec.structs.replace(scene, title=title, loads=loads, supports=supports, combinations=[])
+        trains = [
+            msgspec.structs.replace(train, name=train_name(scene, i), factor=train.factor * factor)
+            for i, (train, factor) in enumerate(zip(scene.trains, self.trains[k].tolist(), strict=True))
+            if factor
+        ]
+        return msgspec.structs.replace(scene, title=title, loads=loads, trains=trains, supports=supports, combinations=[])
 
 
 def replace_settlements(scene: Scene, moves: np.ndarray) -> Scene:
@@ -139,9 +148,9 @@ def plan_combinations(scene: Scene) -> Plan:
     SceneError
         A combination speaks of what is not there, or patterns make too many.
     """
-    there = dict.fromkeys(cases_of(scene.loads))
+    there = dict.fromkeys((*cases_of(scene.loads), *(train.case for train in scene.trains)))
     for i, combination in enumerate(scene.combinations):
-        _check(i, combination, there)
+        _check(i, combination, there, {train.case for train in scene.trains})
     patterned = dict.fromkeys(case for one in scene.combinations for case, rule in one.expand.items() if rule == "spans")
     cut, spans = _cut(scene, list(patterned))
     cases = np.array(cases_of(cut.loads), dtype=object)
@@ -162,13 +171,18 @@ def plan_combinations(scene: Scene) -> Plan:
     table = np.array(factors).reshape(len(names), len(cases))
     shape = len(scene.combinations), len(scene.supports)
     movements = np.array([_settlements(scene, i) for i in range(len(scene.combinations))]).reshape(shape)
-    idle = [case for case in there if not table[:, loads_of[case]].any()]
+    moving = np.array(
+        [[scene.combinations[i].factors.get(train.case, 0.0) for train in scene.trains] for i in origin], dtype=float
+    ).reshape(len(origin), len(scene.trains))
+    acts = {train.case for train, column in zip(scene.trains, moving.T, strict=True) if column.any()}
+    idle = [case for case in there if case not in acts and not table[:, loads_of[case]].any()]
     return Plan(
-        cut, tuple(names), read_only(table), read_only(movements[origin]), _schemes(scene, names, origin), tuple(idle)
+        cut, tuple(names), read_only(table), read_only(movements[origin]), _schemes(scene, names, origin), read_only(moving),
+        tuple(idle),
     )
 
 
-def _check(i: int, combination: Combination, cases: dict[str, None]) -> None:
+def _check(i: int, combination: Combination, cases: dict[str, None], moving: set[str]) -> None:
     """Refuse cases that are not there, and numbers that are none."""
     place = f"combinations[{i}]"
     for key in (*combination.factors, *combination.expand):
@@ -180,6 +194,9 @@ def _check(i: int, combination: Combination, cases: dict[str, None]) -> None:
         if not isfinite(factor):
             raise SceneError(f"{place}.factors.{key_of(key)}", f"expected a finite number, got {number(factor)}")
     for key in combination.expand:
+        if key in moving:
+            problem = "a train is of this case, and trains have no patterns; give the train a case of its own"
+            raise SceneError(f"{place}.expand.{key_of(key)}", problem)
         if not combination.factors.get(key):
             problem = "has no factor" if key not in combination.factors else "has the factor 0, so all its patterns are the same"
             raise SceneError(f"{place}.expand.{key_of(key)}", f"{problem}; give it one in factors")

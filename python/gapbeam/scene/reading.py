@@ -20,6 +20,7 @@ from .names import check_names, names_in_errors
 from .refusals import refusal
 from .structs import Scene
 from .tables import Table, take_profiles, take_tables
+from .trains import check_trains
 from .typed import typed
 from .wording import number, shown
 
@@ -113,6 +114,7 @@ def _structured(source: Scene | Mapping[str, Any] | str | os.PathLike) -> Scene:
     with names_in_errors(scene):
         _check_laws(scene)
         _check_foundations(scene)
+    check_trains(scene)
     if scene.analysis.steps < 1:
         raise SceneError("analysis.steps", f"expected a whole number, 1 or more, got {shown(scene.analysis.steps)}")
     if not scene.analysis.history:

@@ -10,7 +10,7 @@ from typing import Any, get_args
 import msgspec
 
 from .laws import LawTable
-from .structs import Analysis, Beam, Combination, Foundation, Load, Scene, Section, Support, Units
+from .structs import Analysis, Beam, Combination, Foundation, Load, Scene, Section, Support, Train, Units
 
 
 def scene_schema() -> dict[str, Any]:
@@ -27,7 +27,8 @@ def scene_schema() -> dict[str, Any]:
     'Distance to be closed before it acts (length); negative = lack of fit; one-sided supports only.'
     """
     schema = msgspec.json.schema(Scene)
-    for struct in (Units, Beam, Section, Support, Foundation, Combination, Analysis, Scene, *get_args(Load), *get_args(LawTable)):
+    structs = (Units, Beam, Section, Support, Foundation, Train, Combination, Analysis, Scene, *get_args(Load), *get_args(LawTable))
+    for struct in structs:
         table = schema["$defs"][struct.__name__]
         table["description"] = inspect.cleandoc(struct.__doc__).partition("\n\n")[0]
         texts: dict[str, str] = {}

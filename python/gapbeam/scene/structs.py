@@ -306,6 +306,43 @@ class CurvatureLoad(_StretchLoad, kw_only=True, gc=False, tag="curvature"):
 Load = ForceLoad | MomentLoad | UniformLoad | LinearLoad | CurvatureLoad | AxialLoad
 
 
+class Train(Table, forbid_unknown_fields=True, kw_only=True):
+    """Loads that move together over the beam. Its position is that of its first axle; an axle on the beam, ends included, acts.
+
+    Parameters
+    ----------
+    name : str
+        By which results have it; default train 1, train 2, ...
+    axles : list of (float, float)
+        Distance behind the first axle (length), and force, positive downward. The train goes to the right.
+    from_ : float, optional
+        First position (length, from the left end of the beam); default: where the first axle enters the beam.
+        In Python the name is ``from_``.
+    to : float, optional
+        Last position; default: where the last axle leaves the beam.
+    case : str
+        Name of the case that it belongs to; default live.
+    factor : float
+        Factor of its axles and of q, before solving (impact, lane); default 1.
+    both_directions : bool
+        Also the mirrored train, which goes to the left; default false.
+    inside : bool
+        Only positions where the whole train is on the beam; default false.
+    q : float
+        Uniform load over the length of the train (force/length), positive downward.
+    """
+
+    name: str = ""
+    axles: list[tuple[float, float]]
+    from_: float | None = field(default=None, name="from")
+    to: float | None = None
+    case: str = "live"
+    factor: float = 1.0
+    both_directions: bool = False
+    inside: bool = False
+    q: float = 0.0
+
+
 class Combination(Table, forbid_unknown_fields=True, kw_only=True):
     """Load cases that act together, each with a factor; solved in a working scheme of its own.
 
@@ -379,6 +416,8 @@ class Scene(Table, forbid_unknown_fields=True, kw_only=True):
         Elastic ground under stretches of the beam.
     loads : list of ForceLoad, MomentLoad, UniformLoad, LinearLoad, CurvatureLoad, AxialLoad
         Loads, each of a load case.
+    trains : list of Train
+        Loads that move.
     combinations : list of Combination
         Combinations of load cases; without any there is one, all cases with factor 1.
     analysis : Analysis
@@ -392,6 +431,7 @@ class Scene(Table, forbid_unknown_fields=True, kw_only=True):
     supports: list[Support] = []
     foundation: list[Foundation] = []
     loads: list[Load] = []
+    trains: list[Train] = []
     combinations: list[Combination] = []
     analysis: Analysis = field(default_factory=Analysis)
 

@@ -14,6 +14,19 @@ from msgspec import inspect
 
 from ..base.errors import SceneError
 
+UNFAVOURABLE = (
+    "axles only where they are unfavourable are not available: where supports open, influence lines cannot be superposed, so such "
+    "a choice misses what governs; give each choice as a train of its own"
+)
+NOT_BUILT = {
+    "together": "trains at the same time are not available in this version; give one train with all axles",
+    "unfavourable": UNFAVOURABLE,
+    "favourable": UNFAVOURABLE,
+    "unfavourable_only": UNFAVOURABLE,
+    "unfavourable_parts_only": UNFAVOURABLE,
+}
+"""Keys of a train that are refused by name."""
+
 
 def shown(value: Any) -> str:
     """Word a value the way a user wrote it, short enough for one line.
@@ -277,6 +290,8 @@ def _unknown(kind: inspect.Type, value: Mapping, place: str) -> SceneError:
         known.insert(0, struct.tag_field)
     key = next(key for key in value if key not in known)
     where = f"{place}.{key_of(key)}" if place else key_of(key)
+    if re.fullmatch(r"trains\[\d+\]", place) and key in NOT_BUILT:
+        return SceneError(where, NOT_BUILT[key])
     folded = {name.casefold(): name for name in known}
     near = difflib.get_close_matches(key.casefold().strip("_ "), folded, n=1, cutoff=0.55)
     if near:

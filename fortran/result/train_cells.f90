@@ -1,0 +1,262 @@
+!> The beam under a train, cut where its pieces end and where axles and ends of its uniform load are: in every such cell the fields
+!> are polynomials in x, and while the train is in one reach, in its place as well.
+module gapbeam_train_cells
+    use gapbeam_kinds, only: wp
+    use gapbeam_element, only: field_type, fields_at
+    use gapbeam_link, only: piece_type, piece_load_type, combine_loads
+    use gapbeam_recover, only: recover_beam
+    use gapbeam_workspace, only: workspace_type
+    use gapbeam_lowered, only: lowered_type
+    use gapbeam_train, only: train_type, track_type, reach_type
+    implicit none
+    private
+    public :: cell_type, cells_type, new_cells, find_cells, fill_cells, recover_cells, cell_ends, fields_in_cell, x_in_cell, &
+        cell_of_place
+
+    !> A cell: its piece, the moving points at its ends (0: an end of the piece), whether the train's uniform load is on it
+    type :: cell_type
+        integer :: piece = 0, left = 0, right = 0
+        logical :: covered = .false.
+    end type cell_type
+
+    !> All cells from left to right
+    type :: cells_type
+        integer :: number = 0
+        type(cell_type), allocatable :: cells(:)
+        !> Last cell of every link, first cell of every piece
+        integer, allocatable :: last(:), first(:)
+        !> What moves: distances from the place of the train in ascending order, and forces there in the engine's units
+        real(wp), allocatable :: offset(:), force(:)
+        !> Number of the axle, 0 and -1 the ends of the uniform load
+        integer, allocatable :: axle(:)
+        !> The cells at a place of the train as pieces with loads, and the fields at their left ends
+        type(piece_type), allocatable :: pieces(:)
+        type(piece_load_type), allocatable :: loads(:), nothing(:)
+        type(field_type), allocatable :: starts(:)
+    end type cells_type
+
+contains
+
+    !> Room for the cells of a beam under a train
+    subroutine new_cells(track, train, cells, stat)
+        type(track_type), intent(in) :: track
+        type(train_type), intent(in) :: train
+        type(cells_type), intent(out) :: cells
+        !> 0, or what allocate says where memory is at an end
+        integer, intent(out) :: stat
+        integer :: most, moving, axles, i, j, k
+
+        axles = size(train%offset)
+        moving = axles + merge(2, 0, abs(train%q) > 0.0_wp)
+        most = size(track%link) + moving
+        allocate (cells%cells(most), cells%last(size(track%beam%links)), cells%first(size(track%link) + 1), cells%offset(moving), &
+                  cells%force(moving), cells%axle(moving), cells%pieces(most), cells%loads(most), cells%nothing(most), &
+                  cells%starts(most), stat=stat)
+        if (stat /= 0) return
+        cells%nothing(:) = piece_load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
+        cells%offset(:axles) = train%offset
+        cells%force(:axles) = scale(train%force, -track%force_unit)
+        cells%axle(:axles) = [(i, i=1, axles)]
+        if (moving > axles) then
+            cells%offset(axles + 1:) = [train%q_from, train%q_to]
+            cells%force(axles + 1:) = 0.0_wp
+            cells%axle(axles + 1:) = [0, -1]
+        end if
+        do i = 2, moving
+            do j = i, 2, -1
+                if (cells%offset(j - 1) <= cells%offset(j)) exit
+                k = cells%axle(j)
+                cells%axle(j) = cells%axle(j - 1)
+                cells%axle(j - 1) = k
+                cells%offset(j - 1:j) = cells%offset(j:j - 1:-1)
+                cells%force(j - 1:j) = cells%force(j:j - 1:-1)
+            end do
+        end do
+    end subroutine new_cells
+
+    !> The cells of a reach
+    subroutine find_cells(track, train, reach, cells)
+        type(track_type), intent(in) :: track
+        type(train_type), intent(in) :: train
+        type(reach_type), intent(in) :: reach
+        type(cells_type), intent(inout) :: cells
+        real(wp) :: middle, from, to
+        integer :: j, k, next
+
+        middle = reach%from + (reach%to - reach%from)/2
+        cells%number = 0
+        next = 1
+        do j = 1, size(track%link)
+            cells%first(j) = cells%number + 1
+            call add(0)
+            do while (next <= size(cells%offset))
+                k = piece_of(next)
+                if (k > j) exit
+                if (k == j) then
+                    cells%cells(cells%number)%right = next
+                    call add(next)
+                end if
+                next = next + 1
+            end do
+            cells%last(track%link(j)) = cells%number
+        end do
+        cells%first(size(track%link) + 1) = cells%number + 1
+        if (.not. abs(train%q) > 0.0_wp) return
+        do k = 1, cells%number
+            call cell_ends(track, cells, cells%cells(k), middle, from, to)
+            associate (x => from + (to - from)/2)
+                cells%cells(k)%covered = x > middle + train%q_from .and. x < middle + train%q_to
+            end associate
+        end do
+
+    contains
+
+        !> Add a cell that begins at a moving point, or at the left end of the piece
+        subroutine add(left)
+            integer, intent(in) :: left
+
+            cells%number = cells%number + 1
+            cells%cells(cells%number) = cell_type(piece=j, left=left)
+        end subroutine add
+
+        !> Piece in which a moving point is, 0 if none
+        pure function piece_of(point) result(piece)
+            integer, intent(in) :: point
+            integer :: piece
+
+            if (cells%axle(point) > 0) then
+                piece = reach%piece(cells%axle(point))
+                return
+            end if
+            piece = 0
+            if (reach%q_first > reach%q_last) return
+            associate (x => middle + cells%offset(point))
+                if (x < 0.0_wp .or. x > track%x(ubound(track%x, 1))) return
+            end associate
+            piece = merge(reach%q_first, reach%q_last, cells%axle(point) == 0)
+        end function piece_of
+
+    end subroutine find_cells
+
+    !> The ends of a cell in the user's units
+    pure subroutine cell_ends(track, cells, cell, s, from, to)
+        type(track_type), intent(in) :: track
+        type(cells_type), intent(in) :: cells
+        type(cell_type), intent(in) :: cell
+        !> Place of the train
+        real(wp), intent(in) :: s
+        real(wp), intent(out) :: from, to
+
+        associate (x => track%x, j => cell%piece)
+            from = x(j - 1)
+            to = x(j)
+            if (cell%left > 0) from = min(max(s + cells%offset(cell%left), from), to)
+            if (cell%right > 0) to = min(max(s + cells%offset(cell%right), from), to)
+        end associate
+    end subroutine cell_ends
+
+    !> Make pieces and loads of the cells
+    subroutine fill_cells(lowered, track, train, s, cells)
+        type(lowered_type), intent(in) :: lowered
+        type(track_type), intent(in) :: track
+        type(train_type), intent(in) :: train
+        !> Place of the train
+        real(wp), intent(in) :: s
+        type(cells_type), intent(inout) :: cells
+        type(piece_load_type) :: whole
+        real(wp) :: from, to
+        integer :: k, j
+
+        j = 0
+        do k = 1, cells%number
+            associate (cell => cells%cells(k), load => cells%loads(k), p => cells%pieces(k))
+                if (cell%piece /= j) then
+                    j = cell%piece
+                    whole = combine_loads(lowered%dead(j), lowered%live(j), 1.0_wp)
+                end if
+                p = lowered%pieces(j)
+                load = whole
+                if (cell%left > 0 .or. cell%right > 0) then
+                    call cell_ends(track, cells, cell, s, from, to)
+                    from = scale(from - track%x(j - 1), -track%length_unit)
+                    to = scale(to - track%x(j - 1), -track%length_unit)
+                    if (cell%right == 0) to = p%length
+                    p%length = max(0.0_wp, to - from)
+                    load%qa = whole%qa + (whole%qb - whole%qa)*(from/lowered%pieces(j)%length)
+                    load%qb = whole%qa + (whole%qb - whole%qa)*(to/lowered%pieces(j)%length)
+                end if
+                if (cell%right > 0) then
+                    load%force = cells%force(cell%right)
+                    load%couple = 0.0_wp
+                end if
+                if (cell%covered) then
+                    load%qa = load%qa + scale(train%q, track%length_unit - track%force_unit)
+                    load%qb = load%qb + scale(train%q, track%length_unit - track%force_unit)
+                end if
+            end associate
+        end do
+    end subroutine fill_cells
+
+    !> Fields at the left ends of all cells, from the solution at the nodes
+    subroutine recover_cells(track, work, cells)
+        !> With the train at the place of the cells, and its solution
+        type(track_type), intent(in) :: track
+        type(workspace_type), intent(in) :: work
+        !> After fill_cells
+        type(cells_type), intent(inout) :: cells
+
+        associate (n => cells%number)
+            call recover_beam(cells%pieces(:n), cells%loads(:n), cells%nothing(:n), 1.0_wp, track%beam%links, cells%last, &
+                              track%beam%kind, work%answers%deflection, work%answers%moment_left, work%answers%moment_right, &
+                              work%shear, cells%starts(:n))
+        end associate
+    end subroutine recover_cells
+
+    !> Fields at a distance from the left end of a cell
+    pure function fields_in_cell(start, distance, piece, load) result(fields)
+        !> Fields at its left end, and the distance
+        type(field_type), intent(in) :: start
+        real(wp), intent(in) :: distance
+        type(piece_type), intent(in) :: piece
+        type(piece_load_type), intent(in) :: load
+        type(field_type) :: fields
+
+        if (piece%length > 0.0_wp) then
+            fields = fields_at(start, distance, piece%length, piece%flexibility, piece%shear_flexibility, load%qa, load%qb, &
+                               load%kappa)
+        else
+            fields = start
+        end if
+    end function fields_in_cell
+
+    !> Place in a cell, from the share of its length
+    pure function x_in_cell(track, cells, cell, s, share) result(x)
+        type(track_type), intent(in) :: track
+        type(cells_type), intent(in) :: cells
+        type(cell_type), intent(in) :: cell
+        real(wp), intent(in) :: s, share
+        real(wp) :: x
+        real(wp) :: from, to
+
+        call cell_ends(track, cells, cell, s, from, to)
+        x = from + share*(to - from)
+        if (share >= 1.0_wp) x = to
+    end function x_in_cell
+
+    !> Cell of a piece in which a place is
+    pure function cell_of_place(track, cells, piece, x, s) result(k)
+        type(track_type), intent(in) :: track
+        type(cells_type), intent(in) :: cells
+        integer, intent(in) :: piece
+        real(wp), intent(in) :: x, s
+        integer :: k
+        real(wp) :: from, to
+
+        do k = cells%first(piece), cells%first(piece + 1) - 1
+            call cell_ends(track, cells, cells%cells(k), s, from, to)
+            if (x <= to) return
+        end do
+        k = cells%first(piece + 1) - 1
+    end function cell_of_place
+
+end module gapbeam_train_cells

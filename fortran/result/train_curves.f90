@@ -1,0 +1,294 @@
+!> A train at chosen places of the beam: the largest and smallest values there, and influence lines
+module gapbeam_train_curves
+    use gapbeam_kinds, only: wp
+    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_not_converged
+    use gapbeam_bernstein, only: patch_type, sample_points, to_coefficients, greatest_on_patch
+    use gapbeam_band, only: band_ok
+    use gapbeam_element, only: field_type, fields_at
+    use gapbeam_law, only: drop_level
+    use gapbeam_link, only: piece_load_type, combine_loads
+    use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
+    use gapbeam_system, only: solve_and_refine
+    use gapbeam_units, only: moment_unit, rotation_unit
+    use gapbeam_lowered, only: lowered_type
+    use gapbeam_train, only: train_type, track_type, reach_type, place_train, find_reaches, degree_of, least_distance
+    use gapbeam_train_cells, only: cells_type, new_cells, find_cells, fill_cells, recover_cells, cell_ends, cell_of_place, &
+        fields_in_cell
+    use gapbeam_train_path, only: passage_type
+    use gapbeam_train_samples, only: samples_type, new_samples, sample_stretch, degree_in_position
+    implicit none
+    private
+    public :: find_curves, find_influence
+
+contains
+
+    !> Largest and smallest values of the fields at given places, over all positions
+    subroutine find_curves(lowered, track, train, passage, piece, distance, value, position, error)
+        type(lowered_type), intent(in) :: lowered
+        type(track_type), intent(inout) :: track
+        type(train_type), intent(in) :: train
+        !> By pass_train
+        type(passage_type), intent(in) :: passage
+        !> Pieces, and the distances from their left ends in the user's units, shape (n)
+        integer, intent(in) :: piece(:)
+        real(wp), intent(in) :: distance(:)
+        !> Largest (1) and smallest (2) of deflection, rotation, moment, shear in the user's units, and the positions of the
+        !> train, shape (2, 4, n); where no stretch is solved -huge and huge
+        real(wp), intent(out) :: value(:, :, :), position(:, :, :)
+        type(error_type), allocatable, intent(out) :: error
+        type(samples_type) :: samples
+        real(wp), allocatable :: starts(:, :, :), matrix(:, :)
+        type(piece_load_type), allocatable :: loads(:)
+        real(wp) :: points(0:degree_of(train)), on_whole(0:degree_of(train), 0:degree_in_position(train))
+        real(wp) :: at_place(0:degree_of(train), 0:degree_of(train))
+        integer :: powers(4), c, d, f, k, n, round, stat, q
+
+        value(1, :, :) = -huge(1.0_wp)
+        value(2, :, :) = huge(1.0_wp)
+        position(:, :, :) = 0.0_wp
+        call new_samples(lowered, track, train, samples, error)
+        if (allocated(error)) return
+        n = samples%degree
+        allocate (starts(0:n, 4, size(samples%starts, 2)), matrix(0:n, 0:n), stat=stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        matrix(:, :) = to_coefficients(n)
+        loads = combine_loads(lowered%dead, lowered%live, 1.0_wp)
+        d = degree_of(train)
+        points(:) = sample_points(d)
+        at_place(:, :) = to_coefficients(d)
+        do k = 0, d
+            on_whole(k, :) = basis(n, points(k))
+        end do
+        ! The first time samples alone, so that the second time there is little left to look into
+        do round = 1, 2
+            do k = 1, passage%number
+                if (passage%status(k) /= gapbeam_solved) cycle
+                call sample_stretch(lowered, track, train, passage, k, samples, error)
+                if (allocated(error)) return
+                do c = 1, samples%cells%number
+                    starts(:, 1, c) = matmul(matrix, samples%starts(:, c)%deflection)
+                    starts(:, 2, c) = matmul(matrix, samples%starts(:, c)%rotation)
+                    starts(:, 3, c) = matmul(matrix, samples%starts(:, c)%moment)
+                    starts(:, 4, c) = matmul(matrix, samples%starts(:, c)%shear)
+                end do
+                do q = 1, size(piece)
+                    call pass_place(piece(q), distance(q), value(:, :, q), position(:, :, q))
+                end do
+            end do
+        end do
+        associate (units => lowered%units)
+            powers(:) = [units%deflection, rotation_unit(units), moment_unit(units), units%force]
+        end associate
+        do f = 1, 4
+            where (abs(value(:, f, :)) < huge(1.0_wp)) value(:, f, :) = scale(value(:, f, :), powers(f))
+        end do
+
+    contains
+
+        !> A place during a stretch: between the positions at which something passes it
+        subroutine pass_place(j, t, largest, where_largest)
+            integer, intent(in) :: j
+            real(wp), intent(in) :: t
+            real(wp), intent(inout) :: largest(:, :), where_largest(:, :)
+            real(wp) :: at, from, near
+            integer :: number
+
+            near = least_distance(track, train)
+            associate (cells => samples%cells, x => track%x(j - 1) + t, to => passage%to(k))
+                from = passage%from(k)
+                do number = cells%first(j + 1) - 2, cells%first(j), -1
+                    ! The right end of this cell is a point that passes the place from the left
+                    at = x - cells%offset(cells%cells(number)%right)
+                    if (at > to + near) exit
+                    if (at < from - near) cycle
+                    ! Both sides of it, also where it passes at an end of the stretch
+                    call look(j, t, number + 1, from, min(max(at, from), to), largest, where_largest)
+                    from = min(max(at, from), to)
+                end do
+                call look(j, t, number + 1, from, to, largest, where_largest)
+            end associate
+        end subroutine pass_place
+
+        !> A place between two positions
+        subroutine look(j, t, cell, from, to, largest, where_largest)
+            integer, intent(in) :: j, cell
+            real(wp), intent(in) :: t, from, to
+            real(wp), intent(inout) :: largest(:, :), where_largest(:, :)
+            type(patch_type) :: patch
+            type(field_type) :: at
+            type(piece_load_type) :: load
+            real(wp) :: values(0:d, 4), start(4), s, u, left, right
+            logical :: whole
+            integer :: p, field
+
+            whole = from <= passage%from(k) .and. to >= passage%to(k)
+            do p = 0, d
+                s = from + points(p)*(to - from)
+                if (whole) then
+                    start(:) = matmul(on_whole(p, :), starts(:, :, cell))
+                else
+                    u = 0.0_wp
+                    if (passage%to(k) > passage%from(k)) u = (s - passage%from(k))/(passage%to(k) - passage%from(k))
+                    start(:) = matmul(basis(n, u), starts(:, :, cell))
+                end if
+                call cell_ends(track, samples%cells, samples%cells%cells(cell), s, left, right)
+                left = left - track%x(j - 1)
+                load = loads(j)
+                associate (piece => lowered%pieces(j), begin => scale(left, -track%length_unit), &
+                           distance => scale(max(0.0_wp, t - left), -track%length_unit), slope => loads(j)%qb - loads(j)%qa)
+                    load%qa = load%qa + slope*(begin/piece%length)
+                    if (samples%cells%cells(cell)%covered) then
+                        load%qa = load%qa + scale(train%q, track%length_unit - track%force_unit)
+                    end if
+                    at = fields_at(field_type(start(1), start(2), start(3), start(4)), distance, piece%length, piece%flexibility, &
+                                   piece%shear_flexibility, load%qa, load%qa + slope, load%kappa)
+                end associate
+                values(p, :) = [at%deflection, at%rotation, at%moment, at%shear]
+            end do
+            patch%along = 0
+            patch%across = d
+            do field = 1, 4
+                do p = 0, d
+                    if (values(p, field) > largest(1, field)) then
+                        largest(1, field) = values(p, field)
+                        where_largest(1, field) = from + points(p)*(to - from)
+                    end if
+                    if (values(p, field) < largest(2, field)) then
+                        largest(2, field) = values(p, field)
+                        where_largest(2, field) = from + points(p)*(to - from)
+                    end if
+                end do
+                if (round == 1) cycle
+                patch%b(0, 0:d) = matmul(at_place, values(:, field))
+                call raise(patch, 1.0_wp, from, to, largest(1, field), where_largest(1, field))
+                call raise(patch, -1.0_wp, from, to, largest(2, field), where_largest(2, field))
+            end do
+        end subroutine look
+
+    end subroutine find_curves
+
+    !> Raise the largest value, or lower the smallest one
+    pure subroutine raise(patch, way, from, to, value, position)
+        !> A field over the positions
+        type(patch_type), intent(in) :: patch
+        !> 1 or -1
+        real(wp), intent(in) :: way
+        !> The positions
+        real(wp), intent(in) :: from, to
+        !> So far
+        real(wp), intent(inout) :: value, position
+        type(patch_type) :: turned
+        real(wp) :: best, v, u
+
+        if (.not. maxval(way*patch%b(0, 0:patch%across)) > way*value) return
+        turned = patch
+        turned%b(0, 0:patch%across) = way*patch%b(0, 0:patch%across)
+        call greatest_on_patch(turned, way*value, best, v, u)
+        if (.not. best > way*value) return
+        value = way*best
+        position = from + u*(to - from)
+    end subroutine raise
+
+    !> Bernstein polynomials at a place
+    pure function basis(n, u) result(b)
+        !> Degree, and the place
+        integer, intent(in) :: n
+        real(wp), intent(in) :: u
+        real(wp) :: b(0:n)
+        integer :: k
+
+        b(0) = 1.0_wp
+        do k = 1, n
+            b(k) = u*b(k - 1)
+            b(1:k - 1) = (1 - u)*b(1:k - 1) + u*b(0:k - 2)
+            b(0) = (1 - u)*b(0)
+        end do
+    end function basis
+
+    !> Influence line of a scheme: what a unit force at each place adds, while the same supports act
+    subroutine find_influence(lowered, track, closed, support, piece, distance, places, value, error)
+        type(lowered_type), intent(in) :: lowered
+        type(track_type), intent(in) :: track
+        !> The scheme
+        logical, intent(in) :: closed(:)
+        !> Which supports of the model, shape (nsupport)
+        logical, intent(in) :: support(:)
+        !> A place of the beam: piece, and distance from its left end in the user's units
+        integer, intent(in) :: piece
+        real(wp), intent(in) :: distance
+        !> Places of the force, shape (n)
+        real(wp), intent(in) :: places(:)
+        !> Deflection, rotation, moment, shear at the place, and the sum of the reactions of the supports, in the user's units,
+        !> shape (5, n)
+        real(wp), intent(out) :: value(:, :)
+        !> No unique state, or no memory
+        type(error_type), allocatable, intent(out) :: error
+        type(track_type) :: bare
+        type(train_type) :: unit
+        type(cells_type) :: cells
+        type(lowered_type) :: empty
+        type(reach_type), allocatable :: reaches(:)
+        type(workspace_type) :: work
+        type(field_type) :: at
+        real(wp) :: left, right
+        integer :: powers(4), c, j, k, state, place, stat
+
+        bare = track
+        empty = lowered
+        empty%dead(:) = piece_load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
+        empty%live(:) = empty%dead
+        call drop_level(bare%beam%supports)
+        bare%beam%force(:, :) = 0.0_wp
+        bare%beam%couple(:, :) = 0.0_wp
+        bare%loaded = 0
+        do j = 1, size(bare%beam%links)
+            associate (link => bare%beam%links(j))
+                link%turn_a(:) = 0.0_wp
+                link%turn_b(:) = 0.0_wp
+                link%shear_a(:) = 0.0_wp
+                link%shear_b(:) = 0.0_wp
+                link%load_sum(:) = 0.0_wp
+                link%turn_sum(:) = 0.0_wp
+            end associate
+        end do
+        allocate (unit%offset(1), unit%force(1))
+        unit%offset(:) = 0.0_wp
+        unit%force(:) = 1.0_wp
+        call new_workspace(bare%beam, work)
+        call new_cells(bare, unit, cells, stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        associate (units => lowered%units)
+            powers(:) = [units%deflection, rotation_unit(units), moment_unit(units), units%force]
+        end associate
+        do k = 1, size(places)
+            call find_reaches(bare, unit, places(k), places(k), reaches, error)
+            if (allocated(error)) return
+            call place_train(bare, unit, reaches(1), places(k))
+            call set_loads(bare%beam, 1.0_wp, work)
+            call solve_and_refine(bare%beam, closed, work, state, place)
+            if (state /= band_ok) then
+                call fatal_error(error, gapbeam_not_converged, "the beam is held by so little that its state is not unique")
+                return
+            end if
+            call find_cells(bare, unit, reaches(1), cells)
+            call fill_cells(empty, bare, unit, places(k), cells)
+            call recover_cells(bare, work, cells)
+            c = cell_of_place(bare, cells, piece, track%x(piece - 1) + distance, places(k))
+            call cell_ends(bare, cells, cells%cells(c), places(k), left, right)
+            at = fields_in_cell(cells%starts(c), scale(max(0.0_wp, track%x(piece - 1) + distance - left), -track%length_unit), &
+                                cells%pieces(c), cells%loads(c))
+            value(1:4, k) = scale([at%deflection, at%rotation, at%moment, at%shear], powers)
+            value(5, k) = 0.0_wp
+            do j = 1, size(closed)
+                if (support(lowered%normal(j))) value(5, k) = value(5, k) + scale(work%reaction(j), powers(4))
+            end do
+        end do
+    end subroutine find_influence
+
+end module gapbeam_train_curves

@@ -1,0 +1,407 @@
+!> The largest and smallest values while a train goes over a beam, exact in place and position.
+!>
+!> In a cell and on a stretch every field is a polynomial in x and in the position (gapbeam_train_samples), so what no bound of the
+!> samples and no Bernstein coefficient reaches is not there; what is left is looked into (gapbeam_bernstein).
+module gapbeam_train_envelope
+    use gapbeam_kinds, only: wp
+    use gapbeam_error, only: error_type, no_memory, gapbeam_solved
+    use gapbeam_bernstein, only: patch_type, to_coefficients, greatest_on_patch, value_of, most_along, highest_degree
+    use gapbeam_units, only: moment_unit, rotation_unit
+    use gapbeam_lowered, only: lowered_type
+    use gapbeam_train, only: train_type, track_type, least_distance
+    use gapbeam_train_cells, only: cell_type, cell_ends, x_in_cell
+    use gapbeam_train_path, only: passage_type
+    use gapbeam_train_samples, only: samples_type, new_samples, sample_stretch, along_cell, bound_fields, load_degree
+    implicit none
+    private
+    public :: envelope_type, extreme_type, tie_type, find_envelope
+
+    !> Values nearer to the largest than this share of the largest absolute value are equal to it
+    real(wp), parameter :: equal = 2.0_wp**(-40)
+    !> Equal values are listed up to so many
+    integer, parameter :: most_ties = 16
+
+    !> Where an extreme value is: x, position of the train, value; 1 where it is the value left of x, 2 right of it (0: both);
+    !> 1 or 2 where the position is the first or last one of a stretch that does not hold at its end (0: it holds)
+    type :: tie_type
+        real(wp) :: value = 0.0_wp, x = 0.0_wp, position = 0.0_wp
+        integer :: side = 0, limit = 0
+        !> Where that ends, if the value stays the same on the way: x and position
+        real(wp) :: x_end = 0.0_wp, position_end = 0.0_wp
+    end type tie_type
+
+    !> Extremes of a quantity, all ties
+    type :: extreme_type
+        integer :: number = 0
+        type(tie_type) :: ties(most_ties)
+    end type extreme_type
+
+    !> Largest (1) and smallest (2) values in the user's units; none where no stretch is solved
+    type :: envelope_type
+        !> Deflection, rotation, moment, shear, shape (2, 4)
+        type(extreme_type) :: fields(2, 4)
+        !> Reaction, opening, deflection, couple of every support, shape (2, 4, nsupport)
+        type(extreme_type), allocatable :: supports(:, :, :)
+    end type envelope_type
+
+    !> A part of a stretch that may hold an extreme value
+    type :: candidate_type
+        type(patch_type) :: patch
+        type(cell_type) :: cell
+        !> The stretch, and the last one on which it stays the same (of supports)
+        integer :: stretch = 0, last = 0
+    end type candidate_type
+
+    !> Candidates for one extreme
+    type :: candidates_type
+        integer :: number = 0
+        real(wp) :: known = -huge(1.0_wp), largest = 0.0_wp
+        type(candidate_type), allocatable :: list(:)
+    end type candidates_type
+
+contains
+
+    !> Find the extremes of all fields and supports
+    subroutine find_envelope(lowered, track, train, passage, envelope, error)
+        type(lowered_type), intent(in) :: lowered
+        type(track_type), intent(inout) :: track
+        type(train_type), intent(in) :: train
+        !> By pass_train
+        type(passage_type), intent(in) :: passage
+        type(envelope_type), intent(out) :: envelope
+        type(error_type), allocatable, intent(out) :: error
+        type(candidates_type), allocatable :: of_fields(:, :), of_supports(:, :, :)
+        type(samples_type) :: samples
+        real(wp), allocatable :: matrix(:, :), starts(:, :, :)
+        integer :: powers(4), c, f, i, k, m, n, stat
+
+        m = size(lowered%model%supports)
+        call new_samples(lowered, track, train, samples, error)
+        if (allocated(error)) return
+        n = samples%degree
+        allocate (of_fields(2, 4), of_supports(2, 4, m), envelope%supports(2, 4, m), matrix(0:n, 0:n), &
+                  starts(0:n, 4, size(samples%starts, 2)), stat=stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        matrix(:, :) = to_coefficients(n)
+        do k = 1, passage%number
+            if (passage%status(k) /= gapbeam_solved) cycle
+            call sample_stretch(lowered, track, train, passage, k, samples, error)
+            if (allocated(error)) return
+            do c = 1, samples%cells%number
+                associate (a => samples%starts(:, c))
+                    starts(:, 1, c) = a%deflection
+                    starts(:, 2, c) = a%rotation
+                    starts(:, 3, c) = a%moment
+                    starts(:, 4, c) = a%shear
+                end associate
+                call add_cell(c)
+            end do
+            do i = 1, m
+                do f = 1, 4
+                    call add_support(i, f)
+                end do
+            end do
+        end do
+        associate (units => lowered%units)
+            powers(:) = [units%deflection, rotation_unit(units), moment_unit(units), units%force]
+        end associate
+        do f = 1, 4
+            do i = 1, 2
+                call find_extreme(of_fields(i, f), i, powers(f), envelope%fields(i, f))
+                do c = 1, m
+                    call find_extreme(of_supports(i, f, c), i, 0, envelope%supports(i, f, c))
+                    if (f == 1) call drop_rounding(lowered%model%supports(c)%side, envelope%supports(i, f, c))
+                end do
+            end do
+        end do
+
+    contains
+
+        !> Look at the fields in a cell
+        subroutine add_cell(c)
+            integer, intent(in) :: c
+            type(patch_type) :: patch
+            real(wp) :: values(0:most_along, 0:n)
+            real(wp) :: low(4), high(4)
+            integer :: field, p, extra
+
+            if (.not. any(samples%pieces(:, c)%length > 0.0_wp)) return
+            do field = 1, 4
+                call raise(of_fields(1, field), maxval(starts(:, field, c)))
+                call raise(of_fields(2, field), -minval(starts(:, field, c)))
+            end do
+            call bound_fields(samples%starts(:, c), samples%pieces(:, c), samples%loads(:, c), low, high)
+            extra = load_degree(samples%loads(:, c))
+            do field = 1, 4
+                if (high(field) < least_of(of_fields(1, field)) .and. -low(field) < least_of(of_fields(2, field))) cycle
+                patch%along = 4 - field + extra
+                if (field == 1) patch%along = 3 + extra
+                if (field == 2) patch%along = 2 + extra
+                if (field == 3) patch%along = 1 + extra
+                if (field == 4) patch%along = extra
+                patch%across = n
+                do p = 0, n
+                    call along_cell(field, patch%along, samples%starts(p, c), samples%pieces(p, c), samples%loads(p, c), &
+                                    values(0:patch%along, p))
+                end do
+                call convert(matrix, values(0:patch%along, :), patch%b)
+                call offer(of_fields(1, field), patch, samples%cells%cells(c), k, maxval(values([0, patch%along], :)))
+                patch%b(:, 0:n) = -patch%b(:, 0:n)
+                call offer(of_fields(2, field), patch, samples%cells%cells(c), k, maxval(-values([0, patch%along], :)))
+            end do
+        end subroutine add_cell
+
+        !> Look at a support
+        subroutine add_support(i, what)
+            integer, intent(in) :: i, what
+            type(patch_type) :: patch
+
+            patch%along = 0
+            patch%across = n
+            call convert(matrix, reshape(samples%supports(:, what, i), [1, n + 1]), patch%b)
+            call offer(of_supports(1, what, i), patch, cell_type(), k, maxval(samples%supports(:, what, i)))
+            patch%b(0, 0:n) = -patch%b(0, 0:n)
+            call offer(of_supports(2, what, i), patch, cell_type(), k, maxval(-samples%supports(:, what, i)))
+        end subroutine add_support
+
+        !> The largest value among candidates, and where it is
+        subroutine find_extreme(candidates, which, power, extreme)
+            type(candidates_type), intent(in) :: candidates
+            !> 1 largest, 2 smallest
+            integer, intent(in) :: which
+            !> Exponent of the unit
+            integer, intent(in) :: power
+            type(extreme_type), intent(out) :: extreme
+            type(tie_type) :: tie
+            real(wp) :: best, value, v, u
+            real(wp) :: found(3, candidates%number), upper(candidates%number)
+            integer :: q, next, step
+
+            best = candidates%known
+            do q = 1, candidates%number
+                upper(q) = upper_bound(candidates%list(q)%patch)
+            end do
+            found(1, :) = -huge(1.0_wp)
+            do step = 1, candidates%number
+                next = maxloc(upper, 1)
+                if (upper(next) < best - equal*candidates%largest) exit
+                call greatest_on_patch(candidates%list(next)%patch, best - equal*candidates%largest, value, v, u)
+                found(:, next) = [value, v, u]
+                best = max(best, value)
+                upper(next) = -huge(1.0_wp)
+            end do
+            do q = 1, candidates%number
+                if (found(1, q) < best - equal*candidates%largest) cycle
+                tie%value = scale(merge(found(1, q), -found(1, q), which == 1), power)
+                call place_tie(candidates%list(q), found(2, q), found(3, q), equal*candidates%largest, tie)
+                call add_tie(extreme, tie)
+            end do
+        end subroutine find_extreme
+
+        !> Where a value is
+        subroutine place_tie(candidate, v, share, slack, tie)
+            type(candidate_type), intent(in) :: candidate
+            real(wp), intent(in) :: v, share
+            !> Values that differ by less are equal
+            real(wp), intent(in) :: slack
+            type(tie_type), intent(inout) :: tie
+            real(wp) :: value, u, from, to
+            logical :: flat
+            integer :: j
+
+            u = share
+            associate (whole => passage%to(candidate%stretch) - passage%from(candidate%stretch))
+                if (u*whole <= least_distance(track, train)) u = 0.0_wp
+                if ((1 - u)*whole <= least_distance(track, train) .and. u > 0.0_wp) u = 1.0_wp
+            end associate
+            value = value_of([(value_of(candidate%patch%b(0:candidate%patch%along, j), v), j=0, candidate%patch%across)], u)
+            associate (q => candidate%stretch, reach => passage%reaches(passage%reach(candidate%stretch)), &
+                       cell => candidate%cell, patch => candidate%patch)
+                flat = .true.
+                do j = 0, patch%across
+                    flat = flat .and. abs(value_of(patch%b(0:patch%along, j), v) - value) <= slack
+                end do
+                if (flat) u = 0.0_wp
+                call place_value(q, cell, v, u, tie%x, tie%position)
+                call place_value(candidate%last, cell, v, merge(1.0_wp, u, flat), tie%x_end, tie%position_end)
+                tie%limit = 0
+                if (u >= 1.0_wp .and. passage%to(q) >= reach%to .and. .not. reach%holds_to) tie%limit = 2
+                if (u <= 0.0_wp .and. passage%from(q) <= reach%from .and. .not. reach%holds_from) tie%limit = 1
+                tie%side = 0
+                if (cell%piece == 0) return
+                if (v >= 1.0_wp) tie%side = 1
+                if (v <= 0.0_wp) tie%side = 2
+                ! Between a support and an axle that comes to it there is a shear that neither has when it is there
+                call cell_ends(track, samples%cells, cell, tie%position, from, to)
+                if (to - from > least_distance(track, train)) return
+                if (u <= 0.0_wp) tie%limit = 1
+                if (u >= 1.0_wp) tie%limit = 2
+            end associate
+        end subroutine place_tie
+
+        !> x and position of a place in a cell
+        subroutine place_value(q, cell, v, u, x, position)
+            integer, intent(in) :: q
+            type(cell_type), intent(in) :: cell
+            real(wp), intent(in) :: v, u
+            real(wp), intent(out) :: x, position
+
+            x = 0.0_wp
+            position = passage%from(q) + u*(passage%to(q) - passage%from(q))
+            if (u >= 1.0_wp) position = passage%to(q)
+            if (cell%piece == 0) return
+            x = x_in_cell(track, samples%cells, cell, position, v)
+        end subroutine place_value
+
+    end subroutine find_envelope
+
+    !> Coefficients in the position from values at the sample points
+    pure subroutine convert(matrix, values, b)
+        !> Shape (0:n, 0:n)
+        real(wp), intent(in) :: matrix(0:, 0:)
+        !> Coefficients along the cell at the sample points, shape (0:along, 0:n)
+        real(wp), intent(in) :: values(0:, 0:)
+        real(wp), intent(inout) :: b(0:most_along, 0:highest_degree)
+        integer :: j, k, p
+
+        do k = 0, ubound(matrix, 1)
+            b(0:ubound(values, 1), k) = 0.0_wp
+            do p = 0, ubound(matrix, 1)
+                do j = 0, ubound(values, 1)
+                    b(j, k) = b(j, k) + matrix(k, p)*values(j, p)
+                end do
+            end do
+        end do
+    end subroutine convert
+
+    !> A support that acts one way has no reaction the other way but by rounding
+    pure subroutine drop_rounding(side, extreme)
+        !> 1 below, -1 above, 0 both
+        integer, intent(in) :: side
+        type(extreme_type), intent(inout) :: extreme
+
+        where (side*extreme%ties%value < 0.0_wp) extreme%ties%value = 0.0_wp
+    end subroutine drop_rounding
+
+    !> What is below this is not the largest value
+    pure function least_of(candidates) result(least)
+        type(candidates_type), intent(in) :: candidates
+        real(wp) :: least
+
+        least = candidates%known - equal*candidates%largest
+    end function least_of
+
+    !> A value is reached
+    pure subroutine raise(candidates, value)
+        type(candidates_type), intent(inout) :: candidates
+        real(wp), intent(in) :: value
+
+        candidates%known = max(candidates%known, value)
+        candidates%largest = max(candidates%largest, abs(value))
+    end subroutine raise
+
+    !> Largest coefficient
+    pure function upper_bound(patch) result(upper)
+        type(patch_type), intent(in) :: patch
+        real(wp) :: upper
+
+        upper = maxval(patch%b(0:patch%along, 0:patch%across))
+    end function upper_bound
+
+    !> Add a part of a stretch to candidates, if it may hold the largest value
+    subroutine offer(candidates, patch, cell, stretch, value)
+        type(candidates_type), intent(inout) :: candidates
+        type(patch_type), intent(in) :: patch
+        type(cell_type), intent(in) :: cell
+        integer, intent(in) :: stretch
+        !> A value that is reached in it
+        real(wp), intent(in) :: value
+        type(candidate_type), allocatable :: longer(:)
+        integer :: count, q
+
+        candidates%largest = max(candidates%largest, maxval(abs(patch%b(0:patch%along, 0:patch%across))))
+        candidates%known = max(candidates%known, value)
+        if (upper_bound(patch) < least_of(candidates)) return
+        if (.not. allocated(candidates%list)) allocate (candidates%list(8))
+        if (candidates%number == size(candidates%list)) then
+            ! Those that are no longer in question make room
+            count = 0
+            do q = 1, candidates%number
+                if (upper_bound(candidates%list(q)%patch) < candidates%known - equal*candidates%largest) cycle
+                count = count + 1
+                if (count < q) candidates%list(count) = candidates%list(q)
+            end do
+            candidates%number = count
+            if (2*count > size(candidates%list)) then
+                allocate (longer(2*size(candidates%list)))
+                longer(:count) = candidates%list(:count)
+                call move_alloc(longer, candidates%list)
+            end if
+        end if
+        if (candidates%number > 0 .and. cell%piece == 0) then
+            associate (before => candidates%list(candidates%number))
+                if (before%last == stretch - 1 .and. is_level(patch, candidates%largest) .and. &
+                    is_level(before%patch, candidates%largest) .and. &
+                    abs(patch%b(0, 0) - before%patch%b(0, 0)) <= equal*candidates%largest) then
+                    before%last = stretch
+                    return
+                end if
+            end associate
+        end if
+        candidates%number = candidates%number + 1
+        candidates%list(candidates%number) = candidate_type(patch, cell, stretch, stretch)
+    end subroutine offer
+
+    !> Does a value of a support stay the same
+    pure function is_level(patch, largest) result(level)
+        type(patch_type), intent(in) :: patch
+        !> Size of such values
+        real(wp), intent(in) :: largest
+        logical :: level
+
+        level = all(abs(patch%b(0, 0:patch%across) - patch%b(0, 0)) <= equal*largest)
+    end function is_level
+
+    !> Add where an extreme is, unless it is the place before: found twice, or what stays the same from stretch to stretch
+    subroutine add_tie(extreme, tie)
+        type(extreme_type), intent(inout) :: extreme
+        type(tie_type), intent(in) :: tie
+        integer :: q
+
+        do q = 1, extreme%number
+            associate (t => extreme%ties(q))
+                if (same(t%x_end, t%position_end, tie%x, tie%position)) then
+                    t%x_end = tie%x_end
+                    t%position_end = tie%position_end
+                    return
+                else if (same(t%x, t%position, tie%x_end, tie%position_end)) then
+                    t%x = tie%x
+                    t%position = tie%position
+                    t%side = tie%side
+                    t%limit = tie%limit
+                    return
+                end if
+            end associate
+        end do
+        if (extreme%number == most_ties) return
+        extreme%number = extreme%number + 1
+        extreme%ties(extreme%number) = tie
+
+    contains
+
+        !> Are two places and positions the same
+        pure function same(x, position, other_x, other_position)
+            real(wp), intent(in) :: x, position, other_x, other_position
+            logical :: same
+            real(wp), parameter :: near = 1e-9_wp
+
+            same = abs(x - other_x) <= near*max(1.0_wp, abs(x)) .and. &
+                abs(position - other_position) <= near*max(1.0_wp, abs(position))
+        end function same
+
+    end subroutine add_tie
+
+end module gapbeam_train_envelope

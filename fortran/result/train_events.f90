@@ -1,0 +1,97 @@
+!> What happens to the supports while a train goes over a beam
+module gapbeam_train_events
+    use gapbeam_kinds, only: wp
+    use gapbeam_error, only: error_type, no_memory, gapbeam_solved
+    use gapbeam_polyline, only: last_kink
+    use gapbeam_lowered, only: lowered_type
+    use gapbeam_pieces, only: acting_type, acting_piece, what_happens, nothing
+    use gapbeam_train_path, only: passage_type
+    implicit none
+    private
+    public :: train_event_type, find_events
+
+    !> A change of the working scheme: position of the train, number of the support in the model, what it is from there on and what
+    !> happens (gapbeam_pieces)
+    type :: train_event_type
+        real(wp) :: position = 0.0_wp
+        integer :: support = 0, state = 0, change = nothing
+    end type train_event_type
+
+contains
+
+    !> The events on the way of a train. What changes though it is zero all the way is none
+    subroutine find_events(lowered, passage, backwards, events, error)
+        type(lowered_type), intent(in) :: lowered
+        !> By pass_train
+        type(passage_type), intent(in) :: passage
+        !> Does the train go towards smaller positions
+        logical, intent(in) :: backwards
+        !> In the order in which they happen
+        type(train_event_type), allocatable, intent(out) :: events(:)
+        !> No memory
+        type(error_type), allocatable, intent(out) :: error
+        type(train_event_type), allocatable :: longer(:)
+        logical, allocatable :: now(:)
+        type(acting_type) :: before, after
+        integer :: first, i, k, last, number, stat, step
+
+        allocate (events(64), now(size(lowered%beam%supports)), stat=stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        number = 0
+        first = 0
+        do step = 1, passage%number
+            i = merge(passage%number + 1 - step, step, backwards)
+            if (passage%status(i) /= gapbeam_solved) cycle
+            if (first == 0) now(:) = passage%closed(:, i)
+            first = i
+            k = 1
+            do while (k <= size(now))
+                last = last_kink(lowered%beam%supports, k)
+                associate (there => passage%closed(k:last, i), supports => lowered%beam%supports(k:last))
+                    if (any((now(k:last) .neqv. there) .and. .not. passage%at_zero(k:last, i))) then
+                        before = acting_piece(supports, lowered%model%supports(lowered%normal(k))%side, now(k:last))
+                        after = acting_piece(supports, lowered%model%supports(lowered%normal(k))%side, there)
+                        now(k:last) = there
+                        call note(merge(passage%to(i), passage%from(i), backwards), lowered%normal(k), before, after)
+                        if (allocated(error)) return
+                    end if
+                end associate
+                k = last + 1
+            end do
+        end do
+        events = events(:number)
+
+    contains
+
+        !> Note an event
+        subroutine note(position, support, before, after)
+            real(wp), intent(in) :: position
+            integer, intent(in) :: support
+            type(acting_type), intent(in) :: before, after
+            integer :: change
+
+            if (lowered%with_law(support)) then
+                change = what_happens(before, after)
+            else
+                change = after%condition
+            end if
+            if (change == nothing) return
+            if (number == size(events)) then
+                allocate (longer(2*number), stat=stat)
+                if (stat /= 0) then
+                    call no_memory(error)
+                    return
+                end if
+                longer(:number) = events
+                call move_alloc(longer, events)
+            end if
+            number = number + 1
+            events(number) = train_event_type(position, support, after%condition, change)
+        end subroutine note
+
+    end subroutine find_events
+
+end module gapbeam_train_events

@@ -1,0 +1,215 @@
+!> What is known of a train on a stretch of its way: its solutions at a few positions, from which all of it follows.
+!>
+!> In a cell of the beam under the train (gapbeam_train_cells) and on a stretch of its way (gapbeam_train_path) every field is a
+!> polynomial in x and in the position. Degrees in the position: node values 3, times 3 for the deflection under an axle; one more
+!> with a uniform load.
+module gapbeam_train_samples
+    use gapbeam_kinds, only: wp
+    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_not_converged
+    use gapbeam_bernstein, only: sample_points, most_along
+    use gapbeam_band, only: band_ok
+    use gapbeam_element, only: field_type
+    use gapbeam_link, only: piece_type, piece_load_type
+    use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
+    use gapbeam_system, only: solve_and_refine
+    use gapbeam_lowered, only: lowered_type
+    use gapbeam_solution, only: state_type, new_state
+    use gapbeam_query, only: support_values
+    use gapbeam_train, only: train_type, track_type, place_train
+    use gapbeam_train_cells, only: cells_type, new_cells, find_cells, fill_cells, recover_cells, fields_in_cell
+    use gapbeam_train_path, only: passage_type
+    implicit none
+    private
+    public :: samples_type, new_samples, sample_stretch, degree_in_position, along_cell, bound_fields, load_degree
+
+    !> What is sampled of a stretch
+    type :: samples_type
+        integer :: degree = 0
+        !> Positions, shape (0:degree)
+        real(wp), allocatable :: position(:)
+        !> Fields at the left ends of the cells, their lengths and loads, shape (0:degree, ncell)
+        type(field_type), allocatable :: starts(:, :)
+        type(piece_type), allocatable :: pieces(:, :)
+        type(piece_load_type), allocatable :: loads(:, :)
+        !> Of the supports, shape (0:degree, 4, nsupport)
+        real(wp), allocatable :: supports(:, :, :)
+        type(cells_type) :: cells
+        type(workspace_type) :: work
+        type(state_type) :: state
+    end type samples_type
+
+contains
+
+    !> Degree of the fields in the position of a train
+    pure function degree_in_position(train) result(degree)
+        type(train_type), intent(in) :: train
+        integer :: degree
+
+        degree = merge(7, 6, abs(train%q) > 0.0_wp)
+    end function degree_in_position
+
+    !> Room for samples
+    subroutine new_samples(lowered, track, train, samples, error)
+        type(lowered_type), intent(in) :: lowered
+        type(track_type), intent(in) :: track
+        type(train_type), intent(in) :: train
+        type(samples_type), intent(out) :: samples
+        !> No memory
+        type(error_type), allocatable, intent(out) :: error
+        integer :: most, d, stat
+
+        d = degree_in_position(train)
+        samples%degree = d
+        most = size(track%link) + size(train%offset) + 2
+        call new_cells(track, train, samples%cells, stat)
+        if (stat == 0) allocate (samples%position(0:d), samples%starts(0:d, most), samples%pieces(0:d, most), &
+                                 samples%loads(0:d, most), samples%supports(0:d, 4, size(lowered%model%supports)), stat=stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        call new_workspace(track%beam, samples%work)
+        call new_state(lowered, samples%state, error)
+        samples%state%factor = 1.0_wp
+    end subroutine new_samples
+
+    !> Sample a stretch that is solved
+    subroutine sample_stretch(lowered, track, train, passage, k, samples, error)
+        type(lowered_type), intent(in) :: lowered
+        type(track_type), intent(inout) :: track
+        type(train_type), intent(in) :: train
+        type(passage_type), intent(in) :: passage
+        !> Number of the stretch
+        integer, intent(in) :: k
+        type(samples_type), intent(inout) :: samples
+        !> The scheme has no solution
+        type(error_type), allocatable, intent(out) :: error
+        real(wp) :: points(0:samples%degree)
+        integer :: condition(size(lowered%model%supports))
+        integer :: p, state, place
+
+        points(:) = sample_points(samples%degree)
+        associate (reach => passage%reaches(passage%reach(k)), n => samples%cells%number, work => samples%work)
+            call find_cells(track, train, reach, samples%cells)
+            do p = 0, samples%degree
+                samples%position(p) = passage%from(k) + points(p)*(passage%to(k) - passage%from(k))
+                call place_train(track, train, reach, samples%position(p))
+                call set_loads(track%beam, 1.0_wp, work)
+                call solve_and_refine(track%beam, passage%closed(:, k), work, state, place)
+                if (state /= band_ok) then
+                    call fatal_error(error, gapbeam_not_converged, "the beam is held by so little that its state is not unique")
+                    return
+                end if
+                call fill_cells(lowered, track, train, samples%position(p), samples%cells)
+                call recover_cells(track, work, samples%cells)
+                samples%starts(p, :n) = samples%cells%starts(:n)
+                samples%pieces(p, :n) = samples%cells%pieces(:n)
+                samples%loads(p, :n) = samples%cells%loads(:n)
+                associate (s => samples%state)
+                    s%closed(:) = passage%closed(:, k)
+                    s%deflection(:) = work%answers%deflection
+                    s%moment_left(:) = work%answers%moment_left
+                    s%moment_right(:) = work%answers%moment_right
+                    s%reaction(:) = work%reaction
+                    call support_values(lowered, s, samples%supports(p, 1, :), samples%supports(p, 3, :), &
+                                        samples%supports(p, 2, :), samples%supports(p, 4, :), condition)
+                end associate
+            end do
+        end associate
+    end subroutine sample_stretch
+
+    !> Bounds of the fields in a cell on a stretch: along the cell at its beginning, and by how much they change at the samples; no
+    !> polynomial leaves its samples by more than the Lebesgue constant of the sample points allows
+    pure subroutine bound_fields(a, pieces, loads, low, high)
+        !> Fields at the left ends, the cell, and its loads at the samples, shape (0:n)
+        type(field_type), intent(in) :: a(0:)
+        type(piece_type), intent(in) :: pieces(0:)
+        type(piece_load_type), intent(in) :: loads(0:)
+        !> Of deflection, rotation, moment, shear
+        real(wp), intent(out) :: low(4), high(4)
+        real(wp), parameter :: lebesgue = 2.5_wp
+        type(field_type) :: end
+        real(wp) :: length, change_of_length, q, change_of_q, curvature, moment, rotation, shear, bulge(4), change(4)
+
+        length = maxval(pieces%length)
+        change_of_length = maxval(abs(pieces%length - pieces(0)%length))
+        q = max(maxval(abs(loads%qa)), maxval(abs(loads%qb)))
+        change_of_q = max(maxval(abs(loads%qa - loads(0)%qa)), maxval(abs(loads%qb - loads(0)%qb)))
+        end = fields_in_cell(a(0), pieces(0)%length, pieces(0), loads(0))
+        associate (f => pieces(0)%flexibility, g => pieces(0)%shear_flexibility)
+            shear = max(abs(a(0)%shear), abs(end%shear)) + length*q
+            moment = max(abs(a(0)%moment), abs(end%moment)) + length**2*q
+            curvature = f*moment + abs(loads(0)%kappa)
+            rotation = max(abs(a(0)%rotation), abs(end%rotation)) + length*curvature
+            bulge = [length**2*(curvature + g*q)/8, length*curvature/2, length**2*q/8, length*q]
+            change(4) = maxval(abs(a%shear - a(0)%shear)) + change_of_length*q + length*change_of_q
+            change(3) = maxval(abs(a%moment - a(0)%moment)) + length*change(4) + change_of_length*shear
+            change(2) = maxval(abs(a%rotation - a(0)%rotation)) + length*f*change(3) + change_of_length*curvature
+            change(1) = maxval(abs(a%deflection - a(0)%deflection)) + length*(change(2) + g*change(4)) &
+                + change_of_length*(rotation + g*shear)
+        end associate
+        bulge(:) = bulge + lebesgue*change
+        high(:) = [max(a(0)%deflection, end%deflection), max(a(0)%rotation, end%rotation), max(a(0)%moment, end%moment), &
+                   max(a(0)%shear, end%shear)] + bulge
+        low(:) = [min(a(0)%deflection, end%deflection), min(a(0)%rotation, end%rotation), min(a(0)%moment, end%moment), &
+                  min(a(0)%shear, end%shear)] - bulge
+    end subroutine bound_fields
+
+    !> Degree of the load in the cells
+    pure function load_degree(loads) result(degree)
+        type(piece_load_type), intent(in) :: loads(:)
+        integer :: degree
+
+        degree = 0
+        if (any(max(abs(loads%qa), abs(loads%qb)) > 0.0_wp)) degree = 1
+        if (any(abs(loads%qb - loads%qa) > 0.0_wp)) degree = 2
+    end function load_degree
+
+    !> Bernstein coefficients of a field along a cell
+    pure subroutine along_cell(field, degree, a, p, q, b)
+        !> 1 deflection, 2 rotation, 3 moment, 4 shear; its degree
+        integer, intent(in) :: field, degree
+        !> Fields at the left end, the cell, and its load
+        type(field_type), intent(in) :: a
+        type(piece_type), intent(in) :: p
+        type(piece_load_type), intent(in) :: q
+        !> Shape (0:degree)
+        real(wp), intent(out) :: b(0:)
+        real(wp) :: c(0:most_along), slope, weight
+        integer :: i, k
+
+        slope = q%qb - q%qa
+        c(:) = 0.0_wp
+        ! Coefficients of powers of the share of the length
+        associate (l => p%length, f => p%flexibility, g => p%shear_flexibility)
+            select case (field)
+            case (1)
+                c(0) = a%deflection
+                c(1) = l*(a%rotation + g*a%shear)
+                c(2) = l**2*((q%kappa - f*a%moment)/2 - g*q%qa/2)
+                c(3) = l**2*(-f*l*a%shear/6 - g*slope/6)
+                c(4) = f*l**4*q%qa/24
+                c(5) = f*l**4*slope/120
+            case (2)
+                c(0) = a%rotation
+                c(1) = l*(q%kappa - f*a%moment)
+                c(2) = -f*l**2*a%shear/2
+                c(3) = f*l**3*q%qa/6
+                c(4) = f*l**3*slope/24
+            case (3)
+                c(0:3) = [a%moment, l*a%shear, -l**2*q%qa/2, -l**2*slope/6]
+            case default
+                c(0:2) = [a%shear, -l*q%qa, -l*slope/2]
+            end select
+        end associate
+        do i = 0, degree
+            b(i) = 0.0_wp
+            weight = 1.0_wp
+            do k = 0, i
+                b(i) = b(i) + weight*c(k)
+                if (k < i) weight = weight*(i - k)/(degree - k)
+            end do
+        end do
+    end subroutine along_cell
+
+end module gapbeam_train_samples

@@ -1,0 +1,97 @@
+"""Envelopes as a picture: largest and smallest deflection, moment and shear while trains pass, what governs marked."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ..base.characters import visible
+from ..results import formatting as fmt
+from .beam import SupportLanes, draw_beam
+from .result import LEFT, PANEL, PANELS, RIGHT, SPACE, WIDTH, cut_text, frame_panel, panel_axes
+from .save import literal
+
+if TYPE_CHECKING:
+    from ..results.result import Result
+    from ..results.train_envelope import TrainCurves, TrainExtreme
+
+POINTS = 40
+"""Divisions of a span at which the curves are drawn."""
+
+
+def train_envelope_figure(result: "Result") -> Figure:
+    """Draw the envelope of a result as a matplotlib figure.
+
+    Parameters
+    ----------
+    result : Result
+        Of a scene with trains.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The beam, then deflection, moment and shear; the largest and the smallest value of each is marked with its place and the
+        position of the train.
+    """
+    scene = result.scene
+    envelope = result.envelope(POINTS)
+    states = tuple("bilateral" if support.side == "both" else "one-sided" for support in scene.supports)
+    width = (WIDTH - LEFT - RIGHT) * 72
+    supports = SupportLanes(scene, states, width, (0.0, 0.0))
+    beam = (supports.top - supports.bottom) / 72
+    panels = [panel for panel in PANELS if panel[0] in envelope.extremes]
+    heading = 0.6
+    height = heading + 0.04 + beam + len(panels) * (PANEL + SPACE) + 0.42
+    picture = Figure(figsize=(WIDTH, height), dpi=200)
+    left = LEFT / WIDTH * 0.25
+    picture.text(left, 1 - 0.22 / height, cut_text(fmt.title(scene, "Beam"), 95), fontsize=10, fontweight="bold", va="center")
+    names = ", ".join(dict.fromkeys(member.train for member in envelope.members if member.train))
+    number = f" in {fmt.count(len(result.combinations), 'combination')}" if result.combinations else ""
+    text = cut_text(f"largest and smallest values{number} while trains pass: {visible(names)}", 110)
+    picture.text(left, 1 - 0.34 / height, text, fontsize=8, va="top", color="0.3")
+    axes = panel_axes(picture, scene, height - heading - beam, beam)
+    axes.set_axis_off()
+    axes.set_ylim(supports.bottom, supports.top)
+    draw_beam(axes, scene, states, supports)
+    bottom = height - heading - beam - SPACE
+    for quantity, words, downward in panels:
+        bottom -= PANEL
+        panel = panel_axes(picture, scene, bottom, PANEL)
+        frame_panel(panel, scene, quantity, words, downward)
+        _draw(panel, envelope.fields, quantity, envelope.extremes[quantity])
+        bottom -= SPACE
+    panel.tick_params(labelbottom=True)
+    panel.set_xlabel(fmt.with_unit(scene, "x"), fontsize=8)
+    return literal(picture)
+
+
+def _draw(axes: Axes, curves: "TrainCurves", quantity: str, extremes: "dict[str, TrainExtreme | None]") -> None:
+    """Draw the two curves of a field, and mark its extremes."""
+    x, high, low = curves.x, curves.largest[quantity], curves.smallest[quantity]
+    axes.fill_between(x, low, high, color="0.9", linewidth=0, zorder=1)
+    for values in (high, low):
+        axes.plot(x, values, color="black", linewidth=1.0, solid_joinstyle="round", zorder=3, label="curve")
+    shown = [extreme for extreme in extremes.values() if extreme is not None]
+    values = [0.0, *(extreme.value for extreme in shown)]
+    span = (max(values) - min(values)) or 1.0
+    bounds = (min(values) - 0.24 * span, max(values) + 0.24 * span)
+    axes.set_ylim(bounds[::-1] if axes.yaxis_inverted() else bounds)
+    end = float(np.max(x))
+    for extreme in shown:
+        if abs(extreme.value) <= 1e-6 * max(map(abs, values)):
+            continue
+        text = f"{fmt.number(extreme.value, 4)} at {fmt.number(extreme.x, 4)}"
+        if extreme.combination:
+            text += f", {visible(extreme.combination)}"
+        if extreme.train:
+            text += f", {visible(extreme.train)} at {fmt.number(extreme.position, 4)}"
+        text = text.replace("-", "\N{MINUS SIGN}")
+        upward = (extreme is extremes["max"]) != axes.yaxis_inverted()
+        share = extreme.x / end
+        axes.plot([extreme.x], [extreme.value], "o", color="black", markersize=2.6, zorder=4)
+        axes.annotate(
+            text, (extreme.x, extreme.value), (0, 4 if upward else -4), textcoords="offset points", fontsize=7.5, zorder=5,
+            ha="left" if share < 0.25 else "right" if share > 0.75 else "center", va="bottom" if upward else "top",
+            bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.8},
+        )  # fmt: skip

@@ -1,0 +1,71 @@
+"""Trains as plain data, in the form of the JSON output."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from ..scene.names import names_of
+from .result import Result
+from .trains import TrainResult
+
+
+def passing_trains(result: Result) -> Iterator[tuple[str | None, TrainResult]]:
+    """Go through the trains of a result, in every combination in which they act.
+
+    Parameters
+    ----------
+    result : Result
+        What `gapbeam.solve` returned.
+
+    Yields
+    ------
+    combination : str or None
+        Its name; None in a scene without any.
+    train : TrainResult
+    """
+    if not result.combinations:
+        for train in result.trains.values():
+            yield None, train
+        return
+    for name in result.combinations:
+        for train in result.combinations[name].trains.values():
+            yield name, train
+
+
+def trains_data(result: Result) -> dict[str, Any]:
+    """Give trains as plain data: events, and positions that are not solved.
+
+    Parameters
+    ----------
+    result : Result
+        What `gapbeam.solve` returned.
+
+    Returns
+    -------
+    dict
+        Empty without trains.
+    """
+    if not result.scene.trains:
+        return {}
+    names = names_of(result.scene.supports)
+    return {
+        "trains": [
+            {
+                "name": train.name,
+                **({} if combination is None else {"combination": combination}),
+                "case": train.train.case,
+                "events": [
+                    {
+                        "position": e.position, "support": e.support,
+                        **({} if names[e.support] is None else {"name": names[e.support]}),
+                        "x": e.x, "event": e.event, "direction": e.direction,
+                    }
+                    for e in train.events
+                ],
+                "gaps": [{"from": g.from_, "to": g.to, "reason": g.reason, "direction": g.direction} for g in train.gaps],
+                "solves": train.solves,
+            }
+            for combination, train in passing_trains(result)
+        ]
+    }  # fmt: skip

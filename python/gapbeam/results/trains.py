@@ -1,0 +1,448 @@
+"""Trains: loads that move over the beam, followed from event to event, and what they make at most.
+
+Positions are those of the first axle. The loads of the scene stay, dead and live ones in full. A state is that of supports that
+act one way, so superposition does not hold: at every position the right supports act.
+
+>>> import gapbeam
+>>> result = gapbeam.solve({
+...     "beam": {"spans": [1.0, 1.0], "EI": 1.0},
+...     "supports": [{"node": i, "side": "below"} for i in range(3)],
+...     "loads": [{"type": "uniform", "q": 1.0, "case": "dead"}],
+...     "trains": [{"name": "crane", "axles": [[0.0, 8.0]], "to": 1.0}],
+... })
+>>> [(event.support, event.event, round(event.position, 12)) for event in result.trains["crane"].events]
+[(2, 'opens', 0.194903920083), (2, 'closes', 0.888199776858)]
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from msgspec.structs import replace
+
+from ..base.errors import EngineError, SceneError
+from ..base.records import Record
+from ..engine.beam import Beam
+from ..engine.trains import NOT_UNIQUE, WITHOUT_EQUILIBRIUM, Passage
+from ..scene.columns import columns
+from ..scene.structs import ForceLoad, Scene, UniformLoad
+from ..scene.trains import LEFT, RIGHT, Course, courses, nearest, train_name
+from ..scene.wording import choice, shown
+from .arguments import finite
+from .motion import describe_motion
+from .step import Step
+from .steps import LoadSteps
+from .train_envelope import FIELDS, Passing, TrainEnvelope, places_along, places_given
+
+if TYPE_CHECKING:
+    from .result import Fields, Result
+
+INFLUENCES = (*FIELDS, "reaction")
+"""What has influence lines."""
+EVENTS = {0: "opens", 1: "closes", 4: "yields", 5: "hardens", 6: "softens", 7: "breaks", 8: "unloads"}
+"""Events, as in gapbeam_pieces."""
+
+
+@dataclass(frozen=True, slots=True)
+class TrainEvent:
+    """A change of the working scheme.
+
+    Attributes
+    ----------
+    position : float
+        Position of the train.
+    support : int
+        Number of the support in the scene.
+    x : float
+        Its place.
+    event : str
+        ``opens`` or ``closes``; with a law also ``yields``, ``hardens``, ``unloads``.
+    direction : {"right", "left"}
+        Which way the train goes.
+    """
+
+    position: float
+    support: int
+    x: float
+    event: str
+    direction: str
+
+
+@dataclass(frozen=True, slots=True)
+class Gap:
+    """Positions at which the beam cannot stand, or is not held in one place.
+
+    Attributes
+    ----------
+    from_, to : float
+        First and last position.
+    reason : str
+        How the beam moves.
+    direction : {"right", "left"}
+        Which way the train goes.
+    """
+
+    from_: float
+    to: float
+    reason: str
+    direction: str
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Influence(Record):
+    """An influence line: what a unit force, downward, adds while the same supports act.
+
+    Attributes
+    ----------
+    places : numpy.ndarray
+        Where the force is.
+    values : numpy.ndarray
+        What it makes.
+    """
+
+    places: np.ndarray
+    values: np.ndarray
+
+
+class TrainState(Step):
+    """The state at one position of a train: a step whose beam has the train's axles as forces.
+
+    Attributes
+    ----------
+    position : float
+        Position of the train.
+    direction : {"right", "left"}
+        Which way it goes.
+    result : Result
+        The same as the result of a scene with these forces: fields anywhere, extremes, report.
+    """
+
+    def __init__(self, result: Result, position: float, direction: str):
+        super().__init__(result.beam, 1.0, result.rule, np.ones(result.beam.supports, dtype=np.int32))
+        self.position = position
+        self.direction = direction
+        self.result = result
+
+    def fields(self, x: Any, side: str = "right") -> Fields:
+        """Exact values anywhere along the beam.
+
+        Parameters
+        ----------
+        x, side
+            As for `Result.at`.
+
+        Returns
+        -------
+        Fields
+        """
+        return self.result.at(x, side=side)
+
+    def extremes(self) -> dict[str, dict[str, tuple[float, float]]]:
+        """Exact largest and smallest values of every field with their places.
+
+        Returns
+        -------
+        dict
+            As from `Result.extremes`.
+        """
+        return self.result.extremes()
+
+
+class TrainWay:
+    """A train that has gone over the beam in one direction.
+
+    Attributes
+    ----------
+    course : Course
+        What it is.
+    passage : Passage
+        How it went.
+    near : float
+        Distance below which an axle is at the end of the beam.
+    """
+
+    def __init__(self, beam: Beam, course: Course, near: float, supports: np.ndarray):
+        self.course, self.near = course, near
+        self.passage = Passage(beam, course.offset, course.force, course.uniform, course.from_, course.to, course.direction == LEFT)
+        p = self.passage
+        self.events = [
+            TrainEvent(position, support, float(supports[support]), EVENTS[change], course.direction)
+            for position, (support, _, change) in zip(p.positions.tolist(), p.events.tolist(), strict=True)
+        ]
+
+    @cached_property
+    def gaps(self) -> list[Gap]:
+        """Positions that are not solved."""
+        p, found = self.passage, []
+        reasons: list[Any] = []
+        for (start, end), status, motion in zip(p.ends.tolist(), p.status.tolist(), p.motion_of.tolist(), strict=True):
+            if status not in (WITHOUT_EQUILIBRIUM, NOT_UNIQUE):
+                continue
+            if found and found[-1].to == start and reasons[-1] == (status, motion):
+                found[-1] = Gap(found[-1].from_, end, found[-1].reason, self.course.direction)
+                continue
+            reason = "the beam can move freely, without work of the loads: its position is not unique"
+            if status == WITHOUT_EQUILIBRIUM:
+                reason = f"no equilibrium: {describe_motion(p.beam, p.motions[motion - 1])}"
+            reasons.append((status, motion))
+            found.append(Gap(start, end, reason, self.course.direction))
+        return found[::-1] if self.course.direction == LEFT else found
+
+
+class TrainResult:
+    """A train on its way over the beam.
+
+    Attributes
+    ----------
+    name : str
+        Its name.
+    train : Train
+        What it is.
+    """
+
+    def __init__(self, result: Result, i: int):
+        self.name, self.train = train_name(result.scene, i), result.scene.trains[i]
+        self._result = result
+
+    @cached_property
+    def ways(self) -> list[TrainWay]:
+        """The train in every direction in which it goes."""
+        result = self._result
+        end = result.beam.places.end
+        supports = result.scene.positions(result.scene.supports)
+        near = nearest(self.train, end)
+        try:
+            return [TrainWay(result.beam, course, near, supports) for course in courses(self.train, end)]
+        except EngineError as error:
+            raise EngineError(f"train {self.name}: {error}", error.status) from None
+
+    @property
+    def events(self) -> list[TrainEvent]:
+        """Every change of the working scheme at its exact position, in the order in which they happen."""
+        return [event for way in self.ways for event in way.events]
+
+    @property
+    def gaps(self) -> list[Gap]:
+        """Positions at which the beam cannot stand, or is not held in one place."""
+        return [gap for way in self.ways for gap in way.gaps]
+
+    @property
+    def solves(self) -> int:
+        """Linear solves."""
+        return sum(way.passage.solves for way in self.ways)
+
+    def envelope(self, x: Any = None) -> TrainEnvelope:
+        """Largest and smallest values over all positions.
+
+        Parameters
+        ----------
+        x : array_like, optional
+            Places for the curves; default: 20 divisions of every span, and all places where something is.
+
+        Returns
+        -------
+        TrainEnvelope
+
+        Raises
+        ------
+        ValueError
+            A place outside the beam.
+        """
+        return TrainEnvelope(self._result, self.members(), places_given(self._result.beam, x))
+
+    def members(self, combination: str | None = None) -> list[Passing]:
+        """What an envelope is made of: the train in every direction.
+
+        Parameters
+        ----------
+        combination : str, optional
+            Name of the combination.
+
+        Returns
+        -------
+        list of Passing
+        """
+        return [Passing(self, way, combination) for way in self.ways]
+
+    def at(self, position: float, direction: str = RIGHT) -> TrainState:
+        """The state at a position of the train.
+
+        Parameters
+        ----------
+        position : float
+            Position of its first axle; any, also beyond those that the scene gives.
+        direction : {"right", "left"}
+            Which way it goes; left needs ``both_directions``.
+
+        Returns
+        -------
+        TrainState
+            A step, with fields and extremes; the axles are forces of its beam, so it has a certificate.
+
+        Raises
+        ------
+        ValueError
+            Without equilibrium there, or the train does not go that way.
+        """
+        position = finite("position", position)
+        way = self._way(direction)
+        scene = self._loaded(way, position)
+        from .result import Result
+
+        result = Result(scene, Beam(columns(scene)), self._result.rule)
+        result.steps = LoadSteps(result.beam, result.rule, np.ones(result.beam.supports, dtype=np.int32), 1)
+        fallen = result.steps.solve_all()
+        if fallen is not None:
+            result.refuse(f"at position {position:g} of train {self.name}", fallen[1])
+            raise ValueError(f"position: {result.reason}")
+        return TrainState(result, position, way.course.direction)
+
+    def influence(
+        self, what: str, *, x: float, position: float, direction: str = RIGHT, places: Any = None, side: str = "right"
+    ) -> Influence:
+        """Influence line while the supports act that act at a position of the train.
+
+        Parameters
+        ----------
+        what : {"reaction", "moment", "shear", "rotation", "deflection"}
+            What it is of.
+        x : float
+            Place on the beam; for a reaction that of the support.
+        position, direction
+            Of the train.
+        places : array_like, optional
+            Where the unit force is; default: 20 divisions of every span, and all places where something is.
+        side : {"right", "left"}
+            Which value is taken where it jumps at x.
+
+        Returns
+        -------
+        Influence
+            It says what a small force adds; a larger one may open or close supports.
+
+        Raises
+        ------
+        ValueError
+            A place outside the beam, no support there, or no equilibrium at that position.
+        """
+        if what not in INFLUENCES:
+            raise ValueError(f"what: expected {choice(shown(name) for name in INFLUENCES)}, got {shown(what)}")
+        beam, way = self._result.beam, self._way(direction)
+        state = self.at(position, direction)
+        x = finite("x", x)
+        places_given(beam, [x], "x")
+        places = places_along(beam) if places is None else places_given(beam, places, "places")
+        at = self._result.scene.positions(self._result.scene.supports)
+        chosen = (np.abs(at - x) <= way.near) & beam.across
+        if what == "reaction" and not chosen.any():
+            raise ValueError(f"x: there is no support at x = {x:g}")
+        piece, distance = beam.find(np.array([x]), side == "left")
+        values = way.passage.influence(state.solution.closed, chosen, int(piece[0]), float(distance[0]), places)
+        return Influence(places, values[("deflection", "rotation", "moment", "shear", "reaction").index(what)])
+
+    def _way(self, direction: str) -> TrainWay:
+        for way in self.ways:
+            if way.course.direction == direction:
+                return way
+        if direction not in (RIGHT, LEFT):
+            raise ValueError(f'direction: expected "right" or "left", got {shown(direction)}')
+        raise ValueError(f"direction: train {self.name} goes to the right only; give both_directions = true")
+
+    def _loaded(self, way: TrainWay, position: float) -> Scene:
+        """The scene with the train at a position as forces."""
+        end, course = self._result.beam.places.end, way.course
+        x = position + course.offset
+        acts = (x >= -way.near) & (x <= end + way.near)
+        loads: list[Any] = [ForceLoad(x=place, F=force) for place, force in zip(np.clip(x[acts], 0.0, end).tolist(),
+                                                                                course.force[acts].tolist(), strict=True)]
+        q, low, high = course.uniform
+        low, high = max(position + low, 0.0), min(position + high, end)
+        if q != 0.0 and high - low > way.near:
+            loads.append(UniformLoad(q=q, from_=low, to=high))
+        scene = self._result.scene
+        return replace(scene, loads=[*scene.loads, *loads], trains=[])
+
+
+class Trains(Mapping[str, TrainResult]):
+    """Trains by name, in the order of the scene."""
+
+    def __init__(self, result: Result):
+        self._result = result
+        self._by_name = {train_name(result.scene, i): TrainResult(result, i) for i in range(len(result.scene.trains))}
+
+    def __getitem__(self, name: str) -> TrainResult:
+        """Give a train by its name."""
+        return self._by_name[name]
+
+    def __iter__(self) -> Iterator[str]:
+        """Go through the names."""
+        return iter(self._by_name)
+
+    def __len__(self) -> int:
+        """Count the trains."""
+        return len(self._by_name)
+
+    def envelope(self, x: Any = None) -> TrainEnvelope:
+        """Largest and smallest values over all positions of all trains, one at a time.
+
+        Parameters
+        ----------
+        x
+            As for `TrainResult.envelope`.
+
+        Returns
+        -------
+        TrainEnvelope
+
+        Raises
+        ------
+        ValueError
+            A place outside the beam.
+        """
+        return TrainEnvelope(self._result, self.members(), places_given(self._result.beam, x))
+
+    def members(self, combination: str | None = None) -> list[Passing]:
+        """What an envelope is made of: every train in every direction.
+
+        Parameters
+        ----------
+        combination : str, optional
+            Name of the combination.
+
+        Returns
+        -------
+        list of Passing
+        """
+        return [member for train in self.values() for member in train.members(combination)]
+
+
+def refuse_trains(scene: Scene, beam: Beam) -> None:
+    """Refuse what trains cannot be followed over.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    beam : Beam
+        Its beam.
+
+    Raises
+    ------
+    SceneError
+        A foundation, an axial load, or a law that is a curve or whose state depends on the way of the load.
+    """
+    if not scene.trains:
+        return
+    if beam.ground_layers:
+        raise SceneError("trains", "trains on a foundation are not available in this version; give positions as loads, or springs "
+                                   "as supports")  # fmt: skip
+    if beam.bars >= 0:
+        raise SceneError("trains", "trains beside axial loads are not available in this version; solve the axial loads in a scene "
+                                   "of their own")  # fmt: skip
+    if beam.depends_on_path or beam.curves:
+        what = "whose state depends on the way of the load" if beam.depends_on_path else "that are curves"
+        raise SceneError("supports", f"laws {what} cannot stand beside trains in this version; use polylines that rise")

@@ -1,0 +1,88 @@
+!> Polynomials by their Bernstein coefficients
+program test_bernstein
+    use testing, only: check, check_close, finish
+    use gapbeam_kinds, only: wp
+    use gapbeam_bernstein, only: highest_degree, patch_type, sample_points, to_coefficients, value_of, halve, first_below, &
+        crossing, greatest_on_patch
+    implicit none
+    integer :: status
+
+    call samples_give_the_polynomial_back()
+    call first_place_below()
+    call greatest_of_two_variables()
+    call finish(status)
+    if (status /= 0) stop 1, quiet=.true.
+
+contains
+
+    !> Of every degree
+    subroutine samples_give_the_polynomial_back()
+        real(wp) :: points(0:highest_degree), b(0:highest_degree), left(0:highest_degree), right(0:highest_degree)
+        real(wp) :: matrix(0:highest_degree, 0:highest_degree)
+        integer :: n
+
+        do n = 0, highest_degree
+            points(0:n) = sample_points(n)
+            matrix(0:n, 0:n) = to_coefficients(n)
+            b(0:n) = matmul(matrix(0:n, 0:n), (points(0:n) - 0.3_wp)**n)
+            call check_close(value_of(b(0:n), 0.8_wp), 0.5_wp**n, "a power")
+            call halve(b(0:n), 0.6_wp, left(0:n), right(0:n))
+            call check_close(value_of(left(0:n), 0.5_wp), 0.0_wp**n, "a power on the left part", absolute=1e-15_wp)
+            call check_close(value_of(right(0:n), 0.5_wp), 0.5_wp**n, "a power on the right part")
+        end do
+    end subroutine samples_give_the_polynomial_back
+
+    !> A level that is touched, crossed, or not reached
+    subroutine first_place_below()
+        real(wp) :: b(0:2), matrix(0:2, 0:2), u
+
+        ! (u - 1/4)**2
+        matrix(:, :) = to_coefficients(2)
+        b(:) = sample_points(2)
+        b(:) = matmul(matrix, (b - 0.25_wp)**2)
+        call check(first_below(b, -1e-9_wp) > 1.0_wp, "touched, not crossed")
+        u = first_below(b - 1.0_wp/64, 0.0_wp)
+        call check_close(u, 0.125_wp, "crossed")
+        call check_close(crossing(b - 1.0_wp/64, 0.0_wp, 0.2_wp), 0.125_wp, "where")
+        call check_close(first_below(b, 1.0_wp), 0.0_wp, "from the beginning")
+    end subroutine first_place_below
+
+    !> A peak inside, one at an edge, one at a corner, none above what is known
+    subroutine greatest_of_two_variables()
+        type(patch_type) :: patch
+        real(wp) :: points(0:4), matrix(0:4, 0:4), values(0:4, 0:4), value, v, u
+        integer :: j, k
+
+        patch%along = 4
+        patch%across = 4
+        points(:) = sample_points(4)
+        matrix(:, :) = to_coefficients(4)
+        do k = 0, 4
+            do j = 0, 4
+                values(j, k) = peak(points(j), points(k))
+            end do
+        end do
+        patch%b(0:4, 0:4) = matmul(matmul(matrix, values), transpose(matrix))
+        call greatest_on_patch(patch, -1.0_wp, value, v, u)
+        call check_close([value, v, u], [3.0_wp, 0.7_wp, 0.2_wp], "inside", 1e-12_wp)
+        call greatest_on_patch(patch, 4.0_wp, value, v, u)
+        call check(value < 3.5_wp, "nothing above what is known")
+        patch%b(0:4, 0:4) = -patch%b(0:4, 0:4)
+        call greatest_on_patch(patch, -10.0_wp, value, v, u)
+        call check_close([value, v, u], [-peak(1.0_wp, 1.0_wp), 1.0_wp, 1.0_wp], "at a corner")
+        patch%along = 0
+        patch%across = 2
+        patch%b(0, 0:2) = [0.0_wp, 1.0_wp, 0.0_wp]
+        call greatest_on_patch(patch, -1.0_wp, value, v, u)
+        call check_close([value, u], [0.5_wp, 0.5_wp], "of one variable")
+    end subroutine greatest_of_two_variables
+
+    !> 3 at (0.7, 0.2)
+    pure function peak(v, u) result(value)
+        real(wp), intent(in) :: v, u
+        real(wp) :: value
+
+        value = 3 - (v - 0.7_wp)**2 - (v - 0.7_wp)*(u - 0.2_wp) - 2*(u - 0.2_wp)**2 - (v - 0.7_wp)**2*(u - 0.2_wp)**2
+    end function peak
+
+end program test_bernstein

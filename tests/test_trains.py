@@ -1,0 +1,332 @@
+"""Trains: events in position, exact envelopes, influence lines; beside closed forms and states solved one by one."""
+
+import copy
+import json
+import pickle
+from math import sqrt
+
+import gapbeam
+import numpy as np
+import pytest
+from gapbeam.plots.train_envelope import train_envelope_figure
+from gapbeam.report.text import report_text, to_csv, to_json
+
+
+def two_spans(**changes):
+    """Reference problem D1."""
+    made = {
+        "beam": {"spans": [1.0, 1.0], "EI": 1.0},
+        "supports": [{"node": i, "side": "below"} for i in range(3)],
+        "loads": [{"type": "uniform", "q": 1.0, "case": "dead"}],
+        "trains": [{"name": "crane", "axles": [[0.0, 8.0]], "to": 1.0}],
+    }
+    return {**made, **changes}
+
+
+def simple(span, *axles, **train):
+    """A weightless simple beam."""
+    return {
+        "beam": {"spans": [span], "EI": 1.0},
+        "supports": [{"node": 0}, {"node": 1}],
+        "trains": [{"axles": [list(axle) for axle in axles], **train}],
+    }
+
+
+def random_scene(rng):
+    """A beam of any kind with a train."""
+    count = int(rng.integers(1, 5))
+    spans = rng.choice([1.0, 2.0, 2.5], count).tolist() if rng.random() < 0.5 else rng.uniform(0.5, 4, count).tolist()
+    length, stiffness = sum(spans), float(10 ** rng.uniform(-1, 3))
+    made = {"beam": {"spans": spans, "EI": stiffness}, "supports": [], "loads": []}
+    if rng.random() < 0.2:
+        made["beam"]["GA"] = stiffness * 3
+    if rng.random() < 0.3 and count > 2:
+        made["beam"]["hinges"] = [spans[0] + spans[1] * 0.4]
+    if rng.random() < 0.3:
+        made["sections"] = [{"from": length * 0.2, "to": length * 0.45, "EI": stiffness * 3}]
+    overhang = rng.random() < 0.2
+    for node in range(count if overhang else count + 1):
+        support = {"node": node, "side": str(rng.choice(["both", "below", "above"], p=[0.25, 0.65, 0.1]))}
+        if support["side"] != "both" and rng.random() < 0.5:
+            support["gap"] = float(rng.uniform(-0.2, 0.5) / stiffness)
+        if rng.random() < 0.5:
+            support["stiffness"] = stiffness * float(10 ** rng.uniform(-1, 2))
+        if support["side"] == "below" and rng.random() < 0.3:
+            support.pop("stiffness", None)
+            support["law"] = [[0.05 / stiffness, 1.0], [0.25 / stiffness, 2.0]]
+        made["supports"].append(support)
+    made["loads"].append({"type": "uniform", "q": float(rng.uniform(0.2, 3)), "case": "dead"})
+    if rng.random() < 0.4:
+        made["loads"].append({"type": "linear", "from": length * 0.1, "to": length * 0.6, "q": [0.5, -1.0]})
+    distances = np.concatenate([[0], np.cumsum(rng.choice([0.5, 1.0, 1.3], int(rng.integers(0, 3))))]).tolist()
+    train = {"axles": [[d, float(rng.uniform(1, 10))] for d in distances], "both_directions": bool(rng.random() < 0.3)}
+    if rng.random() < 0.4:
+        train |= {"q": float(rng.uniform(0.5, 4)), "factor": 1.25}
+    return {**made, "trains": [train]}
+
+
+def test_d1():
+    train = gapbeam.solve(two_spans()).trains["crane"]
+    assert [(event.support, event.event) for event in train.events] == [(2, "opens"), (2, "closes")]
+    assert [event.position for event in train.events] == pytest.approx([0.194903920083, 0.888199776858], abs=1e-12)
+    envelope = train.envelope()
+    lifted = envelope.supports[2]["opening"]["max"]
+    assert lifted.value == pytest.approx(0.26320023928, abs=1e-11)
+    assert lifted.position == pytest.approx(1 / sqrt(3), abs=1e-12)
+    rise = envelope.extremes["deflection"]["min"]
+    assert (rise.x, rise.value) == pytest.approx((2.0, -lifted.value), rel=1e-14)
+    state = train.at(0.5)
+    assert state.reaction == pytest.approx([4.0, 6.0, 0.0], rel=1e-14)
+    assert state.fields(0.5).moment == pytest.approx(4.0 * 0.5 - 0.125, rel=1e-14)
+    assert state.certificate["error_bound_reaction"] < 1e-13
+    # The unloaded far end stays on its support where the force is small
+    small = gapbeam.solve(two_spans(trains=[{"axles": [[0.0, 9 * sqrt(3) / 4 - 1e-6]]}]))
+    assert small.trains["train 1"].events == []
+
+
+def test_influence_lines_of_two_spans():
+    train = gapbeam.solve(two_spans()).trains["crane"]
+    at = np.array([0.0, 0.25, 0.5, 1.0])
+    middle = train.influence("reaction", x=1.0, position=0.05, places=at)
+    assert middle.values == pytest.approx(at * (3 - at**2) / 2, abs=1e-14)
+    support = train.influence("moment", x=1.0, position=0.05, places=at)
+    assert support.values == pytest.approx(-at * (1 - at**2) / 4, abs=1e-14)
+    # With the end lifted the first span is a simple beam
+    moment = train.influence("moment", x=0.5, position=0.5, places=[0.25, 0.5, 1.5])
+    assert moment.values == pytest.approx([0.125, 0.25, -0.25], abs=1e-14)
+    shear = train.influence("shear", x=0.5, position=0.5, places=[0.25, 0.75])
+    assert shear.values == pytest.approx([-0.25, 0.25], abs=1e-14)
+
+
+def test_largest_moments_of_simple_beams():
+    # Two equal forces at a distance d: P L/2 (1 - d/2L)**2, under either of them
+    result = gapbeam.solve(simple(10.0, (0.0, 10.0), (2.0, 10.0)))
+    largest = result.envelope().extremes["moment"]["max"]
+    assert largest.value == pytest.approx(40.5, rel=1e-14)
+    found = sorted((e.x, e.position) for e in (largest, *largest.ties))
+    assert found == [pytest.approx((4.5, 6.5), rel=1e-12), pytest.approx((5.5, 5.5), rel=1e-12)]
+    shear = result.envelope().extremes["shear"]
+    assert (shear["max"].value, shear["min"].value) == pytest.approx((18.0, -18.0), rel=1e-14)
+    curves = result.trains["train 1"].envelope([2.0, 5.0]).fields
+    # Influence lines: of the place 2 with ordinates 1.6 and 1.2
+    assert curves.largest["moment"] == pytest.approx([28.0, 40.0], rel=1e-14)
+    assert curves.smallest["moment"] == pytest.approx([0.0, 0.0], abs=1e-14)
+
+
+def test_a_plank_tips():
+    made = two_spans(
+        beam={"spans": [2.0, 1.0], "EI": 1.0},
+        supports=[{"node": 0, "side": "below"}, {"node": 1, "side": "below"}],
+        trains=[{"name": "man", "axles": [[0.0, 5.0]]}, {"name": "back", "axles": [[0.0, 5.0]], "both_directions": True}],
+    )
+    result = gapbeam.solve(made)
+    (gap,) = result.trains["man"].gaps
+    assert (gap.from_, gap.to) == pytest.approx((2.3, 3.0), rel=1e-14)
+    assert "tips about the support at x = 2" in gap.reason
+    assert [gap.direction for gap in result.trains["back"].gaps] == ["right", "left"]
+    assert result.envelope().supports[0]["reaction"]["min"].value == pytest.approx(0.0, abs=1e-13)
+    assert len(result.envelope().gaps) == 3
+    with pytest.raises(ValueError, match=r"position: no equilibrium at position 2\.5 of train man"):
+        result.trains["man"].at(2.5)
+    assert "tips about" in report_text(result)
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_nothing_is_beyond_the_envelope(seed):
+    rng = np.random.default_rng(seed)
+    try:
+        result = gapbeam.solve(random_scene(rng))
+    except gapbeam.EngineError:
+        return
+    train = result.trains["train 1"]
+    envelope = train.envelope(np.linspace(0.0, result.scene.span_ends()[-1], 5))
+    curves = envelope.fields
+    for way in train.ways:
+        passage, course = way.passage, way.course
+        assert (passage.ends[1:, 0] == passage.ends[:-1, 1]).all()
+        for position in (course.from_, course.to, *rng.uniform(course.from_, course.to, 12)):
+            which = np.flatnonzero((passage.ends[:, 0] <= position) & (position <= passage.ends[:, 1]))
+            try:
+                state = train.at(position, course.direction)
+            except ValueError:
+                assert (passage.status[which] != 0).any()
+                continue
+            if (passage.status[which] != 0).any() or state.indifferent:
+                continue
+            if len(which) == 1:
+                decided = state.solution.undecided == 0
+                assert (passage.closed[which[0]] == state.solution.closed)[decided].all()
+            fields, extremes = state.fields(curves.x), state.extremes()
+            for name, row in envelope.extremes.items():
+                slack = 1e-11 * max(abs(row["max"].value), abs(row["min"].value))
+                assert row["min"].value - slack <= extremes[name]["min"][0]
+                assert extremes[name]["max"][0] <= row["max"].value + slack
+                assert (curves.smallest[name] - slack <= getattr(fields, name)).all()
+                assert (getattr(fields, name) <= curves.largest[name] + slack).all()
+            for k, row in enumerate(envelope.supports):
+                slack = 1e-11 * max(abs(e.value) for e in row["reaction"].values())
+                assert row["reaction"]["min"].value - slack <= state.reaction[k] <= row["reaction"]["max"].value + slack
+    for name, row in envelope.extremes.items():
+        for kind, extreme in row.items():
+            if extreme is None:
+                continue
+            state = train.at(extreme.position, extreme.direction)
+            if state.indifferent:  # where it begins to move its position is not unique
+                continue
+            found = state.extremes()[name][kind][0]
+            assert found == pytest.approx(extreme.value, rel=1e-10, abs=1e-11 * abs(row["max"].value))
+
+
+def test_ranges_of_positions():
+    def ends(**train):
+        way = gapbeam.solve(simple(10.0, (0.0, 1.0), (2.0, 1.0), **train)).trains["train 1"].ways[-1]
+        return way.passage.ends[0, 0], way.passage.ends[-1, 1]
+
+    assert ends() == (0.0, 12.0)
+    assert ends(both_directions=True) == (-2.0, 10.0)
+    assert ends(inside=True) == (2.0, 10.0)
+    assert ends(inside=True, both_directions=True) == (0.0, 8.0)
+    assert ends(**{"from": 1.0, "to": 3.0}) == (1.0, 3.0)
+    assert ends(**{"from": 1.0, "to": 3.0, "inside": True}) == (2.0, 3.0)
+    assert ends(**{"from": 5.0, "to": 5.0}) == (5.0, 5.0)
+
+
+def test_axles_at_the_ends_act():
+    # Both axles act only at position 10.0; an axle enters the beam, or leaves it, at once
+    result = gapbeam.solve(simple(10.0, (0.0, 3.0), (10.0, 4.0)))
+    supports = result.envelope().supports
+    assert (supports[0]["reaction"]["max"].value, supports[1]["reaction"]["max"].value) == pytest.approx((4.0, 4.0))
+    train = result.trains["train 1"]
+    assert train.at(10.0).reaction == pytest.approx([4.0, 3.0])
+    assert train.at(10.0 - 1e-9).reaction == pytest.approx([0.0, 3.0], abs=1e-8)
+    assert train.at(10.0 + 1e-9).reaction == pytest.approx([4.0, 0.0], abs=1e-8)
+
+
+def test_pickled():
+    result = gapbeam.solve(two_spans())
+    envelope = result.envelope()
+    for again in (pickle.loads(pickle.dumps(result)), copy.deepcopy(result)):
+        assert again == result
+        assert again.trains["crane"].events == result.trains["crane"].events
+        assert again.envelope().extremes == envelope.extremes
+    assert pickle.loads(pickle.dumps(envelope)).fields == envelope.fields
+
+
+@pytest.mark.parametrize("power", [-200, -40, 40, 200])
+def test_any_units(power):
+    """The same in other units of force: all forces and stiffnesses times a power of two."""
+    factor = 2.0**power
+    made = two_spans(
+        beam={"spans": [1.0, 1.0], "EI": factor},
+        loads=[{"type": "uniform", "q": factor, "case": "dead"}],
+        trains=[{"name": "crane", "axles": [[0.0, 8.0 * factor]], "to": 1.0}],
+    )
+    train, other = gapbeam.solve(made).trains["crane"], gapbeam.solve(two_spans()).trains["crane"]
+    assert [e.position for e in train.events] == pytest.approx([e.position for e in other.events], rel=1e-13)
+    moment, same = (t.envelope().extremes["moment"]["max"] for t in (train, other))
+    assert (moment.value / factor, moment.x) == pytest.approx((same.value, same.x), rel=1e-13)
+
+
+def test_outputs():
+    result = gapbeam.solve(two_spans())
+    data = json.loads(to_json(result))
+    (train,) = data["trains"]
+    assert [event["event"] for event in train["events"]] == ["opens", "closes"]
+    assert data["envelope"]["supports"][2]["opening"]["max"][1]["train"] == "crane"
+    value, x, source = data["envelope"]["extremes"]["moment"]["max"]
+    assert (value, x, source["position"]) == pytest.approx((32 / 17, 8 / 17, 8 / 17), rel=1e-12)
+    assert len(data["envelope"]["fields"]["x"]) == len(data["envelope"]["fields"]["moment"]["max"])
+    assert "What governs" in report_text(result)
+    assert to_csv(result).splitlines()[0].endswith("shear_max,shear_min")
+    assert len(train_envelope_figure(result).axes) == 4
+
+
+@pytest.mark.parametrize(
+    ("train", "message"),
+    [
+        ({"axles": []}, r"trains\[0\]\.axles: has no axle"),
+        ({"axles": [[-1.0, 1.0]]}, r"trains\[0\]\.axles\[0\]\[0\]: expected a distance .* got -1"),
+        ({"axles": [[0.0, float("inf")]]}, r"trains\[0\]\.axles\[0\]\[1\]: expected a finite number, got inf"),
+        ({"axles": [[0.0, 1.0], [5.0, 1.0]], "inside": True}, r"trains\[0\]\.inside: the train has a length of 5"),
+        ({"axles": [[0.0, 1.0]], "from": 2.0, "to": 1.0}, r"trains\[0\]\.to: the positions from 2 to 1 are none"),
+        ({"axles": [[0.0, 1.0]], "together": "b"}, r"trains\[0\]\.together: trains at the same time are not available"),
+        ({"axles": [[0.0, 1.0]], "unfavourable": True}, r"trains\[0\]\.unfavourable: axles only where"),
+    ],
+)
+def test_refusals(train, message):
+    with pytest.raises(gapbeam.SceneError, match=message):
+        gapbeam.solve(two_spans(trains=[train]))
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"foundation": [{"k": 1.0}]}, "trains: trains on a foundation are not available"),
+        ({"supports": [{"node": 0}, {"node": 1, "side": "below", "law": {"type": "plastic", "stiffness": 1.0, "limit": 1.0}}]},
+         "supports: laws whose state depends on the way of the load cannot stand beside trains"),
+        ({"supports": [{"node": 0}, {"node": 1, "law": {"type": "tanh", "stiffness": 1.0, "limit": 1.0}}]},
+         "supports: laws that are curves cannot stand beside trains"),
+        ({"supports": [{"node": 0}, {"node": 1}, {"node": 0, "direction": "axial"}],
+          "loads": [{"type": "axial", "node": 1, "F": 1.0}]}, "trains: trains beside axial loads are not available"),
+    ],
+)  # fmt: skip
+def test_what_trains_cannot_go_over(change, message):
+    with pytest.raises(gapbeam.SceneError, match=message):
+        gapbeam.solve(two_spans(**change))
+
+
+def test_names():
+    with pytest.raises(gapbeam.SceneError, match=r'trains\[1\]\.name: trains\[0\] has the name "a" already'):
+        gapbeam.solve(two_spans(trains=[{"name": "a", "axles": [[0.0, 1.0]]}] * 2))
+
+
+def test_trains_in_combinations():
+    """A train acts where its case has a factor, on the beam as the combination loads it; the envelope is that of all."""
+    made = two_spans(
+        trains=[{"name": "crane", "axles": [[0.0, 8.0]], "to": 1.0, "case": "crane"}, {"axles": [[0.0, 1.0]], "case": "cart"}],
+        combinations=[
+            {"name": "alone", "factors": {"dead": 5.0}},
+            {"name": "half", "factors": {"dead": 1.0, "crane": 0.5}, "settlements": {1: 0.01}},
+            {"name": "full", "factors": {"dead": 1.0, "crane": 1.0}},
+        ],
+    )
+    result = gapbeam.solve(made)
+    crane = result.combinations["full"].trains
+    assert list(crane) == ["crane"]
+    assert [e.position for e in crane["crane"].events] == [e.position for e in gapbeam.solve(two_spans()).trains["crane"].events]
+    assert not result.combinations["alone"].trains
+    envelope = result.envelope()
+    assert [(m.combination, m.train) for m in envelope.members] == [("alone", None), ("half", "crane"), ("full", "crane")]
+    parts = [result.combinations[name].envelope() for name in result.names]
+    for quantity, row in envelope.extremes.items():
+        assert row["max"].value == max(part.extremes[quantity]["max"].value for part in parts)
+        assert row["min"].value == min(part.extremes[quantity]["min"].value for part in parts)
+    least = envelope.extremes["moment"]["min"]
+    assert (least.combination, least.train, least.value) == ("alone", None, pytest.approx(-0.625))
+    assert least.state.reaction[1] == pytest.approx(6.25)
+    half = envelope.supports[1]["deflection"]["max"]
+    assert (half.combination, half.value) == ("half", pytest.approx(0.01))
+    curves = result.envelope(x=[1.0, 0.5]).fields
+    assert curves.smallest["moment"][0] == least.value
+    assert np.isnan(curves.smallest_at["moment"][0])
+    data = json.loads(to_json(result))
+    assert [(train["name"], train["combination"]) for train in data["trains"]] == [("crane", "half"), ("crane", "full")]
+    assert data["envelope"]["extremes"]["moment"]["min"][2]["combination"] == "alone"
+    assert "full" in report_text(result)
+    with pytest.raises(ValueError, match="3 combinations"):
+        _ = result.trains
+    made["combinations"][1]["expand"] = {"crane": "signs"}
+    with pytest.raises(gapbeam.SceneError, match="trains have no patterns"):
+        gapbeam.solve(made)
+
+
+def test_concurrent_values():
+    """What else there is where a value governs: the state there, solved with the axles as forces."""
+    envelope = gapbeam.solve(two_spans()).envelope()
+    largest = envelope.extremes["moment"]["max"]
+    there = largest.state.fields(largest.x, largest.side or "right")
+    assert float(there.moment) == pytest.approx(largest.value, rel=1e-13)
+    assert largest.concurrent["deflection"] == float(there.deflection)
+    opening = envelope.supports[2]["opening"]["max"]
+    assert opening.state.opening[2] == pytest.approx(opening.value, rel=1e-12)
+    assert opening.concurrent["reaction"] == 0.0
