@@ -31,7 +31,7 @@ from fractions import Fraction
 
 import mpmath
 import numpy as np
-from oracle_forms import Forms, dot, null_space, reduce_rows
+from oracle_forms import Forms, cone_rays, dot, null_space, reduce_rows
 
 DIGITS = 50
 ROUNDING = Fraction(1, 10**11)  # of all loads together: less counts as no work at all
@@ -321,27 +321,6 @@ class Oracle(Forms):
                 area = q * value * h + (q * slope + rise * value) * h**2 / 2 + rise * slope * h**3 / 3
                 total += area * weights[column - self.unknowns + 1]
         return total
-
-
-def cone_rays(rows, size):
-    """Generators of the cone {c: rows c >= 0}: both signs of its lineality space, and its extreme rays."""
-    rays = []
-    for vector in null_space(rows, size):
-        rays += [vector, [-entry for entry in vector]]
-    _, pivots = reduce_rows(rows, size)  # coordinates of a complement of the lineality space
-    if not pivots:
-        return rays
-    inner = [[row[c] for c in pivots] for row in rows]
-    for subset in itertools.combinations(inner, len(pivots) - 1):
-        lines = null_space(subset, len(pivots))
-        if len(lines) != 1:
-            continue
-        for sign in (1, -1):
-            ray = [sign * entry for entry in lines[0]]
-            if all(dot(row, ray) >= 0 for row in inner):
-                full = dict(zip(pivots, ray, strict=True))
-                rays.append([full.get(c, Fraction(0)) for c in range(size)])
-    return rays
 
 
 def solve(scene, factor=1.0):

@@ -73,6 +73,27 @@ def dot(a, b):
     return sum((x * y for x, y in zip(a, b, strict=True) if x and y), Fraction(0))
 
 
+def cone_rays(rows, size):
+    """Generators of the cone {c: rows c >= 0}: both signs of its lineality space, and its extreme rays."""
+    rays = []
+    for vector in null_space(rows, size):
+        rays += [vector, [-entry for entry in vector]]
+    _, pivots = reduce_rows(rows, size)  # coordinates of a complement of the lineality space
+    if not pivots:
+        return rays
+    inner = [[row[c] for c in pivots] for row in rows]
+    for subset in itertools.combinations(inner, len(pivots) - 1):
+        lines = null_space(subset, len(pivots))
+        if len(lines) != 1:
+            continue
+        for sign in (1, -1):
+            ray = [sign * entry for entry in lines[0]]
+            if all(dot(row, ray) >= 0 for row in inner):
+                full = dict(zip(pivots, ray, strict=True))
+                rays.append([full.get(c, Fraction(0)) for c in range(size)])
+    return rays
+
+
 class Reading:
     """Where everything of a scene is, as fractions.
 

@@ -1,0 +1,134 @@
+"""Random scenes with a train, for comparison with `oracle_trains.py`, and that comparison; nothing here solves anything.
+
+All numbers are short binary fractions, so that what ties on purpose ties in doubles, too. A third of the scenes is made of equal
+spans, equal spacings and round numbers: an axle comes to a node where another leaves one, supports touch exactly.
+"""
+
+import itertools
+import random
+
+import oracle_envelope as envelope
+from oracle_trains import Passage
+from scenes import force, nodes_of, scene, stretch, uniform
+
+NAMES = ("moment", "shear", "deflection")
+
+
+def random_scene(seed):
+    """A scene of 1 to 6 spans with one train, usually with an equilibrium everywhere.
+
+    Parameters
+    ----------
+    seed : int
+
+    Returns
+    -------
+    dict
+    """
+    rng = random.Random(seed)
+    even = rng.random() < 0.35
+    count = rng.choice((1, 2, 2, 3, 3, 4, 5, 6))
+    size = rng.randint(8, 48) / 8.0
+    spans = [size] * count if even else [max(1.0, round(8 * size * rng.uniform(0.5, 1.5)) / 8) for _ in range(count)]
+    P = float(rng.randint(4, 64))
+    # A span deflects about 1/64 under an axle; gaps are multiples of 1/1024.
+    EI = float(max(1, round(P * size**3 * 64 / 48)))
+    made = scene(spans, [], EI=[EI * rng.choice((0.5, 1.0, 1.0, 2.0)) for _ in spans] if rng.random() < 0.25 and not even else EI)
+    if rng.random() < 0.1:
+        made["beam"]["GA"] = float(round(rng.uniform(3, 30) * EI / size**2) + 1)
+    add_supports(rng, made, even, EI / size**3)
+    if rng.random() < 0.25 and count > 1:
+        at = rng.sample(range(1, 8 * count), rng.choice((1, 1, 2)))
+        turning = [s["node"] for s in made["supports"] if "rotation" in s]
+        made["beam"]["hinges"] = sorted(x for x in (sum(spans) * k / (8 * count) for k in at) if x not in
+                                        {nodes_of(made)[i] for i in turning})
+    dead = rng.choice((0.25, 0.5, 1.0, 2.0)) * rng.choice((0.125, 0.25, 0.5)) * P
+    made["loads"] = [uniform(dead / 4, case="dead")] if rng.random() < 0.95 else []
+    length = sum(spans)
+    for _ in range(rng.choice((0, 0, 1, 2))):
+        made["loads"].append(force(length * rng.randint(0, 16) / 16, float(rng.randint(-8, 16)) * P / 32, case="dead"))
+    if rng.random() < 0.15:
+        a, b = sorted(rng.sample(range(17), 2))
+        made["loads"].append(uniform(dead / 8, case="dead", **stretch(length * a / 16, length * b / 16)))
+    made["trains"] = [random_train(rng, even, size, P, length)]
+    return made
+
+
+def add_supports(rng, made, even, stiff):
+    """Supports at most nodes, some between, few of them bilateral; sometimes overhangs."""
+    nodes = nodes_of(made)
+    places = [i for i in range(len(nodes)) if rng.random() < (0.95 if 0 < i < len(nodes) - 1 else 0.8)]
+    places = places if len(places) > 1 else [0, len(nodes) - 1]
+    holds = rng.random() < 0.3
+    where = [{"node": i} for i in places]
+    if rng.random() < 0.2:
+        k = rng.randrange(len(nodes) - 1)
+        where.append({"x": nodes[k] + made["beam"]["spans"][k] * rng.choice((0.25, 0.5, 0.75))})
+    for place in where:
+        side = rng.choices(("below", "both", "above", "pair"), (10, 4 if holds else 0.5, 0.5, 1))[0]
+        spring = {"stiffness": float(max(1, round(stiff * 2.0 ** rng.randint(2, 12))))} if rng.random() < 0.35 else {}
+        gap = 0 if even and rng.random() < 0.6 else rng.choice((0, 0, 1, 2, 4, 8, -1, -2, -4)) / 1024
+        settled = {"settlement": rng.randint(-4, 4) / 1024} if rng.random() < 0.1 and not even else {}
+        if side == "both":
+            turning = {"rotation": rng.choice(("fixed", float(round(stiff) + 1)))} if rng.random() < 0.2 and "node" in place else {}
+            made["supports"].append({**place, **spring, **settled, **turning})
+        elif side == "pair":
+            made["supports"].append({**place, "side": "below", "gap": gap, **spring, **settled})
+            made["supports"].append({**place, "side": "above", "gap": abs(gap) + rng.randint(1, 8) / 1024, **spring, **settled})
+        else:
+            made["supports"].append({**place, "side": side, "gap": gap, **spring, **settled})
+
+
+def random_train(rng, even, size, P, length):
+    """1 to 5 axles, sometimes with a uniform load, a range, `inside`, both directions."""
+    count = rng.choice((1, 1, 2, 2, 3, 4, 5))
+    if even:
+        gaps = [size * rng.choice((0.5, 1.0, 1.0, 2.0, 0.25))] * (count - 1)
+        forces = [P] * count
+    else:
+        gaps = [rng.randint(2, 40) / 8.0 for _ in range(count - 1)]
+        forces = [P * rng.choice((0.25, 0.5, 1.0, 1.0, 1.5)) for _ in range(count)]
+    train = {"name": "train", "axles": [[d, F] for d, F in zip(itertools.accumulate([0.0, *gaps]), forces, strict=True)]}
+    if rng.random() < 0.2:
+        train["factor"] = 1.25
+    if rng.random() < 0.2 and count > 1:
+        train["q"] = P / 8 * rng.choice((0.5, 1.0, 2.0))
+    if rng.random() < 0.4:
+        train["both_directions"] = True
+    kind = rng.random()
+    if kind < 0.15 and sum(gaps) < length:
+        train["inside"] = True
+    elif kind < 0.3:
+        train["from"], train["to"] = length * rng.randint(0, 7) / 16, length * rng.randint(8, 16) / 16
+    return train
+
+
+def passages_of(made, at=()):
+    """The oracle's passages of the first train: to the right, and to the left if it runs in both directions."""
+    train = made["trains"][0]
+    return [Passage(made, train, mirrored, at) for mirrored in ((False, True) if train.get("both_directions") else (False,))]
+
+
+def exact_envelope(passages, xs=()):
+    """The envelope as the scene format has it, of extremes of the oracle."""
+    def over(function, *arguments):
+        return envelope.merged(*(function(p, *arguments) for p in passages))
+
+    count = range(len(passages[0].supports))
+    return {
+        "supports": [{"reaction": over(envelope.reaction, i), "opening": over(envelope.opening, i)} for i in count],
+        "extremes": {"moment": over(envelope.extremes, "moment"), "shear": over(envelope.extremes, "shear"),
+                     "deflection": over(envelope.deflection)},
+        "fields": {name: [over(envelope.curve, name, x) for x in xs] for name in NAMES},
+    }
+
+
+def frozen(made, s, mirrored=False):
+    """The scene with the train standing at s, as forces and a uniform load, all of them dead."""
+    train, length = made["trains"][0], nodes_of(made)[-1]
+    sign, factor = (1 if mirrored else -1), train.get("factor", 1.0)
+    loads = [force(s + sign * d, factor * F, case="dead") for d, F in train["axles"] if 0 <= s + sign * d <= length]
+    low, high = sorted((s, s + sign * train["axles"][-1][0]))
+    if train.get("q") and max(low, 0.0) < min(high, length):
+        loads.append(uniform(factor * train["q"], case="dead", **stretch(max(low, 0.0), min(high, length))))
+    return {**{key: item for key, item in made.items() if key != "trains"}, "loads": made["loads"] + loads}
