@@ -10,7 +10,7 @@ import pytest
 from oracle_polynomials import Place, roots
 from oracle_trains import Passage
 from scenes import at, force, mirrored, scene, uniform
-from train_scenes import exact_envelope, frozen, passages_of, random_scene
+from train_scenes import NAMES, differences, exact_envelope, frozen, passages_of, random_scene
 
 
 def same(actual, expected, digits=40):
@@ -156,3 +156,30 @@ def test_seen_from_behind(seed):
     for one, other in zip(ahead.events, behind.events, strict=True):
         same(one.place.middle, oracle.to_mpf(ahead.length - other.place.middle))
     assert ahead.events
+
+
+def test_comparison_finds_what_differs():
+    made = scene([1.0, 1.0], below(3), [uniform(1.0)])
+    made["trains"] = [{"axles": [[0.0, 8.0]], "to": 1.0}]
+    passages, xs = passages_of(made, [0.5]), [0.5]
+    exact = exact_envelope(passages, xs)
+
+    def plain(limits):
+        return {end: [float(limit.value), {"position": float(limit.places[0].position)}] for end, limit in limits.items()}
+
+    def curves(name):
+        return {end: [float(limits[end].value) for limits in exact["fields"][name]] for end in ("max", "min")}
+
+    data = {
+        "trains": [{"events": [{"position": 0.194903920083, "support": 2, "event": "opens"},
+                               {"position": 0.888199776858, "support": 2, "event": "closes"}]}],
+        "envelope": {"supports": [{name: plain(limits) for name, limits in support.items()} for support in exact["supports"]],
+                     "extremes": {name: plain(limits) for name, limits in exact["extremes"].items()},
+                     "fields": {"x": xs, **{name: curves(name) for name in NAMES}}},
+    }
+    assert differences(made, data, xs) == []
+    data["envelope"]["supports"][2]["opening"]["max"][0] += 1e-8
+    data["envelope"]["fields"]["moment"]["min"][0] += 1e-8
+    data["trains"][0]["events"].pop()
+    assert [words.split(":")[0] for words in differences(made, data, xs)] == [
+        "running to the right", "max of opening 2", "min of moment at 0.5"]

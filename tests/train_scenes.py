@@ -132,3 +132,76 @@ def frozen(made, s, mirrored=False):
     if train.get("q") and max(low, 0.0) < min(high, length):
         loads.append(uniform(factor * train["q"], case="dead", **stretch(max(low, 0.0), min(high, length))))
     return {**{key: item for key, item in made.items() if key != "trains"}, "loads": made["loads"] + loads}
+
+
+# Comparison with a result in plain data (`gapbeam run --json`)
+
+
+def differences(made, data, xs=(), tolerance=1e-10):
+    """What a result says otherwise than the oracle, in words; empty where they agree.
+
+    Numbers are compared relative to the largest of their kind, places relative to the length of the beam. A support that touches
+    without force may be called closed or open, and opens or closes anywhere between the places where that is decided.
+
+    Parameters
+    ----------
+    made : dict
+        The scene.
+    data : dict
+        "trains" and "envelope" as in the scene format.
+    xs : sequence of float
+        Places of the curves in the envelope's fields.
+    tolerance : float
+
+    Returns
+    -------
+    list of str
+    """
+    passages = passages_of(made, xs)
+    found = []
+    for passage in passages:
+        found += different_events(passage, data["trains"][0], tolerance)
+    return found + different_envelope(exact_envelope(passages, xs), data["envelope"], float(passages[0].length), tolerance)
+
+
+def different_events(passage, said, tolerance):
+    """Differences between the events of one direction and what a result says."""
+    name, room = ("left" if passage.mirrored else "right"), 1e3 * tolerance * float(passage.length)
+    theirs = sorted((e["support"], e["position"], e["event"]) for e in said["events"] if e.get("direction", "right") == name)
+    ours = sorted((e.support, float(e.place), e.event, float(e.since)) for e in passage.events)
+    if len(ours) == len(theirs):
+        pairs = zip(ours, theirs, strict=True)
+        if all(o[0] == t[0] and o[2] == t[2] and min(o[1], o[3]) - room <= t[1] <= max(o[1], o[3]) + room for o, t in pairs):
+            return []
+    return [f"running to the {name}: events {theirs}, exactly {ours}"]
+
+
+def different_envelope(exact, said, length, tolerance):
+    """Differences between envelopes."""
+    found = []
+
+    def compare(words, ours, theirs, scale):
+        for end in ("max", "min"):
+            limit = ours[end]
+            if end in theirs and limit.value is not None:
+                number, *places = theirs[end]
+                if not abs(number - float(limit.value)) <= tolerance * scale:
+                    found.append(f"{end} of {words}: {number!r}, exactly {float(limit.value)!r} with the train at "
+                                 f"{[float(w.position) for w in limit.places]}; said to be at {places}")
+
+    for name in ("reaction", "opening"):
+        scale = largest([support[name] for support in exact["supports"]])
+        for i, (ours, theirs) in enumerate(zip(exact["supports"], said["supports"], strict=True)):
+            compare(f"{name} {i}", ours[name], theirs.get(name, {}), scale)
+    for name in NAMES:
+        scale = largest([exact["extremes"][name]])
+        compare(name, exact["extremes"][name], said["extremes"][name], scale)
+        for k, ours in enumerate(exact["fields"][name]):
+            curves = said["fields"][name]
+            compare(f"{name} at {said['fields']['x'][k]}", ours, {end: [curves[end][k]] for end in curves}, scale)
+    return found
+
+
+def largest(pairs):
+    """The largest absolute value among extremes."""
+    return max((abs(float(limit.value)) for two in pairs for limit in two.values() if limit.value is not None), default=0.0) or 1.0
