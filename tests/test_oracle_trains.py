@@ -10,7 +10,7 @@ import pytest
 from oracle_polynomials import Place, roots
 from oracle_trains import Passage
 from scenes import at, force, mirrored, scene, uniform
-from train_scenes import NAMES, differences, exact_envelope, frozen, passages_of, random_scene
+from train_scenes import NAMES, differences, exact_envelope, frozen, passages_of, random_scene, ties
 
 
 def same(actual, expected, digits=40):
@@ -119,6 +119,27 @@ def test_values_jump_at_a_free_end():
     assert [(w.position, w.x) for w in moments.places] == [(2, 0)]
     gap = Passage(scene([2.0], [at(0, rotation="fixed"), at(1, side="below", gap=1.0)]), {"axles": [[0.0, 1.0]], "to": 2.5})
     assert [(float(e.place), e.event) for e in gap.events][-1] == (2.0, "opens")
+
+
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    [
+        ("touches", []),
+        ("hardly closes", [(2, "closes"), (2, "opens")]),
+        ("changes sides", [(0, "opens"), (0, "closes"), (3, "opens"), (3, "closes")]),
+        ("touches all along", []),
+        ("overhangs at both ends", []),
+        ("leaves a free end", [(1, "closes"), (1, "opens"), (1, "closes")]),
+    ],
+)
+def test_ties(name, expected):
+    ahead, *back = passages_of(ties()[name])
+    assert [(e.support, e.event) for e in ahead.events] == expected
+    turned = {"opens": "closes", "closes": "opens"}
+    if name == "changes sides":
+        assert ahead.events[1].place.same(ahead.events[2].place)
+    for passage in back:
+        assert [(e.support, turned[e.event]) for e in reversed(passage.events)] in (expected, [])
 
 
 @pytest.mark.parametrize("seed", [0, 5, 17, 27])

@@ -9,7 +9,7 @@ import random
 
 import oracle_envelope as envelope
 from oracle_trains import Passage
-from scenes import force, nodes_of, scene, stretch, uniform
+from scenes import at, force, nodes_of, scene, stretch, uniform
 
 NAMES = ("moment", "shear", "deflection")
 
@@ -101,6 +101,45 @@ def random_train(rng, even, size, P, length):
     elif kind < 0.3:
         train["from"], train["to"] = length * rng.randint(0, 7) / 16, length * rng.randint(8, 16) / 16
     return train
+
+
+def ties():
+    """Scenes by hand in which something ties exactly, by what ties.
+
+    Returns
+    -------
+    dict
+    """
+    below = [at(i, side="below") for i in range(5)]
+    touched = [at(0), at(1), {"x": 2.0, "side": "below", "gap": 1 / 64}]
+    cantilever = [at(0, rotation="fixed"), at(1, side="below", gap=0.25)]
+    hinged = [at(0), at(1), at(2), {"x": 3.0, "side": "below"}]
+    ceiling = [at(0), at(2), at(1, side="above", gap=1 / 64)]
+
+    def with_train(spans, supports, loads, axles, EI=1.0, **train):
+        beam = {"hinges": train.pop("hinges")} if "hinges" in train else {}
+        return {**scene(spans, supports, loads, EI=EI, **beam), "trains": [{"name": "train", "axles": axles, **train}]}
+
+    return {
+        # The largest deflection of the simple beam is the gap: a double root, no event.
+        "touches": with_train([4.0], touched, [], [[0.0, 48.0]], 4096.0),
+        "hardly closes": with_train([4.0], touched, [], [[0.0, 48.0 + 2.0**-30]], 4096.0),
+        # Both end reactions vanish with the axle in the middle: one opens where the other closes.
+        "changes sides": with_train([1.0] * 3, below[:4], [uniform(3.0)], [[0.0, 16.0]]),
+        "changes sides, two axles": with_train([1.0] * 3, below[:4], [uniform(3.0)], [[0.0, 8.0]] * 2, both_directions=True),
+        # An axle enters where another leaves: at that place alone both act.
+        "as long as the beam": with_train([2.0, 2.0], below[:3], [uniform(1.0)], [[0.0, 8.0], [4.0, 8.0]]),
+        "overhangs at both ends": with_train([1.0, 2.0, 1.0], below[1:3], [uniform(8.0)], [[0.0, 8.0], [4.0, 8.0]]),
+        "leaves a free end": with_train([2.0], cantilever, [], [[0.0, 1.0], [2.0, 1.0]], both_directions=True),
+        # A support that touches without force while the train is beyond the hinge.
+        "touches all along": with_train([2.0, 2.0], hinged, [], [[0.0, 4.0]], 64.0, hinges=[2.0], both_directions=True),
+        "an axle on every node": with_train([1.0] * 4, below, [uniform(1.0)], [[float(k), 8.0] for k in range(5)]),
+        "an axle that lifts": with_train([1.0] * 3, below[:4], [uniform(4.0)], [[0.0, 8.0], [1.0, -6.0], [2.0, 8.0]]),
+        "at the edge of tipping": with_train([2.0, 1.0], below[:2], [uniform(1.0)], [[0.0, 1.5]]),
+        "tips at the very end": with_train([2.0, 1.0], below[:2], [uniform(1.0)], [[0.0, 1.5], [0.5, 2.0**-40]]),
+        "under a ceiling": with_train([2.0] * 2, ceiling, [], [[0.0, -8.0], [1.0, 16.0]], 64.0),
+        "longer than the beam": with_train([1.0] * 2, below[:3], [uniform(1.0)], [[0.0, 8.0], [5.0, 8.0]], q=0.5),
+    }
 
 
 def passages_of(made, at=()):
