@@ -109,15 +109,15 @@ def extremes_of(passage, candidates):
     return found
 
 
-def solved(passage):
-    """Stretches with a unique state."""
-    return (stretch for stretch in passage.stretches if stretch.status == "solved")
+def solved(passage, forces=False):
+    """Stretches with a unique state; `forces`: and those where forces alone are unique, a motion being free without work."""
+    return (s for s in passage.stretches if s.status == "solved" or (forces and s.status == "loose" and s.unknowns))
 
 
 def reaction(passage, i):
     """Extremes of the force of support i."""
     x, column = [passage.supports[i]["x"]], passage.force_column + i
-    return extremes_of(passage, ((s.unknowns[column], s, x, None) for s in solved(passage)))
+    return extremes_of(passage, ((s.unknowns[column], s, x, None) for s in solved(passage, True)))
 
 
 def opening(passage, i):
@@ -140,7 +140,7 @@ def curve(passage, name, x):
         passage,
         (
             (passage.polynomial(s.unknowns, s.moving, k, side, COMPONENT[name]), s, [Fraction(x)], None)
-            for s in solved(passage)
+            for s in solved(passage, name in ("moment", "shear"))
             for side in SIDES
         ),
     )
@@ -197,7 +197,7 @@ def extremes(passage, name):
 
 def candidates(passage, component, stationary):
     """What `extremes_of` looks at: both ends of every part, and moments where the shear vanishes between."""
-    for stretch in solved(passage):
+    for stretch in solved(passage, True):
         for part in parts(passage, stretch):
             if any(value(part.h, s.middle) > 0 for s in (stretch.start, stretch.end)):
                 yield part.begin[component], stretch, part.x, None

@@ -69,7 +69,7 @@ class Stretch:
 
 @dataclass
 class Event:
-    """A support opens or closes at `place`; it touches without force from `since` on."""
+    """A support opens or closes at `place`; from `since` on it touches without force, or there is no unique state."""
 
     place: Place
     support: int
@@ -366,14 +366,11 @@ class Passage(Forms):
 
     @property
     def events(self):
-        """Events in the order of travel (mirrored: s falls); none is counted across places without a unique state."""
+        """Events in the order of travel (mirrored: s falls); what changed where there is no unique state counts behind it."""
         known, found = {}, []
         for stretch in reversed(self.stretches) if self.mirrored else self.stretches:
             first, last = (stretch.end, stretch.start) if self.mirrored else (stretch.start, stretch.end)
-            if stretch.status != "solved":
-                known = {}
-                continue
-            for i in self.one_sided:
+            for i in self.one_sided if stretch.status == "solved" else ():
                 new = stretch.state[i]
                 if new != "tied":
                     old, since = known.get(i, (new, first))
