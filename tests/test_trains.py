@@ -330,3 +330,16 @@ def test_concurrent_values():
     opening = envelope.supports[2]["opening"]["max"]
     assert opening.state.opening[2] == pytest.approx(opening.value, rel=1e-12)
     assert opening.concurrent["reaction"] == 0.0
+
+
+@pytest.mark.parametrize("power", [-20, -36, -40, -44])
+def test_tips_at_the_very_end(power):
+    """So little before the end that its length in doubles is a few units in the last place of the position."""
+    made = two_spans(
+        beam={"spans": [2.0, 1.0], "EI": 1.0}, supports=[{"node": i, "side": "below"} for i in range(2)],
+        trains=[{"name": "train", "axles": [[0.0, 1.5], [0.5, 2.0**power]]}],
+    )  # fmt: skip
+    # About the support at 2: the weight holds with 3/2, the second axle pushes with 2**power*(position - 5/2)
+    first = 3.0 - 2.0**power / 3.0
+    gaps = gapbeam.solve(made).trains["train"].gaps
+    assert (gaps[0].from_, gaps[0].to) == pytest.approx((first, 3.0), abs=1e-12) if gaps else 3.0 - first < 1e-12

@@ -119,11 +119,12 @@ contains
         logical, allocatable :: at_end(:)
         real(wp) :: now, begin, end, skipped
         logical :: solved
-        integer :: changes
+        integer :: changes, looks
 
         allocate (at_end(size(closed)))
         now = passage%reaches(r)%from
         changes = 0
+        looks = 0
         skipped = least_share
         do
             if (known) then
@@ -136,8 +137,7 @@ contains
                     closed(:) = closed .neqv. at_end
                     changes = changes + 1
                     if (changes <= most_changes + most_of_each*size(closed)) cycle
-                    call fatal_error(error, gapbeam_not_converged, "so many supports open and close so near to each other that "// &
-                                     "rounding decides, about position "//trim(shown(now)))
+                    call too_near(now)
                     return
                 end if
                 ! What was tried is not right
@@ -145,9 +145,21 @@ contains
             end if
             call look_further(skipped)
             if (allocated(error) .or. now >= passage%reaches(r)%to) return
+            looks = looks + 1
+            if (looks <= most_changes + most_of_each*size(closed)) cycle
+            call too_near(now)
+            return
         end do
 
     contains
+
+        !> Refuse to go on
+        subroutine too_near(place)
+            real(wp), intent(in) :: place
+
+            call fatal_error(error, gapbeam_not_converged, "so many supports open and close so near to each other that "// &
+                             "rounding decides, about position "//trim(shown(place)))
+        end subroutine too_near
 
         !> Take a stretch from here to a share of the rest
         subroutine accept(status, share)
@@ -158,7 +170,8 @@ contains
 
             associate (reach => passage%reaches(r))
                 to = reach%to
-                if (share < 1.0_wp) to = min(now + share*(reach%to - now), reach%to)
+                ! Near the end of a reach a share of its rest may be nothing beside the position itself
+                if (share < 1.0_wp) to = min(now + max(share*(reach%to - now), least_distance(track, train)/8), reach%to)
                 if (reach%to - to <= least_distance(track, train)/8) to = reach%to
             end associate
             stat = 0
@@ -237,8 +250,7 @@ contains
                     if (right .and. begin <= least) exit
                     if (share <= least) then
                         if (least > largest_share) then
-                            call fatal_error(error, gapbeam_not_converged, "so many supports open and close so near to each "// &
-                                             "other that rounding decides, about position "//trim(shown(place)))
+                            call too_near(place)
                             return
                         end if
                         ! Rounding decides here: leave out what it hides
