@@ -5,7 +5,7 @@ program test_api
     use gapbeam, only: model_type, span_type, support_type, load_type, prepared_type, options_type, result_type, &
         certificate_type, event_type, error_type, point_force, point_couple, uniform_load, linear_load, imposed_curvature, &
         axial_force, prepare_model, replace_loads, solve_beam, follow_load, get_supports, get_fields, get_extremes, &
-        get_motion, get_certificate, count_supports, count_nodes, gapbeam_infinity, gapbeam_both, gapbeam_below, &
+        get_motion, get_certificate, count_supports, count_nodes, combine_loads, gapbeam_infinity, gapbeam_both, gapbeam_below, &
         gapbeam_above, gapbeam_axial, gapbeam_dead, gapbeam_closed, gapbeam_bilateral, gapbeam_rule_single, gapbeam_solved, &
         gapbeam_no_equilibrium, gapbeam_bad_input, gapbeam_not_finite, gapbeam_not_prepared, gapbeam_indeterminate, &
         gapbeam_status_message, law_point_type, history_type, follow_history, solve_on_path, gapbeam_plastic, gapbeam_branch, &
@@ -26,6 +26,7 @@ program test_api
     call brittle_law()
     call plastic_law()
     call mechanism_at_limit()
+    call combinations()
     call finish(status)
     if (status /= 0) stop 1, quiet=.true.
 
@@ -528,5 +529,50 @@ contains
         call check(allocated(history%motion), "with its motion")
         if (allocated(history%motion)) call check_close(history%motion, history%x/2, "turning")
     end subroutine mechanism_at_limit
+
+    !> Every load times a factor, dead ones in full; supports move further; what is refused
+    subroutine combinations()
+        type(model_type) :: model
+        type(prepared_type) :: beam, combined, none
+        type(error_type), allocatable :: error
+
+        model%spans = [span_type(6.0_wp, EI=12.0_wp), span_type(6.0_wp, EI=12.0_wp)]
+        model%supports = [support_type(node=0), support_type(node=2), support_type(node=1, side=gapbeam_below, gap=1.0_wp)]
+        model%loads = [uniform_load(1.0_wp, from=0.0_wp, to=12.0_wp, case=gapbeam_dead), point_force(4.0_wp, x=6.0_wp)]
+        call combine_loads(none, [1.0_wp, 1.0_wp], combined, error)
+        call check(error%code == gapbeam_not_prepared, "not prepared")
+        call prepare_model(model, beam, error)
+        call combine_loads(beam, [2.0_wp, 1.0_wp], combined, error)
+        call compare_reactions(combined, error, 0.0_wp, [12.0_wp - 22.0_wp/3, 12.0_wp - 22.0_wp/3, 44.0_wp/3], &
+                               "dead loads in full from the start")
+        call compare_reactions(combined, error, 1.0_wp, [14.0_wp - 28.0_wp/3, 14.0_wp - 28.0_wp/3, 56.0_wp/3], &
+                               "and the others scaled")
+        call combine_loads(beam, [0.0_wp, 0.0_wp], combined, error, [0.0_wp, 0.0_wp, -4.0_wp])
+        call compare_reactions(combined, error, 1.0_wp, [-0.5_wp, -0.5_wp, 1.0_wp], "lifted by 3")
+        call combine_loads(beam, [2.0_wp], combined, error)
+        call check(error%code == gapbeam_bad_input, "one factor for two loads")
+        call combine_loads(beam, [1.0_wp, gapbeam_infinity], combined, error)
+        call check(error%code == gapbeam_bad_input .and. index(error%message, "factors(2)") == 1, "no number")
+        call combine_loads(beam, [1.0_wp, 1.0e308_wp], combined, error)
+        call check(error%code == gapbeam_bad_input, "too great a factor")
+        call combine_loads(beam, [1.0_wp, 1.0_wp], combined, error, [1.0_wp])
+        call check(error%code == gapbeam_bad_input, "one movement for three supports")
+    end subroutine combinations
+
+    !> Solve a combination and compare its reactions
+    subroutine compare_reactions(combined, error, factor, expected, what)
+        type(prepared_type), intent(in) :: combined
+        type(error_type), allocatable, intent(inout) :: error
+        real(wp), intent(in) :: factor, expected(3)
+        character(len=*), intent(in) :: what
+        type(result_type) :: result
+        real(wp) :: reaction(3), deflection(3), opening(3), couple(3)
+        integer :: conditions(3)
+
+        call check(.not. allocated(error), what)
+        call solve_beam(combined, factor, options_type(), result, error)
+        call get_supports(combined, result, reaction, deflection, opening, couple, conditions, error)
+        call check_close(reaction, expected, what)
+    end subroutine compare_reactions
 
 end program test_api

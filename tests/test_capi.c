@@ -169,6 +169,32 @@ static void closed_form(void)
     check(number == 1 && support == 1 && what == GAPBEAM_CLOSED, "one event");
     check_close(at, 0.001 / free_deflection, "its load factor");
 
+    /* A combination is a beam of its own: twice the load, then the support moved out of the way */
+    {
+        gapbeam_beam *combined;
+        double two = 2.0, far[3] = {0.0, 1.0, 0.0}, once[3], twice[3];
+        char message[200];
+
+        gapbeam_get_supports(beam, state, once, NULL, NULL, NULL, NULL);
+        check(gapbeam_combine_loads(beam, &two, NULL, &combined, NULL, 0) == GAPBEAM_SOLVED, "a combination");
+        check(gapbeam_solve(combined, 0.5, NULL, state, NULL, 0) == GAPBEAM_SOLVED, "half of twice the load");
+        gapbeam_get_supports(combined, state, twice, NULL, NULL, NULL, NULL);
+        check_close(twice[1], once[1], "is the load");
+        gapbeam_free_beam(combined);
+        check(gapbeam_combine_loads(beam, &two, far, &combined, NULL, 0) == GAPBEAM_SOLVED, "a support far below");
+        check(gapbeam_solve(combined, 1.0, NULL, state, NULL, 0) == GAPBEAM_SOLVED, "is left alone");
+        gapbeam_get_supports(combined, state, twice, NULL, NULL, NULL, NULL);
+        check_close(twice[1], 0.0, "without reaction");
+        gapbeam_free_beam(combined);
+        two = INFINITY;
+        check(gapbeam_combine_loads(beam, &two, NULL, &combined, message, sizeof message) == GAPBEAM_BAD_INPUT && !combined,
+              "no factor");
+        check(strstr(message, "factors(1)") != NULL, "which one");
+        check(gapbeam_combine_loads(NULL, &two, NULL, &combined, NULL, 0) == GAPBEAM_NOT_PREPARED, "no beam");
+        check(gapbeam_combine_loads(beam, NULL, NULL, &combined, NULL, 0) == GAPBEAM_BAD_INPUT, "no factors");
+        check(gapbeam_solve(beam, 1.0, NULL, state, NULL, 0) == GAPBEAM_SOLVED, "as before");
+    }
+
     /* Other values, then other places: the same as a beam prepared with them */
     const double six[] = {6.0};
     model.load_value = six;

@@ -63,7 +63,7 @@ law = [[1.0, "a"]] -> supports[0].law[0][1]: expected a number, got "a"
 stifness = 3 -> supports[0].stifness: unknown key; did you mean "stiffness"?
 Stiffness = 3 -> supports[0].Stiffness: unknown key; did you mean "stiffness"?
 zzz = 1 ->
-    supports[0].zzz: unknown key; the keys are node, x, side, stiffness, gap, settlement, rotation,
+    supports[0].zzz: unknown key; the keys are node, x, name, side, stiffness, gap, settlement, rotation,
     direction, law and unloading
 """
 
@@ -105,12 +105,11 @@ loads = [{type = 3}] ->
 loads = [5] -> loads[0]: expected a table, got 5
 loads = [{type = "force", x = 1.0}] -> loads[0].F: this key is missing; give a number
 loads = [{type = "moment", x = 1.0, F = 1.0}] ->
-    loads[0].F: unknown key; the keys of a load of type "moment" are type, node, x, case and M
+    loads[0].F: unknown key; the keys of a load of type "moment" are type, node, x, name, case and M
 loads = [{type = "linear", q = 3.0}] -> loads[0].q: expected a pair of numbers, got 3.0
 loads = [{type = "linear", q = [1, 2, 3]}] -> loads[0].q: expected a pair of numbers, got [1, 2, 3]
 loads = [{type = "uniform", q = [1, 2]}] -> loads[0].q: expected a number, got [1, 2]
-loads = [{type = "force", x = 3.0, F = 25.0, case = "wind"}] ->
-    loads[0].case: expected "dead" or "live", got "wind"
+loads = [{type = "force", x = 3.0, F = 25.0, case = 3}] -> loads[0].case: expected a text in quotes, got 3
 """
 
 
@@ -420,7 +419,7 @@ law = { type = "plastic", stiffness = inf, limit = 2.0 } ->
 law = { type = "hardening", stiffness = 1.0, limit = 2.0, slope = inf } ->
     foundation[1].law.slope: expected a finite number of 0 or more, got inf
 law = [[0.01, 5.0]]; unloading = "plastic" ->
-    foundation[1].unloading: unknown key; the keys are from, to, k, side, gap, profile and law
+    foundation[1].unloading: unknown key; the keys are from, to, k, side, gap, profile, law and name
 """
 
 

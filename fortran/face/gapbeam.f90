@@ -26,6 +26,11 @@
 !>     call get_contact(beam, result, zones, error)                              ! where the ground acts, and its force
 !>     call get_pressure(beam, result, [3d0], pressure, error)
 !>
+!> Combinations of load cases are beams of their own, each with a working scheme of its own:
+!>
+!>     call combine_loads(beam, [1.35d0, 1.5d0], combined, error)                ! a factor for every load
+!>     call solve_beam(combined, 1d0, options_type(), result, error)
+!>
 !> Units: any consistent set. Signs: x to the right, deflections, settlements and loads down, reactions up, moments sagging,
 !> couples and rotations clockwise, axial forces on the beam to the right. Supports, foundations and loads count from 1,
 !> nodes from 0.
@@ -54,6 +59,7 @@ module gapbeam
     use gapbeam_api_history, only: history_type, stretch_type, limit_type, follow_history, solve_on_path, &
         gapbeam_limit_stop, gapbeam_limit_jump, gapbeam_limit_follow, &
         gapbeam_arrived, gapbeam_limit_point, gapbeam_bifurcation, gapbeam_mechanism, gapbeam_path_ended
+    use gapbeam_api_combinations, only: combine_loads
     use gapbeam_api_ground, only: contact_type, free_span_type, ground_event_type, follow_ground, get_contact, get_free_spans, &
         get_pressure, get_pressure_extremes
     implicit none
