@@ -39,6 +39,10 @@ if TYPE_CHECKING:
 STRIP = 0.06
 """Height of the strip that tells which combination governs, as a share of the panel."""
 SHADES = ("0.88", "0.70")
+MOST_POINTS_FILLED = 20_000
+"""Points of a curve up to which the range is filled."""
+MOST_STRIPS = 500
+"""Changes of the combination that governs that are drawn along a beam."""
 MOST_NAMED = 26
 """Characters of the name of a combination beside its value."""
 
@@ -103,10 +107,12 @@ def _headings(picture: Figure, result: CombinedResult) -> None:
 def _range(axes: Axes, quantity: str, envelope: Envelope, names: tuple[str, ...]) -> None:
     """Draw the range of one field, its extremes, and which combinations give it."""
     curves, extremes = envelope.fields, envelope.extremes[quantity]
+    width = (WIDTH - LEFT - RIGHT) * 72
     for values in (curves.largest[quantity], curves.smallest[quantity]):
-        x, y = outline(curves.x, values, (WIDTH - LEFT - RIGHT) * 72)
+        x, y = outline(curves.x, values, width)
         axes.plot(x, y, color="black", linewidth=1.1 if len(x) < 3000 else 0.6, solid_joinstyle="round", zorder=3, label="curve")
-    axes.fill_between(curves.x, curves.smallest[quantity], curves.largest[quantity], color="0.9", linewidth=0, zorder=1)
+    if len(curves.x) <= MOST_POINTS_FILLED:
+        axes.fill_between(curves.x, curves.smallest[quantity], curves.largest[quantity], color="0.9", linewidth=0, zorder=1)
     pairs = {kind: (one.value, one.x) for kind, one in extremes.items()}
     low, high = min(0.0, pairs["min"][0]), max(0.0, pairs["max"][0])
     span = (high - low) or 1.0
@@ -125,14 +131,17 @@ def _range(axes: Axes, quantity: str, envelope: Envelope, names: tuple[str, ...]
 
 def _strip(axes: Axes, curves: Curves, of: np.ndarray, names: tuple[str, ...], bottom: float) -> None:
     """Draw which combination governs along the beam, with its name where there is room."""
-    changes = [0, *(np.flatnonzero(np.diff(of)) + 1).tolist(), len(of)]
-    place = blended_transform_factory(axes.transData, axes.transAxes)
+    changes = np.concatenate(([0], np.flatnonzero(np.diff(of)) + 1, [len(of)]))
+    ends = np.append(curves.x[changes[:-1]], curves.x[-1])
     left, right = axes.get_xlim()
     scale = (WIDTH - LEFT - RIGHT) * 72 / (right - left)
-    for k, (first, last) in enumerate(pairwise(changes)):
-        a, b = float(curves.x[first]), float(curves.x[min(last, len(of) - 1)])
-        axes.fill_between([a, b], bottom, bottom + STRIP, color=SHADES[k % 2], linewidth=0, transform=place, zorder=2,
-                          label="governs")  # fmt: skip
+    if len(changes) > MOST_STRIPS:
+        return  # no eye could part them
+    place = blended_transform_factory(axes.transData, axes.transAxes)
+    for shade in (0, 1):
+        pairs = [(a, b - a) for a, b in list(pairwise(ends.tolist()))[shade::2]]
+        axes.broken_barh(pairs, (bottom, STRIP), facecolors=SHADES[shade], linewidth=0, transform=place, zorder=2, label="governs")
+    for first, (a, b) in zip(changes.tolist(), pairwise(ends.tolist()), strict=False):
         name = visible(names[of[first]])
         if text_width(name) < (b - a) * scale:
             axes.text((a + b) / 2, bottom + STRIP / 2, name, fontsize=5.5, ha="center", va="center", transform=place, zorder=6)

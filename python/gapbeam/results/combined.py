@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..base.errors import EngineError, SceneError, Status, check_status
+from ..base.memory import refuse_beyond
 from ..base.records import Pickled, read_only
 from ..engine.beam import Beam, RefusalError
 from ..engine.combinations import Combined, Failure, all_combinations, solve_combinations
@@ -219,6 +220,9 @@ class CombinedResult(Result):
         super().__init__(scene, beam, rule)
         self.names = plan.names
         self._plan, self._start = plan, start
+        numbers = 4 * beam.scene_supports + beam.supports + len(scene.loads) + 40
+        what = f"the results of {len(plan):,} combinations"
+        refuse_beyond("combinations", what, 16.0 * len(plan) * numbers, "take fewer at a time")
         self._combinations = Combinations(plan, beam, rule, start)
         self._words = (
             f"the scene has {len(plan)} combinations, each with a result of its own; take for example "
@@ -277,6 +281,10 @@ class CombinedResult(Result):
         return self._seconds
 
     def _chosen(self, step: int | None, factor: float | None = None) -> Step:
+        raise ValueError(self._words)
+
+    def history(self) -> list[tuple[float, tuple[str, ...]]]:
+        """Refuse: every combination has a history of its own."""
         raise ValueError(self._words)
 
     def state(self, factor: float) -> Step:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, overload
 
 import numpy as np
 
@@ -155,6 +155,49 @@ class Curves(Record):
         return found
 
 
+class SupportExtremes(Sequence):
+    """Extremes at the supports of a scene, each made when it is looked at.
+
+    Parameters
+    ----------
+    of : Envelope
+        Whose they are.
+    """
+
+    def __init__(self, of: Envelope):
+        self._of = of
+        self._x = of.scene.positions(of.scene.supports)
+        self._rows = [AT_SUPPORTS.index(name) for name in OF_SUPPORTS]
+        values = of.at_supports[:, self._rows]
+        self._of_all = {
+            kind: best(values, axis=0) if len(self._x) else np.zeros((len(self._rows), 0), int)
+            for kind, best in (("max", np.nanargmax), ("min", np.nanargmin))
+        }
+
+    def __len__(self) -> int:
+        """Count the supports."""
+        return len(self._x)
+
+    @overload
+    def __getitem__(self, index: int) -> dict[str, dict[str, Extreme]]: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> list[dict[str, dict[str, Extreme]]]: ...
+
+    def __getitem__(self, index: int | slice) -> Any:
+        """Give the extremes of a support: by quantity, then by ``max`` and ``min``."""
+        if isinstance(index, slice):
+            return [self[k] for k in range(len(self))[index]]
+        k = range(len(self))[index]
+        return {
+            name: {
+                kind: Extreme(self._of, name, self._of.at_supports[:, row, k], int(which[i, k]), float(self._x[k]), k, sign)
+                for (kind, which), sign in zip(self._of_all.items(), (1, -1), strict=True)
+            }
+            for i, (name, row) in enumerate(zip(OF_SUPPORTS, self._rows, strict=True))
+        }
+
+
 class Envelope:
     """Largest and smallest values over all combinations that are solved, each at its full load; never floored at zero.
 
@@ -164,7 +207,7 @@ class Envelope:
         Where values may come from: the combinations.
     extremes : dict
         By field ``{"max": Extreme, "min": Extreme}``: exact values along the whole beam.
-    supports : list of dict
+    supports : sequence of dict
         For every support by quantity (``reaction``, ``opening``, ``deflection``) the same.
     """
 
@@ -212,23 +255,9 @@ class Envelope:
         return found
 
     @cached_property
-    def supports(self) -> list[dict[str, dict[str, Extreme]]]:
+    def supports(self) -> SupportExtremes:
         """Extremes at every support, in the order of the scene, by quantity and by ``max`` and ``min``."""
-        x = self.scene.positions(self.scene.supports).tolist()
-        rows = [AT_SUPPORTS.index(name) for name in OF_SUPPORTS]
-        most, least = (
-            best(self.at_supports[:, rows], axis=0) if x else np.zeros((len(rows), 0), int) for best in (np.nanargmax, np.nanargmin)
-        )
-        return [
-            {
-                name: {
-                    kind: Extreme(self, name, self.at_supports[:, row, k], int(which[i, k]), x[k], k, sign)
-                    for kind, which, sign in (("max", most, 1), ("min", least, -1))
-                }
-                for i, (name, row) in enumerate(zip(OF_SUPPORTS, rows, strict=True))
-            }
-            for k in range(len(x))
-        ]
+        return SupportExtremes(self)
 
     @cached_property
     def fields(self) -> Curves:
