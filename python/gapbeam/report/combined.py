@@ -126,7 +126,7 @@ def _factors_between(say: Writer, result: "CombinedResult") -> None:
         largest |= {(name, k, kind): one.value for name in ("reaction", "opening") for kind, one in row[name].items()}
     found = list(beyond(result.hints(), largest))
     if not found:
-        say.line("Nothing is greater where the loads (all but the dead ones) have a part of their factors only.")
+        say.line("Nothing is greater where all loads but the dead ones have only a part of their factors.")
         return
     names = labels(scene.supports)
     words = dict(PLACES)

@@ -23,7 +23,7 @@ CLOSE = 1e-9
 
 @dataclass(frozen=True, slots=True)
 class Hint:
-    """An extreme that is greater at some load factor below 1 than at full load.
+    """An extreme that is greater at some load factor between 0 and 1 than at either end.
 
     Attributes
     ----------
@@ -63,7 +63,7 @@ class Hint:
 
 
 def find_hints(result: Result, combination: str | None = None) -> list[Hint]:
-    """Follow the load from the dead loads alone to the full load, and compare extremes on the way with those at its end.
+    """Follow the load from the dead loads alone to the full load, and compare extremes on the way with those at both ends.
 
     Between two events all values are linear in the load factor, so every extreme is greatest at an event, or at one of the ends:
     nothing is missed between.
@@ -84,7 +84,6 @@ def find_hints(result: Result, combination: str | None = None) -> list[Hint]:
     states = _states(result)
     if not states:
         return []
-    *before, last = states
     x = result.scene.positions(result.scene.supports)
     found = []
     rows = [_values(result, step, x) for step in states]
@@ -95,8 +94,9 @@ def find_hints(result: Result, combination: str | None = None) -> list[Hint]:
         for column, (kind, sign) in enumerate((("max", 1.0), ("min", -1.0))):
             values = sign * table[:, column, 0]
             k = int(values.argmax())
-            more = values[k] - values[-1]
-            if k == len(before) or more <= CLOSE * scale or more <= _bound(states[k], quantity) + _bound(last, quantity):
+            end = 0 if values[0] > values[-1] else len(values) - 1
+            more = values[k] - values[end]
+            if more <= CLOSE * scale or more <= _bound(states[k], quantity) + _bound(states[end], quantity):
                 continue
             found.append(
                 Hint(combination, quantity, kind, float(factors[k]), sign * float(values[k]), float(table[k, column, 1]), support,

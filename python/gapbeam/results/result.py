@@ -478,7 +478,7 @@ class Result(Pickled):
         return envelope_of_one(self, points, places)
 
     def hints(self) -> list[Hint]:
-        """Where a load factor between 0 (the dead loads alone) and 1 governs: extremes that are greater there than at 1.
+        """Where a load factor between 0 (the dead loads alone) and 1 governs: extremes that are greater there than at both ends.
 
         Returns
         -------
