@@ -67,7 +67,7 @@ Units: any consistent set. The scene's labels go into the report and change no n
 STATUSES = """\
 Exit status:
   0    solved, or the scene is valid
-  1    the structure cannot stand: the report says how it moves
+  1    the structure cannot stand, or not in one of its combinations: the report says how it moves
   2    refused: bad input, a file that cannot be read or written, or a scene without one single answer;
        one line on standard error says why, no file is written
   3    failed: not enough memory, or a fault of gapbeam; one line says what happened and what to do
@@ -165,7 +165,7 @@ def _parser() -> argparse.ArgumentParser:
     run = commands.add_parser(
         "run", help="solve a scene and report", formatter_class=plain, epilog=f"{SCENE}\n{SIGNS}\n{STATUSES}",
         description="Solve a scene and print a report: the system, which supports act over the load, reactions and "
-        "openings,\nextremes with their places, residuals against run time.",
+        "openings,\nextremes with their places, residuals against run time; of combinations what governs.",
     )  # fmt: skip
     _add_scene(run)
     run.add_argument("--json", metavar="FILE", help="write everything as JSON (.json); - is standard output, without report")
