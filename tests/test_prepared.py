@@ -168,3 +168,11 @@ def test_movements_of_cases_are_checked():
         beam.solve(settlements={"C": 1.0})
     with pytest.raises(ValueError, match=r"settlements\.A: expected a finite number, or 1"):
         beam.solve(settlements={"A": [1.0, 2.0]})
+
+
+def test_cases_are_those_that_were_solved():
+    beam = gapbeam.prepare(scene([2.0], [at(0), at(1)], [uniform(1.0)]))
+    factors = np.array([[1.0], [2.0]])
+    cases = beam.solve(factors)
+    factors[:] = 5.0
+    assert cases.at(1.0).moment.tolist() == [0.5, 1.0]

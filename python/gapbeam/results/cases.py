@@ -227,7 +227,7 @@ class Prepared(Pickled):
                [10.  , 14.  ,  0.  ]])
         """
         factors = self._checked(factors)
-        many = factors if factors.ndim == 2 else factors[None]
+        many = (factors if factors.ndim == 2 else factors[None]).copy()  # what is asked later is about these
         carries = self._carries
         closed: Any = 1
         if start is None:
