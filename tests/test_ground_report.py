@@ -169,7 +169,7 @@ def test_a_zone_vanishes_where_it_was_last():
 
 def test_json_has_either_support_or_foundation(following):
     data = json.loads(to_json(following))
-    assert data["events"] == [event_data(event) for event in following.events]
+    assert data["events"] == [event_data(event, following.scene) for event in following.events]
     zones = [event for event in data["events"] if "foundation" in event]
     supports = [event for event in data["events"] if "support" in event]
     assert {tuple(event) for event in zones} == {("factor", "foundation", "x", "event")}
@@ -179,7 +179,8 @@ def test_json_has_either_support_or_foundation(following):
 
 def test_json_names_a_branch_beyond_the_first():
     event = GroundEvent(0.5, None, 2, 3.0, "zone appears", 2)
-    assert event_data(event) == {"factor": 0.5, "foundation": 2, "x": 3.0, "event": "zone appears", "branch": 2}
+    scene = gapbeam.Scene(beam=gapbeam.Beam([1.0], EI=1.0), foundation=[gapbeam.Foundation(k=1.0)] * 3)
+    assert event_data(event, scene) == {"factor": 0.5, "foundation": 2, "x": 3.0, "event": "zone appears", "branch": 2}
 
 
 def test_json_and_csv_have_the_pressure(on_rail):

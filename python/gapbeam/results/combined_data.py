@@ -59,7 +59,7 @@ def _one(result: Result) -> dict[str, Any]:
     if result.limits:
         data["limit"] = limit_data(result)
     if result.scene.analysis.follow == "events":
-        data["events"] = [event_data(event) for event in result.events]
+        data["events"] = [event_data(event, result.scene) for event in result.events]
     if not result.steps:
         return data
     steps = list(step_data(result))

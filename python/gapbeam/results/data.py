@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import Any
 
+from ..scene.structs import Scene
 from .branches import BranchPath
 from .ground_path import GroundEvent
 from .path import Event
@@ -58,7 +59,7 @@ def result_data(
     if result.limits:
         data["limit"] = limit_data(result)
     if scene.analysis.follow == "events":
-        data["events"] = [event_data(event) for event in result.events]
+        data["events"] = [event_data(event, scene) for event in result.events]
     if result.steps:
         data["fields"] = columns
         data["extremes"] = {
@@ -86,20 +87,25 @@ def name_of(item: Any) -> dict[str, str]:
     return {} if item.name is None else {"name": item.name}
 
 
-def event_data(event: Event | GroundEvent) -> dict[str, Any]:
+def event_data(event: Event | GroundEvent, scene: Scene) -> dict[str, Any]:
     """Give an event as plain data.
 
     Parameters
     ----------
     event : Event or GroundEvent
         Of a support, or of a zone of contact with the ground.
+    scene : Scene
+        Knows their names.
 
     Returns
     -------
     dict
         ``support`` or ``foundation`` is there, the number of what changes; ``branch`` only beyond the first.
     """
-    what = {"support": event.support} if event.support is not None else {"foundation": event.foundation}
+    if event.support is not None:
+        what = {"support": event.support, **name_of(scene.supports[event.support])}
+    else:
+        what = {"foundation": event.foundation, **name_of(scene.foundation[event.foundation])}
     branch = getattr(event, "branch", 1)
     further = {"branch": branch} if branch != 1 else {}
     return {"factor": event.factor, **what, "x": event.x, "event": event.event, **further}
