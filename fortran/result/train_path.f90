@@ -35,6 +35,8 @@ module gapbeam_train_path
     !> Where the scheme is looked for first, and nearest, as shares of what is left of the reach; the largest share that is left
     !> out where nothing else leads on
     real(wp), parameter :: first_share = 2.0_wp**(-20), least_share = 2.0_wp**(-42), largest_share = 2.0_wp**(-24)
+    !> What is a sliver of a reach
+    real(wp), parameter :: sliver = 2.0_wp**(-16)
     !> Changes of the scheme in a reach at most: so many, and so many a support
     integer, parameter :: most_changes = 200, most_of_each = 20
 
@@ -119,19 +121,19 @@ contains
         logical, allocatable :: at_end(:)
         real(wp) :: now, begin, end, skipped
         logical :: solved
-        integer :: changes, looks
+        integer :: changes, searches
 
         allocate (at_end(size(closed)))
         now = passage%reaches(r)%from
         changes = 0
-        looks = 0
+        searches = 0
         skipped = least_share
         do
             if (known) then
                 call sample_margins(track, train, passage%reaches(r), now, closed, margins, work, solved)
                 passage%solves = passage%solves + degree_of(train) + 1
-                if (solved) call find_interval(margins, degree_of(train), 0.0_wp, begin, end, at_end)
-                if (solved .and. begin <= 0.0_wp .and. end > least_share) then
+                if (solved) call find_interval(margins, degree_of(train), resolution(), begin, end, at_end)
+                if (solved .and. end > 2*resolution()) then
                     call accept(gapbeam_solved, end)
                     if (allocated(error) .or. now >= passage%reaches(r)%to) return
                     closed(:) = closed .neqv. at_end
@@ -143,22 +145,33 @@ contains
                 ! What was tried is not right
                 closed(:) = passage%closed(:, max(passage%number, 1))
             end if
+            skipped = max(skipped, resolution())
             call look_further(skipped)
             if (allocated(error) .or. now >= passage%reaches(r)%to) return
-            looks = looks + 1
-            if (looks <= most_changes + most_of_each*size(closed)) cycle
-            call too_near(now)
-            return
+            searches = searches + 1
+            if (searches > most_changes + most_of_each*size(closed)) call too_near(now)
+            if (allocated(error)) return
         end do
 
     contains
 
-        !> Refuse to go on
-        subroutine too_near(place)
-            real(wp), intent(in) :: place
+        !> The share of the rest of the reach that cannot be told from here: events are known to the last digits of positions only
+        pure function resolution() result(share)
+            real(wp) :: share
+
+            share = 0.0_wp
+            associate (reach => passage%reaches(r))
+                if (reach%to > now) share = min(0.25_wp, max(least_share, least_distance(track, train)/(reach%to - now)))
+            end associate
+        end function resolution
+
+        !> Give up
+        subroutine too_near(position)
+            real(wp), intent(in) :: position
 
             call fatal_error(error, gapbeam_not_converged, "so many supports open and close so near to each other that "// &
-                             "rounding decides, about position "//trim(shown(place)))
+                             "rounding decides, about position "//trim(shown(position))//": give the beam some weight, "// &
+                             "or move a support")
         end subroutine too_near
 
         !> Take a stretch from here to a share of the rest
@@ -170,9 +183,8 @@ contains
 
             associate (reach => passage%reaches(r))
                 to = reach%to
-                ! Near the end of a reach a share of its rest may be nothing beside the position itself
-                if (share < 1.0_wp) to = min(now + max(share*(reach%to - now), least_distance(track, train)/8), reach%to)
-                if (reach%to - to <= least_distance(track, train)/8) to = reach%to
+                if (share < 1.0_wp) to = min(now + share*(reach%to - now), reach%to)
+                if (reach%to - to <= least_distance(track, train)) to = reach%to
             end associate
             stat = 0
             if (passage%number == size(passage%from)) call lengthen(passage, size(closed), 2*passage%number, stat)
@@ -194,6 +206,18 @@ contains
             known = status == gapbeam_solved
         end subroutine accept
 
+        !> Is the rest of a reach but a sliver beside positions at which the beam can move freely: what is loaded by next to nothing
+        !> there rounding alone tells
+        function nearly_all_free() result(so)
+            logical :: so
+
+            so = passage%number > 0
+            if (so) so = passage%status(max(passage%number, 1)) == not_unique
+            associate (reach => passage%reaches(r))
+                so = so .and. now > reach%from .and. reach%to - now <= sliver*(reach%to - reach%from)
+            end associate
+        end function nearly_all_free
+
         !> Find the scheme that acts from here on
         subroutine look_further(least)
             !> Shares that are left out; grows where nothing else leads on
@@ -207,6 +231,10 @@ contains
 
             allocate (before(size(closed)))
             before(:) = closed
+            if (nearly_all_free()) then
+                call accept(not_unique, 1.0_wp)
+                return
+            end if
             associate (reach => passage%reaches(r))
                 share = merge(first_share, 0.0_wp, reach%to > reach%from)
                 closely = .false.
@@ -234,7 +262,7 @@ contains
                         call find_interval(margins, degree_of(train), share, begin, end, at_end)
                     else if (right) then
                         begin = 0.0_wp
-                        end = merge(1.0_wp, share, stays_free(track, train, reach, now, before))
+                        end = free_until(track, train, reach, now, share, before)
                     end if
                     if (right) right = end > 0.0_wp .or. .not. reach%to > reach%from
                     if (.not. right .and. .not. closely) then
@@ -249,7 +277,7 @@ contains
                     if (.not. reach%to > reach%from) exit
                     if (right .and. begin <= least) exit
                     if (share <= least) then
-                        if (least > largest_share) then
+                        if (least > max(largest_share, 64*resolution())) then
                             call too_near(place)
                             return
                         end if
@@ -261,7 +289,7 @@ contains
                     share = max(min(share/2, begin/2), least)
                 end do
                 if (.not. reach%to > reach%from) end = 1.0_wp
-                end = max(end, least_share)
+                end = max(end, 2*resolution())
                 if (outcome%status == gapbeam_no_equilibrium) then
                     closed(:) = before
                     call accept(gapbeam_no_equilibrium, end)
@@ -395,30 +423,40 @@ contains
         end do
     end function are_zero
 
-    !> Does a beam that can move freely without work of the loads stay so to the end of a reach
-    function stays_free(track, train, reach, now, start) result(stays)
+    !> How far a beam that can move freely without work of the loads stays so: tried at a few places up to the end of the reach,
+    !> else half as far, and so on
+    function free_until(track, train, reach, now, least, start) result(share)
         type(track_type), intent(inout) :: track
         type(train_type), intent(in) :: train
         type(reach_type), intent(in) :: reach
         real(wp), intent(in) :: now
+        !> Known to be so up to this share of what is left
+        real(wp), intent(in) :: least
         logical, intent(in) :: start(:)
-        logical :: stays
+        real(wp) :: share
         type(workspace_type) :: work
         type(outcome_type) :: outcome
         type(error_type), allocatable :: error
-        logical :: closed(size(start))
+        logical :: closed(size(start)), stays
         integer :: k
 
-        stays = .true.
         call new_workspace(track%beam, work)
-        do k = 1, 3
-            closed(:) = start
-            call place_train(track, train, reach, now + (k/3.0_wp - first_share)*(reach%to - now))
-            call set_loads(track%beam, 1.0_wp, work)
-            call find_scheme(track%beam, 1.0_wp, rule_block, closed, work, outcome, error)
-            stays = stays .and. .not. allocated(error) .and. outcome%indifferent
+        share = 1.0_wp
+        do while (share > least)
+            stays = .true.
+            do k = 3, 1, -1
+                closed(:) = start
+                call place_train(track, train, reach, now + share*(k/3.0_wp - first_share)*(reach%to - now))
+                call set_loads(track%beam, 1.0_wp, work)
+                call find_scheme(track%beam, 1.0_wp, rule_block, closed, work, outcome, error)
+                stays = .not. allocated(error) .and. outcome%indifferent
+                if (.not. stays) exit
+            end do
+            if (stays) return
+            share = share/2
         end do
-    end function stays_free
+        share = least
+    end function free_until
 
     !> Keep the motion of the last stretch, joined to that before where it is the same
     subroutine keep_motion(passage, motion, error)
