@@ -609,6 +609,58 @@ static void foundations(void)
     free(old);
 }
 
+/* Two spans of 1 with a weight of 1 on supports from below: a force of 8 at s lifts the far end by P s (1 - s^2)/6 - 1/4 */
+static void trains(void)
+{
+    static const double one[] = {1.0, 1.0}, two[] = {2.0}, weight[] = {1.0}, zero[] = {0.0}, eight[] = {8.0}, end = 1.0, place = 8/17.0;
+    static const int below[] = {GAPBEAM_BELOW, GAPBEAM_BELOW, GAPBEAM_BELOW}, nodes[] = {0, 1, 2};
+    static const int kind[] = {GAPBEAM_DISTRIBUTED}, dead[] = {GAPBEAM_DEAD};
+    double position[2], from[1], to[1], fields[4][2][4], supports[3][4][2][4], value[1][4][2], at[1][4][2];
+    int support[2], condition[2], change[2], freely[1], number = -1;
+    char message[200];
+    gapbeam_model model;
+    gapbeam_beam *beam;
+    gapbeam_passing *passing;
+
+    gapbeam_model_init(&model, sizeof model);
+    model.spans = 2;
+    model.length = one;
+    model.EI = one;
+    model.supports = 3;
+    model.support_node = nodes;
+    model.support_side = below;
+    model.loads = 1;
+    model.load_kind = kind;
+    model.load_case = dead;
+    model.load_x = zero;
+    model.load_to = two;
+    model.load_value = weight;
+    check(prepare(&model, &beam) == GAPBEAM_SOLVED, "prepared");
+    check(gapbeam_follow_train(beam, 1, zero, eight, 0.0, 0, NULL, &end, &passing, NULL, 0) == GAPBEAM_SOLVED && passing, "it passes");
+    check(gapbeam_get_train_events(passing, 2, position, support, condition, change, &number) == GAPBEAM_SOLVED && number == 2,
+          "two events");
+    check(support[0] == 2 && change[0] == GAPBEAM_OPENS && change[1] == GAPBEAM_CLOSES && condition[1] == GAPBEAM_CLOSED, "what");
+    check_close(position[0], 0.19490392008291112, "where it opens");
+    check_close(position[1], 0.88819977685765608, "and closes");
+    check(gapbeam_get_train_gaps(passing, 1, from, to, freely, &number) == GAPBEAM_SOLVED && number == 0, "it stands");
+    check(gapbeam_get_train_extremes(beam, passing, fields, supports) == GAPBEAM_SOLVED, "extremes");
+    check_close(fields[GAPBEAM_MOMENT][0][0], 32/17.0, "largest moment");
+    check_close(fields[GAPBEAM_MOMENT][0][2], place, "its position");
+    check_close(supports[2][1][0][0], 8*sqrt(3.0)/27 - 0.25, "largest opening");
+    check(gapbeam_get_train_extremes(beam, passing, NULL, NULL) == GAPBEAM_SOLVED, "for nobody");
+    check(gapbeam_get_train_curves(beam, passing, 1, &place, value, at, NULL, 0) == GAPBEAM_SOLVED, "curves");
+    check_close(value[0][GAPBEAM_MOMENT][0], 32/17.0, "the same there");
+    check(gapbeam_get_train_curves(beam, passing, 1, NULL, value, at, NULL, 0) == GAPBEAM_BAD_INPUT, "no places");
+    gapbeam_free_passing(passing);
+    gapbeam_free_passing(NULL);
+    check(gapbeam_follow_train(beam, 0, zero, eight, 0.0, 0, NULL, NULL, &passing, NULL, 0) == GAPBEAM_BAD_INPUT && !passing, "no axle");
+    check(gapbeam_follow_train(beam, 1, zero, eight, 0.0, 0, &end, zero, &passing, message, sizeof message) == GAPBEAM_BAD_INPUT
+          && strstr(message, "from must be"), "no position");
+    check(gapbeam_follow_train(NULL, 1, zero, eight, 0.0, 0, NULL, NULL, &passing, NULL, 0) == GAPBEAM_NOT_PREPARED, "no beam");
+    check(gapbeam_get_train_events(NULL, 0, NULL, NULL, NULL, NULL, NULL) == GAPBEAM_NOT_PREPARED, "no train");
+    gapbeam_free_beam(beam);
+}
+
 /* The caller's traps, rounding and flags survive, also where numbers leave the range; nothing is raised in between */
 static void environment(void)
 {
@@ -666,6 +718,7 @@ int main(void)
     all_loads();
     laws_and_histories();
     foundations();
+    trains();
     environment();
     names_and_sizes();
     printf("1..%d\n", checks);

@@ -1,0 +1,330 @@
+!> Trains, for Fortran: loads that move together over a beam, followed from event to event in their position; as gapbeam_api in all
+!> else.
+!>
+!>     type(moving_train_type) :: train
+!>     type(passing_type) :: passing
+!>
+!>     train = moving_train_type(distance=[0d0, 3.6d0], force=[185d0, 185d0])
+!>     call follow_train(beam, train, passing, error)                     ! passing%events, passing%gaps
+!>     call get_train_extremes(beam, passing, fields, supports, error)    ! largest and smallest values, exact in place and position
+!>
+!> The position of a train is that of its first axle. All loads of the beam stay, dead and live ones in full
+module gapbeam_api_trains
+    use, intrinsic :: ieee_arithmetic, only: ieee_status_type, ieee_get_status, ieee_set_status, ieee_set_halting_mode, &
+        ieee_set_rounding_mode, ieee_nearest, ieee_all, ieee_is_finite
+    use gapbeam_kinds, only: wp
+    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_bad_input, gapbeam_not_prepared
+    use gapbeam_words, only: shown, whole
+    use gapbeam_scene, only: gapbeam_unchanged
+    use gapbeam_lowered, only: lowered_type, point_x
+    use gapbeam_query, only: find_pieces
+    use gapbeam_train, only: train_type, track_type, new_track, least_distance
+    use gapbeam_train_path, only: passage_type, pass_train, not_unique
+    use gapbeam_train_events, only: train_event_type, find_events
+    use gapbeam_train_envelope, only: envelope_type, extreme_type, find_envelope
+    use gapbeam_train_curves, only: find_curves
+    use gapbeam_api, only: prepared_type, require_beam, require_no_path, require_size
+    implicit none
+    private
+    public :: moving_train_type, passing_type, train_event_type, train_gap_type, train_extreme_type
+    public :: follow_train, get_train_extremes, get_train_curves
+
+    !> Loads that move together
+    type :: moving_train_type
+        !> Distances of the axles behind the first one, 0 or more, and their forces, down, both of one size
+        real(wp), allocatable :: distance(:), force(:)
+        !> Uniform load over the length of the train, down
+        real(wp) :: q = 0.0_wp
+        !> Does it go to the left; its axles then stand to the right of the first one
+        logical :: to_the_left = .false.
+        !> Positions, in ascending order; gapbeam_unchanged: from the first axle on the beam, to the last
+        real(wp) :: from = gapbeam_unchanged, to = gapbeam_unchanged
+    end type moving_train_type
+
+    !> Positions at which the beam does not stand, or can move freely without work of the loads
+    type :: train_gap_type
+        real(wp) :: from = 0.0_wp, to = 0.0_wp
+        logical :: moves_freely = .false.
+    end type train_gap_type
+
+    !> A largest or smallest value, and where it is; of a support x is 0
+    type :: train_extreme_type
+        !> Is there one: some position is solved
+        logical :: known = .false.
+        real(wp) :: value = 0.0_wp, x = 0.0_wp, position = 0.0_wp
+        !> -1 left of x, 1 right of it, where a field jumps; 0 on both sides
+        integer :: side = 0
+        !> How many places and positions have this value; of 16 and more 16
+        integer :: ties = 0
+    end type train_extreme_type
+
+    !> A train on its way over a beam
+    type :: passing_type
+        private
+        !> Changes of the working scheme, in the order in which they happen
+        type(train_event_type), allocatable, public :: events(:)
+        !> In the order in which they are met
+        type(train_gap_type), allocatable, public :: gaps(:)
+        !> Linear solves
+        integer, public :: solves = 0
+        integer :: fingerprint = 0
+        type(train_type) :: train
+        type(track_type) :: track
+        type(passage_type) :: passage
+    end type passing_type
+
+contains
+
+    !> Move a train over a beam: every change of the working scheme at its exact position
+    subroutine follow_train(beam, train, passing, error)
+        !> Prepared; without foundations, axial loads and laws whose state depends on the way of the load
+        type(prepared_type), intent(in) :: beam
+        type(moving_train_type), intent(in) :: train
+        type(passing_type), intent(out) :: passing
+        !> gapbeam_bad_input, gapbeam_not_prepared; gapbeam_indeterminate, gapbeam_not_converged, gapbeam_not_finite or
+        !> gapbeam_no_memory
+        type(error_type), allocatable, intent(out) :: error
+        type(ieee_status_type) :: environment
+        real(wp) :: from, to
+
+        call require_beam(beam, error)
+        if (.not. allocated(error)) call require_no_path(beam, error)
+        if (.not. allocated(error)) call require_no_more(beam%lowered, error)
+        if (.not. allocated(error)) call check_train(beam%lowered, train, from, to, error)
+        if (allocated(error)) return
+        call ieee_get_status(environment)
+        call ieee_set_halting_mode(ieee_all, .false.)
+        call ieee_set_rounding_mode(ieee_nearest)
+        call put_axles(train, passing%train, error)
+        if (.not. allocated(error)) call new_track(beam%lowered, passing%track, error)
+        if (.not. allocated(error)) call pass_train(beam%lowered, passing%track, passing%train, from, to, passing%passage, error)
+        if (.not. allocated(error)) call find_events(beam%lowered, passing%passage, train%to_the_left, passing%events, error)
+        if (.not. allocated(error)) call find_gaps(passing%passage, train%to_the_left, passing%gaps, error)
+        if (.not. allocated(error)) then
+            passing%solves = passing%passage%solves
+            passing%fingerprint = beam%lowered%fingerprint
+        end if
+        call ieee_set_status(environment)
+    end subroutine follow_train
+
+    !> Largest and smallest values over all positions, exact in place and position
+    subroutine get_train_extremes(beam, passing, fields, supports, error)
+        !> The beam that it passes
+        type(prepared_type), intent(in) :: beam
+        type(passing_type), intent(inout) :: passing
+        !> Largest (1) and smallest (2) deflection, rotation, moment, shear
+        type(train_extreme_type), intent(out) :: fields(2, 4)
+        !> The same of reaction, opening, deflection, couple of every support, shape (2, 4, count_supports(beam))
+        type(train_extreme_type), intent(out) :: supports(:, :, :)
+        !> gapbeam_not_prepared, gapbeam_bad_input for an array of another size, gapbeam_no_memory
+        type(error_type), allocatable, intent(out) :: error
+        type(ieee_status_type) :: environment
+        type(envelope_type) :: envelope
+
+        call require_passing(beam, passing, error)
+        if (allocated(error)) return
+        call require_size(size(beam%lowered%model%supports), [size(supports, 3)], error)
+        if (allocated(error)) return
+        call ieee_get_status(environment)
+        call ieee_set_halting_mode(ieee_all, .false.)
+        call ieee_set_rounding_mode(ieee_nearest)
+        call find_envelope(beam%lowered, passing%track, passing%train, passing%passage, envelope, error)
+        if (.not. allocated(error)) then
+            fields(:, :) = first_tie(envelope%fields, least_distance(passing%track, passing%train))
+            supports(:, :, :) = first_tie(envelope%supports, least_distance(passing%track, passing%train))
+        end if
+        call ieee_set_status(environment)
+    end subroutine get_train_extremes
+
+    !> Largest and smallest fields at places of the beam over all positions; where a field jumps, of both sides
+    subroutine get_train_curves(beam, passing, x, value, position, error)
+        !> The beam that it passes
+        type(prepared_type), intent(in) :: beam
+        type(passing_type), intent(inout) :: passing
+        !> Places, shape (n)
+        real(wp), intent(in) :: x(:)
+        !> Largest (1) and smallest (2) deflection, rotation, moment, shear, and the positions of the train, shape (2, 4, n);
+        !> where no position is solved -huge and huge
+        real(wp), intent(out) :: value(:, :, :), position(:, :, :)
+        !> As for get_train_extremes; gapbeam_bad_input also for a place off the beam
+        type(error_type), allocatable, intent(out) :: error
+        type(ieee_status_type) :: environment
+        integer, allocatable :: piece(:)
+        real(wp), allocatable :: distance(:), other(:, :, :), other_position(:, :, :)
+        integer :: i, stat
+
+        call require_passing(beam, passing, error)
+        if (.not. allocated(error)) call require_size(size(x), [size(value, 3), size(position, 3)], error)
+        if (allocated(error)) return
+        allocate (other(2, 4, size(x)), other_position(2, 4, size(x)), stat=stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        call ieee_get_status(environment)
+        call ieee_set_halting_mode(ieee_all, .false.)
+        call ieee_set_rounding_mode(ieee_nearest)
+        call find_pieces(beam%lowered, x, .false., piece, distance, error)
+        if (.not. allocated(error)) call find_curves(beam%lowered, passing%track, passing%train, passing%passage, piece, distance, &
+                                                     value, position, error)
+        if (.not. allocated(error)) call find_pieces(beam%lowered, x, .true., piece, distance, error)
+        if (.not. allocated(error)) call find_curves(beam%lowered, passing%track, passing%train, passing%passage, piece, distance, &
+                                                     other, other_position, error)
+        if (.not. allocated(error)) then
+            do i = 1, 2
+                where (merge(1.0_wp, -1.0_wp, i == 1)*(other(i, :, :) - value(i, :, :)) > 0.0_wp)
+                    value(i, :, :) = other(i, :, :)
+                    position(i, :, :) = other_position(i, :, :)
+                end where
+            end do
+        end if
+        call ieee_set_status(environment)
+    end subroutine get_train_curves
+
+    !> Refuse beams over which no train is followed
+    subroutine require_no_more(lowered, error)
+        type(lowered_type), intent(in) :: lowered
+        type(error_type), allocatable, intent(out) :: error
+
+        if (allocated(lowered%layers)) then
+            call fatal_error(error, gapbeam_bad_input, "trains on a foundation are not available in this version: "// &
+                             "give positions as loads, or springs as supports")
+        else if (allocated(lowered%axial%point)) then
+            call fatal_error(error, gapbeam_bad_input, "trains beside axial loads are not available in this version: "// &
+                             "prepare the axial loads apart")
+        end if
+    end subroutine require_no_more
+
+    !> Refuse a train that makes no sense, and find its positions
+    subroutine check_train(lowered, train, from, to, error)
+        type(lowered_type), intent(in) :: lowered
+        type(moving_train_type), intent(in) :: train
+        real(wp), intent(out) :: from, to
+        type(error_type), allocatable, intent(out) :: error
+        real(wp) :: end, longest
+        integer :: i
+
+        from = 0.0_wp
+        to = 0.0_wp
+        if (.not. (allocated(train%distance) .and. allocated(train%force))) then
+            call fatal_error(error, gapbeam_bad_input, "train: distance or force is not allocated")
+            return
+        end if
+        if (size(train%distance) /= size(train%force) .or. size(train%force) == 0) then
+            call fatal_error(error, gapbeam_bad_input, "train: expected as many forces as distances, 1 or more, got "// &
+                             trim(whole(size(train%force)))//" and "//trim(whole(size(train%distance))))
+            return
+        end if
+        do i = 1, size(train%distance)
+            if (.not. (ieee_is_finite(train%distance(i)) .and. train%distance(i) >= 0.0_wp)) then
+                call fatal_error(error, gapbeam_bad_input, "distance("//trim(whole(i))//"): expected a distance behind "// &
+                                 "the first axle, 0 or more, got "//trim(shown(train%distance(i))))
+            else if (.not. ieee_is_finite(train%force(i))) then
+                call fatal_error(error, gapbeam_bad_input, "force("//trim(whole(i))//"): expected a finite number, got "// &
+                                 trim(shown(train%force(i))))
+            end if
+            if (allocated(error)) return
+        end do
+        if (.not. all(ieee_is_finite([train%q, train%from, train%to]))) then
+            call fatal_error(error, gapbeam_bad_input, "train: q, from and to must be finite")
+            return
+        end if
+        end = point_x(lowered, size(lowered%pieces))
+        longest = maxval(train%distance)
+        from = train%from
+        to = train%to
+        if (.not. from > gapbeam_unchanged) from = merge(-longest, 0.0_wp, train%to_the_left)
+        if (.not. to > gapbeam_unchanged) to = merge(end, end + longest, train%to_the_left)
+        if (from > to) call fatal_error(error, gapbeam_bad_input, "the positions from "//trim(shown(from))//" to "// &
+                                        trim(shown(to))//" are none: from must be at most to")
+    end subroutine check_train
+
+    !> Axles as distances from the position, to the right
+    subroutine put_axles(given, train, error)
+        type(moving_train_type), intent(in) :: given
+        type(train_type), intent(out) :: train
+        type(error_type), allocatable, intent(out) :: error
+        real(wp) :: longest
+        integer :: stat
+
+        associate (n => size(given%force))
+            allocate (train%offset(n), train%force(n), stat=stat)
+        end associate
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        longest = maxval(given%distance)
+        train%offset(:) = merge(given%distance, -given%distance, given%to_the_left)
+        train%force(:) = given%force
+        train%q = given%q
+        train%q_from = merge(0.0_wp, -longest, given%to_the_left)
+        train%q_to = merge(longest, 0.0_wp, given%to_the_left)
+    end subroutine put_axles
+
+    !> Stretches that are not solved, joined where they are alike
+    subroutine find_gaps(passage, backwards, gaps, error)
+        type(passage_type), intent(in) :: passage
+        logical, intent(in) :: backwards
+        type(train_gap_type), allocatable, intent(out) :: gaps(:)
+        type(error_type), allocatable, intent(out) :: error
+        type(train_gap_type) :: found(passage%number)
+        integer :: k, last, number, stat
+
+        number = 0
+        last = 0
+        do k = 1, passage%number
+            if (passage%status(k) == gapbeam_solved) cycle
+            if (last == k - 1 .and. number > 0) then
+                if (passage%status(k) == passage%status(last) .and. passage%motion_of(k) == passage%motion_of(last)) then
+                    found(number)%to = passage%to(k)
+                    last = k
+                    cycle
+                end if
+            end if
+            number = number + 1
+            found(number) = train_gap_type(passage%from(k), passage%to(k), passage%status(k) == not_unique)
+            last = k
+        end do
+        allocate (gaps(number), stat=stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        gaps(:) = found(:number)
+        if (backwards) gaps(:) = found(number:1:-1)
+    end subroutine find_gaps
+
+    !> The first one of those that tie
+    elemental function first_tie(extreme, near) result(found)
+        type(extreme_type), intent(in) :: extreme
+        !> Distance below which an axle is at the end of the beam
+        real(wp), intent(in) :: near
+        type(train_extreme_type) :: found
+        real(wp), parameter :: beyond(0:2) = [0.0_wp, 2.0_wp, -2.0_wp]
+        integer, parameter :: sides(0:2) = [0, -1, 1]
+
+        if (extreme%number == 0) return
+        associate (tie => extreme%ties(1))
+            ! An axle that is not on the beam there is one that is not so near to its end
+            found = train_extreme_type(.true., tie%value, tie%x, tie%position + beyond(tie%limit)*near, sides(tie%side), &
+                                       extreme%number)
+        end associate
+    end function first_tie
+
+    !> Refuse what did not pass this beam
+    subroutine require_passing(beam, passing, error)
+        type(prepared_type), intent(in) :: beam
+        type(passing_type), intent(in) :: passing
+        type(error_type), allocatable, intent(out) :: error
+
+        call require_beam(beam, error)
+        if (allocated(error)) return
+        if (.not. allocated(passing%events)) then
+            call fatal_error(error, gapbeam_not_prepared, "no train has passed: call follow_train first")
+        else if (passing%fingerprint /= beam%lowered%fingerprint) then
+            call fatal_error(error, gapbeam_not_prepared, "the train has passed another beam, or one with other loads")
+        end if
+    end subroutine require_passing
+
+end module gapbeam_api_trains

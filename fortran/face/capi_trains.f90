@@ -1,0 +1,209 @@
+!> Trains in the C interface: marshalling only. include/gapbeam.h says what every function does.
+module gapbeam_capi_trains
+    use, intrinsic :: iso_c_binding, only: c_int, c_double, c_char, c_size_t, c_ptr, c_loc, c_f_pointer, c_associated, c_null_ptr
+    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_bad_input, gapbeam_not_prepared
+    use gapbeam_api, only: count_supports
+    use gapbeam_api_trains, only: moving_train_type, passing_type, train_extreme_type, follow_train, get_train_extremes, &
+        get_train_curves
+    use gapbeam_capi, only: beam_handle, get_beam, check_points, report
+    implicit none
+    private
+
+    !> What a handle points to
+    integer, parameter :: passing_tag = 1195529300
+    type :: passing_handle
+        integer :: tag = passing_tag
+        type(passing_type) :: passing
+    end type passing_handle
+
+contains
+
+    !> See the header
+    function c_follow_train(beam, axles, distance, force, q, to_the_left, from, to, passing, message, message_size) result(status) &
+        bind(c, name="gapbeam_follow_train")
+        type(c_ptr), intent(in), value :: beam
+        integer(c_int), intent(in), value :: axles, to_the_left
+        real(c_double), intent(in), optional :: distance(*), force(*), from, to
+        real(c_double), intent(in), value :: q
+        type(c_ptr), intent(out), optional :: passing
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), intent(in), value :: message_size
+        integer(c_int) :: status
+        type(beam_handle), pointer :: prepared
+        type(passing_handle), pointer :: handle
+        type(moving_train_type) :: train
+        type(error_type), allocatable :: error
+        integer :: stat
+
+        if (present(passing)) passing = c_null_ptr
+        call get_beam(beam, prepared)
+        if (.not. associated(prepared)) then
+            call fatal_error(error, gapbeam_not_prepared, "beam is no prepared beam")
+        else if (.not. present(passing)) then
+            call fatal_error(error, gapbeam_bad_input, "passing is NULL")
+        else if (axles < 1 .or. .not. (present(distance) .and. present(force))) then
+            call fatal_error(error, gapbeam_bad_input, "distance and force: give at least one axle")
+        else
+            allocate (handle, train%distance(axles), train%force(axles), stat=stat)
+            if (stat /= 0) then
+                call no_memory(error)
+            else
+                train%distance(:) = distance(1:axles)
+                train%force(:) = force(1:axles)
+                train%q = q
+                train%to_the_left = to_the_left /= 0
+                if (present(from)) train%from = from
+                if (present(to)) train%to = to
+                call follow_train(prepared%beam, train, handle%passing, error)
+                if (allocated(error)) then
+                    deallocate (handle)
+                else
+                    passing = c_loc(handle)
+                end if
+            end if
+        end if
+        call report(error, status, message, message_size)
+    end function c_follow_train
+
+    !> See the header
+    subroutine c_free_passing(passing) bind(c, name="gapbeam_free_passing")
+        type(c_ptr), intent(in), value :: passing
+        type(passing_handle), pointer :: handle
+
+        call get_passing(passing, handle)
+        if (.not. associated(handle)) return
+        handle%tag = 0
+        deallocate (handle)
+    end subroutine c_free_passing
+
+    !> See the header
+    function c_get_train_events(passing, capacity, position, support, condition, change, number) result(status) &
+        bind(c, name="gapbeam_get_train_events")
+        type(c_ptr), intent(in), value :: passing
+        integer(c_int), intent(in), value :: capacity
+        real(c_double), intent(inout), optional :: position(*)
+        integer(c_int), intent(inout), optional :: support(*), condition(*), change(*)
+        integer(c_int), intent(inout), optional :: number
+        integer(c_int) :: status
+        type(passing_handle), pointer :: handle
+        integer :: k
+
+        status = gapbeam_not_prepared
+        call get_passing(passing, handle)
+        if (.not. associated(handle)) return
+        associate (events => handle%passing%events)
+            if (present(number)) number = size(events)
+            do k = 1, min(int(capacity), size(events))
+                if (present(position)) position(k) = events(k)%position
+                if (present(support)) support(k) = events(k)%support - 1
+                if (present(condition)) condition(k) = events(k)%state
+                if (present(change)) change(k) = events(k)%change
+            end do
+        end associate
+        status = gapbeam_solved
+    end function c_get_train_events
+
+    !> See the header
+    function c_get_train_gaps(passing, capacity, from, to, moves_freely, number) result(status) &
+        bind(c, name="gapbeam_get_train_gaps")
+        type(c_ptr), intent(in), value :: passing
+        integer(c_int), intent(in), value :: capacity
+        real(c_double), intent(inout), optional :: from(*), to(*)
+        integer(c_int), intent(inout), optional :: moves_freely(*)
+        integer(c_int), intent(inout), optional :: number
+        integer(c_int) :: status
+        type(passing_handle), pointer :: handle
+        integer :: k
+
+        status = gapbeam_not_prepared
+        call get_passing(passing, handle)
+        if (.not. associated(handle)) return
+        associate (gaps => handle%passing%gaps)
+            if (present(number)) number = size(gaps)
+            do k = 1, min(int(capacity), size(gaps))
+                if (present(from)) from(k) = gaps(k)%from
+                if (present(to)) to(k) = gaps(k)%to
+                if (present(moves_freely)) moves_freely(k) = merge(1, 0, gaps(k)%moves_freely)
+            end do
+        end associate
+        status = gapbeam_solved
+    end function c_get_train_gaps
+
+    !> See the header
+    function c_get_train_extremes(beam, passing, fields, supports) result(status) bind(c, name="gapbeam_get_train_extremes")
+        type(c_ptr), intent(in), value :: beam, passing
+        real(c_double), intent(inout), optional :: fields(4, 2, 4), supports(4, 2, 4, *)
+        integer(c_int) :: status
+        type(beam_handle), pointer :: prepared
+        type(passing_handle), pointer :: handle
+        type(train_extreme_type) :: of_fields(2, 4)
+        type(train_extreme_type), allocatable :: of_supports(:, :, :)
+        type(error_type), allocatable :: error
+        integer :: f, i, k
+
+        status = gapbeam_not_prepared
+        call get_beam(beam, prepared)
+        call get_passing(passing, handle)
+        if (.not. (associated(prepared) .and. associated(handle))) return
+        allocate (of_supports(2, 4, count_supports(prepared%beam)))
+        call get_train_extremes(prepared%beam, handle%passing, of_fields, of_supports, error)
+        call report(error, status)
+        if (allocated(error)) return
+        do f = 1, 4
+            do i = 1, 2
+                if (present(fields)) fields(:, i, f) = as_numbers(of_fields(i, f))
+                if (.not. present(supports)) cycle
+                do k = 1, size(of_supports, 3)
+                    supports(:, i, f, k) = as_numbers(of_supports(i, f, k))
+                end do
+            end do
+        end do
+    end function c_get_train_extremes
+
+    !> Value, x, position, side
+    pure function as_numbers(extreme) result(numbers)
+        type(train_extreme_type), intent(in) :: extreme
+        real(c_double) :: numbers(4)
+
+        numbers = [extreme%value, extreme%x, extreme%position, real(extreme%side, c_double)]
+    end function as_numbers
+
+    !> See the header
+    function c_get_train_curves(beam, passing, count, x, value, position, message, message_size) result(status) &
+        bind(c, name="gapbeam_get_train_curves")
+        type(c_ptr), intent(in), value :: beam, passing
+        integer(c_int), intent(in), value :: count
+        real(c_double), intent(in), optional :: x(*)
+        real(c_double), intent(inout), optional :: value(2, 4, *), position(2, 4, *)
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), intent(in), value :: message_size
+        integer(c_int) :: status
+        type(beam_handle), pointer :: prepared
+        type(passing_handle), pointer :: handle
+        type(error_type), allocatable :: error
+
+        call get_beam(beam, prepared)
+        call get_passing(passing, handle)
+        if (.not. (associated(prepared) .and. associated(handle))) then
+            call fatal_error(error, gapbeam_not_prepared, "beam is no prepared beam, or passing no train on its way")
+        else
+            call check_points(count, present(x) .and. present(value) .and. present(position), "x, value or position", error)
+        end if
+        if (.not. allocated(error) .and. count > 0) then
+            call get_train_curves(prepared%beam, handle%passing, x(1:count), value(:, :, 1:count), position(:, :, 1:count), error)
+        end if
+        call report(error, status, message, message_size)
+    end function c_get_train_curves
+
+    !> What a handle points to; null if it is none
+    subroutine get_passing(passing, handle)
+        type(c_ptr), intent(in) :: passing
+        type(passing_handle), pointer, intent(out) :: handle
+
+        handle => null()
+        if (.not. c_associated(passing)) return
+        call c_f_pointer(passing, handle)
+        if (handle%tag /= passing_tag) handle => null()
+    end subroutine get_passing
+
+end module gapbeam_capi_trains

@@ -1,0 +1,123 @@
+!> Trains by the module gapbeam alone: a lift-off in closed form, both directions, what is refused
+program test_api_trains
+    use, intrinsic :: iso_fortran_env, only: wp => real64
+    use testing, only: check, check_close, finish
+    use gapbeam, only: model_type, span_type, support_type, foundation_type, uniform_load, prepared_type, options_type, &
+        result_type, error_type, moving_train_type, passing_type, train_extreme_type, follow_train, get_train_extremes, &
+        get_train_curves, prepare_model, replace_loads, solve_beam, get_supports, point_force, gapbeam_below, gapbeam_dead, &
+        gapbeam_infinity, gapbeam_opens, gapbeam_closes, gapbeam_bad_input, gapbeam_not_prepared
+    implicit none
+    integer :: status
+
+    call a_far_end_lifts()
+    call it_tips()
+    call everything_refused()
+    call finish(status)
+    if (status /= 0) stop 1, quiet=.true.
+
+contains
+
+    !> Two spans of 1 with a weight of 1 on supports from below
+    subroutine two_spans(model)
+        type(model_type), intent(out) :: model
+
+        model%spans = [span_type(1.0_wp, EI=1.0_wp), span_type(1.0_wp, EI=1.0_wp)]
+        model%supports = [support_type(node=0, side=gapbeam_below), support_type(node=1, side=gapbeam_below), &
+                          support_type(node=2, side=gapbeam_below)]
+        model%loads = [uniform_load(1.0_wp, 0.0_wp, 2.0_wp, case=gapbeam_dead)]
+    end subroutine two_spans
+
+    !> The far end lifts where P s (1 - s**2) > 3/2, by P s (1 - s**2)/6 - 1/4
+    subroutine a_far_end_lifts()
+        type(model_type) :: model
+        type(prepared_type) :: beam
+        type(passing_type) :: passing
+        type(result_type) :: result
+        type(error_type), allocatable :: error
+        type(train_extreme_type) :: fields(2, 4), supports(2, 4, 3)
+        real(wp) :: value(2, 4, 2), position(2, 4, 2), r(3), w(3), opening(3), couple(3)
+        integer :: condition(3)
+
+        call two_spans(model)
+        call prepare_model(model, beam, error)
+        call follow_train(beam, moving_train_type(distance=[0.0_wp], force=[8.0_wp], to=1.0_wp), passing, error)
+        call check(.not. allocated(error), "it passes")
+        call check(all(passing%events%change == [gapbeam_opens, gapbeam_closes]) .and. all(passing%events%support == 3), "events")
+        call check_close(passing%events%position, [0.19490392008291112_wp, 0.88819977685765608_wp], "where", relative=1e-14_wp)
+        call check(size(passing%gaps) == 0 .and. passing%solves > 0, "no gap")
+        call get_train_extremes(beam, passing, fields, supports, error)
+        call check_close([supports(1, 2, 3)%value, supports(1, 2, 3)%position], [0.26320023927966735_wp, 1/sqrt(3.0_wp)], &
+                         "largest opening", relative=1e-9_wp)
+        call check_close([fields(1, 3)%value, fields(1, 3)%x, fields(1, 3)%position], [32, 8, 8]/17.0_wp, "largest moment")
+        call check_close(fields(2, 3)%value, -0.5_wp, "smallest moment")
+        call get_train_curves(beam, passing, [8/17.0_wp, 1.0_wp], value, position, error)
+        call check_close([value(1, 3, 1), value(2, 3, 2)], [32/17.0_wp, -0.5_wp], "curves")
+        call check_close(position(1, 3, 1), 8/17.0_wp, "their positions", relative=1e-7_wp)
+        model%loads = [model%loads, point_force(8.0_wp, x=supports(1, 2, 3)%position)]
+        call replace_loads(beam, model%loads, error)
+        call solve_beam(beam, 1.0_wp, options_type(), result, error)
+        call get_supports(beam, result, r, w, opening, couple, condition, error)
+        call check_close(opening(3), supports(1, 2, 3)%value, "the state there")
+        call get_train_extremes(beam, passing, fields, supports, error)
+        call check(error%code == gapbeam_not_prepared, "other loads")
+    end subroutine a_far_end_lifts
+
+    !> A plank of 3 that overhangs by 1: a man of 5 tips it where 5 (s - 2) > 3/2; from the other side as well
+    subroutine it_tips()
+        type(model_type) :: model
+        type(prepared_type) :: beam
+        type(passing_type) :: passing
+        type(error_type), allocatable :: error
+
+        call two_spans(model)
+        model%spans = [span_type(2.0_wp, EI=1.0_wp), span_type(1.0_wp, EI=1.0_wp)]
+        model%supports = model%supports(:2)
+        model%loads = [uniform_load(1.0_wp, 0.0_wp, 3.0_wp, case=gapbeam_dead)]
+        call prepare_model(model, beam, error)
+        call follow_train(beam, moving_train_type(distance=[0.0_wp], force=[5.0_wp]), passing, error)
+        call check(size(passing%gaps) == 1, "one gap")
+        call check_close([passing%gaps(1)%from, passing%gaps(1)%to], [2.3_wp, 3.0_wp], "its ends")
+        call check(.not. passing%gaps(1)%moves_freely, "it tips")
+        call follow_train(beam, moving_train_type(distance=[0.0_wp, 0.4_wp], force=[0.0_wp, 5.0_wp], to_the_left=.true.), passing, &
+                          error)
+        call check(size(passing%gaps) == 1, "to the left too")
+        call check_close([passing%gaps(1)%from, passing%gaps(1)%to], [1.9_wp, 2.6_wp], "with an axle behind")
+    end subroutine it_tips
+
+    !> What cannot be had
+    subroutine everything_refused()
+        type(model_type) :: model
+        type(prepared_type) :: beam
+        type(passing_type) :: passing
+        type(error_type), allocatable :: error
+        type(train_extreme_type) :: fields(2, 4), supports(2, 4, 3)
+        real(wp) :: value(2, 4, 1), position(2, 4, 1)
+
+        call follow_train(beam, moving_train_type(distance=[0.0_wp], force=[1.0_wp]), passing, error)
+        call check(error%code == gapbeam_not_prepared, "no beam")
+        call two_spans(model)
+        call prepare_model(model, beam, error)
+        call get_train_extremes(beam, passing, fields, supports, error)
+        call check(error%code == gapbeam_not_prepared, "no train")
+        call follow_train(beam, moving_train_type(), passing, error)
+        call check(error%code == gapbeam_bad_input, "no axle")
+        call follow_train(beam, moving_train_type(distance=[0.0_wp, 1.0_wp], force=[1.0_wp]), passing, error)
+        call check(error%code == gapbeam_bad_input .and. index(error%message, "as many forces") > 0, "another number of forces")
+        call follow_train(beam, moving_train_type(distance=[-1.0_wp], force=[1.0_wp]), passing, error)
+        call check(error%code == gapbeam_bad_input .and. index(error%message, "distance(1)") > 0, "an axle before the first one")
+        call follow_train(beam, moving_train_type(distance=[0.0_wp], force=[gapbeam_infinity]), passing, error)
+        call check(error%code == gapbeam_bad_input .and. index(error%message, "force(1)") > 0, "an infinite force")
+        call follow_train(beam, moving_train_type(distance=[0.0_wp], force=[1.0_wp], from=2.0_wp, to=1.0_wp), passing, error)
+        call check(error%code == gapbeam_bad_input .and. index(error%message, "none") > 0, "no position")
+        call follow_train(beam, moving_train_type(distance=[0.0_wp], force=[1.0_wp]), passing, error)
+        call get_train_extremes(beam, passing, fields, supports(:, :, :2), error)
+        call check(error%code == gapbeam_bad_input, "an array too short")
+        call get_train_curves(beam, passing, [2.5_wp], value, position, error)
+        call check(error%code == gapbeam_bad_input .and. index(error%message, "outside the beam") > 0, "off the beam")
+        model%foundations = [foundation_type(k=1.0_wp)]
+        call prepare_model(model, beam, error)
+        call follow_train(beam, moving_train_type(distance=[0.0_wp], force=[1.0_wp]), passing, error)
+        call check(error%code == gapbeam_bad_input .and. index(error%message, "foundation") > 0, "on a foundation")
+    end subroutine everything_refused
+
+end program test_api_trains
