@@ -11,7 +11,7 @@ module gapbeam_train_envelope
     use gapbeam_train, only: train_type, track_type, least_distance
     use gapbeam_train_cells, only: cell_type, cell_ends, x_in_cell
     use gapbeam_train_path, only: passage_type
-    use gapbeam_train_samples, only: samples_type, new_samples, sample_stretch, along_cell, bound_fields, load_degree
+    use gapbeam_train_samples, only: samples_type, new_samples, sample_stretch, along_cell, bound_fields, load_degree, lebesgue
     implicit none
     private
     public :: envelope_type, extreme_type, tie_type, find_envelope
@@ -158,7 +158,17 @@ contains
         subroutine add_support(i, what)
             integer, intent(in) :: i, what
             type(patch_type) :: patch
+            real(wp) :: change
 
+            associate (values => samples%supports(:, what, i))
+                call raise(of_supports(1, what, i), maxval(values))
+                call raise(of_supports(2, what, i), -minval(values))
+                change = lebesgue*maxval(abs(values - samples%supports(0, what, i)))
+            end associate
+            associate (first => samples%supports(0, what, i))
+                if (first + change < least_of(of_supports(1, what, i)) .and. &
+                    change - first < least_of(of_supports(2, what, i))) return
+            end associate
             patch%along = 0
             patch%across = n
             call convert(matrix, reshape(samples%supports(:, what, i), [1, n + 1]), patch%b)

@@ -20,7 +20,11 @@ module gapbeam_train_samples
     use gapbeam_train_path, only: passage_type
     implicit none
     private
-    public :: samples_type, new_samples, sample_stretch, degree_in_position, along_cell, bound_fields, load_degree
+    public :: samples_type, new_samples, sample_stretch, degree_in_position, along_cell, bound_fields, load_degree, lebesgue
+
+    !> No polynomial of these degrees leaves its samples by more than this times what they differ by (the Lebesgue constant of the
+    !> sample points is 2.2 at most)
+    real(wp), parameter :: lebesgue = 2.5_wp
 
     !> What is sampled of a stretch
     type :: samples_type
@@ -127,7 +131,6 @@ contains
         type(piece_load_type), intent(in) :: loads(0:)
         !> Of deflection, rotation, moment, shear
         real(wp), intent(out) :: low(4), high(4)
-        real(wp), parameter :: lebesgue = 2.5_wp
         type(field_type) :: end
         real(wp) :: length, change_of_length, q, change_of_q, curvature, moment, rotation, shear, bulge(4), change(4)
 
