@@ -85,6 +85,7 @@ end subroutine gbtget
 subroutine gbtenv(beam, train, nm, fields, field_codes, field_ties, supports, support_codes, support_ties, status, message)
     use gapbeam_error, only: error_type
     use gapbeam_handle, only: handle_type, handle_of, report
+    use gapbeam_train, only: track_type
     use gapbeam_train_handle, only: train_handle_type, train_of, pack_extremes
     use gapbeam_train_envelope, only: envelope_type, find_envelope
     implicit none
@@ -103,6 +104,7 @@ subroutine gbtenv(beam, train, nm, fields, field_codes, field_ties, supports, su
     type(handle_type), pointer :: handle
     type(train_handle_type), pointer :: passing
     type(envelope_type) :: envelope
+    type(track_type) :: track
     type(error_type), allocatable :: error
     integer :: k
 
@@ -114,7 +116,9 @@ subroutine gbtenv(beam, train, nm, fields, field_codes, field_ties, supports, su
     fields = 0.0d0
     field_codes = 0
     field_ties = 0
-    call find_envelope(handle%lowered, passing%track, passing%train, passing%passage, envelope, error)
+    ! Another thread may ask the same train
+    track = passing%track
+    call find_envelope(handle%lowered, track, passing%train, passing%passage, envelope, error)
     call report(error, status, message)
     if (allocated(error)) return
     call pack_extremes(envelope%fields, fields, field_codes, field_ties)
@@ -128,6 +132,7 @@ end subroutine gbtenv
 subroutine gbtcur(beam, train, nx, piece, dist, value, position, status, message)
     use gapbeam_error, only: error_type
     use gapbeam_handle, only: handle_type, handle_of, report
+    use gapbeam_train, only: track_type
     use gapbeam_train_handle, only: train_handle_type, train_of
     use gapbeam_train_curves, only: find_curves
     implicit none
@@ -144,11 +149,14 @@ subroutine gbtcur(beam, train, nx, piece, dist, value, position, status, message
     !f2py integer, intent(hide), depend(piece) :: nx = shape(piece, 0)
     type(handle_type), pointer :: handle
     type(train_handle_type), pointer :: passing
+    type(track_type) :: track
     type(error_type), allocatable :: error
 
     handle => handle_of(beam)
     passing => train_of(train)
-    call find_curves(handle%lowered, passing%track, passing%train, passing%passage, piece, dist, value, position, error)
+    ! Another thread may ask the same train
+    track = passing%track
+    call find_curves(handle%lowered, track, passing%train, passing%passage, piece, dist, value, position, error)
     call report(error, status, message)
 end subroutine gbtcur
 
