@@ -19,7 +19,7 @@ module gapbeam_handle
     public :: handle_type, new_handle, copy_handle, handle_of, drop_handle, state_of, report
 
     !> Rows of a solution on the ground as an array, beside those of the layers
-    integer, parameter :: ground_rows = 18
+    integer, parameter :: ground_rows = 19
 
     !> What a handle stands for
     type :: handle_type
@@ -170,7 +170,7 @@ contains
             associate (s => solution%stretches(i), q => solution%loads(i), e => solution%ends(i))
                 values(:ground_rows, i) = [real(solution%piece(i), wp), solution%from(i), solution%to(i), s%length, s%modulus_a, &
                                            s%modulus_b, q%qa, q%qb, q%qc, q%kappa, e%w_a, e%w_b, e%moment_a, e%moment_b, &
-                                           solution%rotation(:, i), solution%shear(:, i)]
+                                           solution%rotation(:, i), solution%shear(:, i), solution%slope(i)]
             end associate
             values(ground_rows + 1:ground_rows + n, i) = solution%resultant(:, i)
             values(ground_rows + n + 1:ground_rows + 2*n, i) = solution%acts(:, i)
@@ -187,12 +187,14 @@ contains
         m = size(values, 2)
         n = (size(values, 1) - ground_rows)/2
         allocate (solution%piece(m), solution%from(m), solution%to(m), solution%acts(n, m), solution%stretches(m), &
-                  solution%loads(m), solution%ends(m), solution%rotation(2, m), solution%shear(2, m), solution%resultant(n, m))
+                  solution%loads(m), solution%ends(m), solution%slope(m), solution%rotation(2, m), solution%shear(2, m), &
+                  solution%resultant(n, m))
         solution%piece(:) = nint(values(1, :))
         solution%from(:) = values(2, :)
         solution%to(:) = values(3, :)
         solution%rotation(:, :) = values(15:16, :)
         solution%shear(:, :) = values(17:18, :)
+        solution%slope(:) = values(19, :)
         solution%resultant(:, :) = values(ground_rows + 1:ground_rows + n, :)
         solution%acts(:, :) = nint(values(ground_rows + n + 1:, :))
         do i = 1, m

@@ -19,7 +19,7 @@ module gapbeam_pack_ground
     integer, parameter :: of_stretch = storage_size(stretch_type())/storage_size(1.0_wp), &
                           of_load = storage_size(stretch_load_type())/storage_size(1.0_wp), &
                           of_ends = storage_size(stretch_ends_type())/storage_size(1.0_wp), &
-                          integers_beside = 1, reals_beside = of_stretch + of_load + of_ends + 6
+                          integers_beside = 1, reals_beside = of_stretch + of_load + of_ends + 7
     !> Numbers of a solution beside its stretches: layers; bounds and residuals
     integer, parameter :: integers_of_all = 1, reals_of_all = 7
 
@@ -157,7 +157,8 @@ contains
             allocate (solution, stat=stat)
             if (stat == 0) allocate (solution%piece(stretches), solution%from(stretches), solution%to(stretches), &
                                      solution%acts(layers, stretches), solution%stretches(stretches), &
-                                     solution%loads(stretches), solution%ends(stretches), solution%rotation(2, stretches), &
+                                     solution%loads(stretches), solution%ends(stretches), solution%slope(stretches), &
+                                     solution%rotation(2, stretches), &
                                      solution%shear(2, stretches), solution%resultant(layers, stretches), stat=stat)
             if (stat /= 0) tape%stat = stat
             if (stat /= 0) return
@@ -167,7 +168,7 @@ contains
         do i = 1, stretches
             associate (s => solution)
                 call exchange(tape, s%piece(i))
-                if (tape%mode /= reading) reals = [s%from(i), s%to(i), s%rotation(:, i), s%shear(:, i), &
+                if (tape%mode /= reading) reals = [s%from(i), s%to(i), s%rotation(:, i), s%shear(:, i), s%slope(i), &
                                                    transfer(s%stretches(i), reals, of_stretch), &
                                                    transfer(s%loads(i), reals, of_load), transfer(s%ends(i), reals, of_ends)]
                 call exchange(tape, reals_beside, reals)
@@ -176,9 +177,10 @@ contains
                     s%to(i) = reals(2)
                     s%rotation(:, i) = reals(3:4)
                     s%shear(:, i) = reals(5:6)
-                    s%stretches(i) = transfer(reals(7:), s%stretches(i))
-                    s%loads(i) = transfer(reals(7 + of_stretch:), s%loads(i))
-                    s%ends(i) = transfer(reals(7 + of_stretch + of_load:), s%ends(i))
+                    s%slope(i) = reals(7)
+                    s%stretches(i) = transfer(reals(8:), s%stretches(i))
+                    s%loads(i) = transfer(reals(8 + of_stretch:), s%loads(i))
+                    s%ends(i) = transfer(reals(8 + of_stretch + of_load:), s%ends(i))
                 end if
                 call exchange(tape, layers, s%resultant(:, i))
                 call exchange_acts(s%acts(:, i))

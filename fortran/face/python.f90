@@ -297,7 +297,7 @@ subroutine gbgget(ground, ng, ny, values, bounds, resid)
     integer(8), intent(in) :: ground
     integer, intent(in) :: ng, ny
     ! As for pack_ground, in the engine's units
-    double precision, intent(out) :: values(18 + 2*ny, ng)
+    double precision, intent(out) :: values(19 + 2*ny, ng)
     ! Bounds of the errors of deflection, rotation, moment, shear and reactions; residuals of compatibility and equilibrium
     double precision, intent(out) :: bounds(5), resid(2)
     type(ground_solution_type), allocatable :: solution
@@ -357,9 +357,9 @@ subroutine gbgrun(beam, ng, nr, ground, number, about, values, status, message)
     ! How many there are
     integer, intent(out) :: number
     ! Foundation (from 0), side, pieces of its law (0: linear), the piece on which it acts (0: no contact), 1 if it only touches
-    integer, intent(out) :: about(5, 3*(ng*(nr - 18)/2))
+    integer, intent(out) :: about(5, 3*(ng*(nr - 19)/2))
     ! Ends, force on the beam (up), largest distance between beam and ground, in the scene's units
-    double precision, intent(out) :: values(4, 3*(ng*(nr - 18)/2))
+    double precision, intent(out) :: values(4, 3*(ng*(nr - 19)/2))
     integer, intent(out) :: status
     character(len=240), intent(out) :: message
     !f2py threadsafe

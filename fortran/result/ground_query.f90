@@ -2,7 +2,7 @@
 module gapbeam_ground_query
     use gapbeam_kinds, only: wp
     use gapbeam_element, only: field_type
-    use gapbeam_foundation, only: stretch_load_type, stretch_ends_type, fields_at
+    use gapbeam_foundation, only: stretch_load_type, stretch_ends_type, fields_at, decay_lengths
     use gapbeam_foundation_roots, only: find_peaks
     use gapbeam_layers, only: law_piece_type, law_piece
     use gapbeam_ground, only: contact_line, slope_of_layer, along
@@ -72,6 +72,7 @@ contains
         integer, intent(in) :: i
         real(wp), intent(in) :: xi
         type(field_type), intent(out) :: field
+        real(wp) :: off(2, 2)
 
         associate (ends => solution%ends(i))
             if (xi <= 0.0_wp) then
@@ -85,10 +86,38 @@ contains
                 field%rotation = solution%rotation(2, i)
                 field%shear = solution%shear(2, i)
             else
-                call fields_at(solution%stretches(i), solution%loads(i), ends, xi, field%deflection, field%rotation, field%moment, &
-                               field%shear)
+                ! Beside the chord
+                call fields_at(solution%stretches(i), solution%loads(i), &
+                               stretch_ends_type(0.0_wp, 0.0_wp, ends%moment_a, ends%moment_b), xi, field%deflection, &
+                               field%rotation, field%moment, field%shear)
+                field%deflection = along(ends%w_a, ends%w_b, xi, 1.0_wp) + field%deflection
+                field%rotation = solution%slope(i) + field%rotation
+                if (decay_lengths(solution%stretches(i)) > 1.0_wp) return
+                ! In a short stretch the shear is a small difference of moments by a small length, and where shear bends most the
+                ! rotation one of slopes: their errors are those at the ends, where they are known
+                off(:, 1) = off_at(1)
+                off(:, 2) = off_at(2)
+                field%rotation = field%rotation + along(off(1, 1), off(1, 2), xi, 1.0_wp)
+                field%shear = field%shear + along(off(2, 1), off(2, 2), xi, 1.0_wp)
             end if
         end associate
+
+    contains
+
+        !> What rotation and shear at an end of the stretch lack when they are made of load and moments
+        pure function off_at(side) result(lacking)
+            !> 1 left, 2 right
+            integer, intent(in) :: side
+            real(wp) :: lacking(2), deflection, rotation, moment, shear
+
+            associate (ends => solution%ends(i))
+                call fields_at(solution%stretches(i), solution%loads(i), &
+                               stretch_ends_type(0.0_wp, 0.0_wp, ends%moment_a, ends%moment_b), real(side - 1, wp), deflection, &
+                               rotation, moment, shear)
+            end associate
+            lacking = [solution%rotation(side, i) - (solution%slope(i) + rotation), solution%shear(side, i) - shear]
+        end function off_at
+
     end subroutine values_in
 
     !> Largest and smallest deflection, rotation, moment and shear, and where they are
@@ -115,7 +144,7 @@ contains
                 end do
             end do
             do k = 1, 4
-                call find_peaks(solution%stretches(i), solution%loads(i), solution%ends(i), k, xi, number)
+                call peaks_in(solution, i, k, 0.0_wp, xi, number)
                 do j = 1, number
                     call values_in(solution, i, xi(j), field)
                     call consider(xi(j))
@@ -205,22 +234,29 @@ contains
         integer, intent(in) :: i, k
         real(wp), allocatable, intent(out) :: xi(:)
         integer, intent(out) :: number
-        type(stretch_load_type) :: load
-        type(stretch_ends_type) :: ends
+
         real(wp) :: line(2)
 
-        associate (s => solution%stretches(i))
-            line(:) = contact_line(lowered%layers(k), [solution%from(i), solution%to(i)], lowered%pieces(solution%piece(i))%length)
-            load = solution%loads(i)
-            load%qa = load%qa - s%modulus_a*line(1)
-            load%qb = load%qb - s%modulus_b*line(2)
-            load%qc = load%qc + (s%modulus_b - s%modulus_a)*(line(2) - line(1))
-            ends = solution%ends(i)
-            ends%w_a = ends%w_a - line(1)
-            ends%w_b = ends%w_b - line(2)
-            call find_peaks(s, load, ends, 1, xi, number)
-        end associate
+        line(:) = contact_line(lowered%layers(k), [solution%from(i), solution%to(i)], lowered%pieces(solution%piece(i))%length)
+        call peaks_in(solution, i, 1, (line(2) - line(1))/solution%stretches(i)%length, xi, number)
     end subroutine peaks_beside
+
+    !> Where a field of a stretch is stationary, of the deflection that beside a line
+    pure subroutine peaks_in(solution, i, field, slope, xi, number)
+        type(ground_solution_type), intent(in) :: solution
+        !> Stretch, and field as for find_peaks
+        integer, intent(in) :: i, field
+        !> Of the line
+        real(wp), intent(in) :: slope
+        real(wp), allocatable, intent(out) :: xi(:)
+        integer, intent(out) :: number
+
+        associate (ends => solution%ends(i))
+            call find_peaks(solution%stretches(i), solution%loads(i), &
+                            stretch_ends_type(0.0_wp, 0.0_wp, ends%moment_a, ends%moment_b), field, xi, number, &
+                            merge(slope - solution%slope(i), 0.0_wp, field == 1))
+        end associate
+    end subroutine peaks_in
 
     !> Largest distance of the beam from every layer under its stretches, and where it touches one without pressing it
     subroutine largest_ways(lowered, solution, way, touch)

@@ -34,6 +34,8 @@ module gapbeam_ground_solver
     !> Shares of the stretches beside them by which ends may still move in the round that is taken for the last one
     real(wp), parameter :: rough = 1e-10_wp, nearly = 1e-2_wp
     real(qp), parameter :: fine_enough = 1e-11_qp
+    !> The same of ends that are taken: the fields there are those at the ends of the round before
+    real(qp), parameter :: finest = 1e-17_qp
     !> Springs tried, none first
     integer, parameter :: spring_numbers(0:4) = [0, 64, 512, 4096, 32768]
     !> Springs that are pressed at most where the beam stands on edges
@@ -54,10 +56,13 @@ module gapbeam_ground_solver
         real(wp), allocatable :: from(:), to(:)
         !> Piece of the law on which every layer acts, 0: not in contact, shape (most layers of a piece, m)
         integer, allocatable :: acts(:, :)
-        !> The stretches, their loads with those of the layers, and what is at their ends, shape (m)
+        !> The stretches and what is at their ends, and their loads, with those of the layers, less what the ground takes of the
+        !> chord between the ends: so the deflection beside the chord has its digits however deep the ground lies, shape (m)
         type(stretch_type), allocatable :: stretches(:)
         type(stretch_load_type), allocatable :: loads(:)
         type(stretch_ends_type), allocatable :: ends(:)
+        !> Slope of the chord, shape (m)
+        real(wp), allocatable :: slope(:)
         !> Rotations and shears at the two ends, shape (2, m)
         real(wp), allocatable :: rotation(:, :), shear(:, :)
         !> Force of every layer on the stretch, up, shape (most layers of a piece, m)
@@ -219,7 +224,7 @@ contains
         zones%acts(:, :) = rough_zones%acts
         settled = .false.
         if (known) then
-            call polish_zones(fine, factor, rule, fine_enough, zones, closed, grounded, work, found, settled, error)
+            call polish_zones(fine, factor, rule, finest, zones, closed, grounded, work, found, settled, error)
             solution%solves = solution%solves + work%solves
             if (allocated(error)) return
         end if
@@ -227,6 +232,11 @@ contains
             call settle_fine_zones(fine, factor, rule, fine_enough, zones, closed, grounded, work, found, settled, moved, error)
             solution%solves = solution%solves + work%solves
             if (allocated(error) .or. .not. settled) return
+            if (moved > finest) then
+                call polish_zones(fine, factor, rule, fine_enough, zones, closed, grounded, work, found, settled, error)
+                solution%solves = solution%solves + work%solves
+                if (allocated(error) .or. .not. settled) return
+            end if
         end if
         call take_rounded(fine, factor, zones, grounded, closed, work, solution)
         outcome = outcome_type(status=found%status)
@@ -331,12 +341,13 @@ contains
         type(fine_workspace_type), intent(inout) :: work
         type(ground_solution_type), intent(inout) :: solution
         type(fine_ends_type) :: ends
-        type(fine_stretch_load_type) :: load
+        type(fine_stretch_load_type) :: load, beside
         real(qp), allocatable :: margin(:), rounding(:)
-        real(qp) :: field(2, 2), forces(size(zones%acts, 1))
+        real(qp) :: field(2, 2), forces(size(zones%acts, 1)), from
         integer :: i, k, m
 
         m = size(zones%piece)
+        from = 0.0_qp
         call make_room(solution, m, size(zones%acts, 1), size(fine%pieces), size(closed))
         solution%piece(:) = zones%piece
         solution%from(:) = real(zones%from, wp)
@@ -352,10 +363,18 @@ contains
                 solution%stretches(i) = stretch_type(real(s%length, wp), real(s%flexibility, wp), real(s%shear_flexibility, wp), &
                                                      real(s%modulus_a, wp), real(s%modulus_b, wp))
             end associate
-            solution%loads(i) = stretch_load_type(real(load%qa, wp), real(load%qb, wp), real(load%qc, wp), real(load%kappa, wp))
+            beside = beside_line(grounded%stretches(i), load, [ends%w_a, ends%w_b])
+            solution%slope(i) = real((ends%w_b - ends%w_a)/grounded%stretches(i)%length, wp)
+            solution%loads(i) = stretch_load_type(real(beside%qa, wp), real(beside%qb, wp), real(beside%qc, wp), &
+                                                  real(beside%kappa, wp))
             solution%ends(i) = stretch_ends_type(real(ends%w_a, wp), real(ends%w_b, wp), real(ends%moment_a, wp), &
                                                  real(ends%moment_b, wp))
-            call sum_layers(fine, zones, i, grounded%stretches(i), load, ends, field(2, 2) - field(1, 2), forces)
+            ! Where it was when it was solved: its ends have moved since then
+            if (i > 1) then
+                from = from + grounded%stretches(i - 1)%length
+                if (zones%piece(i) /= zones%piece(i - 1)) from = 0.0_qp
+            end if
+            call sum_layers(fine, zones, i, from, grounded%stretches(i), load, ends, field(2, 2) - field(1, 2), forces)
             solution%resultant(:, i) = real(forces, wp)
             solution%rotation(:, i) = real(field(:, 1), wp)
             solution%shear(:, i) = real(field(:, 2), wp)
@@ -390,7 +409,8 @@ contains
         solution%solves = solves
         allocate (solution%piece(stretches), solution%from(stretches), solution%to(stretches), solution%acts(layers, stretches), &
                   solution%stretches(stretches), solution%loads(stretches), solution%ends(stretches), &
-                  solution%rotation(2, stretches), solution%shear(2, stretches), solution%resultant(layers, stretches))
+                  solution%slope(stretches), solution%rotation(2, stretches), solution%shear(2, stretches), &
+                  solution%resultant(layers, stretches))
         allocate (solution%deflection(0:pieces), solution%moment_left(0:pieces), solution%moment_right(0:pieces), &
                   solution%reaction(supports), solution%undecided(supports))
     end subroutine make_room
@@ -430,11 +450,12 @@ contains
     end subroutine drop_small
 
     !> Force of every layer on a stretch: what the shear gains is the whole pressure less the load, and shared out by the moduli
-    subroutine sum_layers(fine, zones, i, stretch, load, ends, gain, forces)
+    subroutine sum_layers(fine, zones, i, from, stretch, load, ends, gain, forces)
         type(fine_ground_type), intent(in) :: fine
         type(fine_zones_type), intent(in) :: zones
-        !> Number of the stretch, what it is made of, its load, what is at its ends
+        !> Number of the stretch, distance of its left end from that of the piece; what it is made of, its load, what is at its ends
         integer, intent(in) :: i
+        real(qp), intent(in) :: from
         type(fine_stretch_type), intent(in) :: stretch
         type(fine_stretch_load_type), intent(in) :: load
         type(fine_ends_type), intent(in) :: ends
@@ -455,8 +476,8 @@ contains
                 if (zones%acts(k, i) == 0) cycle
                 associate (layer => fine%layers(fine%first(j) + k - 1))
                     law = law_piece(layer, fine%laws, zones%acts(k, i))
-                    slope = slope_of_layer(layer, law, [zones%from(i), zones%to(i)], fine%pieces(j)%length)
-                    contact = contact_line(layer, [zones%from(i), zones%to(i)], fine%pieces(j)%length)
+                    slope = slope_of_layer(layer, law, [from, from + length], fine%pieces(j)%length)
+                    contact = contact_line(layer, [from, from + length], fine%pieces(j)%length)
                     forces(k) = layer%side*(law%force - law%slope*law%displacement)*length &
                         - length*(dot_product(slope, contact)/2 - (slope(2) - slope(1))*(contact(2) - contact(1))/6)
                     if (.not. any(slope > 0.0_qp)) cycle
@@ -495,5 +516,19 @@ contains
         end function integral
 
     end subroutine sum_layers
+
+    !> Load of a stretch for the deflection beside a line: less what the ground takes of the line
+    pure function beside_line(stretch, load, line) result(found)
+        type(fine_stretch_type), intent(in) :: stretch
+        type(fine_stretch_load_type), intent(in) :: load
+        !> At the two ends
+        real(qp), intent(in) :: line(2)
+        type(fine_stretch_load_type) :: found
+
+        found = load
+        found%qa = load%qa - stretch%modulus_a*line(1)
+        found%qb = load%qb - stretch%modulus_b*line(2)
+        found%qc = load%qc + (stretch%modulus_b - stretch%modulus_a)*(line(2) - line(1))
+    end function beside_line
 
 end module gapbeam_ground_solver

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..base.records import Record, read_only
 
-GROUND_ROWS = 18
+GROUND_ROWS = 19
 """Rows of `Ground.values` beside those of the layers, as in gapbeam_handle."""
 
 
@@ -66,8 +66,8 @@ class Ground(Record):
     ----------
     values : numpy.ndarray
         A column a stretch. Rows: piece (from 1); distances of its ends from the left end of the piece, length; moduli at its
-        ends; loads qa, qb, qc, kappa; deflections, moments, rotations, shears at its ends; and of every layer under it the
-        force up, then the piece of its law on which it acts (0: not in contact).
+        ends; loads qa, qb, qc, kappa beside the chord; deflections, moments, rotations, shears at its ends; slope of the chord; and
+        of every layer under it the force up, then the piece of its law on which it acts (0: not in contact).
     bounds : numpy.ndarray
         Of the errors of deflection, rotation, moment, shear, reactions.
     residuals : numpy.ndarray
