@@ -14,6 +14,8 @@ from typing import Any
 
 import numpy as np
 
+from .ground_corners import STIFF, ground_corners
+
 WORK_A_SEED = 7
 """Seed of the loads of reference problem P6, work A."""
 
@@ -31,7 +33,8 @@ class Case:
     scenes : list of dict
         The scenes.
     closed_form : callable, optional
-        Gives the true (reaction, deflection) of all supports of a scene that is too long to be solved exactly.
+        Gives the true (reaction, deflection) of all supports of a scene that is too long to be solved exactly; on foundations
+        what `gapbeam.studies.ground_corners.ground_errors` takes.
     ill_conditioned : bool
         Whether the answer moves much more than the numbers of the scene: the error bound has to say so.
     """
@@ -39,7 +42,7 @@ class Case:
     corner: str
     value: str
     scenes: list[dict[str, Any]]
-    closed_form: Callable[[dict[str, Any]], tuple[np.ndarray, np.ndarray]] | None = None
+    closed_form: Callable[[dict[str, Any]], Any] | None = None
     ill_conditioned: bool = False
 
 
@@ -86,6 +89,8 @@ def cases(largest: int = 10**6) -> Iterator[Case]:
     for force, length in ((-498, 0), (498, 0), (0, -332), (0, 332), (498, -498), (-498, 498)):
         value = f"force {_power(force)}, length {_power(length)}"
         yield Case("units", value, [in_units(scene, 2.0**force, 2.0**length) for scene in _ordinary()])
+    for corner, value, scenes, closed_form in ground_corners():
+        yield Case(corner, value, scenes, closed_form, ill_conditioned=corner == STIFF)
 
 
 def _power(exponent: int) -> str:
