@@ -298,11 +298,11 @@ contains
         call new_state(lowered, state, error)
         call solve_state(lowered, 1.0_wp, 0, state, error)
         associate (ground => state%ground)
-            call ground_values(ground, [1, 1, 2], [0.0_wp, 7.5_wp, 10.0_wp], fields)
+            call ground_values(lowered, ground, [1, 1, 2], [0.0_wp, 7.5_wp, 10.0_wp], fields)
             call ground_pressure(lowered, ground, [1, 1, 2], [0.0_wp, 7.5_wp, 10.0_wp], pressure)
             call check(all(abs(pressure(:2) - 4*(fields(:2)%deflection - 0.1_wp)) < 1e-14_wp), "pressure is what is pressed in")
             call check(pressure(3) <= 0.0_wp, "no pressure where it has lifted")
-            call ground_extremes(ground, values, piece, distance)
+            call ground_extremes(lowered, ground, values, piece, distance)
             call check(values(1, 1) >= state%deflection(1) .and. values(1, 1) < state%deflection(1) + 1e-4_wp, &
                        "the largest deflection is near the force")
             call pressure_extremes(lowered, ground, pressures, place, at)

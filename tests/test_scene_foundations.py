@@ -40,7 +40,7 @@ def test_all_keys_reach_the_engine():
     assert scene.foundation[1] == Foundation(from_=3.0, to=9.0, k=(0.0, 4e3), side="below", gap=(0.01, 0.0))
     c = beam.columns
     assert c.foundation_sides.tolist() == [0, 1, -1, 0, 0]  # one entry more than there are
-    assert c.foundation[:, :4].T.tolist() == [
+    assert c.foundation[:6, :4].T.tolist() == [
         [0.0, NOT_GIVEN, 5e3, 5e3, 0.0, 0.0],
         [3.0, 9.0, 0.0, 4e3, 0.01, 0.0],
         [2.0, NOT_GIVEN, 0.0, 0.0, 0.0, 0.0],
@@ -56,7 +56,7 @@ def test_all_keys_reach_the_engine():
 
 def test_without_foundations_the_columns_are_empty():
     c = read_beam({"beam": BEAM, "supports": [{"node": 0, "rotation": "fixed"}]})[1].columns
-    assert (c.foundation.shape, c.profile.shape, c.ground_law.shape) == ((6, 1), (2, 1), (2, 1))
+    assert (c.foundation.shape, c.profile.shape, c.ground_law.shape) == ((13, 1), (2, 1), (2, 1))
 
 
 def test_a_hardening_law_keeps_its_slope():

@@ -53,7 +53,7 @@ module gapbeam_error
         integer :: table = 0, entry = 0
         !> Why (gapbeam_refusal), what of the entry it is about, and another entry that it is at odds with
         integer :: reason = 0
-        character(len=10) :: key = " "
+        character(len=16) :: key = " "
         integer :: partner = 0
     end type error_type
 

@@ -12,7 +12,7 @@ module gapbeam_foundation
     implicit none
     private
     public :: stretch_type, stretch_load_type, stretch_link_type, stretch_ends_type
-    public :: condense_stretch, load_stretch, fields_at, decay_lengths
+    public :: condense_stretch, link_of_halves, load_stretch, fields_at, decay_lengths
 
     !> How a stretch's ends answer:
     !>
@@ -107,6 +107,17 @@ contains
 
         call half_link(stretch, stretch_load_type(), a)
         call half_link(mirrored(stretch), stretch_load_type(), b)
+        call link_of_halves(stretch%shear_flexibility, a, b, link)
+    end subroutine condense_sloped
+
+    !> The link from what its ends feel
+    pure subroutine link_of_halves(g, a, b, link)
+        !> 1/GA
+        real(wp), intent(in) :: g
+        !> What the left end feels, and the right one, seen from there
+        type(half_type), intent(in) :: a, b
+        type(stretch_link_type), intent(out) :: link
+
         link%pa = a%pa
         link%pb = b%pa
         link%p1 = a%p1
@@ -117,18 +128,16 @@ contains
         link%dg = a%dg
         link%dh = a%dh
         ! With shear w = v + M/GA; the sums are arranged as where the modulus is constant
-        associate (g => stretch%shear_flexibility)
-            link%faa = a%faa + g*a%pa
-            link%fbb = b%faa + g*b%pa
-            link%fab = a%fab - g*a%p1
-            link%df = a%df + g*(a%faa*b%pa + b%faa*a%pa + a%fab*b%p1 + b%fab*a%p1 + g*a%dh)
-            link%s1 = a%faa*b%p1**2 + a%pa*b%p1*(a%fab + b%fab) + a%pa**2*b%faa + g*a%pa*a%dh
-            link%s2 = b%p1*a%fab + a%pa*b%faa + g*a%dh
-            link%s3 = a%faa*b%pa + a%p1*b%fab + g*a%dh
-            link%s4 = a%pa*a%dh + link%gab*(a%pa*b%fab + a%faa*b%p1)
-            link%s5 = 2*a%dh + 1/a%determinant
-        end associate
-    end subroutine condense_sloped
+        link%faa = a%faa + g*a%pa
+        link%fbb = b%faa + g*b%pa
+        link%fab = a%fab - g*a%p1
+        link%df = a%df + g*(a%faa*b%pa + b%faa*a%pa + a%fab*b%p1 + b%fab*a%p1 + g*a%dh)
+        link%s1 = a%faa*b%p1**2 + a%pa*b%p1*(a%fab + b%fab) + a%pa**2*b%faa + g*a%pa*a%dh
+        link%s2 = b%p1*a%fab + a%pa*b%faa + g*a%dh
+        link%s3 = a%faa*b%pa + a%p1*b%fab + g*a%dh
+        link%s4 = a%pa*a%dh + link%gab*(a%pa*b%fab + a%faa*b%p1)
+        link%s5 = 2*a%dh + 1/a%determinant
+    end subroutine link_of_halves
 
     !> Rotations and shears of the ends of a stretch that its loads make where deflections and moments are zero there
     pure subroutine load_stretch(stretch, load, turn_a, turn_b, shear_a, shear_b)

@@ -3,10 +3,11 @@ module gapbeam_foundation_pieces
     use gapbeam_kinds, only: wp
     use gapbeam_foundation_taylor, only: expand, terms_of, most_terms
     use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type, fields_at, decay_lengths
+    use gapbeam_curved, only: curved_type, order, expand_curved, curved_fields
     implicit none
     private
     public :: question_type, piece_type, over_line
-    public :: has_middle, fading, taylor_piece, middle_piece, evaluate
+    public :: has_middle, fading, piece_between, middle_piece, evaluate
 
     !> The functions whose zeros are sought, numbered as the fields whose slopes they are
     integer, parameter :: over_line = 0, slope_of_w = 1, slope_of_psi = 2, slope_of_moment = 3, slope_of_shear = 4
@@ -22,6 +23,12 @@ module gapbeam_foundation_pieces
         integer :: what
         !> The line at both ends, for slope_of_w its slope times the length
         real(wp) :: line_a, line_b
+        !> Instead of w - line, stiffness side (w - line) - limit, both linear along the stretch
+        logical :: is_limit = .false.
+        integer :: side = 1
+        real(wp) :: stiffness_a = 1.0_wp, stiffness_b = 1.0_wp, limit_a = 0.0_wp, limit_b = 0.0_wp
+        !> The stretch where ground acts on it by curves
+        type(curved_type), allocatable :: curved
     end type question_type
 
     !> A function around the middle of a piece: polynomial in t, -1..1
@@ -47,34 +54,41 @@ contains
     end function has_middle
 
     !> The function on a piece, from the fields in its middle
-    pure subroutine taylor_piece(question, left, right, piece)
+    pure subroutine piece_between(question, left, right, piece)
         type(question_type), intent(in) :: question
         !> Its ends, 0..1
         real(wp), intent(in) :: left, right
         type(piece_type), intent(out) :: piece
-        real(wp) :: c(1, 4, 0:most_terms), y(1, 4), w, scale(4), tail
+        real(wp) :: c(1, 4, 0:most_terms), y(1, 4), w, scale(4), tail, pressed
         integer :: n, j
 
         associate (s => question%stretch, p => question%load, e => question%ends, a => piece%a, &
                    xi => piece%middle, g => question%stretch%shear_flexibility)
             xi = left + (right - left)/2
             piece%half = (right - left)/2
-            call fields_at(s, p, e, xi, w, y(1, 2), y(1, 3), y(1, 4))
-            y(1, 1) = w - g*y(1, 3)
-            n = terms_of(s, piece%half)
-            call expand(s, p, xi, y, piece%half, n, c)
+            pressed = 0.0_wp
+            if (allocated(question%curved)) then
+                call curved_piece(question%curved, xi, piece%half, c(1, :, :), pressed)
+                n = order
+            else
+                call fields_at(s, p, e, xi, w, y(1, 2), y(1, 3), y(1, 4))
+                y(1, 1) = w - g*y(1, 3)
+                n = terms_of(s, piece%half)
+                call expand(s, p, xi, y, piece%half, n, c)
+            end if
             do j = 1, 4
                 scale(j) = sum(abs(c(1, j, 0:n)))
             end do
             scale(1) = scale(1) + g*scale(3)
             scale(2) = scale(2) + g*scale(4)
-            scale = scale + scales(question, xi, piece%half)
+            scale = scale + scales(question, xi, piece%half, pressed)
             select case (question%what)
             case (over_line)
                 a(0:n) = c(1, 1, 0:n) + g*c(1, 3, 0:n)
                 a(0) = a(0) - (question%line_a*(1 - xi) + question%line_b*xi)
                 a(1) = a(1) - (question%line_b - question%line_a)*piece%half
                 piece%noise = scale(1) + abs(question%line_a) + abs(question%line_b)
+                if (question%is_limit) call take_limit(question, n, piece)
             case (slope_of_w)
                 a(0:n) = c(1, 2, 0:n) + g*c(1, 4, 0:n)
                 a(0) = a(0) - question%line_a/s%length
@@ -91,7 +105,7 @@ contains
                 do j = 0, n
                     a(j) = (j + 1)*c(1, 4, j + 1)/(s%length*piece%half)
                 end do
-                piece%noise = max(abs(s%modulus_a), abs(s%modulus_b))*scale(1) + abs(p%qa) + abs(p%qb) + abs(p%qc)
+                piece%noise = max(abs(s%modulus_a), abs(s%modulus_b))*scale(1) + abs(p%qa) + abs(p%qb) + abs(p%qc) + pressed
             end select
             piece%noise = ulps*epsilon(1.0_wp)*piece%noise
             ! What no coefficient can feel is left off
@@ -103,19 +117,58 @@ contains
             end do
             piece%degree = n
         end associate
-    end subroutine taylor_piece
+    end subroutine piece_between
 
-    !> What the fields are made of beside what is left of them: deflection, rotation, moment, shear
-    pure function scales(question, xi, half) result(scale)
+    !> From w - line to stiffness side (w - line) - limit
+    pure subroutine take_limit(question, degree, piece)
         type(question_type), intent(in) :: question
+        !> Of the polynomial
+        integer, intent(inout) :: degree
+        type(piece_type), intent(inout) :: piece
+        real(wp) :: stiffness(0:1)
+        integer :: j
+
+        associate (q => question, xi => piece%middle)
+            stiffness = q%side*[q%stiffness_a*(1 - xi) + q%stiffness_b*xi, (q%stiffness_b - q%stiffness_a)*piece%half]
+            degree = min(degree + 1, most_terms)
+            piece%a(degree) = stiffness(1)*piece%a(degree - 1)
+            do j = degree - 1, 1, -1
+                piece%a(j) = stiffness(0)*piece%a(j) + stiffness(1)*piece%a(j - 1)
+            end do
+            piece%a(0) = stiffness(0)*piece%a(0) - (q%limit_a*(1 - xi) + q%limit_b*xi)
+            piece%a(1) = piece%a(1) - (q%limit_b - q%limit_a)*piece%half
+            piece%noise = max(q%stiffness_a, q%stiffness_b)*piece%noise + max(q%limit_a, q%limit_b)
+        end associate
+    end subroutine take_limit
+
+    !> The fields of a stretch on curves around a place
+    pure subroutine curved_piece(curved, xi, half, c, pressed)
+        type(curved_type), intent(in) :: curved
         !> Middle and half of the piece
         real(wp), intent(in) :: xi, half
+        !> Coefficients of v, psi, M, V, shape (4, 0:most_terms)
+        real(wp), intent(out) :: c(:, 0:)
+        !> Size of the force of the curves per length
+        real(wp), intent(out) :: pressed
+        real(wp) :: y(4), w, step, modulus(0:order), forces(0:order, size(curved%curves))
+
+        call curved_fields(curved, xi, w, y(2), y(3), y(4))
+        y(1) = w - curved%stretch%shear_flexibility*y(3)
+        call expand_curved(curved, xi, y, half, c, modulus, forces, step)
+        pressed = sum(abs(forces))
+    end subroutine curved_piece
+
+    !> What the fields are made of beside what is left of them: deflection, rotation, moment, shear
+    pure function scales(question, xi, half, pressed) result(scale)
+        type(question_type), intent(in) :: question
+        !> Middle and half of the piece, and what acts on it beside load and linear ground
+        real(wp), intent(in) :: xi, half, pressed
         real(wp) :: scale(4)
         real(wp) :: w, m, q, k, bent
 
         associate (s => question%stretch, p => question%load, e => question%ends, l => question%stretch%length)
             k = max(abs(s%modulus_a), abs(s%modulus_b))
-            if (decay_lengths(s) > 3.0_wp .and. has_middle(s)) then
+            if (.not. allocated(question%curved) .and. decay_lengths(s) > 3.0_wp .and. has_middle(s)) then
                 q = abs(p%qa)*(1 - xi) + abs(p%qb)*xi + abs(p%qc)*xi*(1 - xi)
                 ! On the piece the ground's pressure is known to the rounding of the load that it bears
                 scale = [q/k, (abs(p%qa) + abs(p%qb) + abs(p%qc))/(k*l) + s%flexibility*q*(half*l)**3, &
@@ -123,7 +176,7 @@ contains
             else
                 w = abs(e%w_a) + abs(e%w_b)
                 m = abs(e%moment_a) + abs(e%moment_b)
-                q = abs(p%qa) + abs(p%qb) + abs(p%qc) + k*w
+                q = abs(p%qa) + abs(p%qb) + abs(p%qc) + k*w + pressed
                 bent = abs(p%kappa) + s%flexibility*(m + q*l**2/8)
                 w = w + l**2*bent/8
                 m = m + q*l**2/8
@@ -192,16 +245,34 @@ contains
         type(question_type), intent(in) :: question
         real(wp), intent(in) :: xi
         real(wp), intent(out) :: f, slope
-        real(wp) :: w, psi, moment, shear, pressed, incline
+        real(wp) :: w, psi, moment, shear, pressed, steeper, incline, c(4, 0:order)
 
         associate (s => question%stretch, p => question%load, l => question%stretch%length, eta => 1 - xi)
-            call fields_at(s, p, question%ends, xi, w, psi, moment, shear)
+            if (allocated(question%curved)) then
+                call curved_piece(question%curved, xi, 1.0_wp, c, steeper)
+                w = c(1, 0) + s%shear_flexibility*c(3, 0)
+                psi = c(2, 0)
+                moment = c(3, 0)
+                shear = c(4, 0)
+                pressed = c(4, 1)/l
+                steeper = 2*c(4, 2)/l
+            else
+                call fields_at(s, p, question%ends, xi, w, psi, moment, shear)
+                pressed = (s%modulus_a*eta + s%modulus_b*xi)*w - (p%qa*eta + p%qb*xi + p%qc*xi*eta)
+                steeper = (s%modulus_b - s%modulus_a)*w &
+                    + l*(s%modulus_a*eta + s%modulus_b*xi)*(psi + s%shear_flexibility*shear) - (p%qb - p%qa + p%qc*(eta - xi))
+            end if
             incline = psi + s%shear_flexibility*shear
-            pressed = (s%modulus_a*eta + s%modulus_b*xi)*w - (p%qa*eta + p%qb*xi + p%qc*xi*eta)
             select case (question%what)
             case (over_line)
                 f = w - (question%line_a*eta + question%line_b*xi)
                 slope = l*incline - (question%line_b - question%line_a)
+                if (question%is_limit) then
+                    associate (q => question, k => question%stiffness_a*eta + question%stiffness_b*xi)
+                        slope = q%side*(k*slope + (q%stiffness_b - q%stiffness_a)*f) - (q%limit_b - q%limit_a)
+                        f = q%side*k*f - (q%limit_a*eta + q%limit_b*xi)
+                    end associate
+                end if
             case (slope_of_w)
                 f = incline - question%line_a/l
                 slope = l*(p%kappa - s%flexibility*moment + s%shear_flexibility*pressed)
@@ -213,8 +284,7 @@ contains
                 slope = l*pressed
             case default
                 f = pressed
-                slope = (s%modulus_b - s%modulus_a)*w + l*(s%modulus_a*eta + s%modulus_b*xi)*incline &
-                    - (p%qb - p%qa + p%qc*(eta - xi))
+                slope = steeper
             end select
         end associate
     end subroutine evaluate

@@ -6,11 +6,12 @@
 module gapbeam_foundation_roots
     use gapbeam_kinds, only: wp
     use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type, decay_lengths
+    use gapbeam_curved, only: curved_type, steps_inside
     use gapbeam_foundation_pieces, only: question_type, piece_type, over_line, has_middle, fading, &
-        taylor_piece, middle_piece, evaluate
+        piece_between, middle_piece, evaluate
     implicit none
     private
-    public :: find_crossings, find_peaks
+    public :: find_crossings, find_limits, find_peaks
 
     !> Length of a piece in decay lengths; pieces at most; decay lengths after which nothing is left but the load's own deflection
     real(wp), parameter :: piece_length = 1.5_wp, most_pieces = 1e6_wp, layer = 1.1_wp*digits(1.0_wp)*0.7_wp
@@ -27,7 +28,7 @@ contains
 
     !> Where the deflection crosses a straight line: all zeros of w - line inside the stretch at which it changes its sign,
     !> by more than rounding
-    pure subroutine find_crossings(stretch, load, ends, line_a, line_b, xi, number)
+    pure subroutine find_crossings(stretch, load, ends, line_a, line_b, xi, number, curved)
         !> The stretch, its load, deflections and moments of its ends
         type(stretch_type), intent(in) :: stretch
         type(stretch_load_type), intent(in) :: load
@@ -38,12 +39,60 @@ contains
         real(wp), allocatable, intent(out) :: xi(:)
         !> How many there are
         integer, intent(out) :: number
+        !> The stretch where ground acts on it by curves
+        type(curved_type), intent(in), optional :: curved
 
-        call find_zeros(question_type(stretch, load, ends, over_line, line_a, line_b), xi, number)
+        call find_zeros(asked(stretch, load, ends, over_line, line_a, line_b, curved), xi, number)
     end subroutine find_crossings
 
+    !> Where ground reaches its limit: all zeros of stiffness side (w - line) - limit at which that changes its sign
+    pure subroutine find_limits(stretch, load, ends, line, side, stiffness, limit, xi, number, curved)
+        !> As for find_crossings
+        type(stretch_type), intent(in) :: stretch
+        type(stretch_load_type), intent(in) :: load
+        type(stretch_ends_type), intent(in) :: ends
+        !> The line at both ends, the side from which the ground pushes (1: below), its stiffness and limit at both ends, 0 or more
+        real(wp), intent(in) :: line(2), stiffness(2), limit(2)
+        integer, intent(in) :: side
+        !> As for find_crossings
+        real(wp), allocatable, intent(out) :: xi(:)
+        integer, intent(out) :: number
+        type(curved_type), intent(in), optional :: curved
+        type(question_type) :: question
+
+        question = asked(stretch, load, ends, over_line, line(1), line(2), curved)
+        question%is_limit = .true.
+        question%side = side
+        question%stiffness_a = stiffness(1)
+        question%stiffness_b = stiffness(2)
+        question%limit_a = limit(1)
+        question%limit_b = limit(2)
+        call find_zeros(question, xi, number)
+    end subroutine find_limits
+
+    !> A question
+    pure function asked(stretch, load, ends, what, line_a, line_b, curved) result(question)
+        type(stretch_type), intent(in) :: stretch
+        type(stretch_load_type), intent(in) :: load
+        type(stretch_ends_type), intent(in) :: ends
+        integer, intent(in) :: what
+        real(wp), intent(in) :: line_a, line_b
+        type(curved_type), intent(in), optional :: curved
+        type(question_type) :: question
+
+        question%stretch = stretch
+        question%load = load
+        question%ends = ends
+        question%what = what
+        question%line_a = line_a
+        question%line_b = line_b
+        if (.not. present(curved)) return
+        allocate (question%curved)
+        question%curved = curved
+    end function asked
+
     !> Where a field has a peak inside the stretch: its slope changes sign
-    pure subroutine find_peaks(stretch, load, ends, what, xi, number, slope)
+    pure subroutine find_peaks(stretch, load, ends, what, xi, number, slope, curved)
         !> As for find_crossings
         type(stretch_type), intent(in) :: stretch
         type(stretch_load_type), intent(in) :: load
@@ -55,11 +104,13 @@ contains
         integer, intent(out) :: number
         !> Slope dw/dx of a line from which the deflection is reckoned; default 0
         real(wp), intent(in), optional :: slope
+        !> As for find_crossings
+        type(curved_type), intent(in), optional :: curved
         real(wp) :: rise
 
         rise = 0.0_wp
         if (present(slope)) rise = slope*stretch%length
-        call find_zeros(question_type(stretch, load, ends, what, rise, rise), xi, number)
+        call find_zeros(asked(stretch, load, ends, what, rise, rise, curved), xi, number)
     end subroutine find_peaks
 
     !> Zeros of a function, piece by piece
@@ -74,7 +125,8 @@ contains
 
         length = decay_lengths(question%stretch)
         n = max(1, ceiling(min(length/piece_length, most_pieces)))
-        if (length > 2*layer + 4*piece_length .and. has_middle(question%stretch)) then
+        if (allocated(question%curved)) n = steps_inside(question%curved)
+        if (length > 2*layer + 4*piece_length .and. decays(question)) then
             part = layer/length
             n = ceiling(layer/piece_length)
             do i = 1, n
@@ -99,6 +151,14 @@ contains
         if (number > 0) xi = zeros%list(1, 1:number)
     end subroutine find_zeros
 
+    !> Is nothing left of the ends in the middle of a long stretch, but what the load makes there
+    pure function decays(question)
+        type(question_type), intent(in) :: question
+        logical :: decays
+
+        decays = has_middle(question%stretch) .and. .not. question%is_limit .and. .not. allocated(question%curved)
+    end function decays
+
     !> Zeros between two places
     pure subroutine add_piece(question, left, right, zeros)
         type(question_type), intent(in) :: question
@@ -107,7 +167,7 @@ contains
         type(piece_type) :: piece
 
         ! Long stretches first: is the line further from the load's own deflection than what is left of the ends
-        if (question%what == over_line .and. decay_lengths(question%stretch) > 4.0_wp .and. has_middle(question%stretch)) then
+        if (question%what == over_line .and. decay_lengths(question%stretch) > 4.0_wp .and. decays(question)) then
             call middle_piece(question, left, right, piece)
             if (abs(piece%a(0)) > abs(piece%a(1)) + abs(piece%a(2)) + piece%noise + fading(question, left, right)) then
                 if (.not. zeros%begun .or. (zeros%positive .eqv. piece%a(0) > 0.0_wp)) then
@@ -117,7 +177,7 @@ contains
                 end if
             end if
         end if
-        call taylor_piece(question, left, right, piece)
+        call piece_between(question, left, right, piece)
         call add_zeros(question, piece, zeros)
     end subroutine add_piece
 

@@ -8,7 +8,7 @@ module gapbeam_foundation_taylor
     implicit none
     private
     public :: stretch_type, stretch_load_type, half_type
-    public :: half_link, advance, expand, terms_of, most_terms
+    public :: half_link, half_of_transfer, advance, expand, terms_of, most_terms
 
     !> A prismatic stretch on elastic ground
     type :: stretch_type
@@ -47,7 +47,7 @@ contains
         !> The left half of its link
         type(half_type), intent(out) :: half
         !> v, psi, M, V at the right end from each of them at the left end, and from the load, terms by terms
-        real(wp) :: c(5, 4, 0:most_terms), t(4, 5), start(5, 4), d
+        real(wp) :: c(5, 4, 0:most_terms), start(5, 4)
         integer :: n, i, j
 
         start = 0.0_wp
@@ -60,7 +60,17 @@ contains
         do i = n - 1, 0, -1
             start = start + c(:, :, i)
         end do
-        t = transpose(start)
+        call half_of_transfer(transpose(start), half)
+    end subroutine half_link
+
+    !> The same from what the right end gets of the left one
+    pure subroutine half_of_transfer(t, half)
+        !> v, psi, M, V at the right end from each of them at the left end, and from the load
+        real(wp), intent(in) :: t(4, 5)
+        !> The left half of the link
+        type(half_type), intent(out) :: half
+        real(wp) :: d
+
         d = t(1, 2)*t(3, 4) - t(1, 4)*t(3, 2)
         half%determinant = d
         half%p1 = t(3, 4)/d
@@ -76,7 +86,7 @@ contains
         half%dh = (t(3, 4)*t(2, 1) - t(3, 1)*t(2, 4))/d
         half%turn = -(half%p1*t(1, 5) + half%fab*t(3, 5))
         half%shear = half%gab*t(1, 5) - half%p2*t(3, 5)
-    end subroutine half_link
+    end subroutine half_of_transfer
 
     !> Fields at one place from those at another
     pure subroutine advance(stretch, load, xi, start, step, values)

@@ -3,7 +3,14 @@ module gapbeam_layers
     use gapbeam_kinds, only: wp
     implicit none
     private
-    public :: layer_type, law_piece_type, pieces_of_law, law_piece
+    public :: layer_type, law_piece_type, pieces_of_law, branches_of_law, law_piece, is_curve, has_curves
+    public :: law_by_points, law_plastic, law_hardening, law_hyperbolic, law_tanh, law_cubic, parameters_of_law
+
+    !> Laws: by points, or none; elastic up to a force (stiffness, limit), of another slope beyond (and slope); curves that tend to
+    !> a force (stiffness, limit); k1 d + k2 d**2 + k3 d**3 (k1, k2, k3)
+    integer, parameter :: law_by_points = 0, law_plastic = 1, law_hardening = 2, law_hyperbolic = 3, law_tanh = 4, law_cubic = 5
+    !> Parameters of a law, at most
+    integer, parameter :: parameters_of_law = 3
 
     !> One foundation under one piece of the beam. It pushes back where side*(w - contact) > 0, by its modulus or by a law
     type :: layer_type
@@ -17,6 +24,9 @@ module gapbeam_layers
         real(wp) :: contact_a = 0.0_wp, contact_b = 0.0_wp
         !> First and last piece of its law among all; none: linear
         integer :: law_first = 1, law_last = 0
+        !> The law, if not by points, and its parameters at the left and right end of the piece, linear in between
+        integer :: law = law_by_points
+        real(wp) :: parameter_a(parameters_of_law) = 0.0_wp, parameter_b(parameters_of_law) = 0.0_wp
     end type layer_type
 
     !> A piece of a law: from a displacement past the contact and the force per length there, with a slope that is not below 0
@@ -32,7 +42,35 @@ contains
         integer :: number
 
         number = max(1, layer%law_last - layer%law_first + 1)
+        if (layer%law == law_plastic .or. layer%law == law_hardening) number = 2
     end function pieces_of_law
+
+    !> Number of pieces of the law of a layer, 0: it has none, or a curve
+    elemental function branches_of_law(layer) result(number)
+        type(layer_type), intent(in) :: layer
+        integer :: number
+
+        number = 0
+        if (layer%law_last >= layer%law_first .or. pieces_of_law(layer) > 1) number = pieces_of_law(layer)
+    end function branches_of_law
+
+    !> Is a piece of a law not linear in displacement and place
+    elemental function is_curve(layer, number) result(it_is)
+        type(layer_type), intent(in) :: layer
+        !> The piece, from 1; 0: none
+        integer, intent(in) :: number
+        logical :: it_is
+
+        it_is = number > 0 .and. (layer%law >= law_hyperbolic .or. (layer%law == law_hardening .and. number == 2))
+    end function is_curve
+
+    !> Does a layer have such pieces
+    elemental function has_curves(layer) result(has)
+        type(layer_type), intent(in) :: layer
+        logical :: has
+
+        has = layer%law >= law_hardening
+    end function has_curves
 
     !> A piece of the law of a layer; of a linear one the only piece, without its slope
     pure function law_piece(layer, laws, number) result(piece)

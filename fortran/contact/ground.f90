@@ -7,13 +7,14 @@ module gapbeam_ground
     use gapbeam_link, only: piece_type, piece_load_type, condense_link
     use gapbeam_band, only: plain
     use gapbeam_foundation, only: stretch_type, stretch_load_type, condense_stretch, load_stretch, decay_lengths
-    use gapbeam_layers, only: layer_type, law_piece_type, pieces_of_law, law_piece
+    use gapbeam_curved, only: curved_type, condense_curved
+    use gapbeam_layers, only: layer_type, law_piece_type, law_piece, is_curve, law_by_points, law_hardening
+    use gapbeam_ground_laws, only: between, along, contact_line, slope_of_layer, offset_of_layer, take_curves
     use gapbeam_model, only: beam_type, node_support_type, order_supports
     implicit none
     private
     public :: ground_type, zones_type, grounded_type
-    public :: new_zones, resize, full_contact, place_stretches, contact_line, along, between, steps_of_piece
-    public :: line_of_kink, piece_of_deflection, slope_of_layer, combined_load
+    public :: new_zones, resize, full_contact, place_stretches, steps_of, steps_of_piece, combined_load
 
     !> A beam and the ground under it
     type :: ground_type
@@ -37,6 +38,10 @@ module gapbeam_ground
         real(wp), allocatable :: from(:), to(:)
         !> Piece of its law on which each layer of the piece acts, 0: not in contact, shape (most layers of a piece, m)
         integer, allocatable :: acts(:, :)
+        !> Fields (v = w - M/GA, psi, M, V) at the left ends, near which curves are taken for straight, shape (4, m); else unused
+        real(wp), allocatable :: start(:, :)
+        !> Into how many equal steps every piece is cut in any case, so that series hold, shape (n)
+        integer, allocatable :: steps(:)
     end type zones_type
 
     !> The beam on the zones at hand
@@ -48,18 +53,25 @@ module gapbeam_ground
         type(stretch_load_type), allocatable :: dead(:), live(:)
         !> Node of this beam for every node of the beam without ground, shape (0:n)
         integer, allocatable :: node(:)
+        !> The fields ran away on a curve: there is no such beam
+        logical :: lost = .false.
     end type grounded_type
 
 contains
 
     !> Room for stretches
-    pure subroutine new_zones(stretches, layers, zones)
+    pure subroutine new_zones(stretches, layers, steps, zones)
         !> Number of stretches, most layers of a piece
         integer, intent(in) :: stretches, layers
-        !> Nothing set yet
+        !> Steps of the pieces, shape (n)
+        integer, intent(in) :: steps(:)
+        !> Nothing else set yet but the fields, to 0
         type(zones_type), intent(out) :: zones
 
-        allocate (zones%piece(stretches), zones%from(stretches), zones%to(stretches), zones%acts(layers, stretches))
+        allocate (zones%piece(stretches), zones%from(stretches), zones%to(stretches), zones%acts(layers, stretches), &
+                  zones%start(4, stretches), zones%steps(size(steps)))
+        zones%start(:, :) = 0.0_wp
+        zones%steps(:) = steps
     end subroutine new_zones
 
     !> Room for another number of stretches, the first ones kept
@@ -68,11 +80,12 @@ contains
         integer, intent(in) :: room, kept
         type(zones_type) :: other
 
-        call new_zones(room, size(zones%acts, 1), other)
+        call new_zones(room, size(zones%acts, 1), zones%steps, other)
         other%piece(:kept) = zones%piece(:kept)
         other%from(:kept) = zones%from(:kept)
         other%to(:kept) = zones%to(:kept)
         other%acts(:, :kept) = zones%acts(:, :kept)
+        other%start(:, :kept) = zones%start(:, :kept)
         zones = other
     end subroutine resize
 
@@ -81,25 +94,35 @@ contains
         type(ground_type), intent(in) :: ground
         !> The zones
         type(zones_type), intent(out) :: zones
-        integer :: j, k, m, steps
+        integer :: j, k, m
 
+        call new_zones(sum(steps_of(ground)), most_layers(ground), steps_of(ground), zones)
         m = 0
         do j = 1, size(ground%pieces)
-            m = m + steps_of_piece(ground, j)
-        end do
-        call new_zones(m, most_layers(ground), zones)
-        m = 0
-        do j = 1, size(ground%pieces)
-            steps = steps_of_piece(ground, j)
-            do k = 1, steps
+            do k = 1, zones%steps(j)
                 m = m + 1
                 zones%piece(m) = j
-                zones%from(m) = between(0.0_wp, ground%pieces(j)%length, k - 1, steps)
-                zones%to(m) = between(0.0_wp, ground%pieces(j)%length, k, steps)
+                zones%from(m) = between(0.0_wp, ground%pieces(j)%length, k - 1, zones%steps(j))
+                zones%to(m) = between(0.0_wp, ground%pieces(j)%length, k, zones%steps(j))
                 zones%acts(:, m) = 0
                 zones%acts(1:ground%first(j + 1) - ground%first(j), m) = 1
+                if (ground%first(j) < ground%first(j + 1)) zones%start(:2, m) = line_of_contact(ground%layers(ground%first(j)))
             end do
         end do
+
+    contains
+
+        !> Deflection and slope of a beam that lies on a layer
+        pure function line_of_contact(layer) result(line)
+            type(layer_type), intent(in) :: layer
+            real(wp) :: line(2)
+
+            associate (length => ground%pieces(j)%length)
+                line(1) = contact_line(layer, zones%from(m), length)
+                line(2) = (layer%contact_b - layer%contact_a)/length
+            end associate
+        end function line_of_contact
+
     end subroutine full_contact
 
     !> Largest number of layers under a piece
@@ -110,19 +133,41 @@ contains
         most = maxval(ground%first(2:) - ground%first(:size(ground%pieces)))
     end function most_layers
 
-    !> Into how many equal steps a piece is cut in any case: where the modulus varies, series hold for beta*length <= 1
-    pure function steps_of_piece(ground, piece) result(steps)
+    !> Steps of all pieces
+    pure function steps_of(ground) result(steps)
+        type(ground_type), intent(in) :: ground
+        integer, allocatable :: steps(:)
+        integer :: j
+
+        allocate (steps(size(ground%pieces)))
+        do j = 1, size(steps)
+            steps(j) = steps_of_piece(ground, j)
+        end do
+    end function steps_of
+
+    !> Into how many equal steps a piece is cut in any case: where the modulus varies, series hold for beta*length <= 1. Laws that
+    !> stiffen may need more (gapbeam_zones)
+    pure function steps_of_piece(ground, piece, stiffer) result(steps)
         type(ground_type), intent(in) :: ground
         integer, intent(in) :: piece
+        !> Modulus of those that do beside that at first; default 0
+        real(wp), intent(in), optional :: stiffer
         integer :: steps, k
         real(wp) :: modulus
         logical :: varies
 
         modulus = 0.0_wp
-        varies = .false.
+        if (present(stiffer)) modulus = stiffer
+        varies = modulus > 0.0_wp
         do k = ground%first(piece), ground%first(piece + 1) - 1
             associate (layer => ground%layers(k))
-                if (pieces_of_law(layer) > 1 .or. layer%law_last >= layer%law_first) cycle
+                if (layer%law /= law_by_points) then
+                    ! Also where a law is curved
+                    modulus = modulus + stiffest(layer)
+                    varies = varies .or. stiffest(layer) > 0.0_wp
+                    cycle
+                end if
+                if (layer%law_last >= layer%law_first) cycle
                 modulus = modulus + max(layer%modulus_a, layer%modulus_b)
                 varies = varies .or. abs(layer%modulus_a - layer%modulus_b) > 0.0_wp
             end associate
@@ -134,83 +179,21 @@ contains
         end associate
     end function steps_of_piece
 
-    !> A place k of n steps from a to b, exactly b at the end
-    elemental function between(a, b, k, n) result(place)
-        real(wp), intent(in) :: a, b
-        integer, intent(in) :: k, n
-        real(wp) :: place
-
-        place = a + (b - a)*k/n
-        if (k == n) place = b
-    end function between
-
-    !> Value at a distance from the left end of what varies linearly along a length
-    elemental function along(value_a, value_b, distance, length) result(value)
-        real(wp), intent(in) :: value_a, value_b, distance, length
-        real(wp) :: value
-
-        if (distance <= 0.0_wp) then
-            value = value_a
-        else if (distance >= length) then
-            value = value_b
-        else
-            value = value_a + (value_b - value_a)*(distance/length)
-        end if
-    end function along
-
-    !> Deflection at which a layer begins to act, at a distance from the left end of its piece
-    elemental function contact_line(layer, distance, length) result(level)
+    !> Greatest stiffness of a law with parameters, of one that stiffens that at first
+    elemental function stiffest(layer) result(modulus)
         type(layer_type), intent(in) :: layer
-        !> Distance, and length of the piece
-        real(wp), intent(in) :: distance, length
-        real(wp) :: level
+        real(wp) :: modulus
 
-        level = along(layer%contact_a, layer%contact_b, distance, length)
-    end function contact_line
-
-    !> Deflection at which a layer goes on to a piece of its law
-    pure function line_of_kink(ground, layer, number, distance, length) result(level)
-        type(ground_type), intent(in) :: ground
-        type(layer_type), intent(in) :: layer
-        !> The piece, from 1, which begins there
-        integer, intent(in) :: number
-        real(wp), intent(in) :: distance, length
-        real(wp) :: level
-        type(law_piece_type) :: piece
-
-        piece = law_piece(layer, ground%laws, number)
-        level = contact_line(layer, distance, length) + layer%side*piece%displacement
-    end function line_of_kink
-
-    !> The piece of its law on which a layer is at a deflection, 0: it is not reached
-    pure function piece_of_deflection(ground, layer, w, distance, length) result(number)
-        type(ground_type), intent(in) :: ground
-        type(layer_type), intent(in) :: layer
-        !> Deflection at a distance from the left end of the piece, and length of the piece
-        real(wp), intent(in) :: w, distance, length
-        integer :: number
-
-        do number = pieces_of_law(layer), 1, -1
-            if (layer%side*(w - line_of_kink(ground, layer, number, distance, length)) > 0.0_wp) exit
-        end do
-    end function piece_of_deflection
-
-    !> Force per length and deflection of a layer on a piece of its law, at a distance from the left end of the piece
-    elemental function slope_of_layer(layer, law, distance, length) result(slope)
-        type(layer_type), intent(in) :: layer
-        !> The piece of its law
-        type(law_piece_type), intent(in) :: law
-        real(wp), intent(in) :: distance, length
-        real(wp) :: slope
-
-        slope = law%slope
-        if (layer%law_last < layer%law_first) slope = along(layer%modulus_a, layer%modulus_b, distance, length)
-    end function slope_of_layer
+        modulus = max(layer%parameter_a(1), layer%parameter_b(1))
+        if (layer%law == law_hardening) modulus = max(modulus, layer%parameter_a(3), layer%parameter_b(3))
+    end function stiffest
 
     !> The beam as it is on its zones
-    pure subroutine place_stretches(ground, zones, grounded)
+    pure subroutine place_stretches(ground, zones, factor, grounded)
         type(ground_type), intent(in) :: ground
         type(zones_type), intent(in) :: zones
+        !> Load factor: under it curves are taken for straight
+        real(wp), intent(in) :: factor
         !> The beam, ready to be solved
         type(grounded_type), intent(out) :: grounded
         type(node_support_type), allocatable :: supports(:)
@@ -227,7 +210,8 @@ contains
             beam%couple(:, :) = 0.0_wp
             grounded%node(0) = 0
             do i = 1, m
-                call place_stretch(ground, zones, i, grounded)
+                call place_stretch(ground, zones, factor, i, grounded)
+                if (grounded%lost) return
                 grounded%node(zones%piece(i)) = i
             end do
             do j = 0, n
@@ -245,14 +229,16 @@ contains
     end subroutine place_stretches
 
     !> One stretch: its ground, its loads, its link
-    pure subroutine place_stretch(ground, zones, i, grounded)
+    pure subroutine place_stretch(ground, zones, factor, i, grounded)
         type(ground_type), intent(in) :: ground
         type(zones_type), intent(in) :: zones
+        real(wp), intent(in) :: factor
         integer, intent(in) :: i
         type(grounded_type), intent(inout) :: grounded
         type(law_piece_type) :: law
+        type(curved_type) :: curved
         type(piece_type) :: piece(1)
-        real(wp) :: work(1), slope(2), contact(2), offset
+        real(wp) :: work(1), slope(2), contact(2), offset(2)
         integer :: k
 
         associate (j => zones%piece(i), s => grounded%stretches(i), dead => grounded%dead(i), live => grounded%live(i), &
@@ -262,21 +248,36 @@ contains
             live = load_between(ground%live(j), from, to, p%length)
             do k = ground%first(j), ground%first(j + 1) - 1
                 associate (layer => ground%layers(k), acts => zones%acts(k - ground%first(j) + 1, i))
-                    if (acts == 0) cycle
+                    if (acts == 0 .or. is_curve(layer, acts)) cycle
                     law = law_piece(layer, ground%laws, acts)
-                    slope(:) = slope_of_layer(layer, law, [from, to], p%length)
+                    slope(:) = slope_of_layer(layer, law, acts, [from, to], p%length)
                     contact(:) = contact_line(layer, [from, to], p%length)
-                    offset = layer%side*(law%force - law%slope*law%displacement)
+                    offset(:) = layer%side*offset_of_layer(layer, law, acts, [from, to], p%length)
                     s%modulus_a = s%modulus_a + slope(1)
                     s%modulus_b = s%modulus_b + slope(2)
-                    dead%qa = dead%qa + (slope(1)*contact(1) - offset)
-                    dead%qb = dead%qb + (slope(2)*contact(2) - offset)
+                    dead%qa = dead%qa + (slope(1)*contact(1) - offset(1))
+                    dead%qb = dead%qb + (slope(2)*contact(2) - offset(2))
                     dead%qc = dead%qc - (slope(2) - slope(1))*(contact(2) - contact(1))
                 end associate
             end do
             ! The bar without ground, for what needs its size only
             piece = piece_type(s%length, s%flexibility, s%shear_flexibility)
             call condense_link(piece, [piece_load(dead)], [piece_load(live)], work, link)
+            call take_curves(ground%layers(ground%first(j):ground%first(j + 1) - 1), zones%acts(:, i), from, to, p%length, &
+                             curved%curves)
+            if (allocated(curved%curves)) then
+                curved%stretch = s
+                curved%load = combined_load(dead, live, factor)
+                curved%left = zones%start(:, i)
+                link%turn_a(2) = 0.0_wp
+                link%turn_b(2) = 0.0_wp
+                link%shear_a(2) = 0.0_wp
+                link%shear_b(2) = 0.0_wp
+                call condense_curved(curved, grounded%beam%ground(i), link%turn_a(1), link%turn_b(1), link%shear_a(1), &
+                                     link%shear_b(1), grounded%lost)
+                link%shear_b(1) = -link%shear_b(1)
+                return
+            end if
             call condense_stretch(s, grounded%beam%ground(i))
             call load_stretch(s, dead, link%turn_a(1), link%turn_b(1), link%shear_a(1), link%shear_b(1))
             call load_stretch(s, live, link%turn_a(2), link%turn_b(2), link%shear_a(2), link%shear_b(2))

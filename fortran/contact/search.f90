@@ -451,7 +451,7 @@ contains
             call set_mark(mark, closed)
             do
                 call look(beam, closed, .false., work, search, settled)
-                if (settled .or. search%state /= band_ok) return
+                if (settled .or. search%state /= band_ok .or. work%solves > work%most_solves) return
                 if (search%wrong_now < search%fewest) exit
                 call keep_least_index(search%wrong)
                 call change(beam, search, closed)

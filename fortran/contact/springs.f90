@@ -6,20 +6,24 @@
 !> to the right ones as Newton's method needs.
 module gapbeam_springs
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, gapbeam_solved
+    use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_not_converged
     use gapbeam_link, only: piece_type, piece_load_type, condense_link
     use gapbeam_band, only: plain
-    use gapbeam_layers, only: layer_type, pieces_of_law, law_piece
+    use gapbeam_layers, only: layer_type, law_piece_type, law_piece, pieces_of_law, law_by_points
+    use gapbeam_law_points, only: most_points, points_of_law
     use gapbeam_law, only: both
     use gapbeam_polyline, only: join_pieces
     use gapbeam_model, only: beam_type, node_support_type, order_supports
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_scheme, only: find_scheme, outcome_type
-    use gapbeam_ground, only: ground_type, zones_type, new_zones, resize, contact_line, line_of_kink, piece_of_deflection, &
-        between, steps_of_piece
+    use gapbeam_ground_laws, only: between, contact_line, line_of_kink, piece_of_deflection, parameters_at
+    use gapbeam_ground, only: ground_type, zones_type, new_zones, resize, steps_of, steps_of_piece
     implicit none
     private
     public :: search_springs
+
+    !> Linear solves that the search over springs may take
+    integer, parameter :: most_solves = 20000
 
 contains
 
@@ -71,8 +75,14 @@ contains
         where (beam%supports(size(closed) + 1:)%kink > 1) acting(size(closed) + 1:) = .false.
         call new_workspace(beam, work)
         call set_loads(beam, factor, work)
+        work%most_solves = most_solves
         call find_scheme(beam, factor, rule, acting, work, outcome, error)
         solves = work%solves
+        if (allocated(error) .and. work%solves > most_solves) then
+            deallocate (error)
+            call fatal_error(error, gapbeam_not_converged, "the ground could not be settled, or proved too weak for the loads: "// &
+                             "look for loads near what it can bear")
+        end if
         if (allocated(error)) return
         if (outcome%status /= gapbeam_solved) then
             allocate (motion(0:n))
@@ -81,7 +91,7 @@ contains
             return
         end if
         closed(:) = acting(:size(closed))
-        call read_zones(ground, parts, node, work, zones)
+        call read_zones(ground, beam, parts, node, work, zones)
     end subroutine search_springs
 
     !> The beam cut into parts, with its supports and then the springs
@@ -107,7 +117,7 @@ contains
         s = m
         do j = 1, size(parts)
             do k = ground%first(j), ground%first(j + 1) - 1
-                m = m + (parts(j) + 1)*pieces_of_law(ground%layers(k))
+                m = m + (parts(j) + 1)*most_pieces(ground%layers(k))
             end do
         end do
         allocate (supports(m))
@@ -163,13 +173,14 @@ contains
         type(node_support_type), intent(inout) :: supports(:)
         !> Springs so far in and out
         integer, intent(inout) :: number
+        type(law_piece_type) :: points(most_points), piece
         real(wp) :: width, place, before
         integer :: i, pieces
 
         place = between(0.0_wp, length, part, parts)
         width = length/parts
         if (part == 0 .or. part == parts) width = width/2
-        if (layer%law_last < layer%law_first) then
+        if (layer%law == law_by_points .and. layer%law_last < layer%law_first) then
             before = between(layer%modulus_a, layer%modulus_b, part, parts)*width
             if (.not. before > 0.0_wp) return
             number = number + 1
@@ -177,21 +188,38 @@ contains
             return
         end if
         before = 0.0_wp
-        pieces = pieces_of_law(layer)
+        if (layer%law == law_by_points) then
+            pieces = pieces_of_law(layer)
+        else
+            call points_of_law(layer%law, parameters_at(layer, place, length), points, pieces)
+        end if
         do i = 1, pieces
-            associate (piece => law_piece(layer, ground%laws, i))
-                number = number + 1
-                supports(number) = node_support_type(node, layer%side, piece%slope*width, &
-                                                     line_of_kink(ground, layer, i, place, length), kink=i, more=i < pieces, &
-                                                     force=piece%force*width, before=before)
-                before = piece%slope*width
-            end associate
+            if (layer%law == law_by_points) then
+                piece = law_piece(layer, ground%laws, i)
+            else
+                piece = points(i)
+            end if
+            number = number + 1
+            supports(number) = node_support_type(node, layer%side, piece%slope*width, &
+                                                 contact_line(layer, place, length) + layer%side*piece%displacement, &
+                                                 kink=i, more=i < pieces, force=piece%force*width, before=before)
+            before = piece%slope*width
         end do
     end subroutine make_spring
 
+    !> Pieces of the law of a spring, at most
+    elemental function most_pieces(layer) result(pieces)
+        type(layer_type), intent(in) :: layer
+        integer :: pieces
+
+        pieces = pieces_of_law(layer)
+        if (layer%law /= law_by_points) pieces = most_points
+    end function most_pieces
+
     !> In which parts every layer may act, neighbours with the same joined
-    subroutine read_zones(ground, parts, node, work, zones)
+    subroutine read_zones(ground, beam, parts, node, work, zones)
         type(ground_type), intent(in) :: ground
+        type(beam_type), intent(in) :: beam
         integer, intent(in) :: parts(:), node(0:)
         type(workspace_type), intent(in) :: work
         type(zones_type), intent(out) :: zones
@@ -200,10 +228,10 @@ contains
 
         most = maxval(ground%first(2:) - ground%first(:size(parts)))
         allocate (acts(most))
-        call new_zones(node(ubound(node, 1)), most, zones)
+        call new_zones(node(ubound(node, 1)), most, steps_of(ground), zones)
         m = 0
         do j = 1, size(parts)
-            each = parts(j)/steps_of_piece(ground, j)
+            each = parts(j)/zones%steps(j)
             do i = 1, parts(j)
                 call judge_part(j, i)
                 ! Steps of ground that varies stay
@@ -218,6 +246,7 @@ contains
                 zones%from(m) = place(j, i - 1)
                 zones%to(m) = place(j, i)
                 zones%acts(:, m) = acts
+                zones%start(:, m) = start_of(node(j - 1) + i)
             end do
         end do
         call resize(zones, m, m)
@@ -246,6 +275,21 @@ contains
             end do
         end subroutine judge_part
 
+        !> Fields at the left end of a part, straight between its ends
+        pure function start_of(part) result(start)
+            integer, intent(in) :: part
+            real(wp) :: start(4)
+
+            associate (a => work%answers(part - 1), b => work%answers(part), link => beam%links(part))
+                start = [a%deflection, (b%deflection - a%deflection)/link%length, a%moment_right, &
+                         (b%moment_left - a%moment_right)/link%length]
+                ! Rotations and shears as they are without load: shear lets deflections differ from v, the chord from the rotation
+                start(2) = start(2) - ground%pieces(j)%shear_flexibility*start(4) &
+                    + ground%pieces(j)%flexibility*link%length*(2*a%moment_right + b%moment_left)/6
+                start(1) = start(1) - ground%pieces(j)%shear_flexibility*a%moment_right
+            end associate
+        end function start_of
+
         !> Piece of its law on which a layer is in the middle of a part
         pure function acts_between(layer, piece, part) result(law)
             type(layer_type), intent(in) :: layer
@@ -256,8 +300,9 @@ contains
             associate (a => work%answers(node(piece - 1) + part - 1), b => work%answers(node(piece - 1) + part))
                 w = a%deflection + (b%deflection - a%deflection)/2
             end associate
-            law = piece_of_deflection(ground, layer, w, between(0.0_wp, ground%pieces(piece)%length, 2*part - 1, 2*parts(piece)), &
-                                      ground%pieces(piece)%length)
+            associate (length => ground%pieces(piece)%length)
+                law = piece_of_deflection(ground%laws, layer, w, between(0.0_wp, length, 2*part - 1, 2*parts(piece)), length)
+            end associate
         end function acts_between
 
         !> Does the beam press a layer at an end of a part
@@ -267,7 +312,7 @@ contains
             logical :: presses
 
             presses = layer%side*(work%answers(node(piece - 1) + part)%deflection &
-                                  - line_of_kink(ground, layer, 1, place(piece, part), ground%pieces(piece)%length)) > 0.0_wp
+                                  - line_of_kink(ground%laws, layer, 1, place(piece, part), ground%pieces(piece)%length)) > 0.0_wp
         end function presses
 
         !> Distance of an end of a part from the left end of its piece, steps exactly where they are

@@ -58,6 +58,8 @@ module gapbeam_workspace
         real(wp), allocatable :: spring(:), spring_contact(:)
         !> Linear solves so far, those of parts of the beam by their share of it, and the system solved last
         integer :: solves = 0
+        !> Solves after which the least-index rule, which may take very many, gives up
+        integer :: most_solves = huge(0)
         !> Did the paper's rule come back to a scheme that it had seen
         logical :: came_back = .false.
         integer :: method = method_mixed

@@ -7,17 +7,16 @@
 !> themselves, since all crossings inside a stretch are isolated with certainty.
 module gapbeam_zones
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, gapbeam_solved
-    use gapbeam_foundation, only: stretch_ends_type, stretch_load_type, fields_at
-    use gapbeam_foundation_roots, only: find_crossings
-    use gapbeam_layers, only: pieces_of_law
+    use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_not_converged
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_scheme, only: find_scheme, outcome_type
-    use gapbeam_ground, only: ground_type, zones_type, grounded_type, new_zones, resize, place_stretches, steps_of_piece, &
-        between, line_of_kink, piece_of_deflection, combined_load
+    use gapbeam_ground_laws, only: approach_kink
+    use gapbeam_ground, only: ground_type, zones_type, grounded_type, place_stretches
+    use gapbeam_zone_fields, only: fields_at_ends, take_fields, way_of_fields
+    use gapbeam_find_zones, only: find_zones
     implicit none
     private
-    public :: settle_zones, polish_zones, find_zones, ends_of, fields_at_ends
+    public :: settle_zones, polish_zones
 
     !> Rounds at most, few in quadruple precision; where ends only touch they converge by halves
     integer, parameter :: most_rounds = merge(200, 40, digits(1.0_wp) < 64), most_polishing = 12
@@ -29,8 +28,6 @@ module gapbeam_zones
     !> What moves by less than this share of the beam does not move: so short zones have no force, and behind a part of the beam
     !> that next to no ground holds no end is known better
     real(wp), parameter :: unseen = sqrt(epsilon(1.0_wp))
-    !> Places nearer to each other than so many roundings of the length of their piece are one
-    real(wp), parameter :: one_place = 16*epsilon(1.0_wp)
 
 contains
 
@@ -70,7 +67,7 @@ contains
             if (outcome%status /= gapbeam_solved) return
             call find_zones(ground, grounded, zones, factor, work, found)
             before = moved
-            moved = way_of_ends(zones, found)
+            moved = max(way_of_ends(zones, found), way_of_fields(ground, grounded, zones, found))
             if (moved > far) call go_farther(last, zones, found)
             last = zones
             zones = found
@@ -105,7 +102,8 @@ contains
             if (allocated(error)) return
             if (outcome%status /= gapbeam_solved) return
             call move_ends(ground, grounded, zones, factor, work, found)
-            moved = way_of_ends(zones, found)
+            call take_fields(grounded, zones, factor, work, found%start)
+            moved = max(way_of_ends(zones, found), way_of_fields(ground, grounded, zones, found))
             zones = found
             settled = moved <= tolerance
             if (settled) return
@@ -127,7 +125,12 @@ contains
         type(outcome_type), intent(out) :: outcome
         type(error_type), allocatable, intent(out) :: error
 
-        call place_stretches(ground, zones, grounded)
+        call place_stretches(ground, zones, factor, grounded)
+        if (grounded%lost) then
+            call fatal_error(error, gapbeam_not_converged, "the beam on ground whose law is a curve could not be settled: "// &
+                             "look for loads that are far beyond what the ground can bear")
+            return
+        end if
         call new_workspace(grounded%beam, work)
         call set_loads(grounded%beam, factor, work)
         call find_scheme(grounded%beam, factor, rule, closed, work, outcome, error)
@@ -143,7 +146,7 @@ contains
         real(wp), intent(in) :: factor
         type(workspace_type), intent(in) :: work
         type(zones_type), intent(out) :: found
-        real(wp) :: rotation(2), shear(2), slope, before, beyond, away
+        real(wp) :: rotation(2), shear(2), slope, away
         integer :: i, k, law
 
         found = zones
@@ -154,38 +157,15 @@ contains
             law = max(zones%acts(k, i), zones%acts(k, i + 1))
             associate (layer => ground%layers(ground%first(zones%piece(i)) + k - 1), at => zones%to(i), &
                        length => ground%pieces(zones%piece(i))%length, s => grounded%stretches(i))
-                before = line_of_kink(ground, layer, law, 0.0_wp, length)
-                beyond = line_of_kink(ground, layer, law, length, length)
-                away = work%answers(i)%deflection - line_of_kink(ground, layer, law, at, length)
                 call fields_at_ends(grounded, factor, work, i, rotation, shear)
-                slope = rotation(2) + s%shear_flexibility*shear(2) - (beyond - before)/length
+                call approach_kink(ground%laws, layer, law, work%answers(i)%deflection, &
+                                   rotation(2) + s%shear_flexibility*shear(2), at, length, away, slope)
                 if (.not. abs(away) < abs(slope)*min(s%length, grounded%stretches(i + 1)%length)) cycle
                 found%to(i) = at - away/slope
                 found%from(i + 1) = found%to(i)
             end associate
         end do
     end subroutine move_ends
-
-    !> Rotations and shears at the two ends of a stretch of a solved beam
-    pure subroutine fields_at_ends(grounded, factor, work, i, rotation, shear)
-        type(grounded_type), intent(in) :: grounded
-        real(wp), intent(in) :: factor
-        type(workspace_type), intent(in) :: work
-        !> Number of the stretch
-        integer, intent(in) :: i
-        real(wp), intent(out) :: rotation(2), shear(2)
-
-        associate (a => work%answers(i - 1), b => work%answers(i), g => grounded%beam%ground(i), link => grounded%beam%links(i))
-            rotation(1) = -g%pa*a%deflection + g%p1*b%deflection + g%faa*a%moment_right + g%fab*b%moment_left &
-                + (link%turn_a(1) + factor*link%turn_a(2))
-            rotation(2) = g%pb*b%deflection - g%p2*a%deflection - g%fab*a%moment_right - g%fbb*b%moment_left &
-                - (link%turn_b(1) + factor*link%turn_b(2))
-            shear(1) = -g%pa*a%moment_right + g%p2*b%moment_left - g%gaa*a%deflection - g%gab*b%deflection &
-                + (link%shear_a(1) + factor*link%shear_a(2))
-            shear(2) = g%pb*b%moment_left - g%p1*a%moment_right + g%gbb*b%deflection + g%gab*a%deflection &
-                + (link%shear_b(1) + factor*link%shear_b(2))
-        end associate
-    end subroutine fields_at_ends
 
     !> Far from the solution an end goes the same way by nearly the same length round after round, since what happens beyond
     !> 1/beta is not seen: then go farther at once (Aitken's extrapolation, with a limit)
@@ -213,173 +193,6 @@ contains
         end do
     end subroutine go_farther
 
-    !> The zones that a solution asks for
-    subroutine find_zones(ground, grounded, zones, factor, work, found)
-        type(ground_type), intent(in) :: ground
-        !> The beam on its zones, solved in work at a load factor
-        type(grounded_type), intent(in) :: grounded
-        type(zones_type), intent(in) :: zones
-        real(wp), intent(in) :: factor
-        type(workspace_type), intent(in) :: work
-        !> The zones with which to go on
-        type(zones_type), intent(out) :: found
-        real(wp), allocatable :: cuts(:)
-        type(zones_type) :: next
-        integer :: j, first, last, m, number, room
-
-        room = 4*size(zones%piece)
-        call new_zones(room, size(zones%acts, 1), next)
-        m = 0
-        last = 0
-        do j = 1, size(ground%pieces)
-            first = last + 1
-            last = grounded%node(j)
-            call cut_piece(j)
-            if (m + number > room) then
-                room = 2*(m + number)
-                call resize(next, room, m)
-            end if
-            call judge_piece(j)
-        end do
-        call resize(next, m, m)
-        found = next
-
-    contains
-
-        !> All places of a piece at which something may change: where it changed before, and where the deflection crosses the
-        !> line at which a layer begins or goes on to another piece of its law
-        subroutine cut_piece(piece)
-            integer, intent(in) :: piece
-            real(wp), allocatable :: xi(:)
-            real(wp) :: length
-            integer :: i, k, law, crossings
-
-            length = ground%pieces(piece)%length
-            if (allocated(cuts)) deallocate (cuts)
-            allocate (cuts(last - first + 1))
-            cuts(:) = zones%to(first:last)
-            do k = ground%first(piece), ground%first(piece + 1) - 1
-                associate (layer => ground%layers(k))
-                    if (layer%side == 0) cycle
-                    do i = first, last
-                        associate (from => zones%from(i), to => zones%to(i))
-                            do law = 1, pieces_of_law(layer)
-                                call find_crossings(grounded%stretches(i), load_of(i), ends_of(work, i), &
-                                                    line_of_kink(ground, layer, law, from, length), &
-                                                    line_of_kink(ground, layer, law, to, length), xi, crossings)
-                                if (crossings > 0) cuts = [cuts, from + xi(:crossings)*(to - from)]
-                            end do
-                        end associate
-                    end do
-                end associate
-            end do
-            call sort(cuts)
-            number = 0
-            do i = 1, size(cuts)
-                if (number > 0) then
-                    if (cuts(i) - cuts(number) <= one_place*length) then
-                        if (i == size(cuts)) cuts(number) = cuts(i)
-                        cycle
-                    end if
-                else if (cuts(i) <= one_place*length) then
-                    cycle
-                end if
-                number = number + 1
-                cuts(number) = cuts(i)
-            end do
-            cuts(number) = length
-        end subroutine cut_piece
-
-        !> What acts between the places, neighbours with the same joined
-        subroutine judge_piece(piece)
-            integer, intent(in) :: piece
-            integer :: acts(size(zones%acts, 1))
-            real(wp) :: from, middle
-            integer :: i, k, c, step, steps
-            logical :: joins
-
-            steps = steps_of_piece(ground, piece)
-            from = 0.0_wp
-            i = first
-            step = 1
-            do c = 1, number
-                middle = from + (cuts(c) - from)/2
-                do while (i < last .and. zones%to(i) < middle)
-                    i = i + 1
-                end do
-                acts(:) = 0
-                do k = ground%first(piece), ground%first(piece + 1) - 1
-                    acts(k - ground%first(piece) + 1) = piece_at(k, i, middle)
-                end do
-                joins = .false.
-                if (from > 0.0_wp) joins = all(acts == next%acts(:, m))
-                do while (step < steps)
-                    ! Steps of ground that varies stay
-                    if (from < between(0.0_wp, ground%pieces(piece)%length, step, steps)) exit
-                    joins = .false.
-                    step = step + 1
-                end do
-                if (joins) then
-                    next%to(m) = cuts(c)
-                else
-                    m = m + 1
-                    next%piece(m) = piece
-                    next%from(m) = from
-                    next%to(m) = cuts(c)
-                    next%acts(:, m) = acts
-                end if
-                from = cuts(c)
-            end do
-        end subroutine judge_piece
-
-        !> The piece of its law on which a layer is at a place
-        pure function piece_at(k, i, distance) result(acts)
-            !> Layer, stretch, and distance from the left end of the piece
-            integer, intent(in) :: k, i
-            real(wp), intent(in) :: distance
-            integer :: acts, before, law
-            real(wp) :: w, psi, moment, shear, length
-
-            associate (layer => ground%layers(k))
-                acts = 1
-                if (layer%side == 0) return
-                length = ground%pieces(zones%piece(i))%length
-                call fields_at(grounded%stretches(i), load_of(i), ends_of(work, i), &
-                               (distance - zones%from(i))/(zones%to(i) - zones%from(i)), w, psi, moment, shear)
-                acts = piece_of_deflection(ground, layer, w, distance, length)
-                before = zones%acts(k - ground%first(zones%piece(i)) + 1, i)
-                if (before <= acts) return
-                ! A beam that lies on it without any load stays as it is
-                do law = before, acts + 1, -1
-                    if (abs(w - line_of_kink(ground, layer, law, distance, length)) > 0.0_wp) cycle
-                    acts = law
-                    return
-                end do
-            end associate
-        end function piece_at
-
-        !> Load of a stretch at the factor
-        pure function load_of(i) result(load)
-            integer, intent(in) :: i
-            type(stretch_load_type) :: load
-
-            load = combined_load(grounded%dead(i), grounded%live(i), factor)
-        end function load_of
-
-    end subroutine find_zones
-
-    !> Values at the ends of a stretch of a solved beam
-    pure function ends_of(work, i) result(ends)
-        type(workspace_type), intent(in) :: work
-        !> Number of the stretch
-        integer, intent(in) :: i
-        type(stretch_ends_type) :: ends
-
-        associate (a => work%answers(i - 1), b => work%answers(i))
-            ends = stretch_ends_type(a%deflection, b%deflection, a%moment_right, b%moment_left)
-        end associate
-    end function ends_of
-
     !> How far the ends have moved, relative to the shorter of the stretches beside them; huge if the zones are others
     pure function way_of_ends(zones, found) result(way)
         type(zones_type), intent(in) :: zones, found
@@ -398,21 +211,5 @@ contains
             way = max(way, move/min(found%to(i) - found%from(i), found%to(i + 1) - found%from(i + 1)))
         end do
     end function way_of_ends
-
-    !> Sort a few numbers that are nearly in order
-    pure subroutine sort(values)
-        real(wp), intent(inout) :: values(:)
-        real(wp) :: value
-        integer :: i, j
-
-        do i = 2, size(values)
-            value = values(i)
-            do j = i - 1, 1, -1
-                if (values(j) <= value) exit
-                values(j + 1) = values(j)
-            end do
-            values(j + 1) = value
-        end do
-    end subroutine sort
 
 end module gapbeam_zones

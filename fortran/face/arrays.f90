@@ -77,7 +77,8 @@ contains
 
     !> The foundations of a model from arrays
     subroutine foundations_from_arrays(side, found, iprof, aprof, ilaw, alaw, model, error)
-        !> Side; from, to, modulus and gap, each at the left and right end
+        !> Side; from, to, modulus and gap, each at the left and right end; from Python also law, its parameters at the left end
+        !> and at the right end
         integer, intent(in) :: side(:)
         real(wp), intent(in) :: found(:, :)
         !> Points of profiles: foundation, from 1; x, gap
@@ -107,6 +108,10 @@ contains
                 f%k_to = found(4, i)
                 f%gap = found(5, i)
                 f%gap_to = found(6, i)
+                if (size(found, 1) == 6) cycle
+                f%law = nint(found(7, i))
+                f%parameter = found(8:10, i)
+                f%parameter_to = found(11:13, i)
             end associate
         end do
         do i = 1, size(model%ground)

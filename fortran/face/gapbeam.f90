@@ -48,7 +48,9 @@ module gapbeam
         gapbeam_infinity, gapbeam_by_x, gapbeam_unchanged, gapbeam_right_end, &
         gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_normal, gapbeam_axial, &
         gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, &
-        gapbeam_live, gapbeam_dead, gapbeam_elastic, gapbeam_plastic, gapbeam_broken
+        gapbeam_live, gapbeam_dead, gapbeam_elastic, gapbeam_plastic, gapbeam_broken, &
+        gapbeam_law_by_points, gapbeam_law_plastic, gapbeam_law_hardening, gapbeam_law_hyperbolic, gapbeam_law_tanh, &
+        gapbeam_law_cubic
     use gapbeam_state, only: event_type
     use gapbeam_pieces, only: gapbeam_open, gapbeam_closed, gapbeam_bilateral, gapbeam_touching, gapbeam_branch, &
         gapbeam_opens, gapbeam_closes, gapbeam_turns, gapbeam_yields, gapbeam_hardens, gapbeam_softens, gapbeam_breaks, &

@@ -50,6 +50,9 @@ contains
                 call exchange(tape, f%side)
                 call exchange(tape, f%gap)
                 call exchange(tape, f%gap_to)
+                call exchange(tape, f%law)
+                call exchange(tape, size(f%parameter), f%parameter)
+                call exchange(tape, size(f%parameter_to), f%parameter_to)
             end associate
         end do
         number = 0
@@ -114,6 +117,9 @@ contains
                 call exchange(tape, layer%contact_b)
                 call exchange(tape, layer%law_first)
                 call exchange(tape, layer%law_last)
+                call exchange(tape, layer%law)
+                call exchange(tape, size(layer%parameter_a), layer%parameter_a)
+                call exchange(tape, size(layer%parameter_b), layer%parameter_b)
             end associate
         end do
         number = 0

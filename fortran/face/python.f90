@@ -23,12 +23,12 @@ subroutine gbmake(mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw,
     integer, intent(in) :: isup(4, msup), ilaw(mlaw), iload(3, mload)
     ! As for foundations_from_arrays
     integer, intent(in) :: ifound(mfound), iprof(mprof), iflaw(mflaw)
-    double precision, intent(in) :: found(6, mfound), aprof(2, mprof), aflaw(2, mflaw)
+    double precision, intent(in) :: found(13, mfound), aprof(2, mprof), aflaw(2, mflaw)
     ! The handle; 0 where it is refused
     integer(8), intent(out) :: beam
     ! Why: as in gapbeam_error and gapbeam_refusal; entries count from 1
     integer, intent(out) :: status, reason, table, entry, partner
-    character(len=10), intent(out) :: key
+    character(len=16), intent(out) :: key
     character(len=240), intent(out) :: message
     !f2py threadsafe
     !f2py integer, intent(hide), depend(span) :: mspan = shape(span, 1)

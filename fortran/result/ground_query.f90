@@ -4,8 +4,10 @@ module gapbeam_ground_query
     use gapbeam_element, only: field_type
     use gapbeam_foundation, only: stretch_load_type, stretch_ends_type, fields_at, decay_lengths
     use gapbeam_foundation_roots, only: find_peaks
-    use gapbeam_layers, only: law_piece_type, law_piece
-    use gapbeam_ground, only: contact_line, slope_of_layer, along
+    use gapbeam_layers, only: law_piece_type, law_piece, is_curve, law_by_points
+    use gapbeam_law_series, only: curve_force
+    use gapbeam_curved, only: curved_type, curved_fields
+    use gapbeam_ground_laws, only: contact_line, slope_of_layer, offset_of_layer, parameters_at, take_curves, along
     use gapbeam_ground_solver, only: ground_solution_type
     use gapbeam_lowered, only: lowered_type
     implicit none
@@ -18,8 +20,9 @@ module gapbeam_ground_query
 contains
 
     !> Deflection, rotation, moment and shear at distances from the left ends of pieces
-    pure subroutine ground_values(solution, piece, distance, fields)
-        !> The solved beam
+    pure subroutine ground_values(lowered, solution, piece, distance, fields)
+        !> The beam, and its solution
+        type(lowered_type), intent(in) :: lowered
         type(ground_solution_type), intent(in) :: solution
         !> Pieces of the beam, and distances in the engine's units, shape (n)
         integer, intent(in) :: piece(:)
@@ -30,7 +33,7 @@ contains
 
         do k = 1, size(piece)
             i = stretch_of(solution, piece(k), distance(k))
-            call values_in(solution, i, share_of(solution, i, distance(k)), fields(k))
+            call values_in(lowered, solution, i, share_of(solution, i, distance(k)), fields(k))
         end do
     end subroutine ground_values
 
@@ -67,11 +70,13 @@ contains
     end function share_of
 
     !> Fields inside a stretch, at its ends as they were solved
-    pure subroutine values_in(solution, i, xi, field)
+    pure subroutine values_in(lowered, solution, i, xi, field)
+        type(lowered_type), intent(in) :: lowered
         type(ground_solution_type), intent(in) :: solution
         integer, intent(in) :: i
         real(wp), intent(in) :: xi
         type(field_type), intent(out) :: field
+        type(curved_type), allocatable :: curved
         real(wp) :: off(2, 2)
 
         associate (ends => solution%ends(i))
@@ -86,6 +91,11 @@ contains
                 field%rotation = solution%rotation(2, i)
                 field%shear = solution%shear(2, i)
             else
+                call curved_in(lowered, solution, i, curved)
+                if (allocated(curved)) then
+                    call curved_fields(curved, xi, field%deflection, field%rotation, field%moment, field%shear)
+                    return
+                end if
                 ! Beside the chord
                 call fields_at(solution%stretches(i), solution%loads(i), &
                                stretch_ends_type(0.0_wp, 0.0_wp, ends%moment_a, ends%moment_b), xi, field%deflection, &
@@ -120,8 +130,34 @@ contains
 
     end subroutine values_in
 
+    !> A stretch on which ground acts by curves
+    pure subroutine curved_in(lowered, solution, i, curved)
+        type(lowered_type), intent(in) :: lowered
+        type(ground_solution_type), intent(in) :: solution
+        integer, intent(in) :: i
+        !> Not allocated if the ground is linear there
+        type(curved_type), allocatable, intent(out) :: curved
+
+        associate (j => solution%piece(i), ends => solution%ends(i), s => solution%stretches(i))
+            associate (layers => lowered%layers(lowered%layer_first(j):lowered%layer_first(j + 1) - 1))
+                if (.not. any(is_curve(layers, solution%acts(:size(layers), i)))) return
+                allocate (curved)
+                call take_curves(layers, solution%acts(:, i), solution%from(i), solution%to(i), lowered%pieces(j)%length, &
+                                 curved%curves)
+            end associate
+            curved%stretch = s
+            curved%load = solution%loads(i)
+            curved%left = [ends%w_a - s%shear_flexibility*ends%moment_a, solution%rotation(1, i), ends%moment_a, &
+                           solution%shear(1, i)]
+            curved%right = [ends%w_b - s%shear_flexibility*ends%moment_b, solution%rotation(2, i), ends%moment_b, &
+                            solution%shear(2, i)]
+        end associate
+    end subroutine curved_in
+
     !> Largest and smallest deflection, rotation, moment and shear, and where they are
-    subroutine ground_extremes(solution, values, piece, distance)
+    subroutine ground_extremes(lowered, solution, values, piece, distance)
+        !> As for ground_values
+        type(lowered_type), intent(in) :: lowered
         type(ground_solution_type), intent(in) :: solution
         !> Maximum (1) and minimum (2), shape (2, 4)
         real(wp), intent(out) :: values(:, :)
@@ -129,6 +165,7 @@ contains
         integer, intent(out) :: piece(:, :)
         real(wp), intent(out) :: distance(:, :)
         type(field_type) :: field
+        type(curved_type), allocatable :: curved
         real(wp), allocatable :: xi(:)
         integer :: i, j, k, number
 
@@ -138,15 +175,16 @@ contains
         distance(:, :) = 0.0_wp
         do i = 1, size(solution%piece)
             do j = 0, 1
-                call values_in(solution, i, real(j, wp), field)
+                call values_in(lowered, solution, i, real(j, wp), field)
                 do k = 1, 4
                     call consider(real(j, wp))
                 end do
             end do
+            call curved_in(lowered, solution, i, curved)
             do k = 1, 4
-                call peaks_in(solution, i, k, 0.0_wp, xi, number)
+                call peaks_in(solution, i, k, 0.0_wp, curved, xi, number)
                 do j = 1, number
-                    call values_in(solution, i, xi(j), field)
+                    call values_in(lowered, solution, i, xi(j), field)
                     call consider(xi(j))
                 end do
             end do
@@ -205,18 +243,25 @@ contains
         real(wp) :: pressure, place, push
         type(field_type) :: field
         type(law_piece_type) :: law
-        integer :: k
+        integer :: k, acts
 
         pressure = 0.0_wp
-        call values_in(solution, i, xi, field)
+        call values_in(lowered, solution, i, xi, field)
         associate (j => solution%piece(i))
             place = along(solution%from(i), solution%to(i), xi, 1.0_wp)
             do k = lowered%layer_first(j), lowered%layer_first(j + 1) - 1
-                if (solution%acts(k - lowered%layer_first(j) + 1, i) == 0) cycle
+                acts = solution%acts(k - lowered%layer_first(j) + 1, i)
+                if (acts == 0) cycle
                 associate (layer => lowered%layers(k), length => lowered%pieces(j)%length)
-                    law = law_piece(layer, lowered%law_pieces, solution%acts(k - lowered%layer_first(j) + 1, i))
-                    push = slope_of_layer(layer, law, place, length)*(field%deflection - contact_line(layer, place, length)) &
-                        + layer%side*(law%force - law%slope*law%displacement)
+                    law = law_piece(layer, lowered%law_pieces, acts)
+                    if (is_curve(layer, acts)) then
+                        push = layer%side*curve_force(layer%law, parameters_at(layer, place, length), &
+                                                      layer%side*(field%deflection - contact_line(layer, place, length)))
+                    else
+                        push = layer%side*offset_of_layer(layer, law, acts, place, length) &
+                            + slope_of_layer(layer, law, acts, place, length) &
+                            *(field%deflection - contact_line(layer, place, length))
+                    end if
                     ! At an end of a zone it is zero but for rounding
                     if (layer%side /= 0) push = layer%side*max(0.0_wp, layer%side*push)
                     pressure = pressure + push
@@ -234,23 +279,31 @@ contains
         integer, intent(in) :: i, k
         real(wp), allocatable, intent(out) :: xi(:)
         integer, intent(out) :: number
-
+        type(curved_type), allocatable :: curved
         real(wp) :: line(2)
 
+        call curved_in(lowered, solution, i, curved)
         line(:) = contact_line(lowered%layers(k), [solution%from(i), solution%to(i)], lowered%pieces(solution%piece(i))%length)
-        call peaks_in(solution, i, 1, (line(2) - line(1))/solution%stretches(i)%length, xi, number)
+        call peaks_in(solution, i, 1, (line(2) - line(1))/solution%stretches(i)%length, curved, xi, number)
     end subroutine peaks_beside
 
     !> Where a field of a stretch is stationary, of the deflection that beside a line
-    pure subroutine peaks_in(solution, i, field, slope, xi, number)
+    pure subroutine peaks_in(solution, i, field, slope, curved, xi, number)
         type(ground_solution_type), intent(in) :: solution
         !> Stretch, and field as for find_peaks
         integer, intent(in) :: i, field
         !> Of the line
         real(wp), intent(in) :: slope
+        !> By curved_in
+        type(curved_type), allocatable, intent(in) :: curved
         real(wp), allocatable, intent(out) :: xi(:)
         integer, intent(out) :: number
 
+        if (allocated(curved)) then
+            call find_peaks(solution%stretches(i), solution%loads(i), solution%ends(i), field, xi, number, &
+                            merge(slope, 0.0_wp, field == 1), curved)
+            return
+        end if
         associate (ends => solution%ends(i))
             call find_peaks(solution%stretches(i), solution%loads(i), &
                             stretch_ends_type(0.0_wp, 0.0_wp, ends%moment_a, ends%moment_b), field, xi, number, &
@@ -324,7 +377,7 @@ contains
         real(wp) :: line, moment, q, square
 
         associate (layer => lowered%layers(k), s => solution%stretches(i), ends => solution%ends(i), load => solution%loads(i))
-            call values_in(solution, i, at, field)
+            call values_in(lowered, solution, i, at, field)
             line = contact_line(layer, along(solution%from(i), solution%to(i), at, 1.0_wp), &
                                 lowered%pieces(solution%piece(i))%length)
             distance = layer%side*(line - field%deflection)
@@ -358,6 +411,21 @@ contains
         end do
     end function is_shallow
 
+    !> Is the pressure in a stretch no multiple of the deflection
+    pure function varies(lowered, solution, i)
+        type(lowered_type), intent(in) :: lowered
+        type(ground_solution_type), intent(in) :: solution
+        integer, intent(in) :: i
+        logical :: varies
+
+        associate (s => solution%stretches(i), j => solution%piece(i))
+            varies = abs(s%modulus_a - s%modulus_b) > 0.0_wp
+            associate (layers => lowered%layers(lowered%layer_first(j):lowered%layer_first(j + 1) - 1))
+                varies = varies .or. any(layers%law /= law_by_points .and. solution%acts(:size(layers), i) > 0)
+            end associate
+        end associate
+    end function varies
+
     !> Largest and smallest pressure, and where it is: at an end of a stretch, or where the deflection is extreme beside the ground
     subroutine pressure_extremes(lowered, solution, values, piece, distance)
         type(lowered_type), intent(in) :: lowered
@@ -375,7 +443,7 @@ contains
         do i = 1, size(solution%piece)
             call consider(0.0_wp)
             call consider(1.0_wp)
-            if (abs(solution%stretches(i)%modulus_a - solution%stretches(i)%modulus_b) > 0.0_wp) then
+            if (varies(lowered, solution, i)) then
                 call consider(peak_where_it_varies(1))
                 call consider(peak_where_it_varies(-1))
                 cycle

@@ -6,6 +6,7 @@ module gapbeam_ground_zones
     use gapbeam_words, only: shown
     use gapbeam_refusal, only: refuse_range, named, of_foundations
     use gapbeam_scene, only: gapbeam_both, gapbeam_below
+    use gapbeam_layers, only: branches_of_law
     use gapbeam_lowered, only: lowered_type, point_x
     use gapbeam_layers, only: layer_type
     use gapbeam_ground_solver, only: ground_solution_type
@@ -233,7 +234,7 @@ contains
             associate (l => lowered%layers(layer), j => solution%piece(i), units => lowered%units)
                 made%foundation = l%foundation
                 made%side = l%side
-                made%law_pieces = l%law_last - l%law_first + 1
+                made%law_pieces = branches_of_law(l)
                 made%acts = solution%acts(row, i)
                 made%from = point_x(lowered, j - 1) + scale(solution%from(i), units%length)
                 made%to = point_x(lowered, j)

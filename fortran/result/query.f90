@@ -250,7 +250,7 @@ contains
         powers = field_units(lowered)
         found(1, :) = scale(distance, -lowered%units%length)
         if (present(ground)) then
-            call ground_values(ground, piece, found(1, :), bent)
+            call ground_values(lowered, ground, piece, found(1, :), bent)
         else
             call values_at(lowered%pieces, lowered%dead, lowered%live, factor, starts, piece, found(1, :), bent)
         end if
@@ -405,7 +405,7 @@ contains
         integer :: piece(2, 4), powers(field_count), i, k
 
         if (present(ground)) then
-            call ground_extremes(ground, found(:, 1:4), piece, distance)
+            call ground_extremes(lowered, ground, found(:, 1:4), piece, distance)
         else
             call find_extremes(lowered%pieces, lowered%dead, lowered%live, factor, starts, found(:, 1:4), piece, distance)
         end if

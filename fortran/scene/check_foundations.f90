@@ -4,9 +4,10 @@ module gapbeam_check_foundations
     use gapbeam_error, only: error_type
     use gapbeam_words, only: shown, whole
     use gapbeam_scene, only: model_type, foundation_type, ground_point_type, ground_law_point_type, gapbeam_both, gapbeam_below, &
-        gapbeam_above, gapbeam_unchanged
+        gapbeam_above, gapbeam_unchanged, gapbeam_law_by_points
     use gapbeam_places, only: position_tolerance
     use gapbeam_refusal, only: refuse, of_foundations, not_expected, bad_law
+    use gapbeam_check_ground_laws, only: check_ground_law
     use gapbeam_check, only: entry_type, check_stretch, refuse_entry, refuse_number
     implicit none
     private
@@ -113,9 +114,11 @@ contains
                               "available, use supports")
         else if (.not. all(k >= 0.0_wp)) then
             call refuse_number(error, here, "k", k(merge(2, 1, k(1) >= 0.0_wp)), "a finite number, 0 or more")
-        else if (size(law) > 0 .and. any(k > 0.0_wp)) then
+        else if ((size(law) > 0 .or. f%law /= gapbeam_law_by_points) .and. any(k > 0.0_wp)) then
             call refuse_entry(error, here, "", bad_law, "has both k and law; give one of the two")
-        else if (size(law) == 0 .and. .not. any(k > 0.0_wp)) then
+        else if (size(law) > 0 .and. f%law /= gapbeam_law_by_points) then
+            call refuse_entry(error, here, "law", bad_law, "has both points and parameters; give one of the two")
+        else if (size(law) == 0 .and. f%law == gapbeam_law_by_points .and. .not. any(k > 0.0_wp)) then
             call refuse_entry(error, here, "k", bad_law, "with a modulus of 0 it never carries; remove it")
         else if (all(f%side /= [gapbeam_both, gapbeam_below, gapbeam_above])) then
             call refuse_entry(error, here, "side", not_expected, &
@@ -127,6 +130,7 @@ contains
         end if
         if (.not. allocated(error)) call check_profile(profile, here, error)
         if (.not. allocated(error)) call check_law(law, here, error)
+        if (.not. allocated(error)) call check_ground_law(f%law, f%parameter, at_right(f%parameter, f%parameter_to), here, error)
     end subroutine check_foundation
 
     !> The points of a profile

@@ -3,9 +3,10 @@ module gapbeam_lower_foundations
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
-    use gapbeam_layers, only: layer_type
+    use gapbeam_layers, only: layer_type, parameters_of_law, law_cubic
     use gapbeam_range, only: is_lost
-    use gapbeam_scene, only: foundation_type, gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_unchanged
+    use gapbeam_scene, only: foundation_type, gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_unchanged, &
+        gapbeam_law_by_points
     use gapbeam_units, only: units_type, exponents_type, stiffness_unit
     use gapbeam_lowered, only: lowered_type
     use gapbeam_check_foundations, only: find_runs, at_right
@@ -45,7 +46,7 @@ contains
                 return
             end if
         end if
-        allocate (first(m), last(m), law_first(m), law_last(m), next(pieces), at_point(2, 0:pieces), stat=stat)
+        allocate (first(m), last(m), law_first(m), law_last(m), next(pieces), at_point(2 + parameters_of_law, 0:pieces), stat=stat)
         if (stat /= 0) then
             call no_memory(error)
             return
@@ -57,7 +58,7 @@ contains
             next(:) = 0
             total = 0
             do i = 1, m
-                n = layers_of(model%foundations(i), law_last(i) >= law_first(i), last(i) >= first(i))
+                n = layers_of(model%foundations(i), has_law(i), last(i) >= first(i))
                 total = total + int(n, int64)*(to(i) - from(i))
                 next(from(i) + 1:to(i)) = next(from(i) + 1:to(i)) + n
             end do
@@ -77,7 +78,7 @@ contains
             do i = 1, m
                 call find_values(lowered, i, first(i), last(i), at_point)
                 do j = from(i) + 1, to(i)
-                    n = layers_of(model%foundations(i), law_last(i) >= law_first(i), last(i) >= first(i))
+                    n = layers_of(model%foundations(i), has_law(i), last(i) >= first(i))
                     lowered%layers(next(j)) = layer_at(i, j, merge(gapbeam_below, model%foundations(i)%side, n == 2))
                     if (n == 2) lowered%layers(next(j) + 1) = layer_at(i, j, gapbeam_above)
                     next(j) = next(j) + n
@@ -87,6 +88,15 @@ contains
 
     contains
 
+        !> Has a foundation a law
+        pure function has_law(foundation)
+            integer, intent(in) :: foundation
+            logical :: has_law
+
+            has_law = law_last(foundation) >= law_first(foundation) &
+                .or. lowered%model%foundations(foundation)%law /= gapbeam_law_by_points
+        end function has_law
+
         !> The layer of a foundation under a piece
         pure function layer_at(foundation, piece, side) result(layer)
             integer, intent(in) :: foundation, piece, side
@@ -94,7 +104,9 @@ contains
 
             layer = layer_type(foundation=foundation, side=side, modulus_a=at_point(1, piece - 1), modulus_b=at_point(1, piece), &
                                contact_a=side*at_point(2, piece - 1), contact_b=side*at_point(2, piece), &
-                               law_first=law_first(foundation), law_last=law_last(foundation))
+                               law_first=law_first(foundation), law_last=law_last(foundation), &
+                               law=lowered%model%foundations(foundation)%law, parameter_a=at_point(3:, piece - 1), &
+                               parameter_b=at_point(3:, piece))
         end function layer_at
 
     end subroutine lower_foundations
@@ -131,13 +143,13 @@ contains
         end associate
     end subroutine make_laws
 
-    !> Modulus and gap of a foundation at its points
+    !> Modulus, gap and parameters of its law of a foundation at its points
     pure subroutine find_values(lowered, foundation, first, last, at_point)
         type(lowered_type), intent(in) :: lowered
         integer, intent(in) :: foundation
         !> First and last point of its profile, the last before the first: none
         integer, intent(in) :: first, last
-        !> Modulus, gap, shape (2, 0:npiece); set from its first to its last point
+        !> Modulus, gap, parameters, shape (2 + parameters_of_law, 0:npiece); set from its first to its last point
         real(wp), intent(inout) :: at_point(:, 0:)
         real(wp) :: whole, share
         integer :: left, right, p
@@ -150,6 +162,7 @@ contains
                 share = distance(lowered, place_of(lowered, left), place_of(lowered, p))/whole
                 at_point(1, p) = between(f%k, at_right(f%k, f%k_to), share)
                 at_point(2, p) = between(f%gap, at_right(f%gap, f%gap_to), share)
+                at_point(3:, p) = between(f%parameter, at_right(f%parameter, f%parameter_to), share)
             end do
         end associate
         if (first <= last) call follow_profile(lowered, left, right, first, last, at_point(2, :))
@@ -242,6 +255,13 @@ contains
         if (.not. allocated(lowered%layers)) return
         do i = 1, size(lowered%model%foundations)
             call stiffness%note(greatest_modulus(lowered%model%foundations(i)), length)
+            associate (f => lowered%model%foundations(i))
+                if (f%law == gapbeam_law_by_points) cycle
+                call stiffness%note(greatest_parameter(f, 1), length)
+                if (f%law == law_cubic) cycle
+                call forces%note(greatest_parameter(f, 2), length)
+                call stiffness%note(greatest_parameter(f, 3), length)
+            end associate
         end do
         do i = 1, size(lowered%law_pieces)
             associate (piece => lowered%law_pieces(i))
@@ -263,14 +283,25 @@ contains
         k = max(foundation%k, at_right(foundation%k, foundation%k_to))
     end function greatest_modulus
 
+    !> The greatest of a parameter of a law
+    pure function greatest_parameter(foundation, number) result(value)
+        type(foundation_type), intent(in) :: foundation
+        integer, intent(in) :: number
+        real(wp) :: value
+
+        associate (a => foundation%parameter(number), b => foundation%parameter_to(number))
+            value = max(abs(a), abs(at_right(a, b)))
+        end associate
+    end function greatest_parameter
+
     !> Layers and laws from the user's units to the engine's
     subroutine scale_foundations(lowered, units, error)
         type(lowered_type), intent(inout) :: lowered
         type(units_type), intent(in) :: units
         !> Numbers out of range
         type(error_type), allocatable, intent(out) :: error
-        real(wp) :: slope
-        integer :: i, m, per_length
+        real(wp) :: slope, given(parameters_of_law, 2), scaled(parameters_of_law, 2)
+        integer :: i, m, per_length, powers(parameters_of_law)
 
         if (.not. allocated(lowered%layers)) return
         m = size(lowered%model%foundations)
@@ -302,6 +333,20 @@ contains
                 layer%modulus_b = scale(layer%modulus_b, per_length)
                 layer%contact_a = scale(layer%contact_a, -units%deflection)
                 layer%contact_b = scale(layer%contact_b, -units%deflection)
+                ! Stiffness, limit, slope; or force by displacement, its square, its cube
+                powers = [per_length, units%length - units%force, per_length]
+                if (layer%law == law_cubic) powers = per_length + [0, 1, 2]*units%deflection
+                given(:, 1) = layer%parameter_a
+                given(:, 2) = layer%parameter_b
+                scaled(:, 1) = scale(layer%parameter_a, powers)
+                scaled(:, 2) = scale(layer%parameter_b, powers)
+                if (any(is_lost(abs(scaled)) .and. abs(given) > 0.0_wp)) then
+                    call refuse_range(error, "the law of "//trim(named(of_foundations, layer%foundation, m))// &
+                                      " is too far from the other numbers", "bring them nearer together")
+                    return
+                end if
+                layer%parameter_a(:) = scaled(:, 1)
+                layer%parameter_b(:) = scaled(:, 2)
                 if (max(abs(layer%contact_a), abs(layer%contact_b)) <= huge(1.0_wp)) cycle
                 call refuse_range(error, trim(named(of_foundations, layer%foundation, m))//" acts at deflections too far from "// &
                                   "those that the loads make", "give smaller gaps")

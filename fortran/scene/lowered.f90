@@ -236,6 +236,7 @@ contains
         do i = 1, size(model%foundations)
             associate (f => model%foundations(i))
                 call mix(all_bits, [f%from, f%to, f%k, f%k_to, f%gap, f%gap_to, real(f%side, wp)])
+                call mix(all_bits, [real(f%law, wp), f%parameter, f%parameter_to])
             end associate
         end do
         do i = 1, size(model%ground)

@@ -5,6 +5,9 @@
 module gapbeam_scene
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp
+    use gapbeam_layers, only: gapbeam_law_by_points => law_by_points, gapbeam_law_plastic => law_plastic, &
+        gapbeam_law_hardening => law_hardening, gapbeam_law_hyperbolic => law_hyperbolic, gapbeam_law_tanh => law_tanh, &
+        gapbeam_law_cubic => law_cubic, parameters_of_law
     implicit none
     private
     public :: span_type, section_type, support_type, law_point_type, load_type, model_type
@@ -15,6 +18,8 @@ module gapbeam_scene
     public :: gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force
     public :: gapbeam_live, gapbeam_dead
     public :: gapbeam_elastic, gapbeam_plastic, gapbeam_broken
+    public :: gapbeam_law_by_points, gapbeam_law_plastic, gapbeam_law_hardening, gapbeam_law_hyperbolic, gapbeam_law_tanh, &
+              gapbeam_law_cubic
 
     !> Infinity: a rigid support, a rigid beam
     real(wp), parameter :: gapbeam_infinity = transfer(int(z"7FF0000000000000", int64), 1.0_wp)
@@ -99,6 +104,12 @@ module gapbeam_scene
         !> Distance to be closed before it acts, at its left and right end, linear in between; negative: lack of fit; one-sided
         !> foundations, or those with a law, only
         real(wp) :: gap = 0.0_wp, gap_to = gapbeam_unchanged
+        !> Instead of a modulus or a law by points: gapbeam_law_plastic, _hyperbolic or _tanh, with stiffness (force/length**2) and
+        !> limit (force/length); gapbeam_law_hardening, with stiffness, limit and the slope beyond; gapbeam_law_cubic, with k1, k2
+        !> and k3 (force/length**2 to **4)
+        integer :: law = gapbeam_law_by_points
+        !> Those at its left and right end, linear in between, 0 or more (k2 of any sign)
+        real(wp) :: parameter(parameters_of_law) = 0.0_wp, parameter_to(parameters_of_law) = gapbeam_unchanged
     end type foundation_type
 
     !> A point of the profile of a foundation, which has one instead of a gap: straight in between, beyond its ends the last value

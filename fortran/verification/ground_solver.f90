@@ -6,10 +6,11 @@ module gapbeam_ground_solver
     use gapbeam_kinds, only: wp, qp
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_not_converged, &
         gapbeam_not_finite, gapbeam_no_memory
-    use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type, rough_fields_at => fields_at
+    use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type
     use gapbeam_memory, only: reserve_memory, for_solving, for_ground
-    use gapbeam_ground, only: ground_type, zones_type, grounded_type, full_contact, rough_load => combined_load
-    use gapbeam_zones, only: settle_zones, rough_ends_of => ends_of
+    use gapbeam_ground, only: ground_type, zones_type, grounded_type, full_contact
+    use gapbeam_zones, only: settle_zones
+    use gapbeam_zone_fields, only: rough_ends_of => ends_of, rough_fields_at_ends => fields_at_ends
     use gapbeam_springs, only: search_springs
     use gapbeam_workspace, only: workspace_type
     use gapbeam_scheme, only: outcome_type
@@ -19,10 +20,14 @@ module gapbeam_ground_solver
     use gapbeam_foundation_quad, only: fine_stretch_type => stretch_type, fine_stretch_load_type => stretch_load_type, &
         fine_ends_type => stretch_ends_type, fields_at
     use gapbeam_layers, only: layer_type, law_piece_type
-    use gapbeam_layers_quad, only: fine_layer_type => layer_type, fine_law_piece_type => law_piece_type, law_piece
+    use gapbeam_layers_quad, only: fine_layer_type => layer_type, fine_law_piece_type => law_piece_type, law_piece, &
+        is_curve
+    use gapbeam_ground_laws_quad, only: contact_line, slope_of_layer, offset_of_layer
     use gapbeam_ground_quad, only: fine_ground_type => ground_type, fine_zones_type => zones_type, &
-        fine_grounded_type => grounded_type, new_zones, combined_load, contact_line, slope_of_layer
-    use gapbeam_zones_quad, only: settle_fine_zones => settle_zones, polish_zones, ends_of, fields_at_ends
+        fine_grounded_type => grounded_type, new_zones, combined_load
+    use gapbeam_zones_quad, only: settle_fine_zones => settle_zones, polish_zones
+    use gapbeam_zone_fields_quad, only: ends_of, fields_at_ends, take_curved
+    use gapbeam_curved_quad, only: curved_type, advance_curved, curved_fields
     use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type
     use gapbeam_scheme_quad, only: fine_outcome_type => outcome_type
     use gapbeam_law_quad, only: find_margins, is_watched_in
@@ -33,7 +38,7 @@ module gapbeam_ground_solver
 
     !> Shares of the stretches beside them by which ends may still move in the round that is taken for the last one
     real(wp), parameter :: rough = 1e-10_wp, nearly = 1e-2_wp
-    real(qp), parameter :: fine_enough = 1e-11_qp
+    real(qp), parameter :: fine_enough = 1e-15_qp
     !> The same of ends that are taken: the fields there are those at the ends of the round before
     real(qp), parameter :: finest = 1e-17_qp
     !> Springs tried, none first
@@ -187,7 +192,8 @@ contains
         type(fine_layer_type) :: fine
 
         fine = fine_layer_type(layer%foundation, layer%side, real(layer%modulus_a, qp), real(layer%modulus_b, qp), &
-                               real(layer%contact_a, qp), real(layer%contact_b, qp), layer%law_first, layer%law_last)
+                               real(layer%contact_a, qp), real(layer%contact_b, qp), layer%law_first, layer%law_last, &
+                               layer%law, real(layer%parameter_a, qp), real(layer%parameter_b, qp))
     end function fine_layer
 
     !> A piece of a law in quadruple precision
@@ -217,11 +223,12 @@ contains
         type(fine_outcome_type) :: found
         real(qp) :: moved
 
-        call new_zones(size(rough_zones%piece), size(rough_zones%acts, 1), zones)
+        call new_zones(size(rough_zones%piece), size(rough_zones%acts, 1), rough_zones%steps, zones)
         zones%piece(:) = rough_zones%piece
         zones%from(:) = rough_zones%from
         zones%to(:) = exact_ends(rough_zones, fine)
         zones%acts(:, :) = rough_zones%acts
+        zones%start(:, :) = rough_zones%start
         settled = .false.
         if (known) then
             call polish_zones(fine, factor, rule, finest, zones, closed, grounded, work, found, settled, error)
@@ -278,13 +285,13 @@ contains
             last = grounded%node(j)
             i = i + 1
             right = [solution%ends(i)%w_a, solution%rotation(1, i), solution%ends(i)%moment_a, solution%shear(1, i)]
-            call compare(first, 0.0_wp)
+            call compare(first, .false.)
             do while (i < m)
                 if (solution%piece(i + 1) /= j) exit
                 i = i + 1
             end do
             right = [solution%ends(i)%w_b, solution%rotation(2, i), solution%ends(i)%moment_b, solution%shear(2, i)]
-            call compare(last, 1.0_wp)
+            call compare(last, .true.)
         end do
         if (size(solution%reaction) > 0) then
             solution%bounds(5) = maxval(abs(work%reaction - solution%reaction))
@@ -301,12 +308,19 @@ contains
     contains
 
         !> Compare at an end of a stretch in double precision
-        subroutine compare(stretch, xi)
+        subroutine compare(stretch, at_right)
             integer, intent(in) :: stretch
-            real(wp), intent(in) :: xi
+            logical, intent(in) :: at_right
+            type(stretch_ends_type) :: ends
+            real(wp) :: rotation(2), shear(2)
 
-            call rough_fields_at(grounded%stretches(stretch), rough_load(grounded%dead(stretch), grounded%live(stretch), factor), &
-                                 rough_ends_of(work, stretch), xi, rough(1), rough(2), rough(3), rough(4))
+            call rough_fields_at_ends(grounded, factor, work, stretch, rotation, shear)
+            ends = rough_ends_of(work, stretch)
+            if (at_right) then
+                rough = [ends%w_b, rotation(2), ends%moment_b, shear(2)]
+            else
+                rough = [ends%w_a, rotation(1), ends%moment_a, shear(1)]
+            end if
             solution%bounds(:4) = max(solution%bounds(:4), abs(rough - right))
             largest(:4) = max(largest(:4), abs(right))
         end subroutine compare
@@ -343,6 +357,7 @@ contains
         type(fine_ends_type) :: ends
         type(fine_stretch_load_type) :: load, beside
         real(qp), allocatable :: margin(:), rounding(:)
+        type(curved_type), allocatable :: curved
         real(qp) :: field(2, 2), forces(size(zones%acts, 1)), from
         integer :: i, k, m
 
@@ -363,10 +378,7 @@ contains
                 solution%stretches(i) = stretch_type(real(s%length, wp), real(s%flexibility, wp), real(s%shear_flexibility, wp), &
                                                      real(s%modulus_a, wp), real(s%modulus_b, wp))
             end associate
-            beside = beside_line(grounded%stretches(i), load, [ends%w_a, ends%w_b])
             solution%slope(i) = real((ends%w_b - ends%w_a)/grounded%stretches(i)%length, wp)
-            solution%loads(i) = stretch_load_type(real(beside%qa, wp), real(beside%qb, wp), real(beside%qc, wp), &
-                                                  real(beside%kappa, wp))
             solution%ends(i) = stretch_ends_type(real(ends%w_a, wp), real(ends%w_b, wp), real(ends%moment_a, wp), &
                                                  real(ends%moment_b, wp))
             ! Where it was when it was solved: its ends have moved since then
@@ -374,7 +386,12 @@ contains
                 from = from + grounded%stretches(i - 1)%length
                 if (zones%piece(i) /= zones%piece(i - 1)) from = 0.0_qp
             end if
-            call sum_layers(fine, zones, i, from, grounded%stretches(i), load, ends, field(2, 2) - field(1, 2), forces)
+            call take_curved(fine, grounded, zones, factor, work, i, curved)
+            call sum_layers(fine, zones, i, from, grounded%stretches(i), load, ends, field(2, 2) - field(1, 2), curved, forces)
+            beside = beside_line(grounded%stretches(i), load, [ends%w_a, ends%w_b])
+            if (allocated(curved)) beside = load
+            solution%loads(i) = stretch_load_type(real(beside%qa, wp), real(beside%qb, wp), real(beside%qc, wp), &
+                                                  real(beside%kappa, wp))
             solution%resultant(:, i) = real(forces, wp)
             solution%rotation(:, i) = real(field(:, 1), wp)
             solution%shear(:, i) = real(field(:, 2), wp)
@@ -450,7 +467,7 @@ contains
     end subroutine drop_small
 
     !> Force of every layer on a stretch: what the shear gains is the whole pressure less the load, and shared out by the moduli
-    subroutine sum_layers(fine, zones, i, from, stretch, load, ends, gain, forces)
+    subroutine sum_layers(fine, zones, i, from, stretch, load, ends, gain, curved, forces)
         type(fine_ground_type), intent(in) :: fine
         type(fine_zones_type), intent(in) :: zones
         !> Number of the stretch, distance of its left end from that of the piece; what it is made of, its load, what is at its ends
@@ -461,24 +478,39 @@ contains
         type(fine_ends_type), intent(in) :: ends
         !> Gain of the shear along it
         real(qp), intent(in) :: gain
+        !> Allocated if some ground acts by curves
+        type(curved_type), allocatable, intent(in) :: curved
         !> Up
         real(qp), intent(out) :: forces(:)
         type(fine_law_piece_type) :: law
-        real(qp) :: slope(2), contact(2), modulus(2), by_springs
-        logical :: alike
-        integer :: k
+        real(qp) :: slope(2), contact(2), offset(2), modulus(2), by_springs, y(4)
+        real(qp), allocatable :: by_curves(:)
+        logical :: alike, lost
+        integer :: k, n
 
         forces(:) = 0.0_qp
         modulus = [stretch%modulus_a, stretch%modulus_b]
         by_springs = gain + stretch%length*((load%qa + load%qb)/2 + load%qc/6)
+        n = 0
+        if (allocated(curved)) then
+            allocate (by_curves(size(curved%curves)))
+            call advance_curved(curved, 0.0_qp, curved%left, 1.0_qp, y, lost, forces=by_curves)
+            by_springs = by_springs - dot_product(curved%curves%side, by_curves)
+        end if
         associate (j => zones%piece(i), length => stretch%length)
             do k = 1, fine%first(j + 1) - fine%first(j)
                 if (zones%acts(k, i) == 0) cycle
                 associate (layer => fine%layers(fine%first(j) + k - 1))
+                    if (is_curve(layer, zones%acts(k, i))) then
+                        n = n + 1
+                        forces(k) = layer%side*by_curves(n)
+                        cycle
+                    end if
                     law = law_piece(layer, fine%laws, zones%acts(k, i))
-                    slope = slope_of_layer(layer, law, [from, from + length], fine%pieces(j)%length)
+                    slope = slope_of_layer(layer, law, zones%acts(k, i), [from, from + length], fine%pieces(j)%length)
                     contact = contact_line(layer, [from, from + length], fine%pieces(j)%length)
-                    forces(k) = layer%side*(law%force - law%slope*law%displacement)*length &
+                    offset = offset_of_layer(layer, law, zones%acts(k, i), [from, from + length], fine%pieces(j)%length)
+                    forces(k) = layer%side*(offset(1) + offset(2))/2*length &
                         - length*(dot_product(slope, contact)/2 - (slope(2) - slope(1))*(contact(2) - contact(1))/6)
                     if (.not. any(slope > 0.0_qp)) cycle
                     ! Is its share of the modulus the same everywhere
@@ -508,7 +540,11 @@ contains
             do part = 1, parts
                 do g = 1, size(point)
                     xi = (part - 0.5_qp + point(g)/2)/parts
-                    call fields_at(stretch, load, ends, xi, w, psi, moment, shear)
+                    if (allocated(curved)) then
+                        call curved_fields(curved, xi, w, psi, moment, shear)
+                    else
+                        call fields_at(stretch, load, ends, xi, w, psi, moment, shear)
+                    end if
                     total = total + weight(g)*(slope(1) + (slope(2) - slope(1))*xi)*w
                 end do
             end do

@@ -1,8 +1,9 @@
 !> Zones of contact that carry nothing, or are too short for what they would have to carry
 module gapbeam_ground_ties
     use gapbeam_kinds, only: wp, qp
-    use gapbeam_ground_quad, only: ground_type, zones_type, grounded_type, line_of_kink
-    use gapbeam_zones_quad, only: fields_at_ends
+    use gapbeam_ground_quad, only: ground_type, zones_type, grounded_type
+    use gapbeam_ground_laws_quad, only: line_of_kink
+    use gapbeam_zone_fields_quad, only: fields_at_ends
     use gapbeam_workspace_quad, only: workspace_type
     use gapbeam_model_quad, only: beam_type
     use gapbeam_law_quad, only: leaves_all
@@ -77,8 +78,8 @@ contains
             do k = ground%first(j), ground%first(j + 1) - 1
                 associate (layer => ground%layers(k), length => ground%pieces(j)%length)
                     if (layer%side == 0 .or. zones%acts(k - ground%first(j) + 1, i) == 0) cycle
-                    depth = max(depth, layer%side*(a%deflection - line_of_kink(ground, layer, 1, zones%from(i), length)), &
-                                layer%side*(b%deflection - line_of_kink(ground, layer, 1, zones%to(i), length)))
+                    depth = max(depth, layer%side*(a%deflection - line_of_kink(ground%laws, layer, 1, zones%from(i), length)), &
+                                layer%side*(b%deflection - line_of_kink(ground%laws, layer, 1, zones%to(i), length)))
                 end associate
             end do
         end associate

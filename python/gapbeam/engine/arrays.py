@@ -34,7 +34,7 @@ class Columns(Record):
     load_codes, load : numpy.ndarray
         Kind, case and node of the loads, 3 rows of int; x or left end, right end, value, value at the right end, 4 rows.
     foundation_sides, foundation : numpy.ndarray
-        Side of the foundations, int; left and right end, modulus there, gap there, 6 rows.
+        Side of the foundations, int; left and right end, modulus there, gap there, law and its parameters at both ends, 13 rows.
     profile_foundations, profile : numpy.ndarray
         Points of the profiles: number of the foundation, from 1; x and gap, 2 rows.
     ground_law_foundations, ground_law : numpy.ndarray

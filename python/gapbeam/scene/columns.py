@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from operator import attrgetter
 from typing import Any
 
@@ -11,6 +11,7 @@ import numpy as np
 from ..base.errors import SceneError
 from ..engine.arrays import Columns
 from ..engine.beam import Curve
+from .ground_laws import PARAMETERS, ground_parameters, ground_points
 from .laws import is_smooth, law_points
 from .structs import AxialLoad, CurvatureLoad, ForceLoad, LinearLoad, MomentLoad, Scene, UniformLoad
 from .tables import Table
@@ -71,7 +72,7 @@ def columns(scene: Scene) -> Columns:
     load_codes, load_values = _loads(scene.loads)
     return Columns(
         span, hinge, _sections(scene.sections), codes, values, law_supports, law, load_codes, load_values,
-        *_foundations(scene.foundation), *_profiles(scene.foundation), *_laws(scene.foundation),
+        *_foundations(scene.foundation), *_profiles(scene.foundation), *_laws(scene.foundation, ground_points),
     )  # fmt: skip
 
 
@@ -126,10 +127,15 @@ def _supports(items: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _foundations(items: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
-    sides, found = _empty(1, len(items), np.int32)[0], _empty(6, len(items))
+    sides, found = _empty(1, len(items), np.int32)[0], _empty(7 + 2 * PARAMETERS, len(items))
     sides[:-1] = _words(items, "side", SIDES)
     found[0, :-1], found[1, :-1] = _numbers(items, "from_"), _optional(items, "to")
     found[2:4, :-1], found[4:6, :-1] = _at_both_ends(items, "k"), _at_both_ends(items, "gap")
+    found[6:, :-1] = 0.0
+    if not isinstance(items, Table):
+        for i, item in enumerate(items):
+            if item.law is not None:
+                found[6:, i] = ground_parameters(item.law)
     return sides, found
 
 
@@ -152,11 +158,13 @@ def _profiles(items: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
     return np.repeat([*which, 0], [*map(len, points[1:]), 1]).astype(np.int32), found
 
 
-def _laws(items: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
+def _laws(
+    items: Sequence[Any], points_of: Callable[[Any], list[tuple[float, float]] | None] = law_points
+) -> tuple[np.ndarray, np.ndarray]:
     """Points of laws, and the numbers of their supports or foundations, from 1; none of them can be given as columns."""
     laws = [] if isinstance(items, Table) else list(map(attrgetter("law"), items))
     which = [i for i, law in enumerate(laws) if law is not None] if laws.count(None) < len(laws) else []
-    points = [(i + 1, *point) for i in which for point in law_points(laws[i])]
+    points = [(i + 1, *point) for i in which for point in points_of(laws[i]) or ()]
     supports, found = _empty(1, len(points), np.int32)[0], _empty(2, len(points))
     for k, (support, displacement, force) in enumerate(points):
         supports[k], found[:, k] = support, (displacement, force)

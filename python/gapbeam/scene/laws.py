@@ -239,15 +239,13 @@ LawTable = PlasticLaw | BrittleLaw | HardeningLaw | CubicLaw | HyperbolicLaw | T
 Law = list[tuple[float, float]] | LawTable
 
 
-def wrong_parameter(law: Any, may_be_rigid: bool = True) -> tuple[str, float, str] | None:
+def wrong_parameter(law: Any) -> tuple[str, float, str] | None:
     """Find a parameter of a law's table that is out of range.
 
     Parameters
     ----------
     law : Law
         From a scene.
-    may_be_rigid : bool
-        Whether a polyline may have vertical pieces.
 
     Returns
     -------
@@ -258,7 +256,7 @@ def wrong_parameter(law: Any, may_be_rigid: bool = True) -> tuple[str, float, st
         return None
     for key in law.__struct_fields__:
         value = getattr(law, key)
-        rigid = may_be_rigid and (key == "slope" or (key == "stiffness" and not law.smooth))
+        rigid = key == "slope" or (key == "stiffness" and not law.smooth)
         least = 0.0 if key in ("k1", "k3", "slope") else -inf if key == "k2" else None
         if not (value > 0.0 or (least is not None and value >= least)) or not (isfinite(value) or rigid):
             more = "a number" if rigid else "a finite number"

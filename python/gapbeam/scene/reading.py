@@ -15,7 +15,8 @@ from ..engine.beam import Beam, RefusalError
 from .columns import columns, curves
 from .combinations import plan_combinations
 from .files import read_file
-from .laws import HardeningLaw, PlasticLaw, is_smooth, wrong_parameter
+from .ground_laws import NOT_FOR_GROUND
+from .laws import is_smooth, wrong_parameter
 from .names import check_names, names_in_errors
 from .refusals import refusal
 from .structs import Scene
@@ -162,11 +163,5 @@ def _check_foundations(scene: Scene) -> None:
         if isinstance(law, list):
             if not law:
                 raise SceneError(f"{place}.law", "has no point; give (displacement past the gap, force per length)")
-        elif law is not None:
-            if not isinstance(law, PlasticLaw | HardeningLaw):
-                kind = law.__struct_config__.tag
-                problem = f"a law of type {shown(kind)} is not available for foundations in this version; give a polyline"
-                raise SceneError(f"{place}.law", problem + (" that never falls" if kind == "brittle" else ""))
-            if wrong := wrong_parameter(law, may_be_rigid=False):
-                key, value, expected = wrong
-                raise SceneError(f"{place}.law.{key}", f"expected {expected}, got {number(value)}")
+        elif problem := NOT_FOR_GROUND.get(type(law)):
+            raise SceneError(f"{place}.law", problem)

@@ -9,6 +9,7 @@ from typing import Any, get_args
 
 import msgspec
 
+from .ground_laws import GroundLawTable
 from .laws import LawTable
 from .structs import Analysis, Beam, Combination, Foundation, Load, Scene, Section, Support, Train, Units
 
@@ -27,8 +28,8 @@ def scene_schema() -> dict[str, Any]:
     'Distance to be closed before it acts (length); negative = lack of fit; one-sided supports only.'
     """
     schema = msgspec.json.schema(Scene)
-    structs = (Units, Beam, Section, Support, Foundation, Train, Combination, Analysis, Scene, *get_args(Load), *get_args(LawTable))
-    for struct in structs:
+    tables = (Units, Beam, Section, Support, Foundation, Train, Combination, Analysis, Scene)
+    for struct in (*tables, *get_args(Load), *get_args(LawTable), *get_args(GroundLawTable)):
         table = schema["$defs"][struct.__name__]
         table["description"] = inspect.cleandoc(struct.__doc__).partition("\n\n")[0]
         texts: dict[str, str] = {}

@@ -31,6 +31,7 @@ from typing import Literal
 import numpy as np
 from msgspec import field
 
+from .ground_laws import GroundLaw
 from .laws import Law
 from .table import Count, Node, NotNegative, Positive, Side, Spans, Table
 
@@ -189,7 +190,8 @@ class Foundation(_Stretch, kw_only=True, gc=False):
     law : list of (float, float) or table, optional
         Instead of k: points (displacement past the gap, force per length) from (0, 0) on, which is left out. The force never
         falls, and no displacement stands there twice; the last slope goes on; with side both the law is mirrored. Or a table
-        with a type, plastic or hardening, of numbers per length: stiffness and slope in force/length^2, limit in force/length.
+        with a type, plastic, hardening, hyperbolic, tanh or cubic, whose parameters are numbers per length, or (at from, at to),
+        linear in between: curves are solved to all digits.
     name : str, optional
         Its name, unique among foundations; shown instead of its number.
     """
@@ -198,7 +200,7 @@ class Foundation(_Stretch, kw_only=True, gc=False):
     side: Side = "both"
     gap: float | tuple[float, float] = 0.0
     profile: list[tuple[float, float]] | None = None
-    law: Law | None = None
+    law: GroundLaw | None = None
     name: str | None = None
 
 

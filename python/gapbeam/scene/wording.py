@@ -170,8 +170,6 @@ def explain(error: msgspec.ValidationError, source: Any, struct: type) -> SceneE
         return _missing(kind, value, place)
     if text.startswith("Object contains unknown"):
         return _unknown(kind, value, place)
-    if re.match(r"foundation\[\d+\]\.law\.\w", place) and isinstance(value, list):
-        return SceneError(place, "pairs of parameters are not available in this version; give a number, or a polyline as law")
     return SceneError(place or "the scene", f"expected {_described(kind)}, got {shown(value)}")
 
 

@@ -1,0 +1,330 @@
+!> A stretch of beam on ground whose law is a curve: its fields by power series, and its link for Newton's method.
+!>
+!> From the fields at one place, v = w - M/GA, psi, M and V, the equations of gapbeam_foundation_taylor give their series, with
+!> the force of the ground as a series of the displacement (gapbeam_law_series). The slope of that force along the stretch is a
+!> modulus; with it the same equations tell what small changes at one end do at the other one. So the stretch is, to first
+!> order, one on linear ground: multiple shooting, which converges quadratically. Where 1/beta is long beside the stretch, as the
+!> caller cuts it, no digits are lost by that.
+module gapbeam_curved
+    use gapbeam_kinds, only: wp
+    use gapbeam_foundation_taylor, only: stretch_type, stretch_load_type, half_type, half_of_transfer
+    use gapbeam_foundation, only: stretch_link_type, link_of_halves
+    use gapbeam_law_series, only: curve_type, law_series_type, order, begin_series, next_term, force_scale, &
+        slope_scale, longest_step
+    implicit none
+    private
+    public :: curved_type, curve_type, order, expand_curved, advance_curved, condense_curved, curved_fields, steps_inside
+
+    !> A stretch, its load, the layers of ground that act by curves, and the fields (v, psi, M, V) at its ends
+    type :: curved_type
+        !> With the modulus of the linear ground
+        type(stretch_type) :: stretch
+        type(stretch_load_type) :: load
+        type(curve_type), allocatable :: curves(:)
+        real(wp) :: left(4) = 0.0_wp, right(4) = 0.0_wp
+    end type curved_type
+
+    !> More steps a stretch is not given, and beyond this size no fields
+    integer, parameter :: most_steps = 512
+    real(wp), parameter :: largest = sqrt(sqrt(huge(1.0_wp)))
+    !> Part of the length that the last terms allow
+    real(wp), parameter :: cautious = 0.9_wp
+
+contains
+
+    !> Series around a place
+    pure subroutine expand_curved(curved, xi, y, way, c, modulus, forces, step)
+        !> The stretch; its ends are not used
+        type(curved_type), intent(in) :: curved
+        !> The place, 0..1, and v, psi, M, V there
+        real(wp), intent(in) :: xi, y(4)
+        !> Unit of the series' variable t, in parts of the length, of either sign
+        real(wp), intent(in) :: way
+        !> Coefficients of v, psi, M, V, shape (4, 0:order)
+        real(wp), intent(out) :: c(:, 0:)
+        !> Of the modulus of all ground, and of the force of every layer that acts by a curve, against w for one from below and
+        !> positive there, shape (0:order), (0:order, number of layers)
+        real(wp), intent(out) :: modulus(0:), forces(0:, :)
+        !> To which t, 1 at most, they hold to rounding
+        real(wp), intent(out) :: step
+        type(law_series_type) :: series(size(curved%curves))
+        real(wp) :: h, k(0:1), q(0:order), pressure, w
+        integer :: i, n
+
+        associate (s => curved%stretch, p => curved%load, eta => 1 - xi)
+            h = s%length*way
+            k = [s%modulus_a*eta + s%modulus_b*xi, (s%modulus_b - s%modulus_a)*way]
+            q(3:) = 0.0_wp
+            q(0:2) = [p%qa*eta + p%qb*xi + p%qc*xi*eta, (p%qb - p%qa + p%qc*(eta - xi))*way, -p%qc*way**2]
+            w = y(1) + s%shear_flexibility*y(3)
+            do i = 1, size(series)
+                associate (curve => curved%curves(i))
+                    call begin_series(curve, xi, way, is_negative(curve), series(i))
+                end associate
+            end do
+            c(:, 0) = y
+            modulus(0:order) = 0.0_wp
+            modulus(0:1) = k
+            do n = 0, order
+                pressure = k(0)*deflection(n)
+                if (n > 0) pressure = pressure + k(1)*deflection(n - 1)
+                do i = 1, size(series)
+                    associate (curve => curved%curves(i), one => series(i))
+                        one%u(n) = deflection(n)
+                        if (n == 0) one%u(0) = one%u(0) - (curve%contact_a*eta + curve%contact_b*xi)
+                        if (n == 1) one%u(1) = one%u(1) - (curve%contact_b - curve%contact_a)*way
+                        one%u(n) = curve%side*one%u(n)
+                        call next_term(one, n)
+                        pressure = pressure + curve%side*one%r(n)
+                        modulus(n) = modulus(n) + one%k(n)
+                    end associate
+                end do
+                if (n == order) exit
+                associate (part => h/(n + 1))
+                    c(1, n + 1) = part*c(2, n)
+                    c(2, n + 1) = -part*s%flexibility*c(3, n)
+                    if (n == 0) c(2, 1) = c(2, 1) + part*p%kappa
+                    c(3, n + 1) = part*c(4, n)
+                    c(4, n + 1) = part*(pressure - q(n))
+                end associate
+            end do
+            step = step_of(c(4, :), sum(abs(c(4, 0:3))))
+            do i = 1, size(series)
+                forces(0:order, i) = series(i)%r
+                step = min(step, step_of(series(i)%r, force_scale(series(i))), step_of(series(i)%k, slope_scale(series(i))), &
+                           longest_step(series(i)))
+            end do
+        end associate
+
+    contains
+
+        !> Term of the deflection
+        pure function deflection(degree) result(term)
+            integer, intent(in) :: degree
+            real(wp) :: term
+
+            term = c(1, degree) + curved%stretch%shear_flexibility*c(3, degree)
+        end function deflection
+
+        !> Is the beam before the contact in the middle of the way, as the rotation tells
+        pure function is_negative(curve) result(negative)
+            type(curve_type), intent(in) :: curve
+            logical :: negative
+            real(wp) :: middle
+
+            middle = xi + way/2
+            associate (g => curved%stretch%shear_flexibility, length => curved%stretch%length)
+                negative = curve%side*(w + (y(2) + g*y(4))*h/2 + (curved%load%kappa - curved%stretch%flexibility*y(3))*h**2/8 &
+                                       - (curve%contact_a*(1 - middle) + curve%contact_b*middle)) < 0.0_wp
+            end associate
+        end function is_negative
+
+    end subroutine expand_curved
+
+    !> To which t, 1 at most, a series of some size holds
+    pure function step_of(c, scale) result(step)
+        real(wp), intent(in) :: c(0:), scale
+        real(wp) :: step
+        integer :: n
+
+        step = 1.0_wp
+        do n = order - 1, order
+            if (abs(c(n)) > epsilon(1.0_wp)*scale) step = min(step, cautious*(epsilon(1.0_wp)*(scale/abs(c(n))))**(1/real(n, wp)))
+        end do
+    end function step_of
+
+    !> Fields at one place from those at another
+    pure subroutine advance_curved(curved, xi, y, way, values, lost, transfer, forces, shortest)
+        !> As for expand_curved, but way as far as to the other place
+        type(curved_type), intent(in) :: curved
+        real(wp), intent(in) :: xi, y(4), way
+        !> v, psi, M, V there
+        real(wp), intent(out) :: values(4)
+        !> The fields run away: what was given was too far from a solution
+        logical, intent(out) :: lost
+        !> How they change with those at the first place
+        real(wp), intent(out), optional :: transfer(4, 4)
+        !> Force of every layer that acts by a curve in between, up where the layer pushes up
+        real(wp), intent(out), optional :: forces(:)
+        !> The shortest step taken, in parts of the length
+        real(wp), intent(out), optional :: shortest
+        real(wp) :: c(4, 0:order), modulus(0:order), r(0:order, size(curved%curves)), step, at, left
+        integer :: number, i
+
+        values = y
+        at = xi
+        left = way
+        if (present(transfer)) then
+            transfer = 0.0_wp
+            do i = 1, 4
+                transfer(i, i) = 1.0_wp
+            end do
+        end if
+        if (present(forces)) forces = 0.0_wp
+        if (present(shortest)) shortest = abs(way)
+        do number = 1, most_steps
+            lost = .not. all(abs(values) <= largest)
+            if (lost) return
+            call expand_curved(curved, at, values, left, c, modulus, r, step)
+            lost = .not. step > 1/real(most_steps, wp)**2
+            if (lost) return
+            if (present(transfer)) transfer = matmul(transfer_of(curved%stretch, left, modulus, step), transfer)
+            if (present(forces)) then
+                do i = 1, size(forces)
+                    forces(i) = forces(i) + curved%stretch%length*left*integral(r(:, i), step)
+                end do
+            end if
+            if (present(shortest)) shortest = min(shortest, abs(step*left))
+            do i = 1, 4
+                values(i) = value_of(c(i, :), step)
+            end do
+            if (.not. step < 1.0_wp) return
+            at = at + step*left
+            left = (xi + way) - at
+        end do
+        lost = .true.
+    end subroutine advance_curved
+
+    !> How the fields at the end of a step change with those where it begins
+    pure function transfer_of(stretch, way, modulus, step) result(transfer)
+        type(stretch_type), intent(in) :: stretch
+        !> Unit of t, the modulus as a series in it, and the step
+        real(wp), intent(in) :: way, modulus(0:), step
+        real(wp) :: transfer(4, 4)
+        real(wp) :: c(0:order, 4), w(0:order), part
+        integer :: j, n, i
+
+        do j = 1, 4
+            c(0, :) = 0.0_wp
+            c(0, j) = 1.0_wp
+            do n = 0, order - 1
+                part = stretch%length*way/(n + 1)
+                w(n) = c(n, 1) + stretch%shear_flexibility*c(n, 3)
+                c(n + 1, 1) = part*c(n, 2)
+                c(n + 1, 2) = -part*stretch%flexibility*c(n, 3)
+                c(n + 1, 3) = part*c(n, 4)
+                c(n + 1, 4) = part*dot_product(modulus(0:n), w(n:0:-1))
+            end do
+            do i = 1, 4
+                transfer(i, j) = value_of(c(:, i), step)
+            end do
+        end do
+    end function transfer_of
+
+    !> A series at a place
+    pure function value_of(c, t) result(value)
+        real(wp), intent(in) :: c(0:), t
+        real(wp) :: value
+        integer :: n
+
+        value = c(order)
+        do n = order - 1, 0, -1
+            value = c(n) + t*value
+        end do
+    end function value_of
+
+    !> Its integral from 0
+    pure function integral(c, t) result(value)
+        real(wp), intent(in) :: c(0:), t
+        real(wp) :: value
+        integer :: n
+
+        value = c(order)/(order + 1)
+        do n = order - 1, 0, -1
+            value = c(n)/(n + 1) + t*value
+        end do
+        value = t*value
+    end function integral
+
+    !> The link of a stretch near fields that are given at its left end, with what they and the loads make at its ends
+    pure subroutine condense_curved(curved, link, turn_a, turn_b, shear_a, shear_b, lost)
+        !> The stretch and the fields
+        type(curved_type), intent(in) :: curved
+        type(stretch_link_type), intent(out) :: link
+        !> As for load_stretch (gapbeam_foundation)
+        real(wp), intent(out) :: turn_a, turn_b, shear_a, shear_b
+        !> As for advance_curved; then nothing else is set
+        logical, intent(out) :: lost
+        type(half_type) :: a, b
+        real(wp) :: transfer(4, 5), mirrored(4, 5), values(4), back(4, 4)
+        integer :: i
+
+        turn_a = 0.0_wp
+        turn_b = 0.0_wp
+        shear_a = 0.0_wp
+        shear_b = 0.0_wp
+        call advance_curved(curved, 0.0_wp, curved%left, 1.0_wp, values, lost, transfer(:, 1:4))
+        if (lost) return
+        transfer(:, 5) = values - matmul(transfer(:, 1:4), curved%left)
+        ! Seen from the other side x, psi and V change their signs
+        back = inverse(transfer(:, 1:4), curved%stretch%shear_flexibility)
+        mirrored(:, 1:4) = back
+        mirrored(:, 5) = -matmul(back, transfer(:, 5))
+        do i = 2, 4, 2
+            mirrored(i, :) = -mirrored(i, :)
+            mirrored(:, i) = -mirrored(:, i)
+        end do
+        call half_of_transfer(transfer, a)
+        call half_of_transfer(mirrored, b)
+        call link_of_halves(curved%stretch%shear_flexibility, a, b, link)
+        turn_a = a%turn
+        turn_b = b%turn
+        shear_a = a%shear
+        shear_b = b%shear
+    end subroutine condense_curved
+
+    !> The inverse of a transfer: by Betti's theorem w V' - V w' - psi M' + M psi' of two changes is the same everywhere
+    pure function inverse(transfer, shear_flexibility) result(back)
+        real(wp), intent(in) :: transfer(4, 4), shear_flexibility
+        real(wp) :: back(4, 4)
+        real(wp) :: of_w(4, 4)
+        integer, parameter :: partner(4) = [4, 3, 2, 1]
+        real(wp), parameter :: sign_of(4) = [1.0_wp, -1.0_wp, 1.0_wp, -1.0_wp]
+        integer :: i, j
+
+        ! From v to w = v + M/GA and back
+        of_w = transfer
+        of_w(1, :) = of_w(1, :) + shear_flexibility*of_w(3, :)
+        of_w(:, 3) = of_w(:, 3) - shear_flexibility*of_w(:, 1)
+        do j = 1, 4
+            do i = 1, 4
+                back(i, j) = sign_of(i)*sign_of(j)*of_w(partner(j), partner(i))
+            end do
+        end do
+        back(1, :) = back(1, :) - shear_flexibility*back(3, :)
+        back(:, 3) = back(:, 3) + shear_flexibility*back(:, 1)
+    end function inverse
+
+    !> Fields anywhere in a stretch, from its nearer end
+    pure subroutine curved_fields(curved, xi, w, psi, moment, shear)
+        type(curved_type), intent(in) :: curved
+        !> The place, 0..1
+        real(wp), intent(in) :: xi
+        !> Deflection, rotation, moment, shear
+        real(wp), intent(out) :: w, psi, moment, shear
+        real(wp) :: y(4)
+        logical :: lost
+
+        if (xi <= 0.5_wp) then
+            call advance_curved(curved, 0.0_wp, curved%left, xi, y, lost)
+        else
+            call advance_curved(curved, 1.0_wp, curved%right, xi - 1, y, lost)
+        end if
+        w = y(1) + curved%stretch%shear_flexibility*y(3)
+        psi = y(2)
+        moment = y(3)
+        shear = y(4)
+    end subroutine curved_fields
+
+    !> Into how many equal parts a stretch is cut so that series hold in each
+    pure function steps_inside(curved) result(number)
+        type(curved_type), intent(in) :: curved
+        integer :: number
+        real(wp) :: y(4), shortest
+        logical :: lost
+
+        call advance_curved(curved, 0.0_wp, curved%left, 1.0_wp, y, lost, shortest=shortest)
+        number = min(ceiling(1/shortest), most_steps)
+    end function steps_inside
+
+end module gapbeam_curved

@@ -1,0 +1,290 @@
+!> The zones of contact, and of the pieces of laws, that a solution asks for: all crossings inside every stretch are isolated with
+!> certainty, and what acts between them is judged anew
+module gapbeam_find_zones
+    use gapbeam_kinds, only: wp
+    use gapbeam_foundation, only: stretch_load_type, fields_at
+    use gapbeam_foundation_roots, only: find_crossings, find_limits
+    use gapbeam_curved, only: curved_type, curved_fields
+    use gapbeam_layers, only: pieces_of_law, has_curves, law_by_points, law_cubic, parameters_of_law
+    use gapbeam_ground_laws, only: between, contact_line, line_of_kink, approach_kink, piece_of_deflection, parameters_at
+    use gapbeam_workspace, only: workspace_type
+    use gapbeam_ground, only: ground_type, zones_type, grounded_type, new_zones, resize, steps_of_piece, combined_load
+    use gapbeam_zone_fields, only: ends_of, take_curved
+    implicit none
+    private
+    public :: find_zones
+
+    !> Places nearer to each other than so many roundings of the length of their piece are one
+    real(wp), parameter :: one_place = 16*epsilon(1.0_wp)
+    !> The same share where laws are curves: in a shorter zone the fields at its ends are known too badly to go on from
+    real(wp), parameter :: one_place_on_curves = epsilon(1.0_wp)**0.75_wp
+
+contains
+
+    !> The zones that a solution asks for
+    subroutine find_zones(ground, grounded, zones, factor, work, found)
+        type(ground_type), intent(in) :: ground
+        !> The beam on its zones, solved in work at a load factor
+        type(grounded_type), intent(in) :: grounded
+        type(zones_type), intent(in) :: zones
+        real(wp), intent(in) :: factor
+        type(workspace_type), intent(in) :: work
+        !> The zones with which to go on
+        type(zones_type), intent(out) :: found
+        real(wp), allocatable :: cuts(:)
+        type(zones_type) :: next
+        integer :: j, first, last, m, number, room
+        logical :: curves
+
+        curves = any(has_curves(ground%layers))
+        room = 4*size(zones%piece)
+        call new_zones(room, size(zones%acts, 1), zones%steps, next)
+        if (curves) call cut_finer()
+        m = 0
+        last = 0
+        do j = 1, size(ground%pieces)
+            first = last + 1
+            last = grounded%node(j)
+            call cut_piece(j)
+            if (m + number > room) then
+                room = 2*(m + number)
+                call resize(next, room, m)
+            end if
+            call judge_piece(j)
+        end do
+        call resize(next, m, m)
+        found = next
+        if (curves) call carry_fields()
+
+    contains
+
+        !> Fields at the left ends of the new stretches
+        subroutine carry_fields()
+            type(curved_type), allocatable :: curved
+            real(wp) :: w, psi, moment, shear, share
+            integer :: i, k, of
+
+            i = 1
+            do k = 1, m
+                do while (i < size(zones%piece))
+                    if (zones%piece(i) == found%piece(k) .and. found%from(k) < zones%to(i)) exit
+                    if (zones%piece(i) == found%piece(k) .and. zones%piece(i + 1) /= found%piece(k)) exit
+                    i = i + 1
+                end do
+                share = (found%from(k) - zones%from(i))/(zones%to(i) - zones%from(i))
+                of = i
+                if (i > 1 .and. .not. share > 0.0_wp) then
+                    ! What a longer stretch says of its end is known better
+                    if (zones%piece(i - 1) == zones%piece(i) &
+                        .and. grounded%stretches(i - 1)%length > grounded%stretches(i)%length) then
+                        of = i - 1
+                        share = 1.0_wp
+                    end if
+                end if
+                call take_curved(ground, grounded, zones, factor, work, of, curved)
+                if (allocated(curved)) then
+                    call curved_fields(curved, share, w, psi, moment, shear)
+                else
+                    call fields_at(grounded%stretches(of), load_of(of), ends_of(work, of), share, w, psi, moment, shear)
+                end if
+                found%start(:, k) = [w - grounded%stretches(i)%shear_flexibility*moment, psi, moment, shear]
+            end do
+        end subroutine carry_fields
+
+        !> Other steps where ground has become stiffer, by no more than twice as many in a round, or much softer
+        subroutine cut_finer()
+            real(wp) :: stiffer
+            integer :: j, k
+
+            do j = 1, size(ground%pieces)
+                stiffer = 0.0_wp
+                do k = ground%first(j), ground%first(j + 1) - 1
+                    if (ground%layers(k)%law == law_cubic) stiffer = stiffer + stiffness_met(j, k)
+                end do
+                associate (steps => steps_of_piece(ground, j, stiffer), before => zones%steps(j))
+                    if (steps > before .or. 4*steps < before) next%steps(j) = min(steps + steps/4, 2*before + 2)
+                end associate
+            end do
+        end subroutine cut_finer
+
+        !> Greatest slope of a cubic law at the nodes of a piece
+        pure function stiffness_met(j, k) result(stiffness)
+            integer, intent(in) :: j, k
+            real(wp) :: stiffness
+            real(wp) :: u, p(parameters_of_law)
+            integer :: i
+
+            stiffness = 0.0_wp
+            do i = 1, size(zones%piece)
+                if (zones%piece(i) /= j) cycle
+                associate (layer => ground%layers(k), length => ground%pieces(j)%length)
+                    p = max(abs(parameters_at(layer, zones%from(i), length)), abs(parameters_at(layer, zones%to(i), length)))
+                    u = max(layer%side*(work%answers(i - 1)%deflection - contact_line(layer, zones%from(i), length)), &
+                            layer%side*(work%answers(i)%deflection - contact_line(layer, zones%to(i), length)), 0.0_wp)
+                end associate
+                stiffness = max(stiffness, u*(2*p(2) + 3*p(3)*u))
+            end do
+        end function stiffness_met
+
+        !> All places of a piece at which something may change: where it changed before, and where the deflection crosses the
+        !> line at which a layer begins or goes on to another piece of its law
+        subroutine cut_piece(piece)
+            integer, intent(in) :: piece
+            real(wp), allocatable :: xi(:)
+            real(wp) :: length, limits(parameters_of_law, 2), near
+            type(curved_type), allocatable :: curved
+            integer :: i, k, law, crossings
+
+            length = ground%pieces(piece)%length
+            near = merge(one_place_on_curves, one_place, curves)*length
+            if (allocated(cuts)) deallocate (cuts)
+            associate (other => next%steps(piece) /= zones%steps(piece), old => last - first + 1)
+                allocate (cuts(old + merge(next%steps(piece), 0, other)))
+                cuts(:old) = zones%to(first:last)
+                do i = 1, size(cuts) - old
+                    cuts(old + i) = between(0.0_wp, length, i, next%steps(piece))
+                end do
+            end associate
+            do k = ground%first(piece), ground%first(piece + 1) - 1
+                associate (layer => ground%layers(k))
+                    if (layer%side == 0) cycle
+                    do i = first, last
+                        call take_curved(ground, grounded, zones, factor, work, i, curved)
+                        associate (from => zones%from(i), to => zones%to(i))
+                            do law = 1, pieces_of_law(layer)
+                                if (law > 1 .and. layer%law /= law_by_points) then
+                                    limits = reshape([parameters_at(layer, from, length), parameters_at(layer, to, length)], &
+                                                     shape(limits))
+                                    call find_limits(grounded%stretches(i), load_of(i), ends_of(work, i), &
+                                                     contact_line(layer, [from, to], length), layer%side, limits(1, :), &
+                                                     limits(2, :), xi, crossings, curved)
+                                else
+                                    call find_crossings(grounded%stretches(i), load_of(i), ends_of(work, i), &
+                                                        line_of_kink(ground%laws, layer, law, from, length), &
+                                                        line_of_kink(ground%laws, layer, law, to, length), xi, crossings, curved)
+                                end if
+                                if (crossings > 0) cuts = [cuts, from + xi(:crossings)*(to - from)]
+                            end do
+                        end associate
+                    end do
+                end associate
+            end do
+            call sort(cuts)
+            number = 0
+            do i = 1, size(cuts)
+                if (number > 0) then
+                    if (cuts(i) - cuts(number) <= near) then
+                        if (i == size(cuts)) cuts(number) = cuts(i)
+                        cycle
+                    end if
+                else if (cuts(i) <= near) then
+                    cycle
+                end if
+                number = number + 1
+                cuts(number) = cuts(i)
+            end do
+            cuts(number) = length
+        end subroutine cut_piece
+
+        !> What acts between the places, neighbours with the same joined
+        subroutine judge_piece(piece)
+            integer, intent(in) :: piece
+            integer :: acts(size(zones%acts, 1))
+            real(wp) :: from, middle
+            integer :: i, k, c, step, steps
+            logical :: joins
+
+            steps = next%steps(piece)
+            from = 0.0_wp
+            i = first
+            step = 1
+            do c = 1, number
+                middle = from + (cuts(c) - from)/2
+                do while (i < last .and. zones%to(i) < middle)
+                    i = i + 1
+                end do
+                acts(:) = 0
+                do k = ground%first(piece), ground%first(piece + 1) - 1
+                    acts(k - ground%first(piece) + 1) = piece_at(k, i, middle)
+                end do
+                joins = .false.
+                if (from > 0.0_wp) joins = all(acts == next%acts(:, m))
+                do while (step < steps)
+                    ! Steps of ground that varies stay
+                    if (from < between(0.0_wp, ground%pieces(piece)%length, step, steps)) exit
+                    joins = .false.
+                    step = step + 1
+                end do
+                if (joins) then
+                    next%to(m) = cuts(c)
+                else
+                    m = m + 1
+                    next%piece(m) = piece
+                    next%from(m) = from
+                    next%to(m) = cuts(c)
+                    next%acts(:, m) = acts
+                end if
+                from = cuts(c)
+            end do
+        end subroutine judge_piece
+
+        !> The piece of its law on which a layer is at a place
+        pure function piece_at(k, i, distance) result(acts)
+            !> Layer, stretch, and distance from the left end of the piece
+            integer, intent(in) :: k, i
+            real(wp), intent(in) :: distance
+            integer :: acts, before, law
+            type(curved_type), allocatable :: curved
+            real(wp) :: w, psi, moment, shear, length, share, past, change
+
+            associate (layer => ground%layers(k))
+                acts = 1
+                if (layer%side == 0) return
+                length = ground%pieces(zones%piece(i))%length
+                share = (distance - zones%from(i))/(zones%to(i) - zones%from(i))
+                call take_curved(ground, grounded, zones, factor, work, i, curved)
+                if (allocated(curved)) then
+                    call curved_fields(curved, share, w, psi, moment, shear)
+                else
+                    call fields_at(grounded%stretches(i), load_of(i), ends_of(work, i), share, w, psi, moment, shear)
+                end if
+                acts = piece_of_deflection(ground%laws, layer, w, distance, length)
+                before = zones%acts(k - ground%first(zones%piece(i)) + 1, i)
+                if (before <= acts) return
+                ! A beam that lies on it without any load stays as it is
+                do law = before, acts + 1, -1
+                    call approach_kink(ground%laws, layer, law, w, 0.0_wp, distance, length, past, change)
+                    if (abs(past) > 0.0_wp) cycle
+                    acts = law
+                    return
+                end do
+            end associate
+        end function piece_at
+
+        !> Load of a stretch at the factor
+        pure function load_of(i) result(load)
+            integer, intent(in) :: i
+            type(stretch_load_type) :: load
+
+            load = combined_load(grounded%dead(i), grounded%live(i), factor)
+        end function load_of
+
+    end subroutine find_zones
+
+    !> Sort a few numbers that are nearly in order
+    pure subroutine sort(values)
+        real(wp), intent(inout) :: values(:)
+        real(wp) :: value
+        integer :: i, j
+
+        do i = 2, size(values)
+            value = values(i)
+            do j = i - 1, 1, -1
+                if (values(j) <= value) exit
+                values(j + 1) = values(j)
+            end do
+            values(j + 1) = value
+        end do
+    end subroutine sort
+
+end module gapbeam_find_zones

@@ -1,0 +1,167 @@
+!> What a layer of ground does at a place along its piece of the beam: where it acts, by which piece of its law, and how
+module gapbeam_ground_laws
+    use gapbeam_kinds, only: wp
+    use gapbeam_curved, only: curve_type
+    use gapbeam_layers, only: layer_type, law_piece_type, pieces_of_law, law_piece, is_curve, law_by_points, parameters_of_law
+    implicit none
+    private
+    public :: between, along, contact_line, line_of_kink, approach_kink, parameters_at, piece_of_deflection, slope_of_layer, &
+              offset_of_layer, take_curves
+
+contains
+
+    !> A place k of n steps from a to b, exactly b at the end
+    elemental function between(a, b, k, n) result(place)
+        real(wp), intent(in) :: a, b
+        integer, intent(in) :: k, n
+        real(wp) :: place
+
+        place = a + (b - a)*k/n
+        if (k == n) place = b
+    end function between
+
+    !> Value at a distance from the left end of what varies linearly along a length
+    elemental function along(value_a, value_b, distance, length) result(value)
+        real(wp), intent(in) :: value_a, value_b, distance, length
+        real(wp) :: value
+
+        if (distance <= 0.0_wp) then
+            value = value_a
+        else if (distance >= length) then
+            value = value_b
+        else
+            value = value_a + (value_b - value_a)*(distance/length)
+        end if
+    end function along
+
+    !> Deflection at which a layer begins to act, at a distance from the left end of its piece
+    elemental function contact_line(layer, distance, length) result(level)
+        type(layer_type), intent(in) :: layer
+        !> Distance, and length of the piece
+        real(wp), intent(in) :: distance, length
+        real(wp) :: level
+
+        level = along(layer%contact_a, layer%contact_b, distance, length)
+    end function contact_line
+
+    !> Deflection at which a layer goes on to a piece of its law, the first one or one by points
+    pure function line_of_kink(laws, layer, number, distance, length) result(level)
+        !> Pieces of all laws, and the layer
+        type(law_piece_type), intent(in) :: laws(:)
+        type(layer_type), intent(in) :: layer
+        !> The piece, from 1, which begins there
+        integer, intent(in) :: number
+        real(wp), intent(in) :: distance, length
+        real(wp) :: level
+        type(law_piece_type) :: piece
+
+        piece = law_piece(layer, laws, number)
+        level = contact_line(layer, distance, length) + layer%side*piece%displacement
+    end function line_of_kink
+
+    !> Is a deflection beyond a kink of a law: positive if so, with its change along the beam. Of the limit of a law with
+    !> parameters stiffness times displacement less the limit, which has no pole
+    pure subroutine approach_kink(laws, layer, number, w, incline, distance, length, past, change)
+        !> Pieces of all laws, and the layer
+        type(law_piece_type), intent(in) :: laws(:)
+        type(layer_type), intent(in) :: layer
+        !> The piece, from 1, which begins there
+        integer, intent(in) :: number
+        !> Deflection and its slope at a distance from the left end of the piece of the beam, and the length of that
+        real(wp), intent(in) :: w, incline, distance, length
+        real(wp), intent(out) :: past, change
+        real(wp) :: p(parameters_of_law)
+
+        past = layer%side*(w - line_of_kink(laws, layer, number, distance, length))
+        change = layer%side*(incline - (layer%contact_b - layer%contact_a)/length)
+        if (number == 1 .or. layer%law == law_by_points) return
+        p = parameters_at(layer, distance, length)
+        associate (a => layer%parameter_a, b => layer%parameter_b)
+            change = p(1)*change + past*(b(1) - a(1))/length - (b(2) - a(2))/length
+        end associate
+        past = p(1)*past - p(2)
+    end subroutine approach_kink
+
+    !> Parameters of a law at a distance from the left end of its piece of the beam
+    pure function parameters_at(layer, distance, length) result(p)
+        type(layer_type), intent(in) :: layer
+        real(wp), intent(in) :: distance, length
+        real(wp) :: p(parameters_of_law)
+
+        p = along(layer%parameter_a, layer%parameter_b, distance, length)
+    end function parameters_at
+
+    !> The piece of its law on which a layer is at a deflection, 0: it is not reached
+    pure function piece_of_deflection(laws, layer, w, distance, length) result(number)
+        !> Pieces of all laws, and the layer
+        type(law_piece_type), intent(in) :: laws(:)
+        type(layer_type), intent(in) :: layer
+        !> Deflection at a distance from the left end of the piece, and length of the piece
+        real(wp), intent(in) :: w, distance, length
+        integer :: number
+        real(wp) :: past, change
+
+        do number = pieces_of_law(layer), 1, -1
+            call approach_kink(laws, layer, number, w, 0.0_wp, distance, length, past, change)
+            if (past > 0.0_wp) exit
+        end do
+    end function piece_of_deflection
+
+    !> Force per length and deflection of a layer on a piece of its law that is no curve, at a distance from the left end of the
+    !> piece of the beam
+    elemental function slope_of_layer(layer, law, number, distance, length) result(slope)
+        type(layer_type), intent(in) :: layer
+        !> The piece of its law, and its number
+        type(law_piece_type), intent(in) :: law
+        integer, intent(in) :: number
+        real(wp), intent(in) :: distance, length
+        real(wp) :: slope
+
+        slope = law%slope
+        if (layer%law /= law_by_points) then
+            if (number == 1) slope = along(layer%parameter_a(1), layer%parameter_b(1), distance, length)
+        else if (layer%law_last < layer%law_first) then
+            slope = along(layer%modulus_a, layer%modulus_b, distance, length)
+        end if
+    end function slope_of_layer
+
+    !> Force per length that such a piece would have at contact
+    elemental function offset_of_layer(layer, law, number, distance, length) result(offset)
+        !> As for slope_of_layer
+        type(layer_type), intent(in) :: layer
+        type(law_piece_type), intent(in) :: law
+        integer, intent(in) :: number
+        real(wp), intent(in) :: distance, length
+        real(wp) :: offset
+
+        offset = law%force - law%slope*law%displacement
+        if (layer%law /= law_by_points .and. number == 2) then
+            offset = along(layer%parameter_a(2), layer%parameter_b(2), distance, length)
+        end if
+    end function offset_of_layer
+
+    !> The layers under a stretch that act by curves
+    pure subroutine take_curves(layers, acts, from, to, length, curves)
+        !> Layers under the piece of the beam, and the pieces of their laws on which they act
+        type(layer_type), intent(in) :: layers(:)
+        integer, intent(in) :: acts(:)
+        !> Ends of the stretch, from the left end of the piece, and the length of that
+        real(wp), intent(in) :: from, to, length
+        !> Not allocated if there is none
+        type(curve_type), allocatable, intent(out) :: curves(:)
+        integer :: k, n
+
+        n = count(is_curve(layers, acts(:size(layers))))
+        if (n == 0) return
+        allocate (curves(n))
+        n = 0
+        do k = 1, size(layers)
+            if (.not. is_curve(layers(k), acts(k))) cycle
+            n = n + 1
+            curves(n) = curve_type(layers(k)%law, layers(k)%side, parameters_at(layers(k), from, length), &
+                                   parameters_at(layers(k), to, length), contact_line(layers(k), from, length), &
+                                   contact_line(layers(k), to, length))
+        end do
+    end subroutine take_curves
+
+end module gapbeam_ground_laws
