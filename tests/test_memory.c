@@ -17,7 +17,7 @@ int main(void)
 }
 #else
 
-enum { SPANS = 1500, STEPS = 120, SHAPES = 4 };
+enum { SPANS = 1500, ON_GROUND = 200, STEPS = 120, SHAPES = 5 };
 enum { SOLVED, REFUSED, WRONG };
 
 /* Addresses in use, bytes */
@@ -38,9 +38,12 @@ static double reaction[SPANS + 1], factor[4 * SPANS];
 static int node[SPANS + 1], side[SPANS + 1], undecided[SPANS + 1];
 
 /* 0: a one-sided elastic base under a force; 1: rigid supports with gaps that cannot stand without each other; 2: hinges;
- * 3: nothing but a force at a rigid support: all others are at zero, which quadruple precision decides */
+ * 3: nothing but a force at a rigid support: all others are at zero, which quadruple precision decides;
+ * 4: no support but one-sided ground with a law, pressed down in the middle of a heavy beam that lifts off beside it */
 static gapbeam_model describe(int shape)
 {
+    static const int ground_of[] = {0, 0}, from_below[] = {GAPBEAM_BELOW};
+    static const double way[] = {0.002, 0.004}, push[] = {0.1, 0.15};
     static const int kind[] = {GAPBEAM_DISTRIBUTED, GAPBEAM_FORCE}, load_case[] = {GAPBEAM_DEAD, GAPBEAM_LIVE};
     gapbeam_model model;
     gapbeam_model_init(&model, sizeof model);
@@ -70,6 +73,18 @@ static gapbeam_model describe(int shape)
     if (shape == 2) {
         model.hinges = SPANS / 4;
         model.hinge_x = hinge;
+    }
+    if (shape == 4) {
+        model.spans = ON_GROUND;
+        model.supports = 0;
+        model.foundations = 1;
+        model.foundation_side = from_below;
+        model.ground_law_points = 2;
+        model.ground_law_foundation = ground_of;
+        model.ground_law_displacement = way;
+        model.ground_law_force = push;
+        load_to[0] = ON_GROUND;
+        load_x[1] = ON_GROUND / 2 + 0.25;
     }
     model.loads = 2;
     model.load_kind = kind;
@@ -104,7 +119,7 @@ static int attempt(const gapbeam_model *model, size_t limit)
         status = gapbeam_get_extremes(beam, state, extreme, place);
     if (!status)
         status = gapbeam_get_certificate(beam, state, &certificate, undecided);
-    if (!status)
+    if (!status && !model->foundations)
         status = gapbeam_follow(beam, 1.0, NULL, 4 * SPANS, factor, NULL, NULL, &number, state, message, sizeof message);
     gapbeam_free_state(state);
     gapbeam_free_beam(beam);
@@ -132,7 +147,7 @@ int main(void)
     gapbeam_status_message(0);
     for (int shape = 0; shape < SHAPES; shape++) {
         gapbeam_model model = describe(shape);
-        const size_t base = in_use(), enough = (size_t)SPANS * 18000;
+        const size_t base = in_use(), enough = shape == 4 ? (size_t)ON_GROUND * 60000 : (size_t)SPANS * 18000;
         int ends[3] = {0, 0, 0};
         int good = in_a_process(&model, 0) == SOLVED;
         for (int step = 0; step <= STEPS; step++)
