@@ -16,6 +16,9 @@ module gapbeam_ground_query
 
     !> Distances between beam and ground of so many roundings of what they are made of are none
     real(wp), parameter :: touching = 32*epsilon(1.0_wp)
+    !> Values that differ by less than this share of them are the same, and the first one of them, from the left, is taken: else
+    !> rounding would choose among those of a symmetric beam
+    real(wp), parameter :: same = 4*epsilon(1.0_wp)
 
 contains
 
@@ -202,12 +205,12 @@ contains
             if (k == 2) value = field%rotation
             if (k == 3) value = field%moment
             place = along(solution%from(i), solution%to(i), at, 1.0_wp)
-            if (value > values(1, k)) then
+            if (value > values(1, k) + same*abs(values(1, k))) then
                 values(1, k) = value
                 piece(1, k) = solution%piece(i)
                 distance(1, k) = place
             end if
-            if (value < values(2, k)) then
+            if (value < values(2, k) - same*abs(values(2, k))) then
                 values(2, k) = value
                 piece(2, k) = solution%piece(i)
                 distance(2, k) = place
