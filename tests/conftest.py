@@ -10,7 +10,7 @@ from hypothesis import HealthCheck, settings
 sys.path.insert(0, os.path.dirname(__file__))  # the helper modules beside the tests
 
 from clibrary import Library
-from installation import LANGUAGES, install
+from installation import LANGUAGES, install_once
 
 CALM = [HealthCheck.too_slow, HealthCheck.data_too_large, HealthCheck.filter_too_much]
 settings.register_profile(
@@ -20,22 +20,10 @@ settings.register_profile("explore", deadline=None, max_examples=3000, suppress_
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "fixed"))
 
 
-BUILDS = {"installed", "installed_openblas"}
-"""Fixtures that take a build of the library: processes beside each other (pytest -n) share none, so one of them runs all that
-want them."""
-
-
-def pytest_collection_modifyitems(items):
-    """Say which tests go to the same process."""
-    for item in items:
-        if BUILDS & set(getattr(item, "fixturenames", ())):
-            item.add_marker(pytest.mark.xdist_group("builds"))
-
-
 @pytest.fixture(scope="session")
 def installed(tmp_path_factory):
     """The library as `meson install` puts it in place."""
-    return install(tmp_path_factory.mktemp("installed"))
+    return install_once(tmp_path_factory, "installed")
 
 
 @pytest.fixture(scope="session")

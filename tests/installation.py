@@ -77,3 +77,19 @@ def install(folder: Path, *options: str) -> Installation:
         done = subprocess.run(list(map(str, command)), capture_output=True, text=True)
         assert done.returncode == 0, f"{done.stdout}\n{done.stderr}"
     return Installation(prefix, build)
+
+
+def install_once(folders, name: str, *options: str) -> Installation:
+    """Install in a temporary folder; the processes of `pytest -n` share it: who comes first builds, the others wait."""
+    if "PYTEST_XDIST_WORKER" not in os.environ:
+        return install(folders.mktemp(name), *options)
+    import fcntl
+
+    folder = folders.getbasetemp().parent / name
+    with open(f"{folder}.lock", "w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if (folder / "done").exists():
+            return Installation(folder / "prefix", folder / "build")
+        found = install(folder, *options)
+        (folder / "done").touch()
+        return found

@@ -10,7 +10,7 @@ from importlib.util import find_spec
 
 import gapbeam
 import pytest
-from installation import LANGUAGES, TOP, install
+from installation import LANGUAGES, TOP, install_once
 
 
 @pytest.fixture(scope="session")
@@ -18,7 +18,7 @@ def installed_openblas(tmp_path_factory):
     """The library with PyPI's LAPACK, as it is built where the system has none; not optimized, which takes half the time."""
     if find_spec("scipy_openblas32") is None:
         pytest.skip("scipy-openblas32 is not in this environment")
-    return install(tmp_path_factory.mktemp("openblas"), "-Dlapack=scipy-openblas32", "-Doptimization=0")
+    return install_once(tmp_path_factory, "openblas", "-Dlapack=scipy-openblas32", "-Doptimization=0")
 
 
 def search_path(installation, library):
