@@ -218,7 +218,7 @@ contains
         integer :: solves
 
         call lower(lifting(), lowered)
-        call search_springs(ground_of(lowered), 1.0_wp, 0, 4096, closed, zones, solves, outcome, error)
+        call search_springs(ground_of(lowered), 1.0_wp, 4096, closed, zones, solves, outcome, error)
         call check(.not. allocated(error) .and. outcome%status == gapbeam_solved, "springs hold it")
         call check(abs(zones%to(2) - 4.6335826_wp) < 0.02_wp .and. abs(zones%from(5) - 4.6732507_wp) < 0.02_wp, "zones of springs")
         call lower([uniform_load(1.0_wp, 0.0_wp, 30.0_wp), point_force(-40.0_wp, x=25.0_wp)], lowered)

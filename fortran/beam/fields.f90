@@ -131,6 +131,9 @@ contains
             size = size + abs(b(i))
             b(i) = b(i)/chosen(i, n)
         end do
+        ! What leaves the range of doubles has no bounds
+        yes = size <= huge(size)/64
+        if (.not. yes) return
         do i = 1, n
             do j = n, i, -1
                 b(j) = b(j) + b(j - 1)

@@ -15,6 +15,7 @@ module gapbeam_springs
     use gapbeam_polyline, only: join_pieces
     use gapbeam_model, only: beam_type, node_support_type, order_supports
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
+    use gapbeam_search, only: rule_block
     use gapbeam_scheme, only: find_scheme, outcome_type
     use gapbeam_ground_laws, only: between, contact_line, line_of_kink, piece_of_deflection, parameters_at
     use gapbeam_ground, only: ground_type, zones_type, new_zones, resize, steps_of, steps_of_piece
@@ -22,18 +23,17 @@ module gapbeam_springs
     private
     public :: search_springs
 
-    !> Linear solves that the search over springs may take
-    integer, parameter :: most_solves = 20000
+    !> Nodes at which the search over springs may solve, all its solves together: some seconds
+    integer, parameter :: most_nodes = 2*10**7
 
 contains
 
     !> Solve with springs instead of the ground
-    subroutine search_springs(ground, factor, rule, number, closed, zones, solves, outcome, error)
+    subroutine search_springs(ground, factor, number, closed, zones, solves, outcome, error)
         !> The beam and its ground
         type(ground_type), intent(in) :: ground
-        !> Load factor, and rule for the supports
+        !> Load factor
         real(wp), intent(in) :: factor
-        integer, intent(in) :: rule
         !> Springs along the whole beam, about
         integer, intent(in) :: number
         !> States of the supports: start in, found out
@@ -75,10 +75,10 @@ contains
         where (beam%supports(size(closed) + 1:)%kink > 1) acting(size(closed) + 1:) = .false.
         call new_workspace(beam, work)
         call set_loads(beam, factor, work)
-        work%most_solves = most_solves
-        call find_scheme(beam, factor, rule, acting, work, outcome, error)
+        work%most_solves = most_nodes/size(work%nodes)
+        call find_scheme(beam, factor, rule_block, acting, work, outcome, error)
         solves = work%solves
-        if (allocated(error) .and. work%solves > most_solves) then
+        if (allocated(error) .and. work%solves > work%most_solves) then
             deallocate (error)
             call fatal_error(error, gapbeam_not_converged, "the ground could not be settled, or proved too weak for the loads: "// &
                              "look for loads near what it can bear")

@@ -21,6 +21,9 @@ module gapbeam_ground_path
     integer, parameter :: parts = 64
     !> Distance of load factors at which it is enough to know that states between them cannot be settled
     real(wp), parameter :: near = 2.0_wp**(-44)
+    !> Next to an event a state may not be settled, since a zone has next to no length there: factors on both sides of it that are
+    !> as near as this are neighbours
+    real(wp), parameter :: next_to = 2.0_wp**(-40)
     !> What acts at this share of the way acts from the beginning: at factor 0 a beam without dead load lies there without any force
     real(wp), parameter :: begin_share = 2.0_wp**(-40)
 
@@ -165,13 +168,18 @@ contains
         subroutine bisect(low, below, high, above)
             real(wp), intent(inout) :: low, high
             type(held_type), intent(inout) :: below, above
-            type(held_type) :: between
-            real(wp) :: middle
+            type(held_type) :: between, standing
+            real(wp) :: middle, stands_at
 
+            stands_at = huge(high)
             do
+                if (above%stands) then
+                    stands_at = high
+                    standing = above
+                end if
                 middle = low + (high - low)/2
-                if (middle <= low .or. middle >= high) return
-                if (allocated(trouble) .and. .not. above%stands .and. high - low <= near*high) return
+                if (middle <= low .or. middle >= high) exit
+                if (allocated(trouble) .and. .not. above%stands .and. high - low <= near*high) exit
                 call hold(middle, between)
                 if (allocated(error)) return
                 if (alike(below, between)) then
@@ -182,6 +190,10 @@ contains
                     above = between
                 end if
             end do
+            if (above%stands .or. .not. allocated(trouble) .or. stands_at - low > next_to*stands_at) return
+            high = stands_at
+            above = standing
+            deallocate (trouble)
         end subroutine bisect
 
         !> Find a factor just above the last one at which there is no equilibrium for sure, and how the beam moves there

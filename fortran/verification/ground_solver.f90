@@ -39,6 +39,8 @@ module gapbeam_ground_solver
     !> Shares of the stretches beside them by which ends may still move in the round that is taken for the last one
     real(wp), parameter :: rough = 1e-10_wp, nearly = 1e-2_wp
     real(qp), parameter :: fine_enough = 1e-15_qp
+    !> Ends that still move by no more are taken where they do not come to rest
+    real(qp), parameter :: good_enough = 1e-11_qp
     !> The same of ends that are taken: the fields there are those at the ends of the round before
     real(qp), parameter :: finest = 1e-17_qp
     !> Springs tried, none first
@@ -127,7 +129,7 @@ contains
                 call reserve_memory(for_solving, size(ground%pieces) + spring_numbers(try), &
                                     size(closed) + spring_numbers(try), 0, error)
                 if (allocated(error)) return
-                call search_springs(ground, factor, rule, spring_numbers(try), closed, zones, solves, outcome, error)
+                call search_springs(ground, factor, spring_numbers(try), closed, zones, solves, outcome, error)
                 solution%solves = solution%solves + solves
                 if (allocated(error)) then
                     ! Other springs may tell
@@ -220,7 +222,11 @@ contains
         type(fine_zones_type) :: zones
         type(fine_grounded_type) :: grounded
         type(fine_workspace_type) :: work
-        type(fine_outcome_type) :: found
+        type(fine_outcome_type) :: found, polished_outcome
+        type(fine_zones_type) :: polished
+        type(fine_grounded_type) :: polished_beam
+        type(fine_workspace_type) :: polished_work
+        logical, allocatable :: polished_closed(:)
         real(qp) :: moved
 
         call new_zones(size(rough_zones%piece), size(rough_zones%acts, 1), rough_zones%steps, zones)
@@ -238,11 +244,26 @@ contains
         if (.not. settled) then
             call settle_fine_zones(fine, factor, rule, fine_enough, zones, closed, grounded, work, found, settled, moved, error)
             solution%solves = solution%solves + work%solves
-            if (allocated(error) .or. .not. settled) return
+            if (allocated(error)) return
+            settled = settled .or. moved <= good_enough
+            if (.not. settled) return
             if (moved > finest) then
-                call polish_zones(fine, factor, rule, fine_enough, zones, closed, grounded, work, found, settled, error)
-                solution%solves = solution%solves + work%solves
-                if (allocated(error) .or. .not. settled) return
+                polished = zones
+                allocate (polished_closed(size(closed)))
+                polished_closed(:) = closed
+                call polish_zones(fine, factor, rule, fine_enough, polished, polished_closed, polished_beam, polished_work, &
+                                  polished_outcome, settled, error)
+                solution%solves = solution%solves + polished_work%solves
+                if (allocated(error)) return
+                ! Where ends all but touch each other the last digits may not be had
+                if (settled) then
+                    zones = polished
+                    closed(:) = polished_closed
+                    grounded = polished_beam
+                    work = polished_work
+                    found = polished_outcome
+                end if
+                settled = .true.
             end if
         end if
         call take_rounded(fine, factor, zones, grounded, closed, work, solution)
