@@ -406,18 +406,19 @@ law = [[0.01, -5.0]] -> foundation[1].law[0]: the force is below zero at [0.01, 
 law = [[0.01, 5.0], [0.02, 4.0]] ->
     foundation[1].law[1]: the force falls at [0.02, 4]; softening ground is not available in this version
 law = [[0.01, 0.0]] -> foundation[1].law: its force stays 0, so it never carries; remove the foundation
-law = { type = "tanh", stiffness = 1.0, limit = 2.0 } ->
-    foundation[1].law: a law of type "tanh" is not available for foundations in this version; give a polyline
 law = { type = "brittle", stiffness = 1.0, limit = 2.0 } ->
-    foundation[1].law: a law of type "brittle" is not available for foundations in this version; give a polyline
+    foundation[1].law: a law whose force falls is not available for foundations in this version; give a polyline
     that never falls
-law = { type = "plastic", stiffness = 1.0, limit = [0.0, 400.0] } ->
-    foundation[1].law.limit: pairs of parameters are not available in this version; give a number, or a polyline
-    as law
+law = { type = "power", d0 = 1.0, limit = 2.0, n = 0.5 } ->
+    foundation[1].law: a power of the displacement is not available for foundations: with n below 1 the ground is
+    infinitely stiff at first, so that a pile would change its side infinitely often; give a polyline, as codes do,
+    or cubic
+law = { type = "tanh", stiffness = [0.0, 4.0], limit = [nan, 400.0] } ->
+    foundation[1].law.limit: expected finite numbers, got nan
 law = { type = "plastic", stiffness = inf, limit = 2.0 } ->
-    foundation[1].law.stiffness: expected a finite number above 0, got inf
+    foundation[1].law.stiffness: expected finite numbers, got inf
 law = { type = "hardening", stiffness = 1.0, limit = 2.0, slope = inf } ->
-    foundation[1].law.slope: expected a finite number of 0 or more, got inf
+    foundation[1].law.slope: expected finite numbers, got inf
 law = [[0.01, 5.0]]; unloading = "plastic" ->
     foundation[1].unloading: unknown key; the keys are from, to, k, side, gap, profile, law and name
 """

@@ -236,6 +236,9 @@ class CombinedResult(Result):
             beam.depends_on_path or beam.curves
         )
         self._check_products()
+        if scene.trains:
+            for k in range(len(self.names)):
+                self.combinations[k]  # trains pass
         self._found, reasons = self._solve_at_once() if self._at_once else self._solve_one_by_one()
         self.statuses = tuple(reasons)
         self._seconds = perf_counter() - begin

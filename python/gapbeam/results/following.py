@@ -48,6 +48,8 @@ def follow_load(scene: Scene, beam: Beam, rule: str, closed: np.ndarray) -> Resu
     if beam.ground_layers:
         _refuse_on_ground(scene, beam)
     refuse_trains(scene, beam)
+    if scene.trains:
+        result.trains.pass_all()
     if beam.depends_on_path or scene.analysis.history != [1.0]:
         return _on_path(result)
     if scene.analysis.follow == "events":

@@ -386,6 +386,11 @@ class Trains(Mapping[str, TrainResult]):
         """Count the trains."""
         return len(self._by_name)
 
+    def pass_all(self) -> None:
+        """Move all trains over the beam, so that what stands in the way of one is said at once."""
+        for train in self._by_name.values():
+            train.ways  # noqa: B018
+
     def envelope(self, x: Any = None) -> TrainEnvelope:
         """Largest and smallest values over all positions of all trains, one at a time.
 

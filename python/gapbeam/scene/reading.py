@@ -165,3 +165,8 @@ def _check_foundations(scene: Scene) -> None:
                 raise SceneError(f"{place}.law", "has no point; give (displacement past the gap, force per length)")
         elif problem := NOT_FOR_GROUND.get(type(law)):
             raise SceneError(f"{place}.law", problem)
+        elif law is not None:
+            for key in law.__struct_fields__:
+                for value in pair if isinstance(pair := getattr(law, key), tuple) else (pair,):
+                    if not isfinite(value):
+                        raise SceneError(f"{place}.law.{key}", f"expected finite numbers, got {number(value)}")
