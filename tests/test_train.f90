@@ -4,7 +4,7 @@ program test_train
     use testing, only: check, check_close, finish
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_equilibrium
-    use gapbeam_scene, only: model_type, span_type, support_type, load_type, uniform_load, gapbeam_below, gapbeam_dead
+    use gapbeam_scene, only: model_type, span_type, support_type, uniform_load, gapbeam_below, gapbeam_dead
     use gapbeam_lowered, only: lowered_type, copy_model
     use gapbeam_lower, only: lower_model
     use gapbeam_train, only: train_type, track_type, new_track

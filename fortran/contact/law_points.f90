@@ -1,7 +1,7 @@
 !> Laws of the ground with parameters as polylines: for springs, from which the curves themselves are then found
 module gapbeam_law_points
     use gapbeam_kinds, only: wp
-    use gapbeam_layers, only: law_piece_type, law_plastic, law_hardening, law_hyperbolic, law_tanh, law_cubic
+    use gapbeam_layers, only: law_piece_type, law_plastic, law_hardening, law_hyperbolic, law_tanh
     implicit none
     private
     public :: most_points, points_of_law

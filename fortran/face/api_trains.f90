@@ -18,7 +18,7 @@ module gapbeam_api_trains
     use gapbeam_scene, only: gapbeam_unchanged
     use gapbeam_lowered, only: lowered_type, point_x
     use gapbeam_query, only: find_pieces
-    use gapbeam_train, only: train_type, track_type, new_track, least_distance
+    use gapbeam_train, only: train_type, track_type, new_track
     use gapbeam_train_path, only: passage_type, pass_train, not_unique
     use gapbeam_train_events, only: train_event_type, find_events
     use gapbeam_train_envelope, only: envelope_type, extreme_type, find_envelope
@@ -130,8 +130,8 @@ contains
         call ieee_set_rounding_mode(ieee_nearest)
         call find_envelope(beam%lowered, passing%track, passing%train, passing%passage, envelope, error)
         if (.not. allocated(error)) then
-            fields(:, :) = first_tie(envelope%fields, least_distance(passing%track, passing%train))
-            supports(:, :, :) = first_tie(envelope%supports, least_distance(passing%track, passing%train))
+            fields(:, :) = first_tie(envelope%fields)
+            supports(:, :, :) = first_tie(envelope%supports)
         end if
         call ieee_set_status(environment)
     end subroutine get_train_extremes
@@ -296,19 +296,14 @@ contains
     end subroutine find_gaps
 
     !> The first one of those that tie
-    elemental function first_tie(extreme, near) result(found)
+    elemental function first_tie(extreme) result(found)
         type(extreme_type), intent(in) :: extreme
-        !> Distance below which an axle is at the end of the beam
-        real(wp), intent(in) :: near
         type(train_extreme_type) :: found
-        real(wp), parameter :: beyond(0:2) = [0.0_wp, 2.0_wp, -2.0_wp]
         integer, parameter :: sides(0:2) = [0, -1, 1]
 
         if (extreme%number == 0) return
         associate (tie => extreme%ties(1))
-            ! An axle that is not on the beam there is one that is not so near to its end
-            found = train_extreme_type(.true., tie%value, tie%x, tie%position + beyond(tie%limit)*near, sides(tie%side), &
-                                       extreme%number)
+            found = train_extreme_type(.true., tie%value, tie%x, tie%position, sides(tie%side), extreme%number)
         end associate
     end function first_tie
 

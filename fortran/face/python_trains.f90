@@ -82,7 +82,7 @@ subroutine gbtget(train, ns, nl, nt, nk, ne, ends, codes, closed, motion, place,
 end subroutine gbtget
 
 ! Extremes while a train goes over a beam
-subroutine gbtenv(beam, train, nm, fields, field_codes, field_ties, supports, support_codes, support_ties, status, message)
+subroutine gbtenv(beam, train, nm, fields, field_sides, field_ties, supports, support_sides, support_ties, status, message)
     use gapbeam_error, only: error_type
     use gapbeam_handle, only: handle_type, handle_of, report
     use gapbeam_train, only: track_type
@@ -94,11 +94,11 @@ subroutine gbtenv(beam, train, nm, fields, field_codes, field_ties, supports, su
     integer, intent(in) :: nm
     ! Of largest (1) and smallest (2) deflection, rotation, moment, shear up to 16 ties: value, x, position
     double precision, intent(out) :: fields(3, 16, 2, 4)
-    ! 1 left of x, 2 right of it, 0 both; 1 or 2 where the position is the first or last of a stretch that does not hold there
-    integer, intent(out) :: field_codes(2, 16, 2, 4), field_ties(2, 4)
+    ! 1 left of x, 2 right of it, 0 both
+    integer, intent(out) :: field_sides(16, 2, 4), field_ties(2, 4)
     ! The same of reaction, opening, deflection, couple of every support
     double precision, intent(out) :: supports(3, 16, 2, 4, nm)
-    integer, intent(out) :: support_codes(2, 16, 2, 4, nm), support_ties(2, 4, nm), status
+    integer, intent(out) :: support_sides(16, 2, 4, nm), support_ties(2, 4, nm), status
     character(len=240), intent(out) :: message
     !f2py threadsafe
     type(handle_type), pointer :: handle
@@ -111,19 +111,19 @@ subroutine gbtenv(beam, train, nm, fields, field_codes, field_ties, supports, su
     handle => handle_of(beam)
     passing => train_of(train)
     supports = 0.0d0
-    support_codes = 0
+    support_sides = 0
     support_ties = 0
     fields = 0.0d0
-    field_codes = 0
+    field_sides = 0
     field_ties = 0
     ! Another thread may ask the same train
     track = passing%track
     call find_envelope(handle%lowered, track, passing%train, passing%passage, envelope, error)
     call report(error, status, message)
     if (allocated(error)) return
-    call pack_extremes(envelope%fields, fields, field_codes, field_ties)
+    call pack_extremes(envelope%fields, fields, field_sides, field_ties)
     do k = 1, nm - 1
-        call pack_extremes(envelope%supports(:, :, k), supports(:, :, :, :, k), support_codes(:, :, :, :, k), &
+        call pack_extremes(envelope%supports(:, :, k), supports(:, :, :, :, k), support_sides(:, :, :, k), &
                            support_ties(:, :, k))
     end do
 end subroutine gbtenv

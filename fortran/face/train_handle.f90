@@ -87,11 +87,11 @@ contains
     end subroutine drop_train
 
     !> Extremes as arrays
-    pure subroutine pack_extremes(extremes, values, codes, ties)
+    pure subroutine pack_extremes(extremes, values, sides, ties)
         type(extreme_type), intent(in) :: extremes(:, :)
-        !> Value, x, position; side, and limit (tie_type), shape (.., most_ties, 2, 4)
+        !> Value, x, position, shape (3, most_ties, 2, 4); side (tie_type), shape (most_ties, 2, 4)
         real(wp), intent(inout) :: values(:, :, :, :)
-        integer, intent(inout) :: codes(:, :, :, :)
+        integer, intent(inout) :: sides(:, :, :)
         !> How many there are, shape (2, 4)
         integer, intent(out) :: ties(:, :)
         integer :: f, i, k
@@ -102,7 +102,7 @@ contains
                 do k = 1, extremes(i, f)%number
                     associate (tie => extremes(i, f)%ties(k))
                         values(:, k, i, f) = [tie%value, tie%x, tie%position]
-                        codes(:, k, i, f) = [tie%side, tie%limit]
+                        sides(k, i, f) = tie%side
                     end associate
                 end do
             end do

@@ -2,7 +2,7 @@
 !> working scheme of its own, from the same start, so that none depends on those before it
 module gapbeam_combinations
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, no_memory, gapbeam_solved
+    use gapbeam_error, only: error_type, no_memory
     use gapbeam_lowered, only: lowered_type, copy_model
     use gapbeam_lower, only: lower_model
     use gapbeam_lower_loads, only: lower_loads

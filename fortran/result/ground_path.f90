@@ -10,7 +10,7 @@ module gapbeam_ground_path
     use gapbeam_polyline, only: last_kink
     use gapbeam_lowered, only: lowered_type, point_x
     use gapbeam_pieces, only: acting_type, acting_piece, what_happens, nothing
-    use gapbeam_solution, only: state_type, close_all
+    use gapbeam_solution, only: state_type
     use gapbeam_state, only: solve_state
     use gapbeam_ground_changes, only: zone_type, zone_change_type, find_zones, same_zones, compare_zones
     implicit none

@@ -18,14 +18,19 @@ module gapbeam_train_envelope
 
     !> Values nearer to the largest than this share of the largest absolute value are equal to it
     real(wp), parameter :: equal = 2.0_wp**(-40)
+    !> How far inside a stretch that does not hold at its first or last position, in least distances
+    real(wp), parameter :: inside(0:2) = [0.0_wp, 2.0_wp, -2.0_wp]
     !> Equal values are listed up to so many
     integer, parameter :: most_ties = 16
 
-    !> Where an extreme value is: x, position of the train, value; 1 where it is the value left of x, 2 right of it (0: both);
-    !> 1 or 2 where the position is the first or last one of a stretch that does not hold at its end (0: it holds)
+    !> Where an extreme value is: x, position of the train, value; 1 where it is the value left of x, 2 right of it (0: both). At an
+    !> end of a stretch that does not hold there the position is one just inside, at which an axle that is near the end of the beam
+    !> is on the same side of it
     type :: tie_type
         real(wp) :: value = 0.0_wp, x = 0.0_wp, position = 0.0_wp
-        integer :: side = 0, limit = 0
+        integer :: side = 0
+        !> 1 or 2 where it is the first or last one of such a stretch
+        integer, private :: limit = 0
         !> Where that ends, if the value stays the same on the way: x and position
         real(wp) :: x_end = 0.0_wp, position_end = 0.0_wp
     end type tie_type
@@ -208,6 +213,9 @@ contains
                 tie%value = scale(merge(found(1, q), -found(1, q), which == 1), power)
                 call place_tie(candidates%list(q), found(2, q), found(3, q), equal*candidates%largest, tie)
                 call add_tie(extreme, tie)
+            end do
+            do q = 1, extreme%number
+                extreme%ties(q)%position = extreme%ties(q)%position + inside(extreme%ties(q)%limit)*least_distance(track, train)
             end do
         end subroutine find_extreme
 

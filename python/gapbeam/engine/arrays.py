@@ -225,7 +225,7 @@ class Stretch:
     supports : numpy.ndarray of int
         Their supports, from 0.
     events : numpy.ndarray of int
-        What happens to them: OPENS, CLOSES or TURNS.
+        What happens to them, as in gapbeam_path.
     motion : numpy.ndarray
         As in `Solution`.
     solves : int

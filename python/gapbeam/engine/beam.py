@@ -24,8 +24,8 @@ RULE_GIVEN = 2
 AT_LIMIT = {"stop": 0, "jump": 1, "follow": 2}
 ENDINGS = ("", "limit", "bifurcation", "mechanism", "ended", "cut off")
 """Ways to go on at a limit and how a path ends, as in gapbeam_history."""
-OPENS, CLOSES, TURNS = 0, 1, 3
-"""Events, as in gapbeam_path."""
+TURNS = 3
+"""The event in which the beam turns, as in gapbeam_path; others change the scheme."""
 METHODS = ("block tridiagonal mixed", "three-moment", "mixed with pivoting")
 """What was solved, as in gapbeam_system."""
 HINGE, RESTRAINED = 1, 2

@@ -27,14 +27,13 @@ class Extremes(Record):
         Ties of the largest (first) and of the smallest value of every quantity, 2 by 4.
     values : numpy.ndarray
         Value, x, position of every tie, 2 by 4 by ties by 3.
-    codes : numpy.ndarray of int
-        Index into SIDES; 1 or 2 where the position is the first or last of a stretch that does not hold there; 2 by 4 by ties
-        by 2.
+    sides : numpy.ndarray of int
+        Index into SIDES; 2 by 4 by ties.
     """
 
     count: np.ndarray
     values: np.ndarray
-    codes: np.ndarray
+    sides: np.ndarray
 
 
 class Passage:
@@ -115,12 +114,12 @@ class Passage:
             No memory.
         """
         count = self.beam.scene_supports
-        fields, codes, ties, supports, support_codes, support_ties, status, message = _engine.gbtenv(
+        fields, sides, ties, supports, support_sides, support_ties, status, message = _engine.gbtenv(
             self.beam.handle, self._handle, count + 1
         )
         check_status(status, message)
-        return Extremes(ties, fields.T.swapaxes(0, 1), codes.T.swapaxes(0, 1)), [
-            Extremes(support_ties[:, :, k], supports[..., k].T.swapaxes(0, 1), support_codes[..., k].T.swapaxes(0, 1))
+        return Extremes(ties, fields.T.swapaxes(0, 1), sides.T.swapaxes(0, 1)), [
+            Extremes(support_ties[:, :, k], supports[..., k].T.swapaxes(0, 1), support_sides[..., k].T.swapaxes(0, 1))
             for k in range(count)
         ]
 

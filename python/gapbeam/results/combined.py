@@ -21,8 +21,7 @@ from ..scene.names import label
 from ..scene.refusals import refusal
 from ..scene.structs import Scene
 from ..scene.wording import shown
-from .arguments import whole
-from .envelope import Envelope, Source, at_full_load
+from .envelope import Envelope, Source, at_full_load, fields_on_sides
 from .following import follow_load, starting_scheme
 from .result import Result
 from .train_envelope import Member, Standing, TrainEnvelope, places_given
@@ -230,15 +229,12 @@ class CombinedResult(Result):
         )
         self.steps = NoSteps(self._words)
         begin = perf_counter()
-        # One solve each, or the whole way of the load
+        # One solve each, or the whole way of the load, or trains that pass
         analysis = scene.analysis
         self._at_once = (analysis.follow, analysis.steps, analysis.history) == ("steps", 1, [1.0]) and not (
-            beam.depends_on_path or beam.curves
+            beam.depends_on_path or beam.curves or scene.trains
         )
         self._check_products()
-        if scene.trains:
-            for k in range(len(self.names)):
-                self.combinations[k]  # trains pass
         self._found, reasons = self._solve_at_once() if self._at_once else self._solve_one_by_one()
         self.statuses = tuple(reasons)
         self._seconds = perf_counter() - begin
@@ -384,10 +380,9 @@ class CombinedResult(Result):
         ValueError
             No combination is solved, or a place is outside the beam.
         """
-        places = places_given(self.beam, x)
         if self.scene.trains:
-            points = whole("points", points, least=1)
-            return TrainEnvelope(self, list(self._members()), places, points)
+            return super().envelope(points, x=x)
+        places = places_given(self.beam, x)
         sources = [Source(name) for name in self.names]
         found = self._found
         return Envelope(
@@ -395,8 +390,13 @@ class CombinedResult(Result):
             lambda k: self.combinations[k], lambda: self._curves(points, places), places is not None,
         )  # fmt: skip
 
-    def _members(self) -> Iterator[Member]:
-        """The trains in every combination, and those in which none acts."""
+    def members(self) -> Iterator[Member]:
+        """Go through the trains in every combination, and the combinations in which none acts.
+
+        Yields
+        ------
+        Member
+        """
         for k, name in enumerate(self.names):
             result = self.combinations[k]
             if result.scene.trains:
@@ -450,31 +450,6 @@ class CombinedResult(Result):
         for k in alone:
             if self.statuses[k] == "solved":
                 yield slice(k, k + 1), fields_on_sides(self.combinations[k], x, left)[None]
-
-
-def fields_on_sides(result: Result, x: np.ndarray, left: np.ndarray) -> np.ndarray:
-    """Give the fields of the last state at places, each on its side.
-
-    Parameters
-    ----------
-    result : Result
-        A solved one.
-    x : numpy.ndarray
-        Places.
-    left : numpy.ndarray of bool
-        Where the value left of the place is meant.
-
-    Returns
-    -------
-    numpy.ndarray
-        Places by fields.
-    """
-    values = np.full((len(x), 7), np.nan)
-    for side, which in (("left", left), ("right", ~left)):
-        found = result.at(x[which], side=side).columns()
-        for name, column in result.beam.fields.items():
-            values[which, column] = found[name]
-    return values
 
 
 def _changeable(found: Combined) -> Combined:

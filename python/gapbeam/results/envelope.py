@@ -345,11 +345,10 @@ def envelope_of_one(result: Result, points: int, x: np.ndarray | None = None) ->
     """
 
     def curves() -> tuple[np.ndarray, Iterator[tuple[slice, np.ndarray]]]:
-        if x is None:
-            fields = result.fields(points=points).columns()
-        else:
-            sides = [result.at(x, side=side).columns() for side in ("right", "left")]
-            fields = {name: np.concatenate([side[name] for side in sides]) for name in sides[0]}
+        if x is not None:
+            both = np.tile(x, 2)
+            return both, iter([(slice(0, 1), fields_on_sides(result, both, np.arange(len(both)) >= len(x))[None])])
+        fields = result.fields(points=points).columns()
         values = np.full((1, len(fields["x"]), len(FIELDS)), np.nan)
         for name, column in result.beam.fields.items():
             values[0, :, column] = fields[name]
@@ -360,6 +359,31 @@ def envelope_of_one(result: Result, points: int, x: np.ndarray | None = None) ->
         result.scene, result.beam.fields, [Source()], at_supports[None], extremes[None], places[None], lambda _: result, curves,
         x is not None,
     )
+
+
+def fields_on_sides(result: Result, x: np.ndarray, left: np.ndarray) -> np.ndarray:
+    """Give the fields of the last state at places, each on its side.
+
+    Parameters
+    ----------
+    result : Result
+        A solved one.
+    x : numpy.ndarray
+        Places.
+    left : numpy.ndarray of bool
+        Where the value left of the place is meant.
+
+    Returns
+    -------
+    numpy.ndarray
+        Places by fields.
+    """
+    values = np.full((len(x), 7), np.nan)
+    for side, which in (("left", left), ("right", ~left)):
+        found = result.at(x[which], side=side).columns()
+        for name, column in result.beam.fields.items():
+            values[which, column] = found[name]
+    return values
 
 
 def at_full_load(result: Result) -> tuple[np.ndarray, np.ndarray, np.ndarray, int]:

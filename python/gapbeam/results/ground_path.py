@@ -10,6 +10,7 @@ import numpy as np
 
 from ..engine.beam import NO_EQUILIBRIUM, Beam
 from .branches import Limit
+from .kinks import EVENTS
 from .motion import describe_motion
 from .path import Segment
 from .step import Step
@@ -19,11 +20,6 @@ if TYPE_CHECKING:
 
 BEGIN = 2.0**-40
 """What acts here acts from the beginning: at factor 0 a beam without dead load lies on the ground without any force."""
-EVENTS = {
-    0: "opens", 1: "closes", 4: "yields", 5: "hardens", 6: "softens", 7: "breaks", 8: "unloads",
-    20: "zone appears", 21: "zone vanishes", 22: "zones merge", 23: "zone splits", 24: "end reaches", 25: "end leaves",
-}  # fmt: skip
-"""What happens, by the codes of gapbeam_pieces."""
 
 
 @dataclass(frozen=True, slots=True)

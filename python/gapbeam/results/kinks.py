@@ -9,6 +9,12 @@ import numpy as np
 from ..engine.arrays import Solution
 from ..engine.beam import Beam
 
+EVENTS = {
+    0: "opens", 1: "closes", 3: "turns", 4: "yields", 5: "hardens", 6: "softens", 7: "breaks", 8: "unloads",
+    20: "zone appears", 21: "zone vanishes", 22: "zones merge", 23: "zone splits", 24: "end reaches", 25: "end leaves",
+}  # fmt: skip
+"""What happens, by the codes of gapbeam_pieces."""
+
 
 class Piece(NamedTuple):
     """The piece of a law that acts.

@@ -10,8 +10,8 @@ import numpy as np
 
 from ..base.records import read_only
 from ..engine.arrays import Stretch
-from ..engine.beam import CLOSES, GIVEN, NO_EQUILIBRIUM, OPENS, TURNS, Beam
-from .kinks import piece_of, what_happens
+from ..engine.beam import GIVEN, NO_EQUILIBRIUM, TURNS, Beam
+from .kinks import EVENTS, piece_of, what_happens
 from .smooth import factor_on_curves
 from .step import Step
 
@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from .result import Result
 
 EVENTS_AT_A_TIME = 1000
-NAMES = {OPENS: "opens", CLOSES: "closes", TURNS: "turns"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -183,7 +182,7 @@ class Path:
         columns = (self._factors.tolist(), self._supports.tolist(), self._events.tolist())
         for i, (factor, k, event) in enumerate(zip(*columns, strict=True)):
             # What changes at factor 0 is no event, unless the beam turns there
-            name = NAMES[event]
+            name = EVENTS[event]
             if event != TURNS:
                 if numbers[k] in laws:
                     before = piece_of(beam, numbers[k], closed, beam.kinks)

@@ -6,7 +6,7 @@ axial forces in tension, axial displacements to the right.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, fields
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from .ground_path import GroundEvent, GroundPath
     from .hints import Hint
     from .path import Event, Path, Segment
-    from .train_envelope import TrainEnvelope
+    from .train_envelope import Member, TrainEnvelope
     from .trains import Trains
 
 BYTES_PER_PLACE = 120
@@ -473,9 +473,18 @@ class Result(Pickled):
 
         places = places_given(self.beam, x)
         if self.scene.trains:
-            points = whole("points", points, least=1)
-            return TrainEnvelope(self, self.trains.members(), places, points)
+            return TrainEnvelope(self, list(self.members()), places, whole("points", points, least=1))
         return envelope_of_one(self, points, places)
+
+    def members(self) -> Iterator[Member]:
+        """Go through what an envelope with trains is made of.
+
+        Yields
+        ------
+        Member
+            Every train in every direction.
+        """
+        yield from self.trains.members()
 
     def hints(self) -> list[Hint]:
         """Where a load factor between 0 (the dead loads alone) and 1 governs: extremes that are greater there than at both ends.

@@ -10,12 +10,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..base.records import Record
 from ..engine.beam import Beam
 from ..engine.trains import SIDES, Extremes
 from ..scene.names import names_of
 from .arguments import numbers
-from .envelope import AT_SUPPORTS
+from .envelope import AT_SUPPORTS, Curves
 
 if TYPE_CHECKING:
     from .result import Result
@@ -121,43 +120,20 @@ class TrainExtreme:
         return {**self.source(), **({"ties": ties} if ties else {}), "concurrent": self.concurrent}
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class TrainCurves(Record):
-    """Largest and smallest values along the beam.
+@dataclass(frozen=True, eq=False)
+class TrainCurves(Curves):
+    """Largest and smallest values along the beam, with positions; `largest_of`, `smallest_of` number the members of the envelope.
+
+    Places that one chooses are there once. Values are not-a-number where no position is solved.
 
     Attributes
     ----------
-    x : numpy.ndarray
-        Places; where something changes twice: the values left of it, then those right of it. Places that one chooses are there
-        once, with the larger and the smaller side where a field jumps.
-    largest, smallest : dict of numpy.ndarray
-        By deflection, rotation, moment, shear; not-a-number where no position is solved.
-    largest_at, smallest_at : dict of numpy.ndarray
-        Positions of the train; not-a-number where no train acts.
-    largest_of, smallest_of : dict of numpy.ndarray
-        Numbers of the members of the envelope that give them.
+    largest_at, smallest_at : dict
+        By field, for every place the position of the train; not-a-number where no train acts.
     """
 
-    x: np.ndarray
-    largest: dict[str, np.ndarray]
-    smallest: dict[str, np.ndarray]
     largest_at: dict[str, np.ndarray]
     smallest_at: dict[str, np.ndarray]
-    largest_of: dict[str, np.ndarray]
-    smallest_of: dict[str, np.ndarray]
-
-    def columns(self) -> dict[str, np.ndarray]:
-        """As columns of a table, for example for pandas.
-
-        Returns
-        -------
-        dict
-            ``x``, and of every field its largest and smallest values, as ``moment_max`` and ``moment_min``.
-        """
-        found = {"x": self.x}
-        for name in FIELDS:
-            found |= {f"{name}_max": self.largest[name], f"{name}_min": self.smallest[name]}
-        return found
 
 
 class Member:
@@ -216,7 +192,7 @@ class Passing(Member):
         super().__init__(combination)
         self.train, self.direction, self.gaps = train.name, way.course.direction, way.gaps
         self._train, self._way = train, way
-        self._fields, self._supports = way.passage.extremes()
+        self._fields, self._supports = way.extremes
 
     def of_fields(self, quantity: str, i: int) -> list[TrainExtreme]:
         """As `Member.of_fields`."""
@@ -228,14 +204,11 @@ class Passing(Member):
 
     def _ties(self, found: Extremes, quantity: str, k: int, i: int, support: int | None) -> list[TrainExtreme]:
         count = int(found.count[i, k])
-        ties = []
-        for (value, x, position), (side, limit) in zip(
-            found.values[i, k, :count].tolist(), found.codes[i, k, :count].tolist(), strict=True
-        ):
-            # An axle that is not on the beam there is one that is not so near to its end
-            position += (0.0, 2 * self._way.near, -2 * self._way.near)[limit]
-            ties.append(TrainExtreme(self, quantity, value, x if support is None else None, SIDES[side], support, position))
-        return ties
+        rows = zip(found.values[i, k, :count].tolist(), found.sides[i, k, :count].tolist(), strict=True)
+        return [
+            TrainExtreme(self, quantity, value, x if support is None else None, SIDES[side], support, position)
+            for (value, x, position), side in rows
+        ]
 
     def curves(self, piece: np.ndarray, distance: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """As `Member.curves`."""
@@ -364,7 +337,7 @@ class TrainEnvelope:
                 positions[i][row, at[column]] = where[i][:, half][better]
                 members[i][row, at[column]] = number
         values[np.isinf(values)] = np.nan
-        tables = (values, positions, members)
+        tables = (values, members, positions)
         return TrainCurves(x, *(dict(zip(FIELDS, table[i], strict=True)) for table in tables for i in (0, 1)))
 
     def to_dict(self) -> dict[str, Any]:

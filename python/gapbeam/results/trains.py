@@ -27,12 +27,13 @@ from msgspec.structs import replace
 from ..base.errors import EngineError, SceneError
 from ..base.records import Record
 from ..engine.beam import Beam
-from ..engine.trains import NOT_UNIQUE, WITHOUT_EQUILIBRIUM, Passage
+from ..engine.trains import NOT_UNIQUE, WITHOUT_EQUILIBRIUM, Extremes, Passage
 from ..scene.columns import columns
 from ..scene.structs import ForceLoad, Scene, UniformLoad
 from ..scene.trains import LEFT, RIGHT, Course, courses, nearest, train_name
 from ..scene.wording import choice, shown
 from .arguments import finite
+from .kinks import EVENTS
 from .motion import describe_motion
 from .step import Step
 from .steps import LoadSteps
@@ -43,8 +44,6 @@ if TYPE_CHECKING:
 
 INFLUENCES = (*FIELDS, "reaction")
 """What has influence lines."""
-EVENTS = {0: "opens", 1: "closes", 4: "yields", 5: "hardens", 6: "softens", 7: "breaks", 8: "unloads"}
-"""Events, as in gapbeam_pieces."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -173,6 +172,11 @@ class TrainWay:
             TrainEvent(position, support, float(supports[support]), EVENTS[change], course.direction)
             for position, (support, _, change) in zip(p.positions.tolist(), p.events.tolist(), strict=True)
         ]
+
+    @cached_property
+    def extremes(self) -> tuple[Extremes, list[Extremes]]:
+        """Largest and smallest fields, and the same of every support."""
+        return self.passage.extremes()
 
     @cached_property
     def gaps(self) -> list[Gap]:
@@ -371,7 +375,6 @@ class Trains(Mapping[str, TrainResult]):
     """Trains by name, in the order of the scene."""
 
     def __init__(self, result: Result):
-        self._result = result
         self._by_name = {train_name(result.scene, i): TrainResult(result, i) for i in range(len(result.scene.trains))}
 
     def __getitem__(self, name: str) -> TrainResult:
@@ -390,25 +393,6 @@ class Trains(Mapping[str, TrainResult]):
         """Move all trains over the beam, so that what stands in the way of one is said at once."""
         for train in self._by_name.values():
             train.ways  # noqa: B018
-
-    def envelope(self, x: Any = None) -> TrainEnvelope:
-        """Largest and smallest values over all positions of all trains, one at a time.
-
-        Parameters
-        ----------
-        x
-            As for `TrainResult.envelope`.
-
-        Returns
-        -------
-        TrainEnvelope
-
-        Raises
-        ------
-        ValueError
-            A place outside the beam.
-        """
-        return TrainEnvelope(self._result, self.members(), places_given(self._result.beam, x))
 
     def members(self, combination: str | None = None) -> list[Passing]:
         """What an envelope is made of: every train in every direction.

@@ -34,10 +34,7 @@ def names_of(items: Sequence[Any]) -> list[str | None]:
     -------
     list of (str or None)
     """
-    if not isinstance(items, Table):
-        return list(map(attrgetter("name"), items))
-    column = items.column("name")
-    return column.tolist() if isinstance(column, np.ndarray) else [column] * len(items)
+    return _column(items, "name")
 
 
 def cases_of(items: Sequence[Any]) -> list[str]:
@@ -53,9 +50,13 @@ def cases_of(items: Sequence[Any]) -> list[str]:
     list of str
         One for every load.
     """
+    return _column(items, "case")
+
+
+def _column(items: Sequence[Any], key: str) -> list[Any]:
     if not isinstance(items, Table):
-        return list(map(attrgetter("case"), items))
-    column = items.column("case")
+        return list(map(attrgetter(key), items))
+    column = items.column(key)
     return column.tolist() if isinstance(column, np.ndarray) else [column] * len(items)
 
 
