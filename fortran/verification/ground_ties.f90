@@ -108,7 +108,9 @@ contains
                 end if
             end associate
         end do
-        modulus = maxval([ground%layers%modulus_a, ground%layers%modulus_b, ground%laws%slope])
+        ! The first parameter of a law that is not by points is its stiffness
+        modulus = maxval([ground%layers%modulus_a, ground%layers%modulus_b, ground%laws%slope, ground%layers%parameter_a(1), &
+                          ground%layers%parameter_b(1)])
         way = kappa*length**2 + maxval(abs([ground%layers%contact_a, ground%layers%contact_b])) &
             + force*length*(maxval(ground%pieces%flexibility)*length**2 + maxval(ground%pieces%shear_flexibility)) &
             + force/(length*modulus)
