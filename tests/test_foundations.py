@@ -82,6 +82,8 @@ def test_random_scenes_agree_with_the_reference(first):
         (2277, "solved", True),
         (2336, "solved", True),
         (1060, "solved", True),
+        # It turns about its only support, off the ground that it touches under its load
+        (506, "solved", True),
     ],
 )
 def test_ties(seed, status, indifferent):
@@ -91,6 +93,18 @@ def test_ties(seed, status, indifferent):
         step = result.steps[-1]
         assert step.indifferent == indifferent
         assert all(abs(zone.resultant) < 1e-15 for zone in step.contact)
+
+
+@pytest.mark.parametrize(
+    "law", [{"k": 4.0}, {"law": [[1.0, 4.0], [2.0, 5.0]]}, {"law": {"type": "tanh", "stiffness": 4.0, "limit": 5.0}}]
+)
+def test_a_beam_that_lies_evenly_cannot_move(law):
+    """The ground takes the load where it is: no moment, no shear, and yet it carries."""
+    made = {"beam": {"spans": [8.0], "EI": 3.0}, "loads": [{"type": "uniform", "q": 1.0}]}
+    step = gapbeam.solve({**made, "foundation": [{"side": "below", **law}]}).steps[-1]
+    assert not step.indifferent
+    assert step.error_bounds["deflection"] < 1e-14
+    assert [zone.resultant for zone in step.contact] == [8.0]
 
 
 @pytest.mark.parametrize("over", [0.0, 1e-15, -1e-15, 1e-14, -1e-14])

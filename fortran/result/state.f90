@@ -240,9 +240,12 @@ contains
 
         if (allocated(state%ground)) then
             associate (bounds => state%ground%bounds, residuals => state%ground%residuals)
-                certificate = certificate_type(compatibility=residuals(1), equilibrium=residuals(2), of_nodes=bounds(1), &
-                                               reaction=bounds(5), deflection=bounds(1), rotation=bounds(2), moment=bounds(3), &
-                                               shear=bounds(4), known=.not. state%indifferent)
+                certificate = certificate_type(compatibility=residuals(1), equilibrium=residuals(2), reaction=bounds(5), &
+                                               moment=bounds(3), shear=bounds(4), known=.not. state%indifferent)
+                if (state%indifferent) return
+                certificate%of_nodes = bounds(1)
+                certificate%deflection = bounds(1)
+                certificate%rotation = bounds(2)
             end associate
             return
         end if

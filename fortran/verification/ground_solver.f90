@@ -278,7 +278,8 @@ contains
         end if
         outcome%indifferent = found%indifferent
         if (.not. found%indifferent) then
-            outcome%indifferent = may_move(fine, factor, zones, grounded, closed, solution%undecided, work)
+            outcome%indifferent = may_move(fine, factor, zones, grounded, solution%resultant, closed, solution%undecided, &
+                                           work)
         end if
         if (all(abs(solution%deflection) <= huge(1.0_wp)) .and. all(abs(solution%moment_left) <= huge(1.0_wp))) return
         call fatal_error(error, gapbeam_not_finite, "numbers left the range of double precision: choose units "// &
