@@ -9,6 +9,13 @@ import numpy as np
 SIDES = {"both": 0, "below": 1, "above": -1}
 KINDS = {"force": 1, "moment": 2, "uniform": 3, "linear": 3, "curvature": 4, "axial": 5}
 RULES = {"block": 0, "single": 1}
+GROUND_LAWS = {
+    "plastic": (1, ("stiffness", "limit")),
+    "hardening": (2, ("stiffness", "limit", "slope")),
+    "hyperbolic": (3, ("stiffness", "limit")),
+    "tanh": (4, ("stiffness", "limit")),
+    "cubic": (5, ("k1", "k2", "k3")),
+}
 UNLOADING = {"elastic": 0, "plastic": 1, "broken": 2}
 AT_LIMIT = {"stop": 0, "jump": 1, "follow": 2}
 CHANGES = {0: "opens", 1: "closes", 3: "turns", 4: "yields", 5: "hardens", 6: "softens", 7: "breaks", 8: "unloads"}
@@ -52,6 +59,8 @@ class Model(c.Structure):
         ("ground_law_points", c.c_int),
         ("ground_law_foundation", INTEGER),
         *((f"ground_law_{name}", REAL) for name in ("displacement", "force")),
+        ("foundation_law", INTEGER),
+        *((f"foundation_{name}", REAL) for name in ("parameter", "parameter_to")),
     )
 
 
@@ -171,8 +180,17 @@ def ground_columns(foundations, end):
     }
     made = {key: np.array(values, dtype=float) for key, values in made.items()}
     made["foundation_side"] = np.array([SIDES[f.get("side", "both")] for f in foundations], dtype=np.int32)
+    laws = [f["law"] if isinstance(f.get("law"), dict) else {} for f in foundations]
+    codes = [GROUND_LAWS[law["type"]] if law else (0, ()) for law in laws]
+    made["foundation_law"] = np.array([code for code, _ in codes], dtype=np.int32)
+    parameters = np.zeros((len(foundations), 3, 2))
+    for row, law, (_, keys) in zip(parameters, laws, codes, strict=True):
+        for i, key in enumerate(keys):
+            row[i] = law.get(key, 0.0)
+    made["foundation_parameter"], made["foundation_parameter_to"] = (parameters[:, :, end].copy() for end in (0, 1))
     for name, key, pair in (("profile", "profile", ("x", "gap")), ("ground_law", "law", ("displacement", "force"))):
-        points = [(k, *point) for k, f in enumerate(foundations) for point in f.get(key, ())]
+        lists = [f[key] if isinstance(f.get(key), list) else [] for f in foundations]
+        points = [(k, *point) for k, of in enumerate(lists) for point in of]
         made[f"{name}_foundation"] = np.array([k for k, *_ in points], dtype=np.int32)
         for i, column in enumerate(pair, 1):
             made[f"{name}_{column}"] = np.array([point[i] for point in points], dtype=float)
@@ -395,6 +413,8 @@ class F77Beam:
         alaw, ilaw = np.array([a["law_displacement"], a["law_force"]]).T.copy(), a["law_support"] + np.int32(1)
         sides, foundations = a["foundation_side"], ("from", "to", "k", "k_to", "gap", "gap_to")
         prepare = "gbprfd" if len(sides) else "gbprlw" if len(ilaw) else "gbprep"
+        if a["foundation_law"].any():
+            prepare = "gbprgl"
         if len(ilaw) or len(sides):
             model += [len(ilaw), ilaw, alaw, a["support_unloading"]]
         if len(sides):
@@ -402,6 +422,8 @@ class F77Beam:
             for name, pair in (("profile", ("x", "gap")), ("ground_law", ("displacement", "force"))):
                 points = np.array([a[f"{name}_{column}"] for column in pair]).T.copy()
                 model += [len(points), a[f"{name}_foundation"] + np.int32(1), points]
+        if prepare == "gbprgl":
+            model += [a["foundation_law"], np.hstack([a[f"foundation_parameter{end}"] for end in ("", "_to")])]
         real, integer = np.zeros(1), np.zeros(1, np.int32)
         self.info_ = self.call(prepare, *model, real, -1, integer, -1)
         if self.info_ == 0:

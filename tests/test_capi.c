@@ -480,6 +480,56 @@ static gapbeam_model tipped(void)
     return model;
 }
 
+/* A rigid beam of 12 on ground whose law and load both grow threefold along it: 8 tanh(20 w/8) = 6 at its left end */
+static void curved_ground(void)
+{
+    gapbeam_model model = tipped();
+    gapbeam_beam *beam;
+    gapbeam_state *state;
+    const int tanh_law[] = {GAPBEAM_LAW_TANH}, no_law[] = {GAPBEAM_LAW_CUBIC + 1}, linear[] = {GAPBEAM_DISTRIBUTED};
+    const double no_k[] = {0.0}, left[] = {20.0, 8.0, 0.0}, right[] = {60.0, 24.0, 0.0}, negative[] = {20.0, -8.0, 0.0};
+    const double from[] = {0.0}, six[] = {6.0}, eighteen[] = {18.0}, places[] = {5.0};
+    double fields[6], force[1], value[2], x[2];
+    int condition[1], number = 0;
+    char message[200];
+
+    model.foundation_k = no_k;
+    model.foundation_law = tanh_law;
+    model.foundation_parameter = left;
+    model.foundation_parameter_to = right;
+    model.load_kind = linear;
+    model.load_x = from;
+    model.load_value = six;
+    model.load_value_to = eighteen;
+    check(prepare(&model, &beam) == GAPBEAM_SOLVED, "ground with a curve");
+    gapbeam_new_state(&state);
+    check(gapbeam_solve(beam, 1.0, NULL, state, message, sizeof message) == GAPBEAM_SOLVED, "solved");
+    check(gapbeam_get_fields(beam, state, 1, places, 0, fields, NULL, 0) == GAPBEAM_SOLVED, "fields");
+    check_close(fields[GAPBEAM_DEFLECTION], 0.4*atanh(0.75), "the deflection");
+    gapbeam_get_contact(beam, state, 1, NULL, NULL, NULL, condition, force, &number);
+    check(number == 1 && condition[0] == GAPBEAM_CLOSED, "one zone");
+    check_close(force[0], 144.0, "its force");
+    gapbeam_get_pressure_extremes(beam, state, value, x);
+    check_close(value[0], 18.0, "the largest pressure");
+    gapbeam_free_state(state);
+    gapbeam_free_beam(beam);
+    model.foundation_parameter = NULL;
+    check(gapbeam_prepare(&model, &beam, message, sizeof message) == GAPBEAM_BAD_INPUT && strstr(message, "foundation_parameter"),
+          "a law without parameters");
+    model.foundation_law = NULL;
+    check(gapbeam_prepare(&model, &beam, message, sizeof message) == GAPBEAM_BAD_INPUT && strstr(message, "foundation_parameter_to"),
+          "parameters at the right end alone");
+    model.foundation_parameter = left;
+    check(gapbeam_prepare(&model, &beam, message, sizeof message) == GAPBEAM_BAD_INPUT && strstr(message, "foundation_law"),
+          "parameters without a law");
+    model.foundation_law = no_law;
+    check(gapbeam_prepare(&model, &beam, message, sizeof message) == GAPBEAM_BAD_INPUT && strstr(message, "got 6"), "no such law");
+    model.foundation_law = tanh_law;
+    model.foundation_parameter = negative;
+    check(gapbeam_prepare(&model, &beam, message, sizeof message) == GAPBEAM_BAD_INPUT
+          && strstr(message, "foundation 1 of 1: law.limit"), "a limit below 0");
+}
+
 static void foundations(void)
 {
     gapbeam_model model = tipped(), half;
@@ -594,6 +644,7 @@ static void foundations(void)
     model.foundations = -1;
     check(gapbeam_prepare(&model, &beam, message, sizeof message) == GAPBEAM_BAD_INPUT && strstr(message, "foundations"),
           "fewer foundations than none");
+    curved_ground();
 
     /* As compiled with the header of version 0.3: nothing behind its structure is written or read */
     const size_t old_size = offsetof(gapbeam_model, foundations);
@@ -702,7 +753,7 @@ static void names_and_sizes(void)
     check(!strcmp(gapbeam_status_message(-5), "unknown status"), "an unknown one");
     check(isinf(gapbeam_infinity()) && gapbeam_infinity() > 0.0, "infinity");
     /* The init functions compare the sizes of two structures, the get functions those of the others */
-    _Static_assert(sizeof(gapbeam_model) == 368 || sizeof(void *) != 8, "gapbeam_model is part of the ABI");
+    _Static_assert(sizeof(gapbeam_model) == 392 || sizeof(void *) != 8, "gapbeam_model is part of the ABI");
     _Static_assert(sizeof(gapbeam_options) == 16 || sizeof(void *) != 8, "gapbeam_options is part of the ABI");
     _Static_assert(sizeof(gapbeam_info) == 40 || sizeof(void *) != 8, "gapbeam_info is part of the ABI");
     _Static_assert(sizeof(gapbeam_history_info) == 32 || sizeof(void *) != 8, "gapbeam_history_info is part of the ABI");

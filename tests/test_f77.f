@@ -11,6 +11,7 @@ C     Compiled with -std=legacy.
       CALL TIPPED
       CALL LAWS
       CALL GROUND
+      CALL CURVED
       WRITE (*, '(A, I3)') '1..', NCHECK
       IF (NFAIL .GT. 0) STOP 1
       END
@@ -589,4 +590,71 @@ C     a distance of 2 from its left end: contact over three times that
       CALL GBCONT(WORK, IWORK, STATE, ISTATE, 2, NZ, Z, IZ, INFO)
       CALL CLOSE(Z(2,1), 6.0D0, 'the same resultant')
       CALL CLOSE(Z(3,1), 60.0D0, 'twice as great')
+      END
+C
+C     A rigid beam of 12 on ground whose law and load both grow
+C     threefold along it: 8 tanh(20 w/8) = 6 at its left end
+      SUBROUTINE CURVED
+      INTEGER LW, LI
+      PARAMETER (LW = 900, LI = 600)
+      DOUBLE PRECISION SPAN(4,1), SUP(5,1), ALOAD(4,1), HINGE(1)
+      DOUBLE PRECISION ALAW(2,1), FOUND(6,1), APROF(2,1), AFLAW(2,1)
+      DOUBLE PRECISION GLAW(6,1), WORK(LW), STATE(4000), Z(3,1), X(1)
+      DOUBLE PRECISION FV(6,1), P(1), GBINF
+      INTEGER ISUP(3,1), ILOAD(3,1), ILAW(1), IUNL(1), IFOUND(1)
+      INTEGER IPROF(1), IFLAW(1), IGLAW(1), IWORK(LI), ISTATE(1000)
+      INTEGER IZ(2,1), NZ, I, INFO
+      EXTERNAL GBINF, GBPRGL, GBSOLV, GBCONT, GBFLDS, GBPRES
+      DATA FOUND /0.0D0, 12.0D0, 4*0.0D0/
+      DATA GLAW /20.0D0, 8.0D0, 0.0D0, 60.0D0, 24.0D0, 0.0D0/
+      DATA ALOAD /0.0D0, 12.0D0, 6.0D0, 18.0D0/
+      SPAN(1,1) = 12.0D0
+      DO 10 I = 2, 4
+         SPAN(I,1) = GBINF()
+   10 CONTINUE
+      ILOAD(1,1) = 3
+      ILOAD(2,1) = 0
+      ILOAD(3,1) = -1
+      IFOUND(1) = 1
+      IGLAW(1) = 6
+      CALL GBPRGL(1, SPAN, 0, HINGE, 0, ISUP, SUP, 1, ILOAD, ALOAD, 0,
+     +            ILAW, ALAW, IUNL, 1, IFOUND, FOUND, 0, IPROF, APROF,
+     +            0, IFLAW, AFLAW, IGLAW, GLAW, WORK, LW, IWORK, LI,
+     +            INFO)
+      CALL EXPECT(INFO, -24, 'no such law')
+      CALL EXPECT(IWORK(1), 1, 'of foundation 1')
+      IGLAW(1) = 4
+      GLAW(5,1) = -24.0D0
+      CALL GBPRGL(1, SPAN, 0, HINGE, 0, ISUP, SUP, 1, ILOAD, ALOAD, 0,
+     +            ILAW, ALAW, IUNL, 1, IFOUND, FOUND, 0, IPROF, APROF,
+     +            0, IFLAW, AFLAW, IGLAW, GLAW, WORK, LW, IWORK, LI,
+     +            INFO)
+      CALL EXPECT(INFO, -25, 'a limit below 0')
+      GLAW(5,1) = 24.0D0
+      CALL GBPRGL(1, SPAN, 0, HINGE, 0, ISUP, SUP, 1, ILOAD, ALOAD, 0,
+     +            ILAW, ALAW, IUNL, 1, IFOUND, FOUND, 0, IPROF, APROF,
+     +            0, IFLAW, AFLAW, IGLAW, GLAW, WORK, 50, IWORK, LI,
+     +            INFO)
+      CALL EXPECT(INFO, -27, 'WORK too short')
+      CALL GBPRGL(1, SPAN, 0, HINGE, 0, ISUP, SUP, 1, ILOAD, ALOAD, 0,
+     +            ILAW, ALAW, IUNL, 1, IFOUND, FOUND, 0, IPROF, APROF,
+     +            0, IFLAW, AFLAW, IGLAW, GLAW, WORK, LW, IWORK, 50,
+     +            INFO)
+      CALL EXPECT(INFO, -29, 'IWORK too short')
+      CALL GBPRGL(1, SPAN, 0, HINGE, 0, ISUP, SUP, 1, ILOAD, ALOAD, 0,
+     +            ILAW, ALAW, IUNL, 1, IFOUND, FOUND, 0, IPROF, APROF,
+     +            0, IFLAW, AFLAW, IGLAW, GLAW, WORK, LW, IWORK, LI,
+     +            INFO)
+      CALL EXPECT(INFO, 0, 'prepared')
+      CALL GBSOLV(WORK, IWORK, 1.0D0, 0, 0, STATE, 4000, ISTATE, 1000,
+     +            INFO)
+      CALL EXPECT(INFO, 0, 'solved')
+      X(1) = 5.0D0
+      CALL GBFLDS(WORK, IWORK, STATE, ISTATE, 1, X, 0, FV, INFO)
+      CALL CLOSE(FV(1,1), 0.2D0*LOG(7.0D0), '0.4 atanh(3/4)')
+      CALL GBPRES(WORK, IWORK, STATE, ISTATE, 1, X, 0, P, INFO)
+      CALL CLOSE(P(1), 11.0D0, 'the load there')
+      CALL GBCONT(WORK, IWORK, STATE, ISTATE, 1, NZ, Z, IZ, INFO)
+      CALL CHECK(NZ .EQ. 1 .AND. IZ(2,1) .EQ. 1, 'one zone')
+      CALL CLOSE(Z(3,1), 144.0D0, 'its force')
       END

@@ -9,6 +9,7 @@ import gapbeam
 import numpy as np
 import pytest
 from clibrary import F77Beam
+from curved_scenes import random_curved_scene
 from foundation_scenes import random_scene as ground_scene
 from gapbeam.base.errors import EngineError, SceneError
 from gapbeam.results.branches import BranchPath
@@ -319,6 +320,23 @@ def test_foundations_agree(library, first):
         beam.close()
     assert {0, 1} <= seen
     assert min(zones, spans) > 50
+
+
+def test_laws_of_foundations_by_parameters_agree(library):
+    """Curves too, with numbers and with pairs."""
+    for seed in (1, 3, 5, 7, 9, 11, 12, 18, 21, 26, 28, 35):
+        scene = {"supports": [], **random_curved_scene(seed), "analysis": {"rule": "block", "steps": 1}}
+        result = python_result(scene)
+        beam, message = library.prepare(scene)
+        assert not message
+        f77 = F77Beam(library, scene)
+        assert f77.info_ == 0
+        status = {"solved": 0, "no-equilibrium": 1}[result.status]
+        assert (beam.solve(1.0)[0], f77.solve(1.0)) == (status, status)
+        if status == 0:
+            assert_same_state(beam, f77, result, scene, random.Random(seed))
+            assert_same_ground(beam, f77, result, scene, random.Random(seed))
+        beam.close()
 
 
 def test_load_paths_on_foundations_agree(library):

@@ -77,8 +77,8 @@ contains
 
     !> The foundations of a model from arrays
     subroutine foundations_from_arrays(side, found, iprof, aprof, ilaw, alaw, model, error)
-        !> Side; from, to, modulus and gap, each at the left and right end; from Python also law, its parameters at the left end
-        !> and at the right end
+        !> Side; from, to, modulus and gap, each at the left and right end; with laws by parameters also law, its parameters at the
+        !> left end and at the right end
         integer, intent(in) :: side(:)
         real(wp), intent(in) :: found(:, :)
         !> Points of profiles: foundation, from 1; x, gap

@@ -3,6 +3,7 @@ module gapbeam_capi_model
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_size_t, c_signed_char, c_ptr, c_null_ptr, c_associated, c_f_pointer, &
         c_loc, c_sizeof
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input, gapbeam_other_version
+    use gapbeam_layers, only: parameters_of_law
     use gapbeam_scene, only: model_type, load_type
     implicit none
     private
@@ -35,6 +36,7 @@ module gapbeam_capi_model
         type(c_ptr) :: profile_foundation = c_null_ptr, profile_x = c_null_ptr, profile_gap = c_null_ptr
         integer(c_int) :: ground_law_points = 0
         type(c_ptr) :: ground_law_foundation = c_null_ptr, ground_law_displacement = c_null_ptr, ground_law_force = c_null_ptr
+        type(c_ptr) :: foundation_law = c_null_ptr, foundation_parameter = c_null_ptr, foundation_parameter_to = c_null_ptr
     end type c_model
     !> Mirrors of what was added to it in version 0.3, and since then
     type, bind(c) :: c_laws
@@ -50,6 +52,7 @@ module gapbeam_capi_model
         type(c_ptr) :: profile_foundation, profile_x, profile_gap
         integer(c_int) :: ground_law_points
         type(c_ptr) :: ground_law_foundation, ground_law_displacement, ground_law_force
+        type(c_ptr) :: foundation_law, foundation_parameter, foundation_parameter_to
     end type c_foundations
 
 contains
@@ -173,9 +176,13 @@ contains
         type(error_type), allocatable, intent(out) :: error
         real(c_double), pointer :: reals(:)
         integer(c_int), pointer :: integers(:)
-        integer :: stat
+        integer :: i, stat
 
-        call check_array("foundations", c%foundations, .true., "", error)
+        call check_array("foundations", c%foundations, c_associated(c%foundation_law) .eqv. c_associated(c%foundation_parameter), &
+                         "foundation_law and foundation_parameter need each other", error)
+        if (.not. allocated(error)) call check_array("foundations", c%foundations, c_associated(c%foundation_parameter) &
+                                                     .or. .not. c_associated(c%foundation_parameter_to), &
+                                                     "foundation_parameter is needed with foundation_parameter_to", error)
         if (.not. allocated(error)) call check_array("profile points", c%profile_points, c_associated(c%profile_foundation) &
                                                      .and. c_associated(c%profile_x) .and. c_associated(c%profile_gap), &
                                                      "profile_foundation, profile_x and profile_gap are needed", error)
@@ -199,6 +206,17 @@ contains
             if (has_reals(c%foundation_k_to, n, reals)) f%k_to = reals
             if (has_reals(c%foundation_gap, n, reals)) f%gap = reals
             if (has_reals(c%foundation_gap_to, n, reals)) f%gap_to = reals
+            if (has_integers(c%foundation_law, n, integers)) f%law = integers
+            if (has_reals(c%foundation_parameter, n*parameters_of_law, reals)) then
+                do i = 1, n
+                    f(i)%parameter = reals((i - 1)*parameters_of_law + 1:i*parameters_of_law)
+                end do
+            end if
+            if (has_reals(c%foundation_parameter_to, n*parameters_of_law, reals)) then
+                do i = 1, n
+                    f(i)%parameter_to = reals((i - 1)*parameters_of_law + 1:i*parameters_of_law)
+                end do
+            end if
         end associate
         associate (points => model%ground, n => c%profile_points)
             if (has_integers(c%profile_foundation, n, integers)) points%foundation = integers + 1

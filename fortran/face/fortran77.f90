@@ -22,13 +22,13 @@
 ! LSTATE or LISTAT = -1 a routine does nothing but return the lengths it needs in WORK(1) and IWORK(1), or STATE(1) and ISTATE(1).
 !
 ! INFO  0   solved, or done
-!      -i   the i-th argument has an illegal value; from GBPREP, GBPRLW and GBPRFD IWORK(1) is then the number of the entry
+!      -i   the i-th argument has an illegal value; from GBPREP, GBPRLW, GBPRFD and GBPRGL IWORK(1) is then the number of the entry
 !           (column) of that array, or 0, and the work arrays hold no beam any more; after GBLOAD they hold the old one
 !       1   no equilibrium: GBMOTN gives the motion
 !     >10   an error, see gapbeam_error: 12 indeterminate, 13 not converged, 14 not finite, 15 no memory, 16 nothing solved
 ! Nothing but INFO (and IWORK(1)) is written where INFO is not 0 or 1.
 !
-! A beam in WORK is only read by all but GBPREP, GBPRLW, GBPRFD and GBLOAD: threads may share it, each with its own STATE.
+! A beam in WORK is only read by all but GBPREP, GBPRLW, GBPRFD, GBPRGL and GBLOAD: threads may share it, each with its own STATE.
 
 ! Prepare a beam
 subroutine gbprep(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, work, lwork, iwork, liwork, info)
@@ -50,10 +50,10 @@ subroutine gbprep(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, alo
     integer :: no_laws(1)
 
     call prepare_beam(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, 0, no_laws, no_points, no_laws, &
-                      0, no_laws, no_foundations, 0, no_laws, no_points, 0, no_laws, no_points, &
+                      0, no_laws, no_foundations, 0, no_laws, no_points, 0, no_laws, no_points, 0, no_laws, no_foundations, &
                       work, lwork, iwork, liwork, info)
     ! The places of LWORK and LIWORK
-    if (info == -25 .or. info == -27) info = info + 13
+    if (info == -27 .or. info == -29) info = info + 15
 end subroutine gbprep
 
 ! Prepare a beam whose supports may follow laws
@@ -79,13 +79,13 @@ subroutine gbprlw(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, alo
 
     call prepare_beam(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, nlaw, ilaw, alaw, iunl, &
                       0, no_foundations, no_found, 0, no_foundations, no_points, 0, no_foundations, no_points, &
-                      work, lwork, iwork, liwork, info)
+                      0, no_foundations, no_found, work, lwork, iwork, liwork, info)
     ! The places of LWORK and LIWORK
-    if (info == -25 .or. info == -27) info = info + 9
+    if (info == -27 .or. info == -29) info = info + 11
 end subroutine gbprlw
 
-! Take other loads for a prepared beam. The work arrays must have room for the largest NLOAD to come: ask GBPREP, GBPRLW or
-! GBPRFD for their lengths with that. States solved before belong to the old loads, and are not taken until solved anew. Where
+! Take other loads for a prepared beam. The work arrays must have room for the largest NLOAD to come: ask GBPREP, GBPRLW, GBPRFD
+! or GBPRGL for their lengths with that. States solved before belong to the old loads, and are not taken until solved anew. Where
 ! places of loads change, so may the lengths of states (ask GBSOLV again) and the number of nodes in GBMOTN
 subroutine gbload(nload, iload, aload, work, lwork, iwork, liwork, info)
     use gapbeam_error, only: error_type, gapbeam_no_memory, gapbeam_bad_input

@@ -12,6 +12,12 @@
 !                       beside each other, in order
 !     AFLAW(2, NFLAW)   displacement past the gap, above that of the point before; force per length, not below that of the point
 !                       before
+!     IGLAW(NFOUND)     law by parameters a, b, c, instead of a modulus and of points: r is the force per length at the displacement
+!                       u past the gap; 0: none; 1 plastic: r = a*u up to b, and b beyond; 2 hardening: the same, but beyond b it
+!                       rises by c*u; 3 hyperbolic: r = a*u/(1 + a*u/b); 4 tanh: r = b*tanh(a*u/b); 5 cubic: r = a*u + b*u**2 +
+!                       c*u**3, rising everywhere
+!     GLAW(6, NFOUND)   a, b, c at the left end, then at the right end, linear in between; 0 or more (b of a cubic: any sign); those
+!                       that its law does not have are not looked at
 !
 ! How many zones of contact there are shows only when a beam is solved. GBSOLV asked for LSTATE and LISTAT gives lengths that are
 ! hardly ever exceeded; see there. Events are found by GBGEVT; GBEVNT, GBHIST and GBHSOL are not for beams
@@ -35,10 +41,38 @@ subroutine gbprfd(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, alo
     ! -1 to -14 as from GBPRLW; -15, -18, -21; -16 or -17: a foundation is impossible, IWORK(1) is its number; -19 or -20: so is its
     ! profile, -22 or -23: its law; -25, -27: too short; 14, 15
     integer, intent(out) :: info
+    double precision :: no_parameters(6, 1)
+    integer :: no_laws(1)
 
     call prepare_beam(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, nlaw, ilaw, alaw, iunl, nfound, ifound, &
-                      found, nprof, iprof, aprof, nflaw, iflaw, aflaw, work, lwork, iwork, liwork, info)
+                      found, nprof, iprof, aprof, nflaw, iflaw, aflaw, 0, no_laws, no_parameters, work, lwork, iwork, liwork, &
+                      info)
+    ! The places of LWORK and LIWORK
+    if (info == -27 .or. info == -29) info = info + 2
 end subroutine gbprfd
+
+! The same where foundations may have laws by parameters
+subroutine gbprgl(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, nlaw, ilaw, alaw, iunl, nfound, ifound, found, &
+                  nprof, iprof, aprof, nflaw, iflaw, aflaw, iglaw, glaw, work, lwork, iwork, liwork, info)
+    use gapbeam_work, only: prepare_beam
+    implicit none
+    ! As for GBPRFD, and above
+    integer, intent(in) :: nspan, nhinge, nsup, nload, nlaw, nfound, nprof, nflaw
+    double precision, intent(in) :: span(4, *), hinge(*), sup(5, *), aload(4, *), alaw(2, *), found(6, *), aprof(2, *), aflaw(2, *)
+    double precision, intent(in) :: glaw(6, *)
+    integer, intent(in) :: isup(3, *), iload(3, *), ilaw(*), iunl(*), ifound(*), iprof(*), iflaw(*), iglaw(*)
+    ! Lengths, or -1, as for GBPRFD
+    integer, intent(in) :: lwork, liwork
+    ! The beam
+    double precision, intent(inout) :: work(*)
+    integer, intent(inout) :: iwork(*)
+    ! -1 to -23 as from GBPRFD; -24: there is no such law of foundation IWORK(1); -25: its parameters are impossible; -27, -29: too
+    ! short; 14, 15
+    integer, intent(out) :: info
+
+    call prepare_beam(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, nlaw, ilaw, alaw, iunl, nfound, ifound, &
+                      found, nprof, iprof, aprof, nflaw, iflaw, aflaw, nfound, iglaw, glaw, work, lwork, iwork, liwork, info)
+end subroutine gbprgl
 
 ! Follow the load from factor 0: every change of zones of contact and of supports at its load factor, to the last digit. Changes
 ! that undo each other within 1/64 of the way are not seen

@@ -8,7 +8,8 @@ module gapbeam_work
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_scene, only: model_type, gapbeam_elastic
     use gapbeam_api, only: prepared_type, result_type, prepare_model
-    use gapbeam_refusal, only: of_foundations
+    use gapbeam_layers, only: parameters_of_law
+    use gapbeam_refusal, only: of_foundations, not_expected
     use gapbeam_arrays, only: model_from_arrays, foundations_from_arrays
     use gapbeam_tape, only: tape_type, writing, reading
     use gapbeam_pack, only: exchange_beam, exchange_state
@@ -22,12 +23,16 @@ module gapbeam_work
 
 contains
 
-    !> What GBPREP, GBPRLW and GBPRFD do, with the arguments of the last
+    !> What GBPREP, GBPRLW, GBPRFD and GBPRGL do, with the arguments of the last
     subroutine prepare_beam(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, nlaw, ilaw, alaw, iunl, &
-                            nfound, ifound, found, nprof, iprof, aprof, nflaw, iflaw, aflaw, work, lwork, iwork, liwork, info)
+                            nfound, ifound, found, nprof, iprof, aprof, nflaw, iflaw, aflaw, nglaw, iglaw, glaw, &
+                            work, lwork, iwork, liwork, info)
         integer, intent(in) :: nspan, nhinge, nsup, nload, nlaw, nfound, nprof, nflaw
+        !> Foundations that have an entry in `iglaw` and `glaw`: all or none
+        integer, intent(in) :: nglaw
         real(wp), intent(in) :: span(4, *), hinge(*), sup(5, *), aload(4, *), alaw(2, *), found(6, *), aprof(2, *), aflaw(2, *)
-        integer, intent(in) :: isup(3, *), iload(3, *), ilaw(*), iunl(*), ifound(*), iprof(*), iflaw(*)
+        real(wp), intent(in) :: glaw(2*parameters_of_law, *)
+        integer, intent(in) :: isup(3, *), iload(3, *), ilaw(*), iunl(*), ifound(*), iprof(*), iflaw(*), iglaw(*)
         integer, intent(in) :: lwork, liwork
         real(wp), intent(inout) :: work(*)
         integer, intent(inout) :: iwork(*)
@@ -68,15 +73,15 @@ contains
         if (nfound == 0) then
             call sizes_of_beam(nspan, nhinge, nsup, nlaw, nload, nfound, nprof, nflaw, layers, reals, integers)
             if (max(reals, integers) > huge(info)) info = gapbeam_no_memory
-            if (lwork < reals) info = -25
-            if (liwork < integers) info = -27
+            if (lwork < reals) info = -27
+            if (liwork < integers) info = -29
             if (info /= 0) return
         end if
         iwork(1) = 0
         call make(nload)
         if (allocated(error)) return
         call put_beam(beam, work, lwork, iwork, liwork, short)
-        if (short > 0) info = merge(-25, -27, short == 1)
+        if (short > 0) info = merge(-27, -29, short == 1)
 
     contains
 
@@ -84,13 +89,19 @@ contains
         subroutine make(loads)
             integer, intent(in) :: loads
             type(model_type) :: model
-            real(wp) :: no_sections(5, 0)
+            real(wp) :: no_sections(5, 0), whole(7 + 2*parameters_of_law, nglaw)
             ! The argument that an array of the model is; of a pair of arrays the first, which has the number of entries
             integer, parameter :: argument(0:6) = [1, 2, 4, 6, 9, 0, 16]
 
             call model_from_arrays(span(:, 1:nspan), hinge(1:nhinge), no_sections, isup(:, 1:nsup), sup(:, 1:nsup), &
                                    ilaw(1:nlaw), alaw(:, 1:nlaw), iload(:, 1:loads), aload(:, 1:loads), model, error)
-            if (.not. allocated(error)) then
+            if (.not. allocated(error) .and. nglaw > 0) then
+                whole(:6, :) = found(:, 1:nfound)
+                whole(7, :) = iglaw(1:nfound)
+                whole(8:, :) = glaw(:, 1:nfound)
+                call foundations_from_arrays(ifound(1:nfound), whole, iprof(1:nprof), aprof(:, 1:nprof), iflaw(1:nflaw), &
+                                             aflaw(:, 1:nflaw), model, error)
+            else if (.not. allocated(error)) then
                 call foundations_from_arrays(ifound(1:nfound), found(:, 1:nfound), iprof(1:nprof), aprof(:, 1:nprof), &
                                              iflaw(1:nflaw), aflaw(:, 1:nflaw), model, error)
             end if
@@ -103,6 +114,8 @@ contains
             if (error%code == gapbeam_bad_input) then
                 info = -argument(error%table)
                 if (error%key == "law") info = merge(-22, -12, error%table == of_foundations)
+                if (error%key == "law" .and. error%table == of_foundations .and. error%reason == not_expected) info = -24
+                if (index(error%key, "law.") == 1) info = -25
                 if (error%key == "profile") info = -19
                 if (error%key == "unloading") info = -14
             end if
