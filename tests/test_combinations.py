@@ -1,6 +1,7 @@
 """Combinations of load cases beside scenes whose loads are multiplied by hand."""
 
 import json
+import math
 import pickle
 import random
 
@@ -9,6 +10,7 @@ import numpy as np
 import pytest
 from gapbeam.cli import main
 from gapbeam.report.text import json_parts, report_text, to_csv, to_json
+from gapbeam.results.combined import WORST
 from law_scenes import law_scene
 from scenes import at, force, random_scene, scene, uniform
 from test_prepared import scaled
@@ -42,18 +44,27 @@ def by_hand(made, one):
 
 
 def fails(made):
-    """Whether a scene has no unique answer."""
+    """Whether a scene makes no sense."""
     try:
         gapbeam.solve(made)
-    except gapbeam.GapbeamError:
+    except gapbeam.SceneError:
         return True
+    except gapbeam.EngineError:
+        pass
     return False
 
 
 def assert_same(result, made, seed):
     """Every combination beside the scene written by hand."""
     for one in made["combinations"]:
-        direct, found = gapbeam.solve(by_hand(made, one)), result.combinations[one["name"]]
+        found = result.combinations[one["name"]]
+        if not found.has_answer:
+            assert len(found.steps) == 0
+            with pytest.raises(gapbeam.EngineError) as caught:
+                gapbeam.solve(by_hand(made, one))
+            assert found.status == caught.value.status.word, (seed, one)
+            continue
+        direct = gapbeam.solve(by_hand(made, one))
         assert found.status == direct.status, (seed, one)
         assert found.reason == direct.reason
         if direct.status == "solved":
@@ -75,7 +86,7 @@ def test_combinations_are_scenes_with_scaled_loads(seed):
         assert any(map(fails, (by_hand(made, one) for one in made["combinations"])))
         return
     assert_same(result, made, seed)
-    assert result.status == max(result.statuses, key=("solved", "limit-load", "no-equilibrium").index)
+    assert result.status == max(result.statuses, key=WORST.index)
     if "solved" in result.statuses:
         assert_exact_envelope(result)
 
@@ -110,7 +121,7 @@ def test_laws(family):
         made = combined(rng, law_scene(rng, family))
         try:
             result = gapbeam.solve(made)
-        except gapbeam.GapbeamError:
+        except gapbeam.SceneError:
             continue
         assert_same(result, made, seed)
 
@@ -170,6 +181,30 @@ def test_hot_sustained_keeps_open_supports_open_and_holds_closed_ones_both_ways(
     result = gapbeam.solve(made)
     if result.statuses[1] != "solved":
         assert "is not solved" in result.combinations["sustained"].reason
+
+
+def test_what_has_no_unique_answer_is_recorded_and_the_others_go_on(tmp_path, capsys):
+    supports = [at(0, name="left"), at(1, side="below"), at(2, side="below")]
+    made = scene([2.0, 2.0], supports, [force(1.0, 5.0, case="a"), force(0.0, 3.0, case="b")], EI=math.inf) | {
+        "combinations": [{"name": "b", "factors": {"b": 1.0}}, {"name": "a", "factors": {"a": 1.0}},
+                         {"name": "after a", "factors": {"b": 1.0}, "scheme_of": "a"}]}  # fmt: skip
+    result = gapbeam.solve(made)
+    assert result.statuses == ("solved", "indeterminate", "indeterminate")
+    assert result.reason.startswith('combination "a": a rigid stretch of the beam')
+    assert '"a", whose working scheme it takes, is not solved' in result.combinations["after a"].reason
+    with pytest.raises(IndexError, match="no load step stands; a rigid stretch"):
+        result.combinations["a"].at(1.0)
+    assert result.envelope().supports[0]["reaction"]["max"].value == 3.0
+    assert np.isfinite(result.envelope().fields.largest["moment"]).all()
+    assert pickle.loads(pickle.dumps(result)) == result
+    data = json.loads(to_json(result))
+    assert [one["status"] for one in data["combinations"]] == list(result.statuses)
+    assert "1 of 3 combinations solved" in report_text(result)
+    (tmp_path / "rigid.json").write_text(json.dumps(made).replace("Infinity", "1e999"))
+    assert main(["run", str(tmp_path / "rigid.json"), "--quiet"]) == 1
+    assert 'combination "a": a rigid stretch' in capsys.readouterr().err
+    steps = gapbeam.solve(made | {"analysis": {"follow": "events"}})
+    assert steps.statuses == result.statuses
 
 
 def test_scheme_that_is_a_mechanism_says_so():

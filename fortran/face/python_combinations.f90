@@ -1,11 +1,10 @@
-! Combinations for Python, in the manner of face/python.f90, which says what the arguments BEAM, NS, NM, STATUS and MESSAGE are
+! Combinations for Python, in the manner of face/python.f90, which says what the arguments BEAM, NS and NM are
 
-! Solve NC combinations of loads at full load; one that is not solved has values that are not numbers
-subroutine gbcomb(beam, ns, nd, nm, nc, nx, factor, settle, rule, closed, piece, dist, value, extr, place, field, solves, status, &
-                  bad, message)
+! Solve NC combinations of loads at full load; one that is not solved has values that are not numbers, and its code as STATUS
+subroutine gbcomb(beam, ns, nd, nm, nc, nx, factor, settle, rule, closed, piece, dist, value, extr, place, field, solves, status)
     use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_memory
-    use gapbeam_handle, only: handle_type, handle_of, report
+    use gapbeam_handle, only: handle_type, handle_of
     use gapbeam_solution, only: state_type
     use gapbeam_combinations, only: combination_type, combine, solve_combination, values_of_combination
     implicit none
@@ -24,9 +23,7 @@ subroutine gbcomb(beam, ns, nd, nm, nc, nx, factor, settle, rule, closed, piece,
     double precision, intent(out) :: value(nm, 4, nc)
     ! Maximum and minimum of the fields of GBGVAL, and where they are; the fields at the places
     double precision, intent(out) :: extr(2, 7, nc), place(2, 7, nc), field(7, nx, nc)
-    ! The first combination with an error, from 1, 0: none; its message
-    integer, intent(out) :: solves(nc), status(nc), bad
-    character(len=240), intent(out) :: message
+    integer, intent(out) :: solves(nc), status(nc)
     !f2py threadsafe
     !f2py integer, intent(hide), depend(closed) :: ns = shape(closed, 0)
     !f2py integer, intent(hide), depend(factor) :: nd = shape(factor, 0)
@@ -38,7 +35,7 @@ subroutine gbcomb(beam, ns, nd, nm, nc, nx, factor, settle, rule, closed, piece,
     type(state_type) :: state
     type(error_type), allocatable :: error
     double precision :: nan
-    integer :: i, code
+    integer :: i
 
     handle => handle_of(beam)
     nan = ieee_value(nan, ieee_quiet_nan)
@@ -47,8 +44,6 @@ subroutine gbcomb(beam, ns, nd, nm, nc, nx, factor, settle, rule, closed, piece,
     place = nan
     field = nan
     solves = 0
-    bad = 0
-    message = " "
     do i = 1, nc
         call combine(handle%lowered, factor(:nd - 1, i), settle(:nm - 1, i), combined, error)
         if (.not. allocated(error)) then
@@ -71,11 +66,8 @@ subroutine gbcomb(beam, ns, nd, nm, nc, nx, factor, settle, rule, closed, piece,
         place(:, :, i) = nan
         field(:, :, i) = nan
         closed(:, i) = 0
-        if (bad /= 0) cycle
-        bad = i
-        call report(error, code, message)
-        if (code == gapbeam_no_memory) then
-            status(i:) = code
+        if (error%code == gapbeam_no_memory) then
+            status(i:) = error%code
             return
         end if
     end do

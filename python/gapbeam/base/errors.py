@@ -62,6 +62,15 @@ class Status(IntEnum):
     NOT_PREPARED = 16
     OTHER_VERSION = 17
 
+    @property
+    def word(self) -> str:
+        """How a result says it: ``solved``, ``no-equilibrium``, ``indeterminate``."""
+        return self.name.lower().replace("_", "-")
+
+
+WITHOUT_ANSWER = (Status.INDETERMINATE, Status.NOT_CONVERGED, Status.NOT_FINITE)
+"""Errors that are about one load on a beam: other loads on it may have an answer."""
+
 
 class EngineError(GapbeamError, RuntimeError):
     """The engine could not treat a valid scene.

@@ -67,7 +67,7 @@ Units: any consistent set. The scene's labels go into the report and change no n
 STATUSES = """\
 Exit status:
   0    solved, or the scene is valid
-  1    the structure cannot stand, or not in one of its combinations: the report says how it moves
+  1    the structure cannot stand, or one of its combinations cannot or has no single answer: the report says why
   2    refused: bad input, a file that cannot be read or written, or a scene without one single answer;
        one line on standard error says why, no file is written
   3    failed: not enough memory, or a fault of gapbeam; one line says what happened and what to do

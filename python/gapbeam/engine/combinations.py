@@ -49,29 +49,10 @@ class Combined(Record):
     solves: np.ndarray
 
 
-@dataclass(frozen=True, slots=True)
-class Failure:
-    """Why a combination has no unique answer.
-
-    Attributes
-    ----------
-    number : int
-        Which one, from 0.
-    status : Status
-        Code of the error.
-    message : bytes
-        In the engine's words.
-    """
-
-    number: int
-    status: Status
-    message: bytes
-
-
 def solve_combinations(
     beam: Beam, factors: np.ndarray, settlements: np.ndarray, rule: str, closed: np.ndarray,
     piece: np.ndarray | None = None, distance: np.ndarray | None = None,
-) -> Iterator[tuple[slice, Combined, Failure | None]]:  # fmt: skip
+) -> Iterator[tuple[slice, Combined]]:  # fmt: skip
     """Solve combinations, so many at a time that each call is a short one.
 
     Parameters
@@ -95,8 +76,6 @@ def solve_combinations(
         Which combinations.
     found : Combined
         Their results.
-    failure : Failure or None
-        The first one of them that has no unique answer.
 
     Raises
     ------
@@ -118,15 +97,14 @@ def solve_combinations(
         )
         scheme = np.asfortranarray(schemes[part].T)
         begin = perf_counter()
-        values, extremes, places, fields_at, solves, status, bad, message = _engine.gbcomb(
+        values, extremes, places, fields_at, solves, status = _engine.gbcomb(
             beam.handle, np.asfortranarray(shares), np.asfortranarray(moves), RULES[rule], scheme, *about
         )
         if Status.NO_MEMORY in status:
             check_status(Status.NO_MEMORY)
-        failure = Failure(first + bad - 1, Status(int(status[bad - 1])), message) if bad else None
         yield part, Combined(
             status, scheme.T[:, :-1], values.T[:, :, :-1], extremes.T, places.T, fields_at.T[:, :-1], solves
-        ), failure  # fmt: skip
+        )
         some = min(max(int(some * min(max(SECONDS / (perf_counter() - begin), 0.25), 4.0)), 1), most)
         first = part.stop
 
@@ -134,7 +112,7 @@ def solve_combinations(
 def all_combinations(
     beam: Beam, factors: np.ndarray, settlements: np.ndarray, rule: str, closed: np.ndarray,
     piece: np.ndarray | None = None, distance: np.ndarray | None = None,
-) -> tuple[Combined, Failure | None]:  # fmt: skip
+) -> Combined:  # fmt: skip
     """Solve combinations, and keep all results.
 
     Parameters
@@ -144,17 +122,11 @@ def all_combinations(
 
     Returns
     -------
-    found : Combined
+    Combined
         Of all of them.
-    failure : Failure or None
-        The first one that has no unique answer.
     """
-    parts, failures = [], []
-    for _, found, failure in solve_combinations(beam, factors, settlements, rule, closed, piece, distance):
-        parts.append(found)
-        failures.append(failure)
-    failure = next((one for one in failures if one is not None), None)
+    parts = [found for _, found in solve_combinations(beam, factors, settlements, rule, closed, piece, distance)]
     if len(parts) == 1:
-        return parts[0], failure
+        return parts[0]
     joined = (np.concatenate([getattr(part, one.name) for part in parts]) for one in fields(Combined))
-    return Combined(*joined), failure
+    return Combined(*joined)

@@ -67,7 +67,7 @@ class Asked(Record):
         Combined
         """
         where = () if x is None else find_places(self.beam, x, side)
-        found, _ = all_combinations(self.beam, self.factors, self.settlements, self.rule, self.closed, *where)
+        found = all_combinations(self.beam, self.factors, self.settlements, self.rule, self.closed, *where)
         return found
 
 
@@ -267,7 +267,7 @@ class Prepared(Pickled):
         beam, nodes = self._beam, len(self.node_x)
         sides = [find_places(beam, self.node_x, side) for side in ("left", "right")]
         piece, distance = (np.concatenate(parts) for parts in zip(*sides, strict=True))
-        found, _ = all_combinations(beam, asked.factors, asked.settlements, self._rule, asked.closed, piece, distance)
+        found = all_combinations(beam, asked.factors, asked.settlements, self._rule, asked.closed, piece, distance)
         w, left, right = found.fields[:, nodes:, 0], found.fields[:, :nodes, 2].copy(), found.fields[:, nodes:, 2].copy()
         solved = found.status == Status.SOLVED
         left[solved, 0] = right[solved, -1] = 0.0  # beside the beam

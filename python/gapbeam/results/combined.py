@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..base.errors import EngineError, SceneError, Status, check_status
+from ..base.errors import WITHOUT_ANSWER, EngineError, SceneError, Status, check_status
 from ..base.memory import refuse_beyond
 from ..base.records import Pickled, read_only
 from ..engine.beam import Beam, RefusalError
-from ..engine.combinations import Combined, Failure, all_combinations, solve_combinations
+from ..engine.combinations import Combined, all_combinations, solve_combinations
 from ..scene.columns import columns, curves
 from ..scene.combinations import Plan, plan_combinations
-from ..scene.names import label
+from ..scene.names import label, names_in_errors
 from ..scene.refusals import refusal
 from ..scene.structs import Scene
 from ..scene.wording import shown
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 KEPT = 64
 """Results of combinations that stay once they have been looked at."""
-WORST = ("solved", "limit-load", "no-equilibrium")
+WORST = ("solved", "limit-load", "no-equilibrium", *(status.word for status in WITHOUT_ANSWER))
 """Outcomes, the worst last: that is the outcome of all combinations together."""
 
 
@@ -50,10 +50,16 @@ class Combinations(Pickled, Mapping[str, Result]):
         How working schemes are found.
     start : numpy.ndarray of int
         Where every search starts.
+
+    Attributes
+    ----------
+    failed : dict
+        Those that are known to have no unique answer: the code of the error by number.
     """
 
     def __init__(self, plan: Plan, beam: Beam, rule: str, start: np.ndarray):
         self._plan, self._beam, self._rule, self._start = plan, beam, rule, start
+        self.failed: dict[int, Status] = {}
         self._kept: OrderedDict[int, Result] = OrderedDict()
 
     def __len__(self) -> int:
@@ -136,9 +142,22 @@ class Combinations(Pickled, Mapping[str, Result]):
     def _make(self, k: int) -> Result:
         plan = self._plan
         with _named(plan, k):
-            if plan.scheme_of[k] is None:
-                return follow_load(plan.scene_of(k), self.beam_of(k), self._rule, self._start)
-            return self._in_scheme(k, plan.scheme_of[k])
+            scene, beam = plan.scene_of(k), self.beam_of(k)
+            try:
+                with names_in_errors(plan.scene):
+                    if plan.scheme_of[k] is not None:
+                        return self._in_scheme(k, plan.scheme_of[k])
+                    result = follow_load(scene, beam, self._rule, self._start)
+                    if k in self.failed:
+                        at_full_load(result)  # what is wrong may be with its fields
+                        check_status(self.failed[k], b"it has no unique answer")
+                    return result
+            except EngineError as error:
+                if error.status not in WITHOUT_ANSWER:
+                    raise
+                result = Result(scene, beam, self._rule)
+                result.refuse_answer(error)
+                return result
 
     def _in_scheme(self, k: int, other: int) -> Result:
         """Solve with the working scheme of another combination."""
@@ -316,23 +335,20 @@ class CombinedResult(Result):
     def _solve_at_once(self) -> tuple[Combined, list[str]]:
         """Solve all in few calls of the engine, those in the scheme of others after them."""
         plan = self._plan
-        found, failure = all_combinations(self.beam, plan.factors, plan.settlements, self.rule, self._start)
+        found = all_combinations(self.beam, plan.factors, plan.settlements, self.rule, self._start)
         alone = [k for k, other in enumerate(plan.scheme_of) if other is not None]
-        if failure is not None and failure.number not in alone:
-            self._fail(failure)
-        statuses = ["solved" if status == Status.SOLVED else "no-equilibrium" for status in found.status.tolist()]
+        for k in np.flatnonzero(found.status > Status.NO_EQUILIBRIUM).tolist():
+            if k not in alone:
+                self.combinations.failed[k] = Status(found.status[k])
+                if found.status[k] in (Status.BAD_INPUT, Status.NOT_FINITE):
+                    self.combinations[k]  # says it in words where there is not even a beam
+        statuses = [Status(status).word for status in found.status.tolist()]
         if alone:
             found = _changeable(found)
             for k in alone:
                 statuses[k] = self._take(found, k)
             found.__post_init__()
         return found, statuses
-
-    def _fail(self, failure: Failure) -> None:
-        """Raise what a combination has instead of an answer: where that can be, by trying once more for the right words."""
-        self.combinations[failure.number]
-        with _named(self._plan, failure.number):
-            check_status(failure.status, failure.message)
 
     def _solve_one_by_one(self) -> tuple[Combined, list[str]]:
         """Solve all one after the other, as the way of the load asks for."""
@@ -351,8 +367,16 @@ class CombinedResult(Result):
     def _take(self, found: Combined, k: int) -> str:
         """Put the state of a combination at full load into arrays."""
         result = self.combinations[k]
+        try:
+            values = at_full_load(result)
+        except EngineError as error:
+            if error.status not in WITHOUT_ANSWER:
+                raise
+            self.combinations.failed[k] = error.status
+            result.refuse_answer(error)
+            values = at_full_load(result)
         found.status[k] = Status.SOLVED if result.status == "solved" else Status.NO_EQUILIBRIUM
-        found.at_supports[k], found.extremes[k], found.places[k], found.solves[k] = at_full_load(result)
+        found.at_supports[k], found.extremes[k], found.places[k], found.solves[k] = values
         return result.status
 
     @property
@@ -399,6 +423,8 @@ class CombinedResult(Result):
         """
         for k, name in enumerate(self.names):
             result = self.combinations[k]
+            if not result.has_answer:
+                continue
             if result.scene.trains:
                 yield from result.trains.members(name)
             elif result.status == "solved":
@@ -441,11 +467,13 @@ class CombinedResult(Result):
         alone = [k for k in range(len(plan)) if not self._at_once or plan.scheme_of[k] is not None]
         if self._at_once:
             start = self._found.closed
-            for part, found, _ in solve_combinations(self.beam, plan.factors, plan.settlements, self.rule, start, piece, distance):
+            left_out = {*alone, *np.flatnonzero(self._found.status)}
+            for part, found in solve_combinations(self.beam, plan.factors, plan.settlements, self.rule, start, piece, distance):
                 values = found.fields
-                if any(part.start <= k < part.stop for k in alone):
+                here = [k - part.start for k in left_out if part.start <= k < part.stop]
+                if here:
                     values = values.copy()
-                    values[[k - part.start for k in alone if part.start <= k < part.stop]] = np.nan
+                    values[here] = np.nan
                 yield part, values
         for k in alone:
             if self.statuses[k] == "solved":
@@ -482,8 +510,6 @@ def solve_combined(scene: Scene, beam: Beam, rule: str, start: np.ndarray) -> Co
     ------
     SceneError
         A combination makes no sense, or moves supports so that they leave no room for each other.
-    EngineError
-        A combination has no unique answer.
     """
     plan = plan_combinations(scene)
     if plan.scene is not scene:

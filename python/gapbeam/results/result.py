@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..base.errors import EngineError, Status
+from ..base.errors import WITHOUT_ANSWER, EngineError, Status
 from ..base.memory import refuse_beyond
 from ..base.records import Pickled, Record
 from ..engine.arrays import Solution
@@ -168,9 +168,10 @@ class Result(Pickled):
     scene : Scene
         What was solved.
     status : str
-        ``solved``, ``no-equilibrium``, or ``limit-load``: supports soften or yield, and the load cannot grow to the end.
+        ``solved``, ``no-equilibrium``, or ``limit-load``: supports soften or yield, and the load cannot grow to the end. Of a
+        combination also ``indeterminate``, ``not-converged``, ``not-finite``: it has no unique answer.
     reason : str or None
-        Why there is no equilibrium, or which limit there is.
+        Why there is no equilibrium or no unique answer, or which limit there is.
     motion : list of (float, float) or None
         The free motion then: x and displacement (positive downward, largest 1), straight lines between.
     steps : sequence of Step
@@ -253,6 +254,22 @@ class Result(Pickled):
             return
         self.reason = f"no equilibrium {where}: {describe_motion(self.beam, motion)}"
         self.motion = list(zip(self.beam.node_x.tolist(), motion.tolist(), strict=True))
+
+    @property
+    def has_answer(self) -> bool:
+        """Whether there is a unique answer, be it that the beam cannot stand."""
+        return self.status not in (status.word for status in WITHOUT_ANSWER)
+
+    def refuse_answer(self, error: EngineError) -> None:
+        """Note that there is no unique answer.
+
+        Parameters
+        ----------
+        error : EngineError
+            What stands in its way.
+        """
+        self.status, self.reason, self.path = error.status.word, str(error), None
+        self.steps = LoadSteps(self.beam, self.rule, np.ones(self.beam.supports, dtype=np.int32), 0)
 
     def refuse_limit(self, path: BranchPath) -> None:
         """Note that the load cannot go to its last factor.

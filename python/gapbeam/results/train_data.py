@@ -28,8 +28,8 @@ def passing_trains(result: Result) -> Iterator[tuple[str | None, TrainResult]]:
         for train in result.trains.values():
             yield None, train
         return
-    for name in result.combinations:
-        for train in result.combinations[name].trains.values():
+    for name, combination in result.combinations.items():
+        for train in combination.trains.values() if combination.has_answer else ():
             yield name, train
 
 
