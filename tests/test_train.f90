@@ -7,7 +7,7 @@ program test_train
     use gapbeam_scene, only: model_type, span_type, support_type, uniform_load, gapbeam_below, gapbeam_dead
     use gapbeam_lowered, only: lowered_type, copy_model
     use gapbeam_lower, only: lower_model
-    use gapbeam_train, only: train_type, track_type, new_track
+    use gapbeam_train, only: train_type, uniform_type, track_type, new_track
     use gapbeam_train_path, only: passage_type, pass_train
     use gapbeam_train_events, only: train_event_type, find_events
     use gapbeam_train_envelope, only: envelope_type, find_envelope
@@ -65,7 +65,7 @@ contains
         real(wp) :: value(2, 4, 1), position(2, 4, 1), line(5, 2)
 
         call make([1.0_wp, 1.0_wp], [0.0_wp, 1.0_wp, 2.0_wp], 1.0_wp, lowered, track)
-        train = train_type([0.0_wp], [8.0_wp])
+        train = train_type([0.0_wp], [8.0_wp], [uniform_type ::])
         call pass_train(lowered, track, train, 0.0_wp, 1.0_wp, passage, error)
         call check(.not. allocated(error), "D1")
         call find_events(lowered, passage, .false., events, error)
@@ -96,7 +96,7 @@ contains
         type(error_type), allocatable :: error
 
         call make([2.0_wp, 1.0_wp], [0.0_wp, 2.0_wp], 1.0_wp, lowered, track)
-        call pass_train(lowered, track, train_type([0.0_wp], [5.0_wp]), 0.0_wp, 3.0_wp, passage, error)
+        call pass_train(lowered, track, train_type([0.0_wp], [5.0_wp], [uniform_type ::]), 0.0_wp, 3.0_wp, passage, error)
         call check(.not. allocated(error), "a plank")
         associate (n => passage%number)
             call check(all(passage%status(:n) == [gapbeam_solved, gapbeam_solved, gapbeam_no_equilibrium]), "tips at the end")
@@ -115,7 +115,7 @@ contains
         type(error_type), allocatable :: error
 
         call make([4.0_wp], [0.0_wp, 4.0_wp], 0.0_wp, lowered, track)
-        train = train_type([0.0_wp, -4.0_wp], [0.0_wp, 0.0_wp], 2.0_wp, -4.0_wp, 0.0_wp)
+        train = train_type([0.0_wp, -4.0_wp], [0.0_wp, 0.0_wp], [uniform_type(2.0_wp, -4.0_wp, 0.0_wp)])
         call pass_train(lowered, track, train, 0.0_wp, 8.0_wp, passage, error)
         call check(.not. allocated(error), "a uniform load")
         call find_envelope(lowered, track, train, passage, envelope, error)
@@ -135,7 +135,7 @@ contains
         type(error_type), allocatable :: error
 
         call make([4.0_wp], [1.0_wp, 3.0_wp], 4.0_wp, lowered, track)
-        train = train_type([0.0_wp, -4.0_wp], [1.0_wp, 1.0_wp])
+        train = train_type([0.0_wp, -4.0_wp], [1.0_wp, 1.0_wp], [uniform_type ::])
         call pass_train(lowered, track, train, 0.0_wp, 8.0_wp, passage, error)
         call check(.not. allocated(error), "a long train")
         call find_envelope(lowered, track, train, passage, envelope, error)

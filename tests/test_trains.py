@@ -249,7 +249,15 @@ def test_outputs():
         ({"axles": [[0.0, float("inf")]]}, r"trains\[0\]\.axles\[0\]\[1\]: expected a finite number, got inf"),
         ({"axles": [[0.0, 1.0], [5.0, 1.0]], "inside": True}, r"trains\[0\]\.inside: the train has a length of 5"),
         ({"axles": [[0.0, 1.0]], "from": 2.0, "to": 1.0}, r"trains\[0\]\.to: the positions from 2 to 1 are none"),
-        ({"axles": [[0.0, 1.0]], "together": "b"}, r"trains\[0\]\.together: trains at the same time are not available"),
+        ({"axles": [[0.0, 1.0]], "together": "b"}, r"trains\[0\]\.together: expected a list of pairs of a text in quotes and a"),
+        ({"axles": [[0.0, 1.0]], "together": [["b", 1.0]]}, r"trains\[0\]\.together: stands beside axles"),
+        ({"together": [["b", 1.0]]}, r'trains\[0\]\.together\[0\]\[0\]: there is no train "b"; the names are "train 1"'),
+        ({"together": [["train 1", 1.0]]}, r"trains\[0\]\.together\[0\]\[0\]: .* is made of others itself"),
+        ({"together": [["b", [1.0, 2.0]]]}, r"trains\[0\]\.together\[0\]\[1\]: expected one distance, got \[1\.0, 2\.0\]: where"),
+        ({"together": [["b", -1.0]]}, r"trains\[0\]\.together\[0\]\[1\]: expected a distance .* got -1"),
+        ({"together": [["b", 1.0]], "q": 2.0}, r"trains\[0\]\.q: a train made of others has the uniform loads"),
+        ({"axles": [[0.0, 1.0]], "q": [[2.0, 1.0, 5.0]]}, r"trains\[0\]\.q\[0\]: the distances from 2 to 1 are no stretch"),
+        ({"axles": [[0.0, 1.0]], "q": "5"}, r'trains\[0\]\.q: expected a number or a list of threes of numbers, got "5"'),
         ({"axles": [[0.0, 1.0]], "unfavourable": True}, r"trains\[0\]\.unfavourable: axles only where"),
     ],
 )
@@ -273,6 +281,75 @@ def test_refusals(train, message):
 def test_what_trains_cannot_go_over(change, message):
     with pytest.raises(gapbeam.SceneError, match=message):
         gapbeam.solve(two_spans(**change))
+
+
+def loads_of(train, position, direction, end):
+    """A train as loads, by hand; uniform loads as stretches."""
+    sign, found = {"right": -1.0, "left": 1.0}[direction], []
+    for distance, force in train["axles"]:
+        x = position + sign * distance
+        if -1e-9 <= x <= end + 1e-9:
+            found.append({"type": "force", "x": min(max(x, 0.0), end), "F": train.get("factor", 1.0) * force})
+    q = train.get("q", 0.0)
+    for first, last, value in q if isinstance(q, list) else [(0.0, max(d for d, _ in train["axles"]), q)]:
+        low, high = sorted((position + sign * first, position + sign * last))
+        low, high = max(low, 0.0), min(high, end)
+        if high - low > 1e-9:
+            found.append({"type": "uniform", "q": train.get("factor", 1.0) * value, "from": low, "to": high})
+    return found
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_together(seed):
+    """Trains together are one train with all their axles and uniform loads; beside their loads put on by hand."""
+    rng = np.random.default_rng(seed)
+    made, other = random_scene(rng), random_scene(rng)["trains"][0]
+    if seed % 2:
+        other["q"] = [[0.5, 2.0, 3.0], [1.5, 4.0, float(rng.uniform(-1, 2))]]
+    (one,), behind, both = made["trains"], float(rng.choice([1.0, 2.5, rng.uniform(0, 4)])), bool(seed % 3)
+    made["trains"] = [one, other, {"name": "both", "together": [["train 1", 0.0], ["train 2", behind]], "factor": 1.5,
+                                   "both_directions": both}]  # fmt: skip
+    axles, q = [], []
+    for train, d in ((one, 0.0), (other, behind)):
+        factor, given = train.get("factor", 1.0), train.get("q", 0.0)
+        axles += [[d + at, factor * P] for at, P in train["axles"]]
+        stretches = given if isinstance(given, list) else [[0.0, max(at for at, _ in train["axles"]), given]]
+        q += [[d + first, d + last, factor * value] for first, last, value in stretches if first < last]
+    merged = {"axles": axles, "q": q, "factor": 1.5, "both_directions": both}
+    try:
+        together = gapbeam.solve(made).trains["both"]
+        alone = gapbeam.solve({**made, "trains": [merged]}).trains["train 1"]
+    except gapbeam.EngineError:
+        return
+    assert together.events == alone.events
+    assert together.gaps == alone.gaps
+    envelope = together.envelope()
+    for name, row in alone.envelope().extremes.items():
+        assert {kind: e and e.value for kind, e in row.items()} == {k: e and e.value for k, e in envelope.extremes[name].items()}
+    for way in together.ways:
+        course, end = way.course, float(gapbeam.read_scene(made).span_ends()[-1])
+        for position in rng.uniform(course.from_, course.to, 6):
+            loads = [*made["loads"], *loads_of(merged, position, course.direction, end)]
+            state = gapbeam.solve({**made, "loads": loads, "trains": []})
+            if state.status != "solved" or state.steps[-1].indifferent:
+                continue
+            assert together.at(position, course.direction).reaction == pytest.approx(state.steps[-1].reaction, rel=1e-9, abs=1e-9)
+            for name, row in state.extremes().items():
+                found = envelope.extremes[name]
+                slack = 1e-10 * max(abs(found["max"].value), abs(found["min"].value))
+                assert found["min"].value - slack <= row["min"][0] <= row["max"][0] <= found["max"].value + slack
+
+
+def test_together_in_combinations():
+    """It acts by its own case, with the axles and factors of its members whatever their cases are."""
+    trains = [{"name": "a", "axles": [[0.0, 8.0]], "factor": 0.5, "case": "a"}, {"name": "b", "axles": [[0.0, 2.0]], "case": "b"},
+              {"name": "ab", "together": [["a", 0.0], ["b", 0.5]], "case": "ab"}]  # fmt: skip
+    made = two_spans(trains=trains, combinations=[{"name": "both", "factors": {"dead": 1.0, "ab": 2.0}}])
+    both = gapbeam.solve(made).combinations["both"]
+    assert list(both.trains) == ["ab"]
+    alone = gapbeam.solve(two_spans(trains=[{"axles": [[0.0, 8.0], [0.5, 4.0]]}])).trains["train 1"]
+    assert both.trains["ab"].events == alone.events
+    assert both.trains["ab"].at(0.75).reaction.tolist() == alone.at(0.75).reaction.tolist()
 
 
 def test_names():

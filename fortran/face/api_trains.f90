@@ -18,7 +18,7 @@ module gapbeam_api_trains
     use gapbeam_scene, only: gapbeam_unchanged
     use gapbeam_lowered, only: lowered_type, point_x
     use gapbeam_query, only: find_pieces
-    use gapbeam_train, only: train_type, track_type, new_track
+    use gapbeam_train, only: train_type, uniform_type, track_type, new_track
     use gapbeam_train_path, only: passage_type, pass_train, not_unique
     use gapbeam_train_events, only: train_event_type, find_events
     use gapbeam_train_envelope, only: envelope_type, extreme_type, find_envelope
@@ -248,7 +248,7 @@ contains
         integer :: stat
 
         associate (n => size(given%force))
-            allocate (train%offset(n), train%force(n), stat=stat)
+            allocate (train%offset(n), train%force(n), train%uniform(merge(1, 0, abs(given%q) > 0.0_wp)), stat=stat)
         end associate
         if (stat /= 0) then
             call no_memory(error)
@@ -257,9 +257,8 @@ contains
         longest = maxval(given%distance)
         train%offset(:) = merge(given%distance, -given%distance, given%to_the_left)
         train%force(:) = given%force
-        train%q = given%q
-        train%q_from = merge(0.0_wp, -longest, given%to_the_left)
-        train%q_to = merge(longest, 0.0_wp, given%to_the_left)
+        train%uniform(:) = uniform_type(given%q, merge(0.0_wp, -longest, given%to_the_left), &
+                                        merge(longest, 0.0_wp, given%to_the_left))
     end subroutine put_axles
 
     !> Stretches that are not solved, joined where they are alike

@@ -4,17 +4,18 @@
 ! its way over it. Arrays over supports, stretches and events have one entry more than there are.
 
 ! Move a train over a beam
-subroutine gbtmak(beam, na, offset, force, uniform, from, to, back, train, sizes, status, message)
+subroutine gbtmak(beam, na, nu, offset, force, uniform, from, to, back, train, sizes, status, message)
     use gapbeam_error, only: error_type
     use gapbeam_handle, only: handle_type, handle_of, report
     use gapbeam_train_handle, only: new_train
     implicit none
     integer(8), intent(in) :: beam
-    integer, intent(in) :: na
+    ! Axles; uniform loads and one more
+    integer, intent(in) :: na, nu
     ! Distances of the axles from the place of the train, to the right, and their forces (down)
     double precision, intent(in) :: offset(na), force(na)
-    ! Uniform load (down), and distances between which it acts; positions of the train
-    double precision, intent(in) :: uniform(3), from, to
+    ! Uniform loads (down), and distances between which they act; positions of the train
+    double precision, intent(in) :: uniform(3, nu), from, to
     ! 1 where the train goes towards smaller positions
     integer, intent(in) :: back
     ! Handle; 0 where there is an error
@@ -24,11 +25,12 @@ subroutine gbtmak(beam, na, offset, force, uniform, from, to, back, train, sizes
     character(len=240), intent(out) :: message
     !f2py threadsafe
     !f2py integer, intent(hide), depend(offset) :: na = shape(offset, 0)
+    !f2py integer, intent(hide), depend(uniform) :: nu = shape(uniform, 1)
     type(handle_type), pointer :: handle
     type(error_type), allocatable :: error
 
     handle => handle_of(beam)
-    call new_train(handle%lowered, offset, force, uniform, from, to, back /= 0, train, sizes, error)
+    call new_train(handle%lowered, offset, force, uniform(:, :nu - 1), from, to, back /= 0, train, sizes, error)
     call report(error, status, message)
 end subroutine gbtmak
 

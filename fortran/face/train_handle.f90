@@ -5,7 +5,7 @@ module gapbeam_train_handle
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_lowered, only: lowered_type
-    use gapbeam_train, only: train_type, track_type, new_track
+    use gapbeam_train, only: train_type, uniform_type, track_type, new_track
     use gapbeam_train_path, only: passage_type, pass_train
     use gapbeam_train_events, only: train_event_type, find_events
     use gapbeam_train_envelope, only: extreme_type
@@ -27,8 +27,8 @@ contains
     subroutine new_train(lowered, offset, force, uniform, from, to, backwards, address, sizes, error)
         !> The beam
         type(lowered_type), intent(in) :: lowered
-        !> As in train_type; uniform load, and between which distances
-        real(wp), intent(in) :: offset(:), force(:), uniform(3)
+        !> As in train_type; uniform loads, and between which distances, shape (3, n)
+        real(wp), intent(in) :: offset(:), force(:), uniform(:, :)
         !> Positions of the train
         real(wp), intent(in) :: from, to
         !> Does it go towards smaller positions
@@ -40,22 +40,26 @@ contains
         !> As for pass_train
         type(error_type), allocatable, intent(out) :: error
         type(train_handle_type), pointer :: handle
-        integer :: n, stat
+        integer :: i, k, n, stat
 
         address = 0
         sizes(:) = 0
         n = size(offset)
         allocate (handle, stat=stat)
-        if (stat == 0) allocate (handle%train%offset(n), handle%train%force(n), stat=stat)
+        if (stat == 0) allocate (handle%train%offset(n), handle%train%force(n), &
+                                 handle%train%uniform(count(abs(uniform(1, :)) > 0.0_wp)), stat=stat)
         if (stat /= 0) then
             call no_memory(error)
             return
         end if
         handle%train%offset(:) = offset
         handle%train%force(:) = force
-        handle%train%q = uniform(1)
-        handle%train%q_from = uniform(2)
-        handle%train%q_to = uniform(3)
+        k = 0
+        do i = 1, size(uniform, 2)
+            if (.not. abs(uniform(1, i)) > 0.0_wp) cycle
+            k = k + 1
+            handle%train%uniform(k) = uniform_type(uniform(1, i), uniform(2, i), uniform(3, i))
+        end do
         call new_track(lowered, handle%track, error)
         if (.not. allocated(error)) call pass_train(lowered, handle%track, handle%train, from, to, handle%passage, error)
         if (.not. allocated(error)) call find_events(lowered, handle%passage, backwards, handle%events, error)

@@ -1,6 +1,6 @@
 !> Loads that move together: axles and a uniform load on a beam at a place of the train.
 !>
-!> The place of a train is that of its first axle. While no axle, and no end of the uniform load, passes a point at which a piece
+!> The place of a train is that of its first axle. While no axle, and no end of a uniform load, passes a point at which a piece
 !> of the beam ends, what it does to the links is a polynomial in the place: the rotations of the simple bar under a unit
 !> force are the deflections under unit moments at its ends (Maxwell), of degree 3 in every piece. Such a range of places is a
 !> reach.
@@ -14,14 +14,19 @@ module gapbeam_train
     use gapbeam_places, only: position_tolerance
     implicit none
     private
-    public :: train_type, track_type, reach_type, new_track, find_reaches, place_train, degree_of, least_distance
+    public :: train_type, uniform_type, track_type, reach_type, new_track, find_reaches, place_train, degree_of, least_distance
+
+    !> A uniform load of a train, down, from one distance from its place to another
+    type :: uniform_type
+        real(wp) :: q = 0.0_wp, from = 0.0_wp, to = 0.0_wp
+    end type uniform_type
 
     !> A train, in the user's units
     type :: train_type
         !> Where its axles are, measured from the place of the train to the right, and their forces (down), shape (n)
         real(wp), allocatable :: offset(:), force(:)
-        !> Uniform load (down) from one such distance to another
-        real(wp) :: q = 0.0_wp, q_from = 0.0_wp, q_to = 0.0_wp
+        !> Uniform loads, none or more
+        type(uniform_type), allocatable :: uniform(:)
     end type train_type
 
     !> A beam made ready for a train
@@ -48,8 +53,8 @@ module gapbeam_train
         real(wp) :: from = 0.0_wp, to = 0.0_wp
         !> Piece of every axle, 0: not on the beam
         integer, allocatable :: piece(:)
-        !> Pieces in which the uniform load begins and ends; the first is beyond the last where it is not on the beam
-        integer :: q_first = 1, q_last = 0
+        !> Pieces in which every uniform load begins and ends; the first is beyond the last where it is not on the beam
+        integer, allocatable :: first(:), last(:)
         !> Do the loads on its ends act there as in between
         logical :: holds_from = .true., holds_to = .true.
     end type reach_type
@@ -153,7 +158,7 @@ contains
         type(train_type), intent(in) :: train
         integer :: degree
 
-        degree = merge(4, 3, abs(train%q) > 0.0_wp)
+        degree = merge(4, 3, size(train%uniform) > 0)
     end function degree_of
 
     !> Places of a train that are nearer to each other than this are one
@@ -180,7 +185,7 @@ contains
         real(wp) :: near
         integer :: count, number, i, k, stat
 
-        allocate (place(2 + (size(train%offset) + 2)*size(track%x)), stat=stat)
+        allocate (place(2 + (size(train%offset) + 2*size(train%uniform))*size(track%x)), stat=stat)
         if (stat == 0) allocate (found(2*size(place)), stat=stat)
         if (stat /= 0) then
             call no_memory(error)
@@ -192,10 +197,10 @@ contains
         do i = 1, size(train%offset)
             call add(train%offset(i))
         end do
-        if (abs(train%q) > 0.0_wp) then
-            call add(train%q_from)
-            call add(train%q_to)
-        end if
+        do i = 1, size(train%uniform)
+            call add(train%uniform(i)%from)
+            call add(train%uniform(i)%to)
+        end do
         count = count + 1
         place(count) = to
         call sort(place(:count))
@@ -282,17 +287,22 @@ contains
         n = ubound(track%x, 1)
         reach%from = from
         reach%to = to
-        allocate (reach%piece(size(train%offset)))
+        allocate (reach%piece(size(train%offset)), reach%first(size(train%uniform)), reach%last(size(train%uniform)))
         do i = 1, size(train%offset)
             reach%piece(i) = 0
             associate (x => about + train%offset(i))
                 if (x >= -near .and. x <= track%x(n) + near) reach%piece(i) = piece_at(track, x)
             end associate
         end do
-        if (.not. abs(train%q) > 0.0_wp) return
-        if (about + train%q_to <= 0.0_wp .or. about + train%q_from >= track%x(n)) return
-        reach%q_first = piece_at(track, about + train%q_from)
-        reach%q_last = piece_at(track, about + train%q_to)
+        do i = 1, size(train%uniform)
+            reach%first(i) = 1
+            reach%last(i) = 0
+            associate (from => about + train%uniform(i)%from, to => about + train%uniform(i)%to)
+                if (to <= 0.0_wp .or. from >= track%x(n)) cycle
+                reach%first(i) = piece_at(track, from)
+                reach%last(i) = piece_at(track, to)
+            end associate
+        end do
     end function reach_at
 
     !> Piece of a place, the nearest one for places beyond the ends
@@ -365,9 +375,11 @@ contains
             call add_force(reach%piece(i), within(track, reach%piece(i), s + train%offset(i)), &
                            scale(train%force(i), -track%force_unit))
         end do
-        do j = reach%q_first, reach%q_last
-            call add_uniform(j, within(track, j, s + train%q_from), within(track, j, s + train%q_to), &
-                             scale(train%q, track%length_unit - track%force_unit))
+        do i = 1, size(train%uniform)
+            do j = reach%first(i), reach%last(i)
+                call add_uniform(j, within(track, j, s + train%uniform(i)%from), within(track, j, s + train%uniform(i)%to), &
+                                 scale(train%uniform(i)%q, track%length_unit - track%force_unit))
+            end do
         end do
 
     contains

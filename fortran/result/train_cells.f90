@@ -1,4 +1,4 @@
-!> The beam under a train, cut where its pieces end and where axles and ends of its uniform load are: in every such cell the fields
+!> The beam under a train, cut where its pieces end and where axles and ends of its uniform loads are: in every such cell the fields
 !> are polynomials in x, and while the train is in one reach, in its place as well.
 module gapbeam_train_cells
     use gapbeam_kinds, only: wp
@@ -13,10 +13,11 @@ module gapbeam_train_cells
     public :: cell_type, cells_type, new_cells, find_cells, fill_cells, recover_cells, cell_ends, fields_in_cell, x_in_cell, &
         cell_of_place
 
-    !> A cell: its piece, the moving points at its ends (0: an end of the piece), whether the train's uniform load is on it
+    !> A cell: its piece, the moving points at its ends (0: an end of the piece), the uniform load of the train on it in the
+    !> engine's units
     type :: cell_type
         integer :: piece = 0, left = 0, right = 0
-        logical :: covered = .false.
+        real(wp) :: q = 0.0_wp
     end type cell_type
 
     !> All cells from left to right
@@ -27,7 +28,7 @@ module gapbeam_train_cells
         integer, allocatable :: last(:), first(:)
         !> What moves: distances from the place of the train in ascending order, and forces there in the engine's units
         real(wp), allocatable :: offset(:), force(:)
-        !> Number of the axle, 0 and -1 the ends of the uniform load
+        !> Number of the axle, -2i + 1 and -2i the ends of uniform load i
         integer, allocatable :: axle(:)
         !> The cells at a place of the train as pieces with loads, and the fields at their left ends
         type(piece_type), allocatable :: pieces(:)
@@ -47,7 +48,7 @@ contains
         integer :: most, moving, axles, i, j, k
 
         axles = size(train%offset)
-        moving = axles + merge(2, 0, abs(train%q) > 0.0_wp)
+        moving = axles + 2*size(train%uniform)
         most = size(track%link) + moving
         allocate (cells%cells(most), cells%last(size(track%beam%links)), cells%first(size(track%link) + 1), cells%offset(moving), &
                   cells%force(moving), cells%axle(moving), cells%pieces(most), cells%loads(most), cells%nothing(most), &
@@ -57,11 +58,11 @@ contains
         cells%offset(:axles) = train%offset
         cells%force(:axles) = scale(train%force, -track%force_unit)
         cells%axle(:axles) = [(i, i=1, axles)]
-        if (moving > axles) then
-            cells%offset(axles + 1:) = [train%q_from, train%q_to]
-            cells%force(axles + 1:) = 0.0_wp
-            cells%axle(axles + 1:) = [0, -1]
-        end if
+        cells%force(axles + 1:) = 0.0_wp
+        do i = 1, size(train%uniform)
+            cells%offset(axles + 2*i - 1:axles + 2*i) = [train%uniform(i)%from, train%uniform(i)%to]
+            cells%axle(axles + 2*i - 1:axles + 2*i) = [1 - 2*i, -2*i]
+        end do
         do i = 2, moving
             do j = i, 2, -1
                 if (cells%offset(j - 1) <= cells%offset(j)) exit
@@ -81,7 +82,7 @@ contains
         type(reach_type), intent(in) :: reach
         type(cells_type), intent(inout) :: cells
         real(wp) :: middle, from, to
-        integer :: j, k, next
+        integer :: i, j, k, next
 
         middle = reach%from + (reach%to - reach%from)/2
         cells%number = 0
@@ -101,12 +102,15 @@ contains
             cells%last(track%link(j)) = cells%number
         end do
         cells%first(size(track%link) + 1) = cells%number + 1
-        if (.not. abs(train%q) > 0.0_wp) return
+        if (size(train%uniform) == 0) return
         do k = 1, cells%number
             call cell_ends(track, cells, cells%cells(k), middle, from, to)
-            associate (x => from + (to - from)/2)
-                cells%cells(k)%covered = x > middle + train%q_from .and. x < middle + train%q_to
-            end associate
+            do i = 1, size(train%uniform)
+                associate (x => from + (to - from)/2, load => train%uniform(i))
+                    if (x <= middle + load%from .or. x >= middle + load%to) cycle
+                    cells%cells(k)%q = cells%cells(k)%q + scale(load%q, track%length_unit - track%force_unit)
+                end associate
+            end do
         end do
 
     contains
@@ -122,18 +126,19 @@ contains
         !> Piece in which a moving point is, 0 if none
         pure function piece_of(point) result(piece)
             integer, intent(in) :: point
-            integer :: piece
+            integer :: piece, load
 
             if (cells%axle(point) > 0) then
                 piece = reach%piece(cells%axle(point))
                 return
             end if
             piece = 0
-            if (reach%q_first > reach%q_last) return
+            load = (1 - cells%axle(point))/2
+            if (reach%first(load) > reach%last(load)) return
             associate (x => middle + cells%offset(point))
                 if (x < 0.0_wp .or. x > track%x(ubound(track%x, 1))) return
             end associate
-            piece = merge(reach%q_first, reach%q_last, cells%axle(point) == 0)
+            piece = merge(reach%first(load), reach%last(load), cells%axle(point) == 1 - 2*load)
         end function piece_of
 
     end subroutine find_cells
@@ -156,10 +161,9 @@ contains
     end subroutine cell_ends
 
     !> Make pieces and loads of the cells
-    subroutine fill_cells(lowered, track, train, s, cells)
+    subroutine fill_cells(lowered, track, s, cells)
         type(lowered_type), intent(in) :: lowered
         type(track_type), intent(in) :: track
-        type(train_type), intent(in) :: train
         !> Place of the train
         real(wp), intent(in) :: s
         type(cells_type), intent(inout) :: cells
@@ -189,10 +193,8 @@ contains
                     load%force = cells%force(cell%right)
                     load%couple = 0.0_wp
                 end if
-                if (cell%covered) then
-                    load%qa = load%qa + scale(train%q, track%length_unit - track%force_unit)
-                    load%qb = load%qb + scale(train%q, track%length_unit - track%force_unit)
-                end if
+                load%qa = load%qa + cell%q
+                load%qb = load%qb + cell%q
             end associate
         end do
     end subroutine fill_cells

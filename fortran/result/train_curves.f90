@@ -140,9 +140,7 @@ contains
                 associate (piece => lowered%pieces(j), begin => scale(left, -track%length_unit), &
                            distance => scale(max(0.0_wp, t - left), -track%length_unit), slope => loads(j)%qb - loads(j)%qa)
                     load%qa = load%qa + slope*(begin/piece%length)
-                    if (samples%cells%cells(cell)%covered) then
-                        load%qa = load%qa + scale(train%q, track%length_unit - track%force_unit)
-                    end if
+                    load%qa = load%qa + samples%cells%cells(cell)%q
                     at = fields_at(field_type(start(1), start(2), start(3), start(4)), distance, piece%length, piece%flexibility, &
                                    piece%shear_flexibility, load%qa, load%qa + slope, load%kappa)
                 end associate
@@ -254,7 +252,7 @@ contains
                 link%turn_sum(:) = 0.0_wp
             end associate
         end do
-        allocate (unit%offset(1), unit%force(1))
+        allocate (unit%offset(1), unit%force(1), unit%uniform(0))
         unit%offset(:) = 0.0_wp
         unit%force(:) = 1.0_wp
         call new_workspace(bare%beam, work)
@@ -277,7 +275,7 @@ contains
                 return
             end if
             call find_cells(bare, unit, reaches(1), cells)
-            call fill_cells(empty, bare, unit, places(k), cells)
+            call fill_cells(empty, bare, places(k), cells)
             call recover_cells(bare, work, cells)
             c = cell_of_place(bare, cells, piece, track%x(piece - 1) + distance, places(k))
             call cell_ends(bare, cells, cells%cells(c), places(k), left, right)

@@ -49,7 +49,7 @@ contains
         type(train_type), intent(in) :: train
         integer :: degree
 
-        degree = merge(7, 6, abs(train%q) > 0.0_wp)
+        degree = merge(7, 6, size(train%uniform) > 0)
     end function degree_in_position
 
     !> Room for samples
@@ -64,7 +64,7 @@ contains
 
         d = degree_in_position(train)
         samples%degree = d
-        most = size(track%link) + size(train%offset) + 2
+        most = size(track%link) + size(train%offset) + 2*size(train%uniform)
         call new_cells(track, train, samples%cells, stat)
         if (stat == 0) allocate (samples%position(0:d), samples%starts(0:d, most), samples%pieces(0:d, most), &
                                  samples%loads(0:d, most), samples%supports(0:d, 4, size(lowered%model%supports)), stat=stat)
@@ -104,7 +104,7 @@ contains
                     call fatal_error(error, gapbeam_not_converged, "the beam is held by so little that its state is not unique")
                     return
                 end if
-                call fill_cells(lowered, track, train, samples%position(p), samples%cells)
+                call fill_cells(lowered, track, samples%position(p), samples%cells)
                 call recover_cells(track, work, samples%cells)
                 samples%starts(p, :n) = samples%cells%starts(:n)
                 samples%pieces(p, :n) = samples%cells%pieces(:n)

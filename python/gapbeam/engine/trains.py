@@ -45,8 +45,8 @@ class Passage:
         The beam; its loads stay, dead and live ones in full.
     offset, force : numpy.ndarray
         Distances of the axles from the place of the train, to the right, and their forces (down).
-    uniform : tuple of float
-        Uniform load (down), and the distances from the place of the train between which it acts.
+    uniform : numpy.ndarray
+        Uniform loads (down), and the distances from the place of the train between which each acts: a row a load.
     from_, to : float
         Positions of the train.
     backwards : bool
@@ -74,13 +74,12 @@ class Passage:
     """
 
     def __init__(
-        self, beam: Beam, offset: np.ndarray, force: np.ndarray, uniform: tuple[float, float, float], from_: float, to: float,
-        backwards: bool,
+        self, beam: Beam, offset: np.ndarray, force: np.ndarray, uniform: np.ndarray, from_: float, to: float, backwards: bool,
     ):  # fmt: skip
         self.beam = beam
         self._made_of = beam, offset, force, uniform, from_, to, backwards
         handle, sizes, status, message = _engine.gbtmak(
-            beam.handle, offset, force, np.array(uniform), from_, to, int(backwards)
+            beam.handle, offset, force, np.vstack((uniform, np.zeros(3))).T, from_, to, int(backwards)
         )
         check_status(status, message)
         self._handle = _engine.TrainHandle(handle)

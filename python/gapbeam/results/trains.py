@@ -30,7 +30,7 @@ from ..engine.beam import Beam
 from ..engine.trains import NOT_UNIQUE, WITHOUT_EQUILIBRIUM, Extremes, Passage
 from ..scene.columns import columns
 from ..scene.structs import ForceLoad, Scene, UniformLoad
-from ..scene.trains import LEFT, RIGHT, Course, courses, nearest, train_name
+from ..scene.trains import LEFT, RIGHT, Course, courses, joined, nearest, train_name
 from ..scene.wording import choice, shown
 from .arguments import finite
 from .kinks import EVENTS
@@ -210,7 +210,7 @@ class TrainResult:
 
     def __init__(self, result: Result, i: int):
         self.name, self.train = train_name(result.scene, i), result.scene.trains[i]
-        self._result = result
+        self._result, self._joined = result, joined(result.scene, i)
 
     @cached_property
     def ways(self) -> list[TrainWay]:
@@ -218,9 +218,9 @@ class TrainResult:
         result = self._result
         end = result.beam.places.end
         supports = result.scene.positions(result.scene.supports)
-        near = nearest(self.train, end)
+        near = nearest(self._joined, end)
         try:
-            return [TrainWay(result.beam, course, near, supports) for course in courses(self.train, end)]
+            return [TrainWay(result.beam, course, near, supports) for course in courses(self._joined, end)]
         except EngineError as error:
             raise EngineError(f"train {self.name}: {error}", error.status) from None
 
@@ -363,10 +363,10 @@ class TrainResult:
         acts = (x >= -way.near) & (x <= end + way.near)
         loads: list[Any] = [ForceLoad(x=place, F=force) for place, force in zip(np.clip(x[acts], 0.0, end).tolist(),
                                                                                 course.force[acts].tolist(), strict=True)]
-        q, low, high = course.uniform
-        low, high = max(position + low, 0.0), min(position + high, end)
-        if q != 0.0 and high - low > way.near:
-            loads.append(UniformLoad(q=q, from_=low, to=high))
+        for q, low, high in course.uniform.tolist():
+            low, high = max(position + low, 0.0), min(position + high, end)
+            if q != 0.0 and high - low > way.near:
+                loads.append(UniformLoad(q=q, from_=low, to=high))
         scene = self._result.scene
         return replace(scene, loads=[*scene.loads, *loads], trains=[])
 

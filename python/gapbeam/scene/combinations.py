@@ -17,7 +17,7 @@ from .columns import SIDES
 from .names import cases_of, find, labels
 from .structs import Combination, LinearLoad, Scene, Support, UniformLoad
 from .tables import Table
-from .trains import train_name
+from .trains import joined, train_name
 from .wording import choice, key_of, number, shown
 
 MOST = 10_000
@@ -84,7 +84,7 @@ class Plan:
             supports = [_held(one, act) for one, act in zip(supports, acts, strict=True)]
         title = f"{scene.title}: {title}" if scene.title else title
         trains = [
-            msgspec.structs.replace(train, name=train_name(scene, i), factor=train.factor * factor)
+            msgspec.structs.replace(joined(scene, i), name=train_name(scene, i), factor=train.factor * factor)
             for i, (train, factor) in enumerate(zip(scene.trains, self.trains[k].tolist(), strict=True))
             if factor
         ]

@@ -317,6 +317,9 @@ class Train(Table, forbid_unknown_fields=True, kw_only=True):
         By which results have it; default train 1, train 2, ...
     axles : list of (float, float)
         Distance behind the first axle (length), and force, positive downward. The train goes to the right.
+    together : list of (str, float)
+        Instead of axles: trains that go together with this one's position, each by its name with the distance of its first axle
+        behind that position (length). They bring their axles, factor and q, and alone they act as well.
     from_ : float, optional
         First position (length, from the left end of the beam); default: where the first axle enters the beam.
         In Python the name is ``from_``.
@@ -330,19 +333,21 @@ class Train(Table, forbid_unknown_fields=True, kw_only=True):
         Also the mirrored train, which goes to the left; default false.
     inside : bool
         Only positions where the whole train is on the beam; default false.
-    q : float
-        Uniform load over the length of the train (force/length), positive downward.
+    q : float or list of (float, float, float)
+        Uniform load over the length of the train (force/length), positive downward; or uniform loads, each from one distance
+        behind the first axle to another (length, length, force/length).
     """
 
     name: str = ""
-    axles: list[tuple[float, float]]
+    axles: list[tuple[float, float]] = []
+    together: list[tuple[str, float]] = []
     from_: float | None = field(default=None, name="from")
     to: float | None = None
     case: str = "live"
     factor: float = 1.0
     both_directions: bool = False
     inside: bool = False
-    q: float = 0.0
+    q: float | list[tuple[float, float, float]] = 0.0
 
 
 class Combination(Table, forbid_unknown_fields=True, kw_only=True):

@@ -6,11 +6,12 @@ from math import isfinite
 from typing import NamedTuple
 
 import numpy as np
+from msgspec.structs import replace
 
 from ..base.errors import SceneError
 from .places import POSITION_TOLERANCE
 from .structs import Scene, Train
-from .wording import number, shown
+from .wording import choice, number, shown
 
 RIGHT, LEFT = "right", "left"
 """Directions in which a train goes."""
@@ -25,8 +26,8 @@ class Course(NamedTuple):
         Which way it goes.
     offset, force : numpy.ndarray
         Distances of the axles from the position of the train, to the right, and their forces with the factor of the train.
-    uniform : tuple of float
-        Uniform load with that factor, and the distances between which it acts.
+    uniform : numpy.ndarray
+        Uniform loads with that factor, and the distances between which each acts, to the right: a row a load.
     from_, to : float
         Positions in ascending order.
     """
@@ -34,7 +35,7 @@ class Course(NamedTuple):
     direction: str
     offset: np.ndarray
     force: np.ndarray
-    uniform: tuple[float, float, float]
+    uniform: np.ndarray
     from_: float
     to: float
 
@@ -59,23 +60,105 @@ def check_trains(scene: Scene) -> None:
         if name in names:
             raise SceneError(f"{place}.name", f"trains[{names[name]}] has the name {shown(name)} already; give another one")
         names[name] = i
-        if not train.axles:
+        if not (train.axles or train.together):
             problem = "has no axle; give (distance behind the first axle, force), for example [0.0, 100.0]"
             raise SceneError(f"{place}.axles", problem)
         for k, (distance, force) in enumerate(train.axles):
-            if not (isfinite(distance) and distance >= 0.0):
-                problem = f"expected a distance behind the first axle, 0 or more, got {number(distance)}"
-                raise SceneError(f"{place}.axles[{k}][0]", problem)
-            if not isfinite(force):
-                raise SceneError(f"{place}.axles[{k}][1]", f"expected a finite number, got {number(force)}")
-        for key in ("from_", "to", "factor", "q"):
+            _check_distance(f"{place}.axles[{k}][0]", distance)
+            _check_finite(f"{place}.axles[{k}][1]", force)
+        for key in ("from_", "to", "factor"):
             value = getattr(train, key)
-            if value is not None and not isfinite(value):
-                raise SceneError(f"{place}.{key.rstrip('_')}", f"expected a finite number, got {number(value)}")
+            if value is not None:
+                _check_finite(f"{place}.{key.rstrip('_')}", value)
+        _check_uniform(train, f"{place}.q")
+    for i, train in enumerate(scene.trains):
+        place = f"trains[{i}]"
+        if train.together:
+            _check_together(scene, train, names, place)
         end = float(scene.span_ends()[-1])
         if isfinite(end) and end > 0.0:
             for direction in (RIGHT, LEFT) if train.both_directions else (RIGHT,):
-                _range(train, direction, end, place)
+                _range(joined(scene, i), direction, end, place)
+
+
+def _check_finite(place: str, value: float) -> None:
+    if not isfinite(value):
+        raise SceneError(place, f"expected a finite number, got {number(value)}")
+
+
+def _check_distance(place: str, value: float) -> None:
+    if not (isfinite(value) and value >= 0.0):
+        raise SceneError(place, f"expected a distance behind the first axle, 0 or more, got {number(value)}")
+
+
+def _check_uniform(train: Train, place: str) -> None:
+    """Refuse uniform loads that are none."""
+    if not isinstance(train.q, list):
+        _check_finite(place, train.q)
+        return
+    for k, (first, last, q) in enumerate(train.q):
+        _check_distance(f"{place}[{k}][0]", first)
+        _check_distance(f"{place}[{k}][1]", last)
+        _check_finite(f"{place}[{k}][2]", q)
+        if not first < last:
+            problem = f"the distances from {number(first)} to {number(last)} are no stretch; give (from, to, load), from below to"
+            raise SceneError(f"{place}[{k}]", problem)
+
+
+def _check_together(scene: Scene, train: Train, names: dict[str, int], place: str) -> None:
+    """Refuse trains that cannot go together."""
+    if train.axles:
+        raise SceneError(f"{place}.together", "stands beside axles; give one of them, or the axles as a train of its own")
+    if train.q != 0.0:
+        raise SceneError(f"{place}.q", "a train made of others has the uniform loads that they bring; give q there")
+    for k, (name, distance) in enumerate(train.together):
+        where = f"{place}.together[{k}]"
+        _check_distance(f"{where}[1]", distance)
+        if name not in names:
+            raise SceneError(f"{where}[0]", f"there is no train {shown(name)}; the names are {choice(map(shown, names), 'and')}")
+        if scene.trains[names[name]].together:
+            problem = f"the train {shown(name)} is made of others itself; name trains that have axles"
+            raise SceneError(f"{where}[0]", problem)
+
+
+def joined(scene: Scene, i: int) -> Train:
+    """Give a train with all axles and uniform loads that it brings, with their factors.
+
+    Parameters
+    ----------
+    scene : Scene
+        Its trains make sense.
+    i : int
+        Number of the train.
+
+    Returns
+    -------
+    Train
+        One with axles: of trains that go together one with the axles of all.
+    """
+    train = scene.trains[i]
+    if not train.together:
+        return train
+    members = {train_name(scene, k): one for k, one in enumerate(scene.trains)}
+    axles, loads = [], []
+    for name, behind in train.together:
+        one = members[name]
+        axles += [(behind + distance, one.factor * force) for distance, force in one.axles]
+        loads += [(behind + first, behind + last, one.factor * q) for first, last, q in _uniform(one)]
+    return replace(train, axles=axles, together=[], q=loads)
+
+
+def _uniform(train: Train) -> list[tuple[float, float, float]]:
+    """Uniform loads of a train, from one distance behind its first axle to another."""
+    if isinstance(train.q, list):
+        return train.q
+    longest = max(distance for distance, _ in train.axles)
+    return [(0.0, longest, train.q)] if train.q and longest > 0.0 else []
+
+
+def _length(train: Train) -> float:
+    """Largest distance of an axle, or of the end of a uniform load, behind the first axle."""
+    return max(*(distance for distance, _ in train.axles), *(last for _, last, _ in _uniform(train)), 0.0)
 
 
 def train_name(scene: Scene, i: int) -> str:
@@ -102,7 +185,7 @@ def courses(train: Train, end: float) -> list[Course]:
     Parameters
     ----------
     train : Train
-        It makes sense.
+        From `joined`.
     end : float
         Length of the beam.
 
@@ -112,11 +195,11 @@ def courses(train: Train, end: float) -> list[Course]:
         To the right first.
     """
     distance, force = np.array(train.axles, dtype=float).T
-    longest = float(distance.max())
+    first, last, q = np.array(_uniform(train), dtype=float).reshape(-1, 3).T
     found = []
     for direction in (RIGHT, LEFT) if train.both_directions else (RIGHT,):
         back = direction == LEFT
-        uniform = (train.factor * train.q, 0.0 if back else -longest, longest if back else 0.0)
+        uniform = np.column_stack((train.factor * q, *((first, last) if back else (-last, -first))))
         offset = distance.copy() if back else -distance
         found.append(Course(direction, offset, train.factor * force, uniform, *_range(train, direction, end, "")))
     return found
@@ -128,7 +211,7 @@ def nearest(train: Train, end: float) -> float:
     Parameters
     ----------
     train : Train
-        The train.
+        From `joined`.
     end : float
         Length of the beam.
 
@@ -141,7 +224,7 @@ def nearest(train: Train, end: float) -> float:
 
 def _range(train: Train, direction: str, end: float, place: str) -> tuple[float, float]:
     """First and last position of a train, in ascending order."""
-    longest = max(distance for distance, _ in train.axles)
+    longest = _length(train)
     if direction == RIGHT:
         low, high = (longest, end) if train.inside else (0.0, end + longest)
     else:

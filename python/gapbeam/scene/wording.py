@@ -19,7 +19,6 @@ UNFAVOURABLE = (
     "a choice misses what governs; give each choice as a train of its own"
 )
 NOT_BUILT = {
-    "together": "trains at the same time are not available in this version; give one train with all axles",
     "unfavourable": UNFAVOURABLE,
     "favourable": UNFAVOURABLE,
     "unfavourable_only": UNFAVOURABLE,
@@ -170,6 +169,9 @@ def explain(error: msgspec.ValidationError, source: Any, struct: type) -> SceneE
         return _missing(kind, value, place)
     if text.startswith("Object contains unknown"):
         return _unknown(kind, value, place)
+    if re.fullmatch(r"trains\[\d+\]\.together\[\d+\]\[1\]", place) and isinstance(value, list):
+        problem = f"expected one distance, got {shown(value)}: where it may vary, give a train with together for every distance"
+        return SceneError(place, problem)
     return SceneError(place or "the scene", f"expected {_described(kind)}, got {shown(value)}")
 
 
@@ -250,8 +252,11 @@ def _described(kind: inspect.Type, plural: bool = False) -> str:
             return "a text in quotes"
         case inspect.LiteralType(values=values):
             return choice(shown(value) for value in values)
+        case inspect.TupleType(item_types=items) if not all(isinstance(_core(item), inspect.FloatType) for item in items):
+            return f"{'pairs' if plural else 'a pair'} of {choice(map(_described, items), 'and')}"
         case inspect.TupleType(item_types=items):
-            return f"{'pairs' if plural else 'a pair'} of numbers" if len(items) == 2 else "a list"
+            few = {2: "pairs" if plural else "a pair", 3: "threes" if plural else "three"}[len(items)]
+            return f"{few} of numbers"
         case inspect.ListType(item_type=item):
             return f"a list of {_described(item, plural=True)}"
         case inspect.StructType():
