@@ -176,3 +176,60 @@ def test_cases_are_those_that_were_solved():
     cases = beam.solve(factors)
     factors[:] = 5.0
     assert cases.at(1.0).moment.tolist() == [0.5, 1.0]
+
+
+def test_supports_vary_by_case():
+    """Against scenes of their own, to the last digit; supports by laws, two at a place and on ground by another way."""
+    plain = [at(0), at(1, side="below", gap=0.01, name="pier"), at(2, side="above", stiffness=40.0), at(3, side="below")]
+    loads = [uniform(3.0), force(4.0, 10.0)]
+    others = {
+        "law": [at(0), at(1, side="below", law=[(0.1, 5.0), (0.3, 8.0)]), at(2), at(3, side="below")],
+        "pair": [at(0), at(1, side="below", gap=0.01), at(1, side="above", gap=0.01), at(3, side="below", stiffness=70.0)],
+    }
+    rng = np.random.default_rng(5)
+    for kind, supports in {"plain": plain, **others}.items():
+        made = scene([2.0, 3.0, 2.0], supports, loads)
+        beam = gapbeam.prepare(made)
+        factors = rng.uniform(-2.0, 5.0, (6, 2))
+        sides = np.array([one.get("side", "both") != "both" for one in supports])
+        gap = rng.uniform(0.0, 0.05, (6, 4)) * sides
+        settlement = rng.uniform(-0.02, 0.02, 6)
+        given = {"gap": gap, "settlement": {0: settlement, "3": 0.01}}
+        if kind != "law":
+            given["stiffness"] = {3: rng.uniform(10.0, 200.0, 6)}
+        cases = beam.solve(factors, **given)
+        for k, row in enumerate(factors):
+            own = [dict(one, gap=gap[k, i]) for i, one in enumerate(supports)]
+            own[0]["settlement"], own[3]["settlement"] = settlement[k], 0.01
+            if kind != "law":
+                own[3]["stiffness"] = given["stiffness"][3][k]
+            direct = gapbeam.prepare(scene([2.0, 3.0, 2.0], own, loads)).solve(row)
+            tolerance = 0 if kind == "plain" else 1e-13
+            assert cases.status[k] == direct.status
+            assert cases.closed[k].tolist() == direct.closed.tolist()
+            for name in ("reaction", "deflection", "moment_left", "moment_right"):
+                assert getattr(cases, name)[k] == pytest.approx(getattr(direct, name), rel=tolerance, abs=tolerance), (kind, name)
+            one = {key: values[k] if key == "gap" else {i: np.broadcast_to(v, 6)[k] for i, v in values.items()}
+                   for key, values in given.items()}  # fmt: skip
+            full = beam.result(row, **one)
+            assert full.steps[-1].reaction == pytest.approx(cases.reaction[k], rel=1e-12, abs=1e-12)
+            assert cases.at([1.0]).moment[k] == pytest.approx(full.at([1.0]).moment, rel=1e-12)
+    beam = gapbeam.prepare(scene([2.0, 3.0, 2.0], plain, loads))
+    assert beam.solve(settlement={"pier": [0.0, 0.1]}).reaction.shape == (2, 4)
+    assert np.array_equal(beam.solve(settlement={0: 0.1}).reaction, beam.solve(settlements={0: 0.1}).reaction)
+
+
+def test_mistakes_in_supports_by_case():
+    supports = [at(0), at(1, side="below", name="pier"), at(2, side="below", stiffness=0.0)]
+    beam = gapbeam.prepare(scene([1.0, 1.0], supports, [uniform(1.0)]))
+    for given, words in (
+        ({"gap": {"pier": [0.0, np.nan]}}, 'case 1, supports "pier".gap: expected a finite number; got nan'),
+        ({"gap": [0.1, 0.0, 0.0]}, r'case 0, supports\[0\].gap: only a support with side = "below" or "above" has a gap; got 0.1'),
+        ({"stiffness": {1: [1.0, 0.0]}}, 'case 1, supports "pier".stiffness: expected a number above 0'),
+        ({"stiffness": {2: 1.0}}, r"case 0, supports\[2\].stiffness: the prepared scene has stiffness = 0 here"),
+        ({"settlement": {"peer": 1.0}}, 'settlement.peer: there is no support "peer"'),
+        ({"gap": np.zeros((2, 2))}, r"gap: expected 3 numbers, one for each support, or 2 rows of them, .* got shape \(2, 2\)"),
+        ({"gap": {1: 0.0, "pier": 0.1}}, "gap: a support stands there twice"),
+    ):
+        with pytest.raises(ValueError, match=words):
+            beam.solve(**given)

@@ -853,7 +853,7 @@ subroutine gbshar(beam, status)
 end subroutine gbshar
 
 ! Solve NC cases of loads; every load counts with its factor
-subroutine gbcase(beam, nl, ns, nd, nc, factor, rule, closed, w, ml, mr, react, solves, status)
+subroutine gbcase(beam, nl, ns, nd, nv, nc, factor, supp, rule, closed, w, ml, mr, react, solves, status)
     use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
     use gapbeam_error, only: gapbeam_solved, gapbeam_no_memory, gapbeam_not_finite
     use gapbeam_memory, only: enough_memory, for_solving
@@ -861,14 +861,16 @@ subroutine gbcase(beam, nl, ns, nd, nc, factor, rule, closed, w, ml, mr, react, 
     use gapbeam_workspace, only: workspace_type, new_workspace
     use gapbeam_units, only: moment_unit
     use gapbeam_handle, only: handle_type, handle_of
-    use gapbeam_cases, only: solve_case
+    use gapbeam_cases, only: solve_case, replace_supports
     implicit none
     integer(8), intent(in) :: beam
     integer, intent(in) :: nl, ns
     ! One more than there are loads; cases
     integer, intent(in) :: nd, nc
-    ! Factor of every load in every case
-    double precision, intent(in) :: factor(nd, nc)
+    ! One more than there are supports of the scene, or 1 where they are those of the scene
+    integer, intent(in) :: nv
+    ! Factor of every load in every case; settlement, gap and stiffness of every support, of supports without laws
+    double precision, intent(in) :: factor(nd, nc), supp(3, nv, nc)
     integer, intent(in) :: rule
     ! Schemes: start in, working scheme out; of a case that is not solved all open, and its results are not numbers
     integer, intent(inout) :: closed(ns + 1, nc)
@@ -880,6 +882,7 @@ subroutine gbcase(beam, nl, ns, nd, nc, factor, rule, closed, w, ml, mr, react, 
     !f2py integer, intent(hide), depend(closed) :: ns = shape(closed, 0) - 1
     !f2py integer, intent(hide), depend(factor) :: nd = shape(factor, 0)
     !f2py integer, intent(hide), depend(factor) :: nc = shape(factor, 1)
+    !f2py integer, intent(hide), depend(supp) :: nv = shape(supp, 1)
     type(handle_type), pointer :: handle
     type(beam_type) :: loaded
     type(workspace_type) :: work
@@ -901,13 +904,17 @@ subroutine gbcase(beam, nl, ns, nd, nc, factor, rule, closed, w, ml, mr, react, 
     react = nan
     do i = 1, nc
         acting(:) = closed(:ns, i) /= 0
+        closed(:, i) = 0
+        if (nv > 1) then
+            call replace_supports(handle%lowered, supp(:, :nv - 1, i), loaded, status(i))
+            if (status(i) /= gapbeam_solved) cycle
+        end if
         call solve_case(handle%cases, factor(:, i), rule, loaded, acting, work, status(i))
         if (status(i) == gapbeam_no_memory) then
             status = gapbeam_no_memory
             return
         end if
         solves(i) = work%solves
-        closed(:, i) = 0
         if (status(i) /= gapbeam_solved) cycle
         associate (units => handle%lowered%units, a => work%answers)
             w(:, i) = scale(a%deflection, units%deflection)

@@ -1,7 +1,8 @@
 ! Combinations for Python, in the manner of face/python.f90, which says what the arguments BEAM, NS and NM are
 
 ! Solve NC combinations of loads at full load; one that is not solved has values that are not numbers, and its code as STATUS
-subroutine gbcomb(beam, ns, nd, nm, nc, nx, factor, settle, rule, closed, piece, dist, value, extr, place, field, solves, status)
+subroutine gbcomb(beam, ns, nd, nm, nc, nx, nv, factor, settle, supp, rule, closed, piece, dist, value, extr, place, field, &
+                  solves, status)
     use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_memory
     use gapbeam_handle, only: handle_type, handle_of
@@ -11,8 +12,10 @@ subroutine gbcomb(beam, ns, nd, nm, nc, nx, factor, settle, rule, closed, piece,
     integer(8), intent(in) :: beam
     ! One more than there are: supports of the engine, loads, supports of the scene, places; combinations
     integer, intent(in) :: ns, nd, nm, nx, nc
-    ! Factor of every load, further movement of every support
-    double precision, intent(in) :: factor(nd, nc), settle(nm, nc)
+    ! NM, or 1 where the supports are those of the scene
+    integer, intent(in) :: nv
+    ! Factor of every load, further movement of every support; settlement, gap and stiffness of every support
+    double precision, intent(in) :: factor(nd, nc), settle(nm, nc), supp(3, nv, nc)
     integer, intent(in) :: rule
     ! Schemes: start in, working scheme out, all open where there is none
     integer, intent(inout) :: closed(ns, nc)
@@ -29,6 +32,7 @@ subroutine gbcomb(beam, ns, nd, nm, nc, nx, factor, settle, rule, closed, piece,
     !f2py integer, intent(hide), depend(factor) :: nd = shape(factor, 0)
     !f2py integer, intent(hide), depend(factor) :: nc = shape(factor, 1)
     !f2py integer, intent(hide), depend(settle) :: nm = shape(settle, 0)
+    !f2py integer, intent(hide), depend(supp) :: nv = shape(supp, 1)
     !f2py integer, intent(hide), depend(piece) :: nx = shape(piece, 0)
     type(handle_type), pointer :: handle
     type(combination_type) :: combined
@@ -45,7 +49,11 @@ subroutine gbcomb(beam, ns, nd, nm, nc, nx, factor, settle, rule, closed, piece,
     field = nan
     solves = 0
     do i = 1, nc
-        call combine(handle%lowered, factor(:nd - 1, i), settle(:nm - 1, i), combined, error)
+        if (nv > 1) then
+            call combine(handle%lowered, factor(:nd - 1, i), settle(:nm - 1, i), combined, error, supp(:, :nv - 1, i))
+        else
+            call combine(handle%lowered, factor(:nd - 1, i), settle(:nm - 1, i), combined, error)
+        end if
         if (.not. allocated(error)) then
             call solve_combination(combined%lowered, rule, closed(:ns - 1, i) /= 0, state, error)
         end if

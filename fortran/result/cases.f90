@@ -1,20 +1,21 @@
 !> Many load cases of one beam. What each load does alone is condensed once; a case is a sum of that, each load times a factor.
 module gapbeam_cases
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, no_memory
+    use gapbeam_error, only: error_type, no_memory, gapbeam_solved, gapbeam_not_finite
     use gapbeam_link, only: link_type, piece_load_type, condense_loads
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, set_loads
     use gapbeam_scheme, only: outcome_type
     use gapbeam_referee, only: decide_scheme, detail_type
     use gapbeam_scene, only: gapbeam_force, gapbeam_couple, gapbeam_axial_force, gapbeam_live
-    use gapbeam_units, only: moment_unit
+    use gapbeam_units, only: moment_unit, stiffness_unit
+    use gapbeam_range, only: is_lost
     use gapbeam_lowered, only: lowered_type, is_stretch
     use gapbeam_lower_loads, only: spread_load, lower_loads
     use gapbeam_lower_units, only: load_in_units
     implicit none
     private
-    public :: case_loads_type, split_loads, solve_case, take_case
+    public :: case_loads_type, split_loads, replace_supports, solve_case, take_case
 
     !> What a load does to a link: rotations and shears of the simple bar, sums of absolute values (link_type)
     type :: share_type
@@ -136,6 +137,29 @@ contains
             if (given%kind == gapbeam_couple) share%couple = scale(given%value, -moment_unit(units))
         end associate
     end function at_node
+
+    !> Give the supports of a case other numbers
+    pure subroutine replace_supports(lowered, values, beam, status)
+        !> The beam, none of whose supports has a law
+        type(lowered_type), intent(in) :: lowered
+        !> Settlement, gap and stiffness of every support of the scene, in its units, shape (3, nsupport)
+        real(wp), intent(in) :: values(:, :)
+        !> The beam of the cases
+        type(beam_type), intent(inout) :: beam
+        !> gapbeam_solved, or gapbeam_not_finite for numbers out of range (see scale_supports of gapbeam_lower_units)
+        integer, intent(out) :: status
+        integer :: k
+
+        status = gapbeam_solved
+        do k = 1, size(beam%supports)
+            associate (s => beam%supports(k), given => values(:, lowered%normal(k)))
+                s%stiffness = scale(given(3), -stiffness_unit(lowered%units))
+                s%contact = scale(given(1) + s%side*given(2), -lowered%units%deflection)
+                if ((is_lost(s%stiffness) .and. given(3) > 0.0_wp .and. given(3) <= huge(1.0_wp)) &
+                    .or. .not. abs(s%contact) <= huge(1.0_wp)) status = gapbeam_not_finite
+            end associate
+        end do
+    end subroutine replace_supports
 
     !> Find the working scheme of a case and solve it
     subroutine solve_case(loads, factors, rule, beam, closed, work, status)

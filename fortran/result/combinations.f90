@@ -24,7 +24,7 @@ module gapbeam_combinations
 contains
 
     !> Put a combination on a beam
-    subroutine combine(base, factors, settlements, combined, error)
+    subroutine combine(base, factors, settlements, combined, error, supports)
         !> The beam
         type(lowered_type), intent(in) :: base
         !> Factor of every load, shape (nload); the products are within range
@@ -35,10 +35,12 @@ contains
         type(combination_type), intent(inout) :: combined
         !> Supports that leave no room for each other, numbers out of range, or no memory
         type(error_type), allocatable, intent(out) :: error
+        !> Settlement, gap and stiffness of every support instead of those of the beam, shape (3, nsupport)
+        real(wp), intent(in), optional :: supports(:, :)
         logical :: moves
         integer :: stat
 
-        moves = any(abs(settlements) > 0.0_wp)
+        moves = any(abs(settlements) > 0.0_wp) .or. present(supports)
         stat = 0
         if (moves .or. combined%moved) then
             if (allocated(combined%lowered)) deallocate (combined%lowered)
@@ -55,6 +57,11 @@ contains
             lowered%model%loads%value = factors*loads%value
             lowered%model%loads%value_to = factors*loads%value_to
             if (moves .or. combined%moved) then
+                if (present(supports)) then
+                    lowered%model%supports%settlement = supports(1, :)
+                    lowered%model%supports%gap = supports(2, :)
+                    lowered%model%supports%stiffness = supports(3, :)
+                end if
                 lowered%model%supports%settlement = lowered%model%supports%settlement + settlements
                 call lower_model(lowered, error)
             else

@@ -575,7 +575,9 @@ class Beam:
             return
         check_status(_engine.gbshar(self.handle, self.pieces + self.columns.load.shape[1]))
 
-    def solve_cases(self, factors: np.ndarray, rule: str, closed: np.ndarray) -> tuple[np.ndarray, ...]:
+    def solve_cases(
+        self, factors: np.ndarray, rule: str, closed: np.ndarray, supports: np.ndarray | None = None
+    ) -> tuple[np.ndarray, ...]:
         """Solve load cases.
 
         Parameters
@@ -586,6 +588,9 @@ class Beam:
             How working schemes are found.
         closed : numpy.ndarray of int
             Starting scheme of all cases.
+        supports : numpy.ndarray, optional
+            Of a beam without laws and ground: settlement, gap and stiffness of the scene's supports instead of their own, cases by
+            supports (and one more) by 3.
 
         Returns
         -------
@@ -600,7 +605,10 @@ class Beam:
         shares[:cases, :-1] = factors
         schemes = np.zeros((len(shares), m + 1), dtype=np.int32)
         schemes[:, :m] = closed
-        w, left, right, reaction, solves, status = _engine.gbcase(self.handle, self.links, shares.T, RULES[rule], schemes.T)
+        own = np.zeros((len(shares), 1, 3)) if supports is None else supports
+        w, left, right, reaction, solves, status = _engine.gbcase(
+            self.handle, self.links, shares.T, own.T, RULES[rule], schemes.T
+        )
         check_status(status[0] if status[0] == Status.NO_MEMORY else SOLVED)  # then all are
         found = w.T, left.T, right.T, reaction.T[:, :m], schemes[:, :m]
         return (*(values[:cases] for values in found), solves[:cases], status[:cases])

@@ -210,14 +210,15 @@ def gbcase(*arguments: Any) -> tuple[np.ndarray, ...]:
     Parameters
     ----------
     *arguments
-        Those of GBCASE; the last three are factors (loads by cases), rule, and schemes (supports by cases).
+        Those of GBCASE; the last four are factors (loads by cases), numbers of supports (3 by supports by cases), rule, and
+        schemes (supports by cases).
 
     Returns
     -------
     tuple of numpy.ndarray
         What GBCASE returns, cases along the last axis.
     """
-    *beam, factors, rule, closed = arguments
+    *beam, factors, supports, rule, closed = arguments
     cases, nodes = factors.shape[1], beam[1] + 1
     if cases * nodes < FEW_NODES:
         return _engine.gbcase(*arguments)
@@ -229,7 +230,7 @@ def gbcase(*arguments: Any) -> tuple[np.ndarray, ...]:
     while first < cases:
         part = slice(first, first + some)
         begin = perf_counter()
-        found = _long_cases(*beam, factors[:, part], rule, closed[:, part])
+        found = _long_cases(*beam, factors[:, part], supports[..., part], rule, closed[:, part])
         some = max(int(some * min(max(SECONDS / (perf_counter() - begin), 0.25), 4.0)), 1)
         results = results or tuple(np.empty((*row.shape[:-1], cases), row.dtype, order="F") for row in found)
         for row, values in zip(results, found, strict=True):

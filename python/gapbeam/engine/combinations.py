@@ -51,7 +51,7 @@ class Combined(Record):
 
 def solve_combinations(
     beam: Beam, factors: np.ndarray, settlements: np.ndarray, rule: str, closed: np.ndarray,
-    piece: np.ndarray | None = None, distance: np.ndarray | None = None,
+    piece: np.ndarray | None = None, distance: np.ndarray | None = None, supports: np.ndarray | None = None,
 ) -> Iterator[tuple[slice, Combined]]:  # fmt: skip
     """Solve combinations, so many at a time that each call is a short one.
 
@@ -69,6 +69,9 @@ def solve_combinations(
         Where the searches start: supports of the engine, or combinations by supports.
     piece, distance : numpy.ndarray, optional
         Places at which fields are wanted, as for `Beam.values`.
+    supports : numpy.ndarray, optional
+        Settlement, gap and stiffness of the supports instead of those of the beam: combinations by supports of the scene (and
+        one more) by 3.
 
     Yields
     ------
@@ -95,10 +98,11 @@ def solve_combinations(
         shares, moves = (
             np.column_stack((rows[part], np.zeros(part.stop - first))).T for rows in (factors, settlements)
         )
+        own = np.zeros((part.stop - first, 1, 3)) if supports is None else supports[part]
         scheme = np.asfortranarray(schemes[part].T)
         begin = perf_counter()
         values, extremes, places, fields_at, solves, status = _engine.gbcomb(
-            beam.handle, np.asfortranarray(shares), np.asfortranarray(moves), RULES[rule], scheme, *about
+            beam.handle, np.asfortranarray(shares), np.asfortranarray(moves), own.T, RULES[rule], scheme, *about
         )
         if Status.NO_MEMORY in status:
             check_status(Status.NO_MEMORY)
@@ -111,13 +115,13 @@ def solve_combinations(
 
 def all_combinations(
     beam: Beam, factors: np.ndarray, settlements: np.ndarray, rule: str, closed: np.ndarray,
-    piece: np.ndarray | None = None, distance: np.ndarray | None = None,
+    piece: np.ndarray | None = None, distance: np.ndarray | None = None, supports: np.ndarray | None = None,
 ) -> Combined:  # fmt: skip
     """Solve combinations, and keep all results.
 
     Parameters
     ----------
-    beam, factors, settlements, rule, closed, piece, distance
+    beam, factors, settlements, rule, closed, piece, distance, supports
         As for `solve_combinations`.
 
     Returns
@@ -125,7 +129,7 @@ def all_combinations(
     Combined
         Of all of them.
     """
-    parts = [found for _, found in solve_combinations(beam, factors, settlements, rule, closed, piece, distance)]
+    parts = [found for _, found in solve_combinations(beam, factors, settlements, rule, closed, piece, distance, supports)]
     if len(parts) == 1:
         return parts[0]
     joined = (np.concatenate([getattr(part, one.name) for part in parts]) for one in fields(Combined))

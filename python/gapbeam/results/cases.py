@@ -9,6 +9,7 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from math import isfinite
 from typing import Any
 
@@ -17,17 +18,18 @@ from numpy.typing import ArrayLike
 
 from ..base.errors import SceneError, Status
 from ..base.records import Pickled, Record, read_only
-from ..engine.beam import Beam
+from ..engine.beam import Beam, RefusalError
 from ..engine.combinations import Combined, all_combinations
-from ..scene.combinations import replace_settlements
 from ..scene.names import find
 from ..scene.reading import read_beam
+from ..scene.refusals import refusal
 from ..scene.structs import Scene
 from ..scene.wording import key_of
 from .arguments import numbers, scheme
 from .following import choose_rule, starting_scheme
 from .result import Fields, Result, find_places
 from .steps import LoadSteps
+from .varied import Given, base_values, cases_in, replace_supports, vary_supports
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -44,6 +46,8 @@ class Asked(Record):
         Cases by loads, cases by supports of the scene.
     closed : numpy.ndarray of int
         Working schemes that were found, or where the searches start: cases by supports of the engine.
+    supports : numpy.ndarray or None
+        Settlement, gap and stiffness of the supports where they differ from those of the scene, settlements included.
     """
 
     beam: Beam
@@ -51,6 +55,7 @@ class Asked(Record):
     factors: np.ndarray
     settlements: np.ndarray
     closed: np.ndarray
+    supports: np.ndarray | None = None
 
     def solve(self, x: np.ndarray | None = None, side: str = "right") -> Combined:
         """Solve all cases.
@@ -67,8 +72,9 @@ class Asked(Record):
         Combined
         """
         where = () if x is None else find_places(self.beam, x, side)
-        found = all_combinations(self.beam, self.factors, self.settlements, self.rule, self.closed, *where)
-        return found
+        return all_combinations(
+            self.beam, self.factors, self.settlements, self.rule, self.closed, *(where or (None, None)), self.supports
+        )
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -187,20 +193,24 @@ class Prepared(Pickled):
 
     def solve(
         self, factors: ArrayLike | None = None, start: Sequence[bool] | None = None,
-        settlements: Mapping[str | int, ArrayLike] | None = None,
+        settlements: Mapping[str | int, ArrayLike] | None = None, *,
+        gap: Given = None, settlement: Given = None, stiffness: Given = None,
     ) -> Cases:  # fmt: skip
         """Solve load cases.
 
         Parameters
         ----------
         factors : array_like, optional
-            Factor of every load of the scene, in its order: one case; or a row for each case. Default: all 1.
+            Factor of every load of the scene, in its order: one for all cases; or a row for each case. Default: all 1.
         start : sequence of bool, optional
             Where the search for the working scheme starts: True (closed) or False for every support across the beam;
             default all closed. Every case starts from it, so its result does not depend on the other cases.
         settlements : mapping, optional
             Further movement of supports (length, positive downward), by name or number: one for all cases, or an array with
             one for each.
+        gap, settlement, stiffness : array_like or mapping, optional
+            What supports have instead of the scene's numbers: an array with one for every support, or a row of them for each
+            case; or by name or number of some supports one for all cases, or an array with one for each.
 
         Returns
         -------
@@ -210,9 +220,9 @@ class Prepared(Pickled):
         Raises
         ------
         ValueError
-            Factors of another number than the loads, or that are no finite numbers; or another `start`.
+            Factors of another number than the loads, or that are no finite numbers; another `start`; arrays of another shape.
         SceneError
-            A movement of a support that is not there.
+            A support that is not there, or a number that a support cannot have: names the case and the support.
 
         Examples
         --------
@@ -225,30 +235,48 @@ class Prepared(Pickled):
         >>> beam.solve([[1.0, 0.0], [1.0, 10.0]]).reaction.round(3)
         array([[ 0.75,  2.5 ,  0.75],
                [10.  , 14.  ,  0.  ]])
+        >>> beam.solve([1.0, 0.0], gap={1: [0.0, 0.01, 0.1]}).reaction.round(3)
+        array([[0.75 , 2.5  , 0.75 ],
+               [1.125, 1.75 , 1.125],
+               [2.   , 0.   , 2.   ]])
         """
         factors = self._checked(factors)
-        many = (factors if factors.ndim == 2 else factors[None]).copy()  # what is asked later is about these
-        carries = self._carries
-        closed: Any = 1
+        given = {"settlement": settlement, "gap": gap, "stiffness": stiffness}
+        count = len(factors) if factors.ndim == 2 else cases_in(given)
+        many = (factors if factors.ndim == 2 else np.broadcast_to(factors, (count or 1, len(factors)))).copy()
         if start is None:
             closed = starting_scheme(self._beam)
         else:
             closed = scheme(start, len(self.supports), "support across the beam")
-            closed = closed if carries is None else closed[carries]
+            closed = closed if self._carries is None else closed[self._carries]
         moves = self._movements(settlements, len(many))
-        if moves.any():
-            start_of_all = np.broadcast_to(closed, (len(many), self._beam.supports))
-            return self._solve_moved(Asked(self._beam, self._rule, many, moves, start_of_all), factors.ndim == 2)
-        w, left, right, reaction, closed, solves, status = self._beam.solve_cases(many, self._rule, closed)
-        asked = Asked(self._beam, self._rule, many, moves, closed)
-        if carries is not None:
-            closed = self._by_supports(closed, carries, np.zeros(len(many), dtype=np.int32))
-            reaction = self._by_supports(reaction, carries, np.where(status == Status.SOLVED, 0.0, np.nan))
+        supports = vary_supports(self.scene, self._beam.columns, given, len(many))
+        asked = Asked(self._beam, self._rule, many, moves, np.broadcast_to(closed, (len(many), self._beam.supports)))
+        if moves.any() or supports is not None:
+            if supports is None:
+                supports = np.broadcast_to(base_values(self._beam.columns), (len(many), moves.shape[1] + 1, 3)).copy()
+            supports[:, :-1, 0] += moves
+            asked = replace(asked, settlements=np.zeros_like(moves), supports=supports)
+        if supports is None or self._is_simple:
+            found = self._beam.solve_cases(many, self._rule, closed, supports)
+        else:
+            found = self._solve_again(asked)
+        w, left, right, reaction, closed, solves, status = found
+        asked = replace(asked, closed=closed)
+        if self._carries is not None:
+            closed = self._by_supports(closed, self._carries, np.zeros(len(many), dtype=np.int32))
+            if reaction.shape[1] != len(self.supports):
+                reaction = self._by_supports(reaction, self._carries, np.where(status == Status.SOLVED, 0.0, np.nan))
             for k in self._beam.laws if self._beam.has_laws else ():
                 closed[:, np.searchsorted(self.supports, k)] = self._acts(k, closed[:, np.searchsorted(self.supports, k)])
-        if factors.ndim == 2:
-            return Cases(status, closed, reaction, w, left, right, solves, asked)
-        return Cases(status[0], closed[0], reaction[0], w[0], left[0], right[0], solves[0], asked)
+        values = status, closed, reaction, w, left, right, solves
+        return Cases(*(values if count is not None else (value[0] for value in values)), asked)
+
+    @cached_property
+    def _is_simple(self) -> bool:
+        """Whether supports can get other numbers without being looked at together: no laws, no ground, one at a place."""
+        nodes = self._beam.places.support_nodes
+        return not (self._beam.has_laws or self._beam.ground_layers) and len(np.unique(nodes)) == len(nodes)
 
     def _movements(self, settlements: Mapping[str | int, ArrayLike] | None, count: int) -> np.ndarray:
         """Further movements of all supports, cases by supports."""
@@ -262,24 +290,19 @@ class Prepared(Pickled):
             moves[:, k] += values
         return moves
 
-    def _solve_moved(self, asked: Asked, many: bool) -> Cases:
-        """Solve cases whose supports move, which the loads split one by one do not know of."""
+    def _solve_again(self, asked: Asked) -> tuple[np.ndarray, ...]:
+        """Solve cases with other supports from the scene on, as `Beam.solve_cases` gives them, but for reactions."""
         beam, nodes = self._beam, len(self.node_x)
         sides = [find_places(beam, self.node_x, side) for side in ("left", "right")]
         piece, distance = (np.concatenate(parts) for parts in zip(*sides, strict=True))
-        found = all_combinations(beam, asked.factors, asked.settlements, self._rule, asked.closed, piece, distance)
+        found = all_combinations(
+            beam, asked.factors, asked.settlements, self._rule, asked.closed, piece, distance, asked.supports
+        )
         w, left, right = found.fields[:, nodes:, 0], found.fields[:, :nodes, 2].copy(), found.fields[:, nodes:, 2].copy()
         solved = found.status == Status.SOLVED
         left[solved, 0] = right[solved, -1] = 0.0  # beside the beam
-        closed = found.closed.copy()
-        asked = Asked(beam, self._rule, asked.factors, asked.settlements, closed)
-        if self._carries is not None:
-            closed = self._by_supports(closed, self._carries, np.zeros(len(closed), dtype=np.int32))
-            for k in beam.laws if beam.has_laws else ():
-                closed[:, np.searchsorted(self.supports, k)] = self._acts(k, closed[:, np.searchsorted(self.supports, k)])
         reaction = found.at_supports[:, 0][:, self.supports]
-        values = found.status, closed, reaction, w, left, right, found.solves
-        return Cases(*(values if many else (value[0] for value in values)), asked)
+        return w, left, right, reaction, found.closed.copy(), found.solves, found.status
 
     def _by_supports(self, values: np.ndarray, carries: np.ndarray, idle: np.ndarray) -> np.ndarray:
         """Add up the columns of the kinks of laws, and add those of supports that can carry nothing."""
@@ -304,7 +327,10 @@ class Prepared(Pickled):
             raise ValueError(f"factors: the factor of load {at[-1]} is {factors[tuple(at)]}; give a finite number")
         return factors
 
-    def result(self, factors: ArrayLike | None = None, settlements: Mapping[str | int, ArrayLike] | None = None) -> Result:
+    def result(
+        self, factors: ArrayLike | None = None, settlements: Mapping[str | int, ArrayLike] | None = None, *,
+        gap: Given = None, settlement: Given = None, stiffness: Given = None,
+    ) -> Result:  # fmt: skip
         """Solve one case with all that `gapbeam.solve` gives: fields, extremes, certificate, report.
 
         Parameters
@@ -313,6 +339,8 @@ class Prepared(Pickled):
             Factor of every load of the scene; default all 1.
         settlements : mapping, optional
             As for `solve`, numbers only.
+        gap, settlement, stiffness : array_like or mapping, optional
+            As for `solve`, of one case.
 
         Returns
         -------
@@ -327,16 +355,20 @@ class Prepared(Pickled):
             No unique answer exists.
         """
         factors = self._checked(factors)
-        if factors.ndim != 1:
-            raise ValueError("factors: expected one case")
-        moves = self._movements(settlements, 1)[0]
-        base, scene = self._beam, self.scene
-        if moves.any():
-            columns = base.columns
-            support = columns.support.copy(order="F")
-            support[3, :-1] += moves
-            scene = replace_settlements(scene, moves)
-            base = Beam(replace(columns, support=support))
+        given = {"settlement": settlement, "gap": gap, "stiffness": stiffness}
+        if factors.ndim != 1 or cases_in(given) is not None:
+            raise ValueError(f"{'factors' if factors.ndim != 1 else 'supports'}: expected one case")
+        moves = self._movements(settlements, 1)
+        base, scene, columns = self._beam, self.scene, self._beam.columns
+        supports = vary_supports(scene, columns, given, 1)
+        if moves.any() or supports is not None:
+            values = base_values(columns) if supports is None else supports[0]
+            values[:-1, 0] += moves[0]
+            scene, columns = replace_supports(scene, columns, values)
+            try:
+                base = Beam(columns)
+            except RefusalError as refused:
+                raise refusal(scene, *refused.codes) from None
         beam = base.with_factors(factors)
         result = Result(scene, beam, self._rule)
         result.steps = LoadSteps(beam, self._rule, starting_scheme(beam), 1)
