@@ -69,6 +69,11 @@ contains
         call check(ends_hold(nodes), "a spring holds")
         nodes(0) = node_type(kind=restrained)
         call check(ends_hold(nodes), "so does a restraint")
+        nodes(1:2) = node_type()
+        nodes(3) = node_type(kind=restrained)
+        call check(.not. ends_hold(nodes), "two of them let it go up and down")
+        nodes(1)%held = .true.
+        call check(ends_hold(nodes), "but for a support between them")
     end subroutine what_is_plain
 
     !> Continuous beams of two, three and four spans: -q L**2 times 1/8; 1/10; 3/28, 1/14, 3/28

@@ -27,6 +27,18 @@ def near(actual, expected, scale=None):
     np.testing.assert_allclose(actual, expected, rtol=0.0, atol=TOLERANCE * scale)
 
 
+@pytest.mark.parametrize(("side", "stands"), [("below", True), ("above", False)])
+def test_guided_at_both_ends(side, stands):
+    """Supports that open there go on holding rotations; what holds it is the one between them, or nothing."""
+    ends = [at(i, side="above", rotation="fixed") for i in (0, 2)]
+    result = gapbeam.solve(scene([L, L], [*ends, at(1, side=side, gap=0.1)], [uniform(Q)], EI=EI))
+    assert result.status == ("solved" if stands else "no-equilibrium")
+    if stands:
+        near(result.steps[-1].reaction, [0.0, 0.0, 2 * Q * L])
+        near(value(result, 0.0, "deflection"), 0.1 + Q * L**4 / (24 * EI))
+        near(value(result, 0.0, "moment"), Q * L**2 / 6)
+
+
 def test_simple_beam():
     result = solve([L], [at(0), at(1)], [uniform(Q)])
     step = result.steps[-1]

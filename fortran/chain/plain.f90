@@ -37,16 +37,24 @@ contains
         fits = all(kind(1:n - 1) == plain) .and. all(links%faa > 0.0_wp .and. links%fbb > 0.0_wp)
     end function is_plain
 
-    !> Does each end have a support or a restraint in a scheme
+    !> Does each end have a support or a restraint in a scheme, and does any node have a support
     pure function ends_hold(nodes) result(fits)
         type(node_type), intent(in) :: nodes(:)
         logical :: fits
 
         associate (a => nodes(1), b => nodes(size(nodes)))
-            fits = (a%held .or. a%stiffness > 0.0_wp .or. a%kind == restrained) &
-                .and. (b%held .or. b%stiffness > 0.0_wp .or. b%kind == restrained)
+            fits = (is_held(a) .or. a%kind == restrained) .and. (is_held(b) .or. b%kind == restrained)
+            if (fits .and. .not. (is_held(a) .or. is_held(b))) fits = any(is_held(nodes))
         end associate
     end function ends_hold
+
+    !> Does a node have a support
+    elemental function is_held(node) result(held)
+        type(node_type), intent(in) :: node
+        logical :: held
+
+        held = node%held .or. node%stiffness > 0.0_wp
+    end function is_held
 
     !> Prepare a beam for which is_plain holds
     pure subroutine prepare_plain(links, beam)
