@@ -26,7 +26,7 @@ module gapbeam_law
     public :: margin_of, margin_in_scheme, margin_rates, find_margins, find_wrong_states, find_clearly_wrong_states, &
         find_doubtful_states, largest_violations
     public :: has_laws, is_watched_in, open_beyond, go_one_piece
-    public :: mark_held, outermost, is_blocked, leaves_all, distance_to_contact
+    public :: mark_held, find_level_forces, outermost, is_blocked, leaves_all, distance_to_contact
     public :: least_stiffness, stiffness_of_changing, find_pairs, find_single
     public :: hold_both_ways, limit_stiffness, drop_level
 
@@ -515,6 +515,27 @@ contains
             end if
         end do
     end subroutine mark_held
+
+    !> Forces of the supports that act on a level piece of their law, up: what they take does not depend on the deflection
+    pure subroutine find_level_forces(supports, acting, force)
+        type(node_support_type), intent(in) :: supports(:)
+        logical, intent(in) :: acting(:)
+        !> Of the nodes, shape (0:n)
+        real(wp), intent(out) :: force(0:)
+        real(wp) :: slope
+        logical :: acts
+        integer :: k
+
+        force(:) = 0.0_wp
+        do k = 1, size(supports)
+            if (supports(k)%kink == 0) cycle
+            call piece_that_acts(supports, acting, k, acts, slope)
+            if (.not. acts .or. abs(slope) > 0.0_wp) cycle
+            associate (s => supports(k))
+                force(s%node) = force(s%node) + s%side*s%force
+            end associate
+        end do
+    end subroutine find_level_forces
 
     !> First and last node at which supports of a side can carry; the first is beyond the last if there are none
     pure function outermost(supports, side) result(nodes)

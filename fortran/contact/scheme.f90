@@ -11,8 +11,8 @@ module gapbeam_scheme
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_no_equilibrium, &
         gapbeam_indeterminate, gapbeam_not_converged, gapbeam_not_finite
     use gapbeam_band, only: band_ok, band_needs_pivoting, hinge, restrained
-    use gapbeam_law, only: below, above, always_closed, separate_rigid_pairs, limit_stiffness, outermost, is_blocked, &
-        distance_to_contact
+    use gapbeam_law, only: below, above, always_closed, separate_rigid_pairs, limit_stiffness, find_level_forces, outermost, &
+        is_blocked, distance_to_contact
     use gapbeam_model, only: beam_type, softest
     use gapbeam_kinematics, only: free_motions, motion_type, work_of_loads
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
@@ -219,7 +219,7 @@ contains
         !> Is there no free motion at all; is work of the loads near its rounding error
         logical, intent(out) :: stable, in_doubt
         type(motion_type), allocatable :: motions(:)
-        real(wp), allocatable :: y(:), gram(:, :), share(:)
+        real(wp), allocatable :: y(:), level(:), gram(:, :), share(:)
         real(wp) :: parts, largest
         integer :: k, begin, finish, last, number
 
@@ -229,13 +229,19 @@ contains
         direction = 0.0_wp
         allocate (runaways(0))
         if (stable) return
-        allocate (share(size(motions)), y(0:size(beam%links)))
+        allocate (share(size(motions)), y(0:size(beam%links)), level(0:size(beam%links)))
         y(:) = 0.0_wp
+        call find_level_forces(beam%supports, closed, level)
         do k = 1, size(motions)
             associate (motion => motions(k))
                 y(motion%first:motion%last) = motion%displacement
                 call work_of_loads(beam, factor, y, [motion%first, motion%last], share(k), parts)
                 y(motion%first:motion%last) = 0.0_wp
+                ! Less what supports that yield take of it
+                associate (taken => level(motion%first:motion%last)*motion%displacement)
+                    share(k) = share(k) - sum(taken)
+                    parts = parts + sum(abs(taken))
+                end associate
             end associate
             in_doubt = in_doubt .or. (abs(share(k)) > 0.0_wp .and. abs(share(k)) <= clearly_more*no_work*parts)
             if (abs(share(k)) <= no_work*parts) share(k) = 0.0_wp
