@@ -149,8 +149,11 @@ contains
             ! Where it all but touches, only quadruple precision tells where; from full contact that is not worth while
             if (.not. known .and. try == 0 .and. moved > nearly) cycle
             call settle_finely(fine, real(factor, qp), rule, zones, known, closed, solution, outcome, settled, error)
-            if (allocated(error)) return
-            if (.not. settled) cycle
+            if (allocated(error)) then
+                ! Springs may tell that there is no equilibrium
+                if (all(error%code /= [gapbeam_not_converged, gapbeam_not_finite])) return
+            end if
+            if (allocated(error) .or. .not. settled) cycle
             call bound_errors(ground, grounded, work, factor, solution)
             return
         end do
