@@ -210,8 +210,20 @@ def test_pickled(made):
     assert again.steps[-1].contact == result.steps[-1].contact
 
 
-def test_extremes_are_not_exceeded(made):
-    made = {**made, "foundation": [{"k": [4.0, 1.0], "side": "below", "profile": [[0.0, 0.1], [9.0, -0.3], [30.0, 0.2]]}]}
+@pytest.mark.parametrize(
+    "ground",
+    [
+        [{"k": [4.0, 1.0], "profile": [[0.0, 0.1], [9.0, -0.3], [30.0, 0.2]]}],
+        # Layers in one place whose gaps slope differently
+        [{"k": 4.0, "gap": [-0.5, 0.2]}, {"k": 1.0, "gap": [0.1, -0.9]}, {"k": 0.5, "gap": -1.0}],
+        # Whose moduli vary, but not their sum
+        [{"k": [4.0, 1.0], "gap": [-0.6, 0.2]}, {"k": [1.0, 4.0], "gap": [0.1, -0.9]}],
+    ],
+)
+def test_extremes_are_not_exceeded(made, ground):
+    made = {**made, "foundation": [{"side": "below", **layer} for layer in ground]}
+    if len(ground) > 1:  # no place at which the moment has a corner, where the pressure would peak too
+        made["loads"] = [made["loads"][0], {"type": "uniform", "q": 1.0, "from": 12.0, "to": 18.0}]
     result = gapbeam.solve(made)
     extremes = result.extremes()
     x = np.linspace(0.0, 30.0, 3001)

@@ -290,6 +290,37 @@ contains
         call peaks_in(solution, i, 1, (line(2) - line(1))/solution%stretches(i)%length, curved, xi, number)
     end subroutine peaks_beside
 
+    !> Where the pressure of all layers is stationary inside a stretch in which no modulus varies: it is the sum of the moduli by
+    !> the distance of the deflection from the mean of the lines at which the layers begin to act, weighted by these
+    subroutine peaks_of_pressure(lowered, solution, i, xi, number)
+        type(lowered_type), intent(in) :: lowered
+        type(ground_solution_type), intent(in) :: solution
+        !> Stretch
+        integer, intent(in) :: i
+        real(wp), allocatable, intent(out) :: xi(:)
+        integer, intent(out) :: number
+        type(curved_type), allocatable :: none
+        real(wp) :: modulus, rise, slope, line(2)
+        integer :: k, acts
+
+        modulus = 0.0_wp
+        rise = 0.0_wp
+        associate (j => solution%piece(i))
+            do k = lowered%layer_first(j), lowered%layer_first(j + 1) - 1
+                acts = solution%acts(k - lowered%layer_first(j) + 1, i)
+                if (acts == 0) cycle
+                associate (layer => lowered%layers(k), length => lowered%pieces(j)%length)
+                    slope = slope_of_layer(layer, law_piece(layer, lowered%law_pieces, acts), acts, solution%from(i), length)
+                    line(:) = contact_line(layer, [solution%from(i), solution%to(i)], length)
+                end associate
+                modulus = modulus + slope
+                rise = rise + slope*(line(2) - line(1))
+            end do
+        end associate
+        number = 0
+        if (modulus > 0.0_wp) call peaks_in(solution, i, 1, rise/modulus/solution%stretches(i)%length, none, xi, number)
+    end subroutine peaks_of_pressure
+
     !> Where a field of a stretch is stationary, of the deflection that beside a line
     pure subroutine peaks_in(solution, i, field, slope, curved, xi, number)
         type(ground_solution_type), intent(in) :: solution
@@ -414,17 +445,17 @@ contains
         end do
     end function is_shallow
 
-    !> Is the pressure in a stretch no multiple of the deflection
+    !> Is the pressure in a stretch more than multiples of the deflection beside lines
     pure function varies(lowered, solution, i)
         type(lowered_type), intent(in) :: lowered
         type(ground_solution_type), intent(in) :: solution
         integer, intent(in) :: i
         logical :: varies
 
-        associate (s => solution%stretches(i), j => solution%piece(i))
-            varies = abs(s%modulus_a - s%modulus_b) > 0.0_wp
+        associate (j => solution%piece(i))
             associate (layers => lowered%layers(lowered%layer_first(j):lowered%layer_first(j + 1) - 1))
-                varies = varies .or. any(layers%law /= law_by_points .and. solution%acts(:size(layers), i) > 0)
+                varies = any(solution%acts(:size(layers), i) > 0 .and. (layers%law /= law_by_points .or. &
+                                                                        abs(layers%modulus_a - layers%modulus_b) > 0.0_wp))
             end associate
         end associate
     end function varies
@@ -438,7 +469,7 @@ contains
         integer, intent(out) :: piece(2)
         real(wp), allocatable :: xi(:)
         real(wp) :: pressure
-        integer :: i, j, k, number
+        integer :: i, j, number
 
         values = [-huge(1.0_wp), huge(1.0_wp)]
         piece = 1
@@ -451,11 +482,9 @@ contains
                 call consider(peak_where_it_varies(-1))
                 cycle
             end if
-            do k = lowered%layer_first(solution%piece(i)), lowered%layer_first(solution%piece(i) + 1) - 1
-                call peaks_beside(lowered, solution, i, k, xi, number)
-                do j = 1, number
-                    call consider(xi(j))
-                end do
+            call peaks_of_pressure(lowered, solution, i, xi, number)
+            do j = 1, number
+                call consider(xi(j))
             end do
         end do
 
