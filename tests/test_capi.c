@@ -667,7 +667,7 @@ static void trains(void)
     static const int below[] = {GAPBEAM_BELOW, GAPBEAM_BELOW, GAPBEAM_BELOW}, nodes[] = {0, 1, 2};
     static const int kind[] = {GAPBEAM_DISTRIBUTED}, dead[] = {GAPBEAM_DEAD};
     double position[2], from[1], to[1], fields[4][2][4], supports[3][4][2][4], value[1][4][2], at[1][4][2];
-    int support[2], condition[2], change[2], freely[1], number = -1;
+    int support[2], condition[2], change[2], reason[1], number = -1;
     char message[200];
     gapbeam_model model;
     gapbeam_beam *beam;
@@ -693,7 +693,7 @@ static void trains(void)
     check(support[0] == 2 && change[0] == GAPBEAM_OPENS && change[1] == GAPBEAM_CLOSES && condition[1] == GAPBEAM_CLOSED, "what");
     check_close(position[0], 0.19490392008291112, "where it opens");
     check_close(position[1], 0.88819977685765608, "and closes");
-    check(gapbeam_get_train_gaps(passing, 1, from, to, freely, &number) == GAPBEAM_SOLVED && number == 0, "it stands");
+    check(gapbeam_get_train_gaps(passing, 1, from, to, reason, &number) == GAPBEAM_SOLVED && number == 0, "it stands");
     check(gapbeam_get_train_extremes(beam, passing, fields, supports) == GAPBEAM_SOLVED, "extremes");
     check_close(fields[GAPBEAM_MOMENT][0][0], 32/17.0, "largest moment");
     check_close(fields[GAPBEAM_MOMENT][0][2], place, "its position");

@@ -274,8 +274,6 @@ def test_refusals(train, message):
          "supports: laws whose state depends on the way of the load cannot stand beside trains"),
         ({"supports": [{"node": 0}, {"node": 1, "law": {"type": "tanh", "stiffness": 1.0, "limit": 1.0}}]},
          "supports: laws that are curves cannot stand beside trains"),
-        ({"supports": [{"node": 0}, {"node": 1}, {"node": 0, "direction": "axial"}],
-          "loads": [{"type": "axial", "node": 1, "F": 1.0}]}, "trains: trains beside axial loads are not available"),
     ],
 )  # fmt: skip
 def test_what_trains_cannot_go_over(change, message):
@@ -350,6 +348,62 @@ def test_together_in_combinations():
     alone = gapbeam.solve(two_spans(trains=[{"axles": [[0.0, 8.0], [0.5, 4.0]]}])).trains["train 1"]
     assert both.trains["ab"].events == alone.events
     assert both.trains["ab"].at(0.75).reaction.tolist() == alone.at(0.75).reaction.tolist()
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_axial_loads_do_not_meet_trains(seed):
+    """Bending is as without them; axial supports and fields are at every position what they are without a train."""
+    rng = np.random.default_rng(seed)
+    made = random_scene(rng)
+    plain = gapbeam.solve(made).trains["train 1"]
+    length = sum(made["beam"]["spans"])
+    made["beam"]["EA"] = 50.0
+    made["supports"].append({"node": 0, "direction": "axial", "settlement": 0.01})
+    made["supports"].append({"x": length, "direction": "axial", "stiffness": 9.0})
+    made["loads"].append({"type": "axial", "x": length / 4, "F": 3.0})
+    result = gapbeam.solve(made)
+    train, count = result.trains["train 1"], len(made["supports"]) - 2
+    assert [(e.support, e.event) for e in train.events] == [(e.support, e.event) for e in plain.events]
+    assert [e.position for e in train.events] == pytest.approx([e.position for e in plain.events], rel=1e-12)
+    for name, row in plain.envelope().extremes.items():
+        found = train.envelope().extremes[name]
+        assert [found[k].value for k in found] == pytest.approx([row[k].value for k in row], rel=1e-12)
+    give = length / 50.0
+    right = (0.01 + 3.0 * give / 4) / (give + 1 / 9.0)  # the spring at the right end carries what the rest moves there
+    for k, value in ((count, right - 3.0), (count + 1, -right)):
+        reaction = train.envelope().supports[k]["reaction"]
+        assert [reaction[kind].value for kind in ("max", "min")] == pytest.approx([value, value], rel=1e-12)
+    state = train.at(plain.ways[0].course.to / 2)
+    assert state.fields(length * 0.9).axial_force == pytest.approx(-right, rel=1e-12)
+
+
+def test_positions_without_a_unique_answer_are_gaps():
+    """A rigid stretch turns about its first support until the wheel has 1.5, the fixed-end moment beside it, there; then it rests
+    on three rigid supports, until the wheel has left."""
+    made = {
+        "beam": {"spans": [2.0, 2.0, 2.0], "EI": [1.0, float("inf"), float("inf")]},
+        "supports": [{"node": 0}, *({"node": i, "side": "below"} for i in (1, 2, 3))],
+        "loads": [{"type": "force", "x": 1.0, "F": 4.0, "case": "dead"}],
+        "trains": [{"axles": [[0.0, 5.0]]}],
+    }
+    train = gapbeam.solve(made).trains["train 1"]
+    (gap,) = train.gaps
+    assert (gap.from_, gap.to) == pytest.approx((2.3, 6.0), rel=1e-14)
+    assert gap.reason == "no unique answer: a rigid stretch rests on more rigid supports than statics can tell apart"
+    assert train.envelope().supports[1]["reaction"]["max"].value == pytest.approx(7.75, rel=1e-14)
+    made["trains"][0]["both_directions"] = True
+    assert [gap.direction for gap in gapbeam.solve(made).trains["train 1"].gaps] == ["right", "left"]
+
+
+def test_a_beam_that_slides_stands_at_no_position():
+    made = two_spans(loads=[{"type": "axial", "node": 1, "F": 1.0}, {"type": "uniform", "q": 1.0}])
+    made["beam"]["EA"] = 1.0
+    made["supports"].append({"node": 0, "direction": "axial", "stiffness": 0.0})
+    crane = gapbeam.solve(made).trains["crane"]
+    (gap,) = crane.gaps
+    assert (gap.from_, gap.to) == (0.0, 1.0)
+    assert gap.reason == "no equilibrium: the beam slides along its axis, no axial support holds it"
+    assert crane.envelope().extremes["moment"]["max"] is None
 
 
 def test_names():

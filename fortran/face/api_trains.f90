@@ -13,20 +13,21 @@ module gapbeam_api_trains
     use, intrinsic :: ieee_arithmetic, only: ieee_status_type, ieee_get_status, ieee_set_status, ieee_set_halting_mode, &
         ieee_set_rounding_mode, ieee_nearest, ieee_all, ieee_is_finite
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_bad_input, gapbeam_not_prepared
+    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_no_equilibrium, &
+        gapbeam_bad_input, gapbeam_not_prepared
     use gapbeam_words, only: shown, whole
     use gapbeam_scene, only: gapbeam_unchanged
     use gapbeam_lowered, only: lowered_type, point_x
     use gapbeam_query, only: find_pieces
     use gapbeam_train, only: train_type, uniform_type, track_type, new_track
-    use gapbeam_train_path, only: passage_type, pass_train, not_unique
+    use gapbeam_train_path, only: passage_type, pass_train, gapbeam_moves_freely => not_unique
     use gapbeam_train_events, only: train_event_type, find_events
     use gapbeam_train_envelope, only: envelope_type, extreme_type, find_envelope
     use gapbeam_train_curves, only: find_curves
     use gapbeam_api, only: prepared_type, require_beam, require_no_path, require_size
     implicit none
     private
-    public :: moving_train_type, passing_type, train_event_type, train_gap_type, train_extreme_type
+    public :: moving_train_type, passing_type, train_event_type, train_gap_type, train_extreme_type, gapbeam_moves_freely
     public :: follow_train, get_train_extremes, get_train_curves
 
     !> Loads that move together
@@ -41,10 +42,12 @@ module gapbeam_api_trains
         real(wp) :: from = gapbeam_unchanged, to = gapbeam_unchanged
     end type moving_train_type
 
-    !> Positions at which the beam does not stand, or can move freely without work of the loads
+    !> Positions that are not solved
     type :: train_gap_type
         real(wp) :: from = 0.0_wp, to = 0.0_wp
-        logical :: moves_freely = .false.
+        !> gapbeam_no_equilibrium, gapbeam_moves_freely where the beam can move without work of the loads, gapbeam_indeterminate or
+        !> gapbeam_not_converged
+        integer :: reason = gapbeam_no_equilibrium
     end type train_gap_type
 
     !> A largest or smallest value, and where it is; of a support x is 0
@@ -77,7 +80,7 @@ contains
 
     !> Move a train over a beam: every change of the working scheme at its exact position
     subroutine follow_train(beam, train, passing, error)
-        !> Prepared; without foundations, axial loads and laws whose state depends on the way of the load
+        !> Prepared; without foundations and laws whose state depends on the way of the load
         type(prepared_type), intent(in) :: beam
         type(moving_train_type), intent(in) :: train
         type(passing_type), intent(out) :: passing
@@ -189,9 +192,6 @@ contains
         if (allocated(lowered%layers)) then
             call fatal_error(error, gapbeam_bad_input, "trains on a foundation are not available in this version: "// &
                              "give positions as loads, or springs as supports")
-        else if (allocated(lowered%axial%point)) then
-            call fatal_error(error, gapbeam_bad_input, "trains beside axial loads are not available in this version: "// &
-                             "prepare the axial loads apart")
         end if
     end subroutine require_no_more
 
@@ -282,7 +282,7 @@ contains
                 end if
             end if
             number = number + 1
-            found(number) = train_gap_type(passage%from(k), passage%to(k), passage%status(k) == not_unique)
+            found(number) = train_gap_type(passage%from(k), passage%to(k), passage%status(k))
             last = k
         end do
         allocate (gaps(number), stat=stat)

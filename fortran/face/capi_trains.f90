@@ -104,12 +104,12 @@ contains
     end function c_get_train_events
 
     !> See the header
-    function c_get_train_gaps(passing, capacity, from, to, moves_freely, number) result(status) &
+    function c_get_train_gaps(passing, capacity, from, to, reason, number) result(status) &
         bind(c, name="gapbeam_get_train_gaps")
         type(c_ptr), intent(in), value :: passing
         integer(c_int), intent(in), value :: capacity
         real(c_double), intent(inout), optional :: from(*), to(*)
-        integer(c_int), intent(inout), optional :: moves_freely(*)
+        integer(c_int), intent(inout), optional :: reason(*)
         integer(c_int), intent(inout), optional :: number
         integer(c_int) :: status
         type(passing_handle), pointer :: handle
@@ -123,7 +123,7 @@ contains
             do k = 1, min(int(capacity), size(gaps))
                 if (present(from)) from(k) = gaps(k)%from
                 if (present(to)) to(k) = gaps(k)%to
-                if (present(moves_freely)) moves_freely(k) = merge(1, 0, gaps(k)%moves_freely)
+                if (present(reason)) reason(k) = gaps(k)%reason
             end do
         end associate
         status = gapbeam_solved

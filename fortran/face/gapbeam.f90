@@ -63,7 +63,7 @@ module gapbeam
         gapbeam_arrived, gapbeam_limit_point, gapbeam_bifurcation, gapbeam_mechanism, gapbeam_path_ended
     use gapbeam_api_combinations, only: combine_loads
     use gapbeam_api_trains, only: moving_train_type, passing_type, train_event_type, train_gap_type, train_extreme_type, &
-        follow_train, get_train_extremes, get_train_curves
+        follow_train, get_train_extremes, get_train_curves, gapbeam_moves_freely
     use gapbeam_api_ground, only: contact_type, free_span_type, ground_event_type, follow_ground, get_contact, get_free_spans, &
         get_pressure, get_pressure_extremes
     implicit none

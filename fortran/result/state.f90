@@ -24,7 +24,8 @@ module gapbeam_state
     use gapbeam_memory, only: for_solving, for_following, for_certifying
     implicit none
     private
-    public :: event_type, solve_state, ground_of, recover_state, certify_state, follow_events, detail_of, name_range
+    public :: event_type, solve_state, solve_along_axis, ground_of, recover_state, certify_state, follow_events, detail_of, &
+        name_range
 
     !> Changes of the scheme followed at a time
     integer, parameter :: changes_at_a_time = 1000
@@ -177,10 +178,12 @@ contains
         if (error%code == gapbeam_not_finite) call name_farthest(lowered, error)
     end subroutine name_range
 
-    !> The axial system, if there is one
+    !> Solve the axial system, if there is one
     subroutine solve_along_axis(lowered, state, error)
         type(lowered_type), intent(in) :: lowered
+        !> With its load factor in, displacements and forces along the axis out, or that the beam slides
         type(state_type), intent(inout) :: state
+        !> Supports that hold a rigid stretch at both ends
         type(error_type), allocatable, intent(out) :: error
         integer :: found, place
 

@@ -11,10 +11,12 @@
 !> on, the share grows, so that every reach comes to an end.
 module gapbeam_train_path
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_not_converged
+    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_indeterminate, &
+        gapbeam_not_converged
     use gapbeam_bernstein, only: sample_points, to_coefficients, halve, first_below, crossing, highest_degree
     use gapbeam_band, only: band_ok
-    use gapbeam_law, only: find_margins
+    use gapbeam_law, only: find_margins, is_rigid
+    use gapbeam_model, only: beam_type
     use gapbeam_kinematics, only: work_of_loads
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_rules, only: first_width
@@ -24,7 +26,8 @@ module gapbeam_train_path
     use gapbeam_referee, only: decide_scheme, detail_type
     use gapbeam_words, only: shown
     use gapbeam_lowered, only: lowered_type
-    use gapbeam_solution, only: close_all
+    use gapbeam_solution, only: state_type, new_state, close_all
+    use gapbeam_state, only: solve_along_axis
     use gapbeam_train, only: train_type, track_type, reach_type, find_reaches, place_train, degree_of, least_distance
     implicit none
     private
@@ -44,14 +47,16 @@ module gapbeam_train_path
     type :: passage_type
         !> How many there are
         integer :: number = 0
-        !> First and last place, and gapbeam_solved, gapbeam_no_equilibrium or not_unique
+        !> First and last place, and gapbeam_solved, gapbeam_no_equilibrium, not_unique, or where there is no unique answer the code
+        !> of the error, gapbeam_indeterminate or gapbeam_not_converged
         real(wp), allocatable :: from(:), to(:)
         integer, allocatable :: status(:)
         !> Number of the reach
         integer, allocatable :: reach(:)
         !> Scheme, and supports at zero all the way, shape (size(supports), number at least)
         logical, allocatable :: closed(:, :), at_zero(:, :)
-        !> Where there is no equilibrium the free motion, shape (0:n, number of such), and the number of that of each stretch
+        !> Where there is no equilibrium the free motion, shape (0:n, number of such), and the number of that of each stretch; 0
+        !> where the beam slides along its axis
         real(wp), allocatable :: motion(:, :)
         integer, allocatable :: motion_of(:)
         !> The reaches
@@ -83,6 +88,7 @@ contains
         type(error_type), allocatable, intent(out) :: error
         type(workspace_type) :: work
         type(margins_type) :: margins
+        type(state_type) :: along
         logical, allocatable :: closed(:)
         logical :: known
         integer :: m, r, stat
@@ -98,6 +104,22 @@ contains
             return
         end if
         call close_all(lowered, closed)
+        call new_state(lowered, along, error)
+        if (allocated(error)) return
+        along%factor = 1.0_wp
+        call solve_along_axis(lowered, along, error)
+        if (allocated(error)) return
+        if (along%slides) then
+            passage%number = 1
+            passage%from(1) = from
+            passage%to(1) = to
+            passage%status(1) = gapbeam_no_equilibrium
+            passage%reach(1) = 1
+            passage%motion_of(1) = 0
+            passage%closed(:, 1) = closed
+            passage%at_zero(:, 1) = .false.
+            return
+        end if
         call new_workspace(track%beam, work)
         known = .false.
         do r = 1, size(passage%reaches)
@@ -201,7 +223,10 @@ contains
             passage%closed(:, k) = closed
             passage%at_zero(:, k) = .false.
             passage%motion_of(k) = 0
-            if (status == gapbeam_solved) passage%at_zero(:, k) = are_zero(margins, degree_of(train), size(closed))
+            if (status == gapbeam_solved) then
+                passage%at_zero(:, k) = are_zero(margins, degree_of(train), size(closed))
+                if (rests_on_too_many(track%beam, closed, passage%at_zero(:, k), work)) passage%status(k) = gapbeam_indeterminate
+            end if
             now = to
             known = status == gapbeam_solved
         end subroutine accept
@@ -228,6 +253,7 @@ contains
             logical, allocatable :: before(:)
             real(wp) :: share, place
             logical :: closely, right
+            integer :: code
 
             allocate (before(size(closed)))
             before(:) = closed
@@ -262,7 +288,7 @@ contains
                         call find_interval(margins, degree_of(train), share, begin, end, at_end)
                     else if (right) then
                         begin = 0.0_wp
-                        end = free_until(track, train, reach, now, share, before)
+                        end = so_until(track, train, reach, now, share, before, not_unique)
                     end if
                     if (right) right = end > 0.0_wp .or. .not. reach%to > reach%from
                     if (.not. right .and. .not. closely) then
@@ -271,7 +297,12 @@ contains
                         cycle
                     end if
                     if (allocated(error)) then
-                        error%message = "about position "//trim(shown(place))//": "//error%message
+                        code = error%code
+                        if (all(code /= [gapbeam_indeterminate, gapbeam_not_converged])) return
+                        deallocate (error)
+                        closed(:) = before
+                        if (reach%to > reach%from) share = so_until(track, train, reach, now, share, before, code)
+                        call accept(code, max(share, 2*resolution()))
                         return
                     end if
                     if (.not. reach%to > reach%from) exit
@@ -423,9 +454,31 @@ contains
         end do
     end function are_zero
 
-    !> How far a beam that can move freely without work of the loads stays so: tried at a few places up to the end of the reach,
-    !> else half as far, and so on
-    function free_until(track, train, reach, now, least, start) result(share)
+    !> Does a rigid stretch rest on supports that carry nothing in this scheme, but might as well
+    function rests_on_too_many(beam, closed, at_zero, work) result(so)
+        type(beam_type), intent(in) :: beam
+        !> Scheme, and supports whose reaction or opening is zero
+        logical, intent(in) :: closed(:), at_zero(:)
+        type(workspace_type), intent(inout) :: work
+        logical :: so
+        logical :: tied(size(closed))
+        integer :: k, state, place
+
+        associate (s => beam%supports)
+            do k = 1, size(closed)
+                tied(k) = closed(k) .or. (at_zero(k) .and. s(k)%kink == 0 .and. is_rigid(s(k)))
+                if (tied(k) .neqv. closed(k)) tied(k) = .not. any(closed .and. is_rigid(s) .and. s%node == s(k)%node)
+            end do
+        end associate
+        so = any(tied .neqv. closed)
+        if (.not. so) return
+        call solve_and_refine(beam, tied, work, state, place)
+        so = state /= band_ok
+    end function rests_on_too_many
+
+    !> How far a beam that can move freely without work of the loads, or has no unique answer, stays so: tried at a few places up to
+    !> the end of the reach, else half as far, and so on
+    function so_until(track, train, reach, now, least, start, status) result(share)
         type(track_type), intent(inout) :: track
         type(train_type), intent(in) :: train
         type(reach_type), intent(in) :: reach
@@ -433,8 +486,11 @@ contains
         !> Known to be so up to this share of what is left
         real(wp), intent(in) :: least
         logical, intent(in) :: start(:)
+        !> not_unique, or the code of the error
+        integer, intent(in) :: status
         real(wp) :: share
         type(workspace_type) :: work
+        type(detail_type) :: links_only
         type(outcome_type) :: outcome
         type(error_type), allocatable :: error
         logical :: closed(size(start)), stays
@@ -448,15 +504,21 @@ contains
                 closed(:) = start
                 call place_train(track, train, reach, now + share*(k/3.0_wp - first_share)*(reach%to - now))
                 call set_loads(track%beam, 1.0_wp, work)
-                call find_scheme(track%beam, 1.0_wp, rule_block, closed, work, outcome, error)
-                stays = .not. allocated(error) .and. outcome%indifferent
+                if (status == not_unique) then
+                    call find_scheme(track%beam, 1.0_wp, rule_block, closed, work, outcome, error)
+                    stays = .not. allocated(error) .and. outcome%indifferent
+                else
+                    call decide_scheme(track%beam, links_only, 1.0_wp, rule_block, closed, work, outcome, error)
+                    stays = allocated(error)
+                    if (stays) stays = error%code == status
+                end if
                 if (.not. stays) exit
             end do
             if (stays) return
             share = share/2
         end do
         share = least
-    end function free_until
+    end function so_until
 
     !> Keep the motion of the last stretch, joined to that before where it is the same
     subroutine keep_motion(passage, motion, error)

@@ -14,6 +14,7 @@ module gapbeam_train_samples
     use gapbeam_system, only: solve_and_refine
     use gapbeam_lowered, only: lowered_type
     use gapbeam_solution, only: state_type, new_state
+    use gapbeam_state, only: solve_along_axis
     use gapbeam_query, only: support_values
     use gapbeam_train, only: train_type, track_type, place_train
     use gapbeam_train_cells, only: cells_type, new_cells, find_cells, fill_cells, recover_cells, fields_in_cell
@@ -58,7 +59,7 @@ contains
         type(track_type), intent(in) :: track
         type(train_type), intent(in) :: train
         type(samples_type), intent(out) :: samples
-        !> No memory
+        !> No memory, or as for solve_along_axis
         type(error_type), allocatable, intent(out) :: error
         integer :: most, d, stat
 
@@ -74,7 +75,10 @@ contains
         end if
         call new_workspace(track%beam, samples%work)
         call new_state(lowered, samples%state, error)
+        if (allocated(error)) return
+        ! No train moves what is along the axis
         samples%state%factor = 1.0_wp
+        call solve_along_axis(lowered, samples%state, error)
     end subroutine new_samples
 
     !> Sample a stretch that is solved

@@ -11,8 +11,8 @@ from ..base.records import Record
 from . import calls as _engine
 from .beam import Beam
 
-WITHOUT_EQUILIBRIUM, NOT_UNIQUE = 1, 2
-"""Statuses of stretches that are not solved, as in gapbeam_train_path."""
+NOT_UNIQUE = 2
+"""Status of stretches on which the beam can move freely without work of the loads, as in gapbeam_train_path."""
 SIDES = (None, "left", "right")
 """On which side of x a value is, as in gapbeam_train_envelope."""
 
@@ -57,7 +57,7 @@ class Passage:
     ends : numpy.ndarray
         First and last position of every stretch, in ascending order.
     status, motion_of : numpy.ndarray of int
-        0 solved, WITHOUT_EQUILIBRIUM, or NOT_UNIQUE; number of its motion, from 1 (0: none).
+        As Status, or NOT_UNIQUE; number of its motion, from 1 (0: none, or the beam slides along its axis).
     closed : numpy.ndarray of int
         Scheme of every stretch.
     motions : numpy.ndarray

@@ -8,6 +8,8 @@ import numpy as np
 
 from ..engine.beam import HINGE, Beam
 
+SLIDES = "the beam slides along its axis, no axial support holds it"
+
 
 def describe_motion(beam: Beam, motion: np.ndarray) -> str:
     """Say how a beam moves where nothing resists.

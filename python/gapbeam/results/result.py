@@ -23,7 +23,7 @@ from ..scene.structs import Scene
 from ..scene.wording import shown
 from .arguments import finite, numbers, whole
 from .ground import with_ends_of_zones
-from .motion import describe_motion
+from .motion import SLIDES, describe_motion
 from .step import Step, solve_step
 from .steps import LoadSteps, Steps
 
@@ -250,7 +250,7 @@ class Result(Pickled):
         """
         self.status = "no-equilibrium"
         if motion is None:
-            self.reason = f"no equilibrium {where}: the beam slides along its axis, no axial support holds it"
+            self.reason = f"no equilibrium {where}: {SLIDES}"
             return
         self.reason = f"no equilibrium {where}: {describe_motion(self.beam, motion)}"
         self.motion = list(zip(self.beam.node_x.tolist(), motion.tolist(), strict=True))

@@ -24,17 +24,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from msgspec.structs import replace
 
-from ..base.errors import EngineError, SceneError
+from ..base.errors import EngineError, SceneError, Status
 from ..base.records import Record
 from ..engine.beam import Beam
-from ..engine.trains import NOT_UNIQUE, WITHOUT_EQUILIBRIUM, Extremes, Passage
+from ..engine.trains import NOT_UNIQUE, Extremes, Passage
 from ..scene.columns import columns
 from ..scene.structs import ForceLoad, Scene, UniformLoad
 from ..scene.trains import LEFT, RIGHT, Course, courses, joined, nearest, train_name
 from ..scene.wording import choice, shown
 from .arguments import finite
 from .kinks import EVENTS
-from .motion import describe_motion
+from .motion import SLIDES, describe_motion
 from .step import Step
 from .steps import LoadSteps
 from .train_envelope import FIELDS, Passing, TrainEnvelope, places_along, places_given
@@ -44,6 +44,12 @@ if TYPE_CHECKING:
 
 INFLUENCES = (*FIELDS, "reaction")
 """What has influence lines."""
+WITHOUT_ANSWER = {
+    NOT_UNIQUE: "the beam can move freely, without work of the loads: its position is not unique",
+    Status.INDETERMINATE: "no unique answer: a rigid stretch rests on more rigid supports than statics can tell apart",
+    Status.NOT_CONVERGED: "no unique answer: the working scheme could not be settled in the precision at hand",
+}
+"""Why positions are not solved where the beam does not move along a line."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,14 +79,14 @@ class TrainEvent:
 
 @dataclass(frozen=True, slots=True)
 class Gap:
-    """Positions at which the beam cannot stand, or is not held in one place.
+    """Positions at which the beam cannot stand, is not held in one place, or has no unique answer.
 
     Attributes
     ----------
     from_, to : float
         First and last position.
     reason : str
-        How the beam moves.
+        How the beam moves, or why there is no answer.
     direction : {"right", "left"}
         Which way the train goes.
     """
@@ -184,14 +190,14 @@ class TrainWay:
         p, found = self.passage, []
         reasons: list[Any] = []
         for (start, end), status, motion in zip(p.ends.tolist(), p.status.tolist(), p.motion_of.tolist(), strict=True):
-            if status not in (WITHOUT_EQUILIBRIUM, NOT_UNIQUE):
+            if status == Status.SOLVED:
                 continue
             if found and found[-1].to == start and reasons[-1] == (status, motion):
                 found[-1] = Gap(found[-1].from_, end, found[-1].reason, self.course.direction)
                 continue
-            reason = "the beam can move freely, without work of the loads: its position is not unique"
-            if status == WITHOUT_EQUILIBRIUM:
-                reason = f"no equilibrium: {describe_motion(p.beam, p.motions[motion - 1])}"
+            reason = WITHOUT_ANSWER.get(status)
+            if status == Status.NO_EQUILIBRIUM:
+                reason = f"no equilibrium: {describe_motion(p.beam, p.motions[motion - 1]) if motion else SLIDES}"
             reasons.append((status, motion))
             found.append(Gap(start, end, reason, self.course.direction))
         return found[::-1] if self.course.direction == LEFT else found
@@ -231,7 +237,7 @@ class TrainResult:
 
     @property
     def gaps(self) -> list[Gap]:
-        """Positions at which the beam cannot stand, or is not held in one place."""
+        """Positions at which the beam cannot stand, is not held in one place, or has no unique answer."""
         return [gap for way in self.ways for gap in way.gaps]
 
     @property
@@ -422,16 +428,13 @@ def refuse_trains(scene: Scene, beam: Beam) -> None:
     Raises
     ------
     SceneError
-        A foundation, an axial load, or a law that is a curve or whose state depends on the way of the load.
+        A foundation, or a law that is a curve or whose state depends on the way of the load.
     """
     if not scene.trains:
         return
     if beam.ground_layers:
         raise SceneError("trains", "trains on a foundation are not available in this version; give positions as loads, or springs "
                                    "as supports")  # fmt: skip
-    if beam.bars >= 0:
-        raise SceneError("trains", "trains beside axial loads are not available in this version; solve the axial loads in a scene "
-                                   "of their own")  # fmt: skip
     if beam.depends_on_path or beam.curves:
         what = "whose state depends on the way of the load" if beam.depends_on_path else "that are curves"
         raise SceneError("supports", f"laws {what} cannot stand beside trains in this version; use polylines that rise")
