@@ -22,9 +22,9 @@ module gapbeam_zones
     integer, parameter :: most_rounds = merge(200, 40, digits(1.0_wp) < 64), most_polishing = 12
     !> Ends that are moved by rounding alone move by less than this share of the stretches beside them
     real(wp), parameter :: noise = epsilon(1.0_wp)**0.375_wp
-    !> An end that moves by more is far from the solution. It goes farther if it moved by at least so large a share of the move
-    !> before, as if it were this one at most
-    real(wp), parameter :: far = 0.01_wp, least_ratio = 0.3_wp, largest_ratio = 0.7_wp
+    !> An end that moves by more is far from the solution. Then it goes farther, as if it had moved by this share of the move before
+    !> at most, and by this share of the stretch ahead at most
+    real(wp), parameter :: far = 0.01_wp, largest_ratio = 0.92_wp, largest_share = 0.4_wp
     !> What moves by less than this share of the beam does not move: so short zones have no force, and behind a part of the beam
     !> that next to no ground holds no end is known better
     real(wp), parameter :: unseen = sqrt(epsilon(1.0_wp))
@@ -54,7 +54,7 @@ contains
         real(wp), intent(out) :: moved
         !> As for find_scheme
         type(error_type), allocatable, intent(out) :: error
-        type(zones_type) :: found, last
+        type(zones_type) :: found, asked, last, last_asked
         real(wp) :: before
         integer :: round, solves
 
@@ -68,8 +68,10 @@ contains
             call find_zones(ground, grounded, zones, factor, work, found)
             before = moved
             moved = max(way_of_ends(zones, found), way_of_fields(ground, grounded, zones, found))
-            if (moved > far) call go_farther(last, zones, found)
+            asked = found
+            if (moved > far .and. round > 1) call go_farther(last, last_asked, zones, found)
             last = zones
+            last_asked = asked
             zones = found
             settled = moved <= tolerance .or. (moved <= noise .and. moved >= before/2)
             if (settled) return
@@ -168,30 +170,51 @@ contains
     end subroutine move_ends
 
     !> Far from the solution an end goes the same way by nearly the same length round after round, since what happens beyond
-    !> 1/beta is not seen: then go farther at once (Aitken's extrapolation, with a limit)
-    pure subroutine go_farther(last, zones, found)
-        !> Zones of the last two rounds
-        type(zones_type), intent(in) :: last, zones
-        !> Those of the next one
+    !> 1/beta is not seen: then go farther at once. Where the end of a long heavy beam is lifted, moves that fall by a ratio r
+    !> leave a way of about r/(4 - 4 r) times the last one
+    pure subroutine go_farther(last, last_asked, zones, found)
+        !> Zones of the last round, and those that its solution asked for
+        type(zones_type), intent(in) :: last, last_asked, zones
+        !> Those that the solution of this round asks for in, those of the next one out
         type(zones_type), intent(inout) :: found
-        real(wp) :: before, now, ratio, farther
+        real(wp) :: place, before, now, ratio, farther(size(found%piece))
         integer :: i
 
-        if (.not. allocated(last%piece)) return
-        if (.not. (way_of_ends(last, zones) < huge(1.0_wp) .and. way_of_ends(zones, found) < huge(1.0_wp))) return
+        farther(:) = 0.0_wp
         do i = 1, size(found%piece) - 1
             if (found%piece(i) /= found%piece(i + 1)) cycle
-            before = zones%to(i) - last%to(i)
-            now = found%to(i) - zones%to(i)
-            if (.not. (before*now > 0.0_wp .and. abs(now) > least_ratio*abs(before))) cycle
+            place = nearest_end(zones, found, i, found%to(i))
+            now = found%to(i) - place
+            place = nearest_end(last_asked, found, i, place)
+            before = place - nearest_end(last, found, i, place)
+            if (.not. before*now > 0.0_wp) cycle
             ratio = min(now/before, largest_ratio)
-            farther = now*ratio/(1 - ratio)
-            farther = sign(min(abs(farther), merge(found%to(i + 1) - found%from(i + 1), found%to(i) - found%from(i), &
-                                                   now > 0.0_wp)/2), now)
-            found%to(i) = found%to(i) + farther
+            farther(i) = sign(min(abs(now)*ratio/(4 - 4*ratio), merge(found%to(i + 1) - found%from(i + 1), &
+                                                                     found%to(i) - found%from(i), now > 0.0_wp)*largest_share), now)
+        end do
+        do i = 1, size(found%piece) - 1
+            if (found%piece(i) /= found%piece(i + 1)) cycle
+            found%to(i) = found%to(i) + farther(i)
             found%from(i + 1) = found%to(i)
         end do
     end subroutine go_farther
+
+    !> Where an end was in other zones: the nearest one between the same, huge if there is none
+    pure function nearest_end(zones, found, i, at) result(place)
+        type(zones_type), intent(in) :: zones, found
+        !> Number of the end of found, and near which place
+        integer, intent(in) :: i
+        real(wp), intent(in) :: at
+        real(wp) :: place
+        integer :: k
+
+        place = sqrt(huge(place))
+        do k = 1, size(zones%piece) - 1
+            if (zones%piece(k) /= found%piece(i) .or. zones%piece(k + 1) /= found%piece(i)) cycle
+            if (any(zones%acts(:, k) /= found%acts(:, i)) .or. any(zones%acts(:, k + 1) /= found%acts(:, i + 1))) cycle
+            if (abs(zones%to(k) - at) < abs(place - at)) place = zones%to(k)
+        end do
+    end function nearest_end
 
     !> How far the ends have moved, relative to the shorter of the stretches beside them; huge if the zones are others
     pure function way_of_ends(zones, found) result(way)

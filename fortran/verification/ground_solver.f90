@@ -21,7 +21,7 @@ module gapbeam_ground_solver
         fine_ends_type => stretch_ends_type, fields_at
     use gapbeam_layers, only: layer_type, law_piece_type
     use gapbeam_layers_quad, only: fine_layer_type => layer_type, fine_law_piece_type => law_piece_type, law_piece, &
-        is_curve
+        is_curve, has_curves
     use gapbeam_ground_laws_quad, only: contact_line, slope_of_layer, offset_of_layer
     use gapbeam_ground_quad, only: fine_ground_type => ground_type, fine_zones_type => zones_type, &
         fine_grounded_type => grounded_type, new_zones, combined_load
@@ -41,8 +41,9 @@ module gapbeam_ground_solver
     real(qp), parameter :: fine_enough = 1e-15_qp
     !> Ends that still move by no more are taken where they do not come to rest
     real(qp), parameter :: good_enough = 1e-11_qp
-    !> The same of ends that are taken: the fields there are those at the ends of the round before
-    real(qp), parameter :: finest = 1e-17_qp
+    !> The same of ends that are taken where laws are curves: the fields there are those at the ends of the round before. Elsewhere
+    !> fields are moved with their ends, which leaves the square of the way
+    real(qp), parameter :: finest = 1e-17_qp, movable = 1e-11_qp
     !> Springs tried, none first
     integer, parameter :: spring_numbers(0:4) = [0, 64, 512, 4096, 32768]
     !> Springs that are pressed at most where the beam stands on edges
@@ -240,7 +241,8 @@ contains
         zones%start(:, :) = rough_zones%start
         settled = .false.
         if (known) then
-            call polish_zones(fine, factor, rule, finest, zones, closed, grounded, work, found, settled, error)
+            call polish_zones(fine, factor, rule, merge(finest, movable, any(has_curves(fine%layers))), zones, closed, grounded, &
+                              work, found, settled, error)
             solution%solves = solution%solves + work%solves
             if (allocated(error)) return
         end if
@@ -250,7 +252,7 @@ contains
             if (allocated(error)) return
             settled = settled .or. moved <= good_enough
             if (.not. settled) return
-            if (moved > finest) then
+            if (moved > merge(finest, movable, any(has_curves(fine%layers)))) then
                 polished = zones
                 allocate (polished_closed(size(closed)))
                 polished_closed(:) = closed
@@ -373,20 +375,23 @@ contains
     subroutine take_rounded(fine, factor, zones, grounded, closed, work, solution)
         type(fine_ground_type), intent(in) :: fine
         real(qp), intent(in) :: factor
-        !> Zones that the solution asks for, and the beam on those before, which differ by nothing that doubles can show
+        !> Zones that the solution asks for, and the beam on those before
         type(fine_zones_type), intent(in) :: zones
         type(fine_grounded_type), intent(in) :: grounded
         logical, intent(in) :: closed(:)
         type(fine_workspace_type), intent(inout) :: work
         type(ground_solution_type), intent(inout) :: solution
+        type(fine_stretch_type) :: stretch
         type(fine_ends_type) :: ends
         type(fine_stretch_load_type) :: load, beside
         real(qp), allocatable :: margin(:), rounding(:)
         type(curved_type), allocatable :: curved
         real(qp) :: field(2, 2), forces(size(zones%acts, 1)), from
         integer :: i, k, m
+        logical :: curves
 
         m = size(zones%piece)
+        curves = any(has_curves(fine%layers))
         from = 0.0_qp
         call make_room(solution, m, size(zones%acts, 1), size(fine%pieces), size(closed))
         solution%piece(:) = zones%piece
@@ -395,25 +400,27 @@ contains
         solution%acts(:, :) = zones%acts
         do i = 1, m
             call drop_rounding(grounded, i, work)
+            stretch = grounded%stretches(i)
             ends = ends_of(work, i)
             load = combined_load(grounded%dead(i), grounded%live(i), factor)
-            associate (s => grounded%stretches(i))
-                call fields_at_ends(grounded, factor, work, i, field(:, 1), field(:, 2))
-                call drop_small(grounded, factor, work, i, field)
-                solution%stretches(i) = stretch_type(real(s%length, wp), real(s%flexibility, wp), real(s%shear_flexibility, wp), &
-                                                     real(s%modulus_a, wp), real(s%modulus_b, wp))
-            end associate
-            solution%slope(i) = real((ends%w_b - ends%w_a)/grounded%stretches(i)%length, wp)
-            solution%ends(i) = stretch_ends_type(real(ends%w_a, wp), real(ends%w_b, wp), real(ends%moment_a, wp), &
-                                                 real(ends%moment_b, wp))
+            call fields_at_ends(grounded, factor, work, i, field(:, 1), field(:, 2))
+            call drop_small(grounded, factor, work, i, field)
             ! Where it was when it was solved: its ends have moved since then
             if (i > 1) then
                 from = from + grounded%stretches(i - 1)%length
                 if (zones%piece(i) /= zones%piece(i - 1)) from = 0.0_qp
             end if
+            if (.not. curves) call go_with_ends(zones%from(i) - from, zones%to(i) - zones%from(i), stretch, load, ends, field)
+            solution%stretches(i) = stretch_type(real(stretch%length, wp), real(stretch%flexibility, wp), &
+                                                 real(stretch%shear_flexibility, wp), real(stretch%modulus_a, wp), &
+                                                 real(stretch%modulus_b, wp))
+            solution%slope(i) = real((ends%w_b - ends%w_a)/stretch%length, wp)
+            solution%ends(i) = stretch_ends_type(real(ends%w_a, wp), real(ends%w_b, wp), real(ends%moment_a, wp), &
+                                                 real(ends%moment_b, wp))
             call take_curved(fine, grounded, zones, factor, work, i, curved)
-            call sum_layers(fine, zones, i, from, grounded%stretches(i), load, ends, field(2, 2) - field(1, 2), curved, forces)
-            beside = beside_line(grounded%stretches(i), load, [ends%w_a, ends%w_b])
+            call sum_layers(fine, zones, i, merge(from, zones%from(i), curves), stretch, load, ends, field(2, 2) - field(1, 2), &
+                            curved, forces)
+            beside = beside_line(stretch, load, [ends%w_a, ends%w_b])
             if (allocated(curved)) beside = load
             solution%loads(i) = stretch_load_type(real(beside%qa, wp), real(beside%qb, wp), real(beside%qc, wp), &
                                                   real(beside%kappa, wp))
@@ -437,6 +444,53 @@ contains
         end associate
         solution%reaction(:) = real(work%reaction, wp)
     end subroutine take_rounded
+
+    !> Move the ends of a stretch a little, and all that stands there with them: the rest is of the order of the square of the way
+    pure subroutine go_with_ends(way, length, stretch, load, ends, field)
+        !> Way of the left end, and the new length
+        real(qp), intent(in) :: way, length
+        !> The stretch and its load, and what is at its ends
+        type(fine_stretch_type), intent(inout) :: stretch
+        type(fine_stretch_load_type), intent(inout) :: load
+        type(fine_ends_type), intent(inout) :: ends
+        !> Left and right, rotation and shear
+        real(qp), intent(inout) :: field(2, 2)
+        type(fine_stretch_type) :: s
+        type(fine_stretch_load_type) :: q
+        real(qp) :: ways(2), share(2)
+
+        s = stretch
+        q = load
+        ways = [way, way + (length - s%length)]
+        if (.not. any(abs(ways) > 0.0_qp)) return
+        call go(ways(1), s%modulus_a, q%qa, ends%w_a, ends%moment_a, field(1, :))
+        call go(ways(2), s%modulus_b, q%qb, ends%w_b, ends%moment_b, field(2, :))
+        share = [ways(1), s%length + ways(2)]/s%length
+        stretch%length = length
+        stretch%modulus_a = s%modulus_a + share(1)*(s%modulus_b - s%modulus_a)
+        stretch%modulus_b = s%modulus_a + share(2)*(s%modulus_b - s%modulus_a)
+        load%qa = q%qa + share(1)*(q%qb - q%qa + q%qc*(1 - share(1)))
+        load%qb = q%qa + share(2)*(q%qb - q%qa + q%qc*(1 - share(2)))
+        load%qc = q%qc*(length/s%length)**2
+
+    contains
+
+        !> The fields a little farther on
+        pure subroutine go(way, modulus, pressure, w, moment, turn_and_shear)
+            real(qp), intent(in) :: way, modulus, pressure
+            real(qp), intent(inout) :: w, moment, turn_and_shear(2)
+            real(qp) :: gain(4)
+
+            associate (psi => turn_and_shear(1), shear => turn_and_shear(2))
+                gain = way*[psi + s%shear_flexibility*shear, q%kappa - s%flexibility*moment, shear, modulus*w - pressure]
+                w = w + gain(1)
+                psi = psi + gain(2)
+                moment = moment + gain(3)
+                shear = shear + gain(4)
+            end associate
+        end subroutine go
+
+    end subroutine go_with_ends
 
     !> A solution without numbers, but for those of the solves
     pure subroutine make_room(solution, stretches, layers, pieces, supports)
