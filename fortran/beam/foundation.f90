@@ -12,7 +12,7 @@ module gapbeam_foundation
     implicit none
     private
     public :: stretch_type, stretch_load_type, stretch_link_type, stretch_ends_type
-    public :: condense_stretch, link_of_halves, load_stretch, fields_at, decay_lengths
+    public :: condense_stretch, condense_loaded, link_of_halves, load_stretch, fields_at, decay_lengths
 
     !> How a stretch's ends answer:
     !>
@@ -62,14 +62,48 @@ contains
         type(stretch_type), intent(in) :: stretch
         !> Its link
         type(stretch_link_type), intent(out) :: link
-        type(end_functions_type) :: h
-        real(wp) :: l, k, f, d, bend, bend_b
 
         if (is_sloped(stretch)) then
             call condense_sloped(stretch, link)
-            return
+        else
+            call condense_even(stretch, end_functions(stretch), link)
         end if
-        h = end_functions(stretch)
+    end subroutine condense_stretch
+
+    !> The same, and what loads make at its ends, for which the functions of the ends are found once
+    pure subroutine condense_loaded(stretch, loads, link, turn_a, turn_b, shear_a, shear_b)
+        !> The stretch and some loads
+        type(stretch_type), intent(in) :: stretch
+        type(stretch_load_type), intent(in) :: loads(:)
+        !> Its link
+        type(stretch_link_type), intent(out) :: link
+        !> As for load_stretch, shape (size(loads))
+        real(wp), intent(out) :: turn_a(:), turn_b(:), shear_a(:), shear_b(:)
+        type(end_functions_type) :: h
+        integer :: k
+
+        if (is_sloped(stretch)) then
+            call condense_sloped(stretch, link)
+            do k = 1, size(loads)
+                call load_stretch(stretch, loads(k), turn_a(k), turn_b(k), shear_a(k), shear_b(k))
+            end do
+        else
+            h = end_functions(stretch)
+            call condense_even(stretch, h, link)
+            do k = 1, size(loads)
+                call load_even(stretch, h, loads(k), turn_a(k), turn_b(k), shear_a(k), shear_b(k))
+            end do
+        end if
+    end subroutine condense_loaded
+
+    !> How the ends answer where the modulus is constant
+    pure subroutine condense_even(stretch, h, link)
+        type(stretch_type), intent(in) :: stretch
+        !> The functions of its ends
+        type(end_functions_type), intent(in) :: h
+        type(stretch_link_type), intent(out) :: link
+        real(wp) :: l, k, f, d, bend, bend_b
+
         l = stretch%length
         k = l*stretch%modulus_a
         f = l*stretch%flexibility
@@ -97,7 +131,7 @@ contains
         link%p2 = link%p1
         link%fbb = link%faa
         link%gbb = link%gaa
-    end subroutine condense_stretch
+    end subroutine condense_even
 
     !> The same where the modulus changes along the stretch
     pure subroutine condense_sloped(stretch, link)
@@ -146,9 +180,7 @@ contains
         type(stretch_load_type), intent(in) :: load
         !> turn_a, -turn_b: rotations; shear_a, -shear_b: shears
         real(wp), intent(out) :: turn_a, turn_b, shear_a, shear_b
-        type(end_functions_type) :: h
         type(half_type) :: a, b
-        real(wp) :: l, f, sum, turn, shear
 
         if (is_sloped(stretch)) then
             call half_link(stretch, load, a)
@@ -157,9 +189,20 @@ contains
             turn_b = b%turn
             shear_a = a%shear
             shear_b = b%shear
-            return
+        else
+            call load_even(stretch, end_functions(stretch), load, turn_a, turn_b, shear_a, shear_b)
         end if
-        h = end_functions(stretch)
+    end subroutine load_stretch
+
+    !> The same where the modulus is constant
+    pure subroutine load_even(stretch, h, load, turn_a, turn_b, shear_a, shear_b)
+        type(stretch_type), intent(in) :: stretch
+        !> The functions of its ends
+        type(end_functions_type), intent(in) :: h
+        type(stretch_load_type), intent(in) :: load
+        real(wp), intent(out) :: turn_a, turn_b, shear_a, shear_b
+        real(wp) :: l, f, sum, turn, shear
+
         l = stretch%length
         f = l**2*stretch%flexibility
         sum = h%a_rest + h%b_rest
@@ -169,7 +212,7 @@ contains
         turn_b = l*((load%qb*h%a_rest + load%qa*h%b_rest)*f + turn)
         shear_a = l*((load%qa*h%c + load%qb*h%e) + shear)
         shear_b = l*((load%qb*h%c + load%qa*h%e) + shear)
-    end subroutine load_stretch
+    end subroutine load_even
 
     !> Fields anywhere in a stretch in equilibrium
     pure subroutine fields_at(stretch, load, ends, xi, w, psi, moment, shear)

@@ -6,7 +6,7 @@ module gapbeam_ground
     use gapbeam_kinds, only: wp
     use gapbeam_link, only: piece_type, piece_load_type, condense_link
     use gapbeam_band, only: plain
-    use gapbeam_foundation, only: stretch_type, stretch_load_type, condense_stretch, load_stretch, decay_lengths
+    use gapbeam_foundation, only: stretch_type, stretch_load_type, condense_loaded, decay_lengths
     use gapbeam_curved, only: curved_type, condense_curved
     use gapbeam_layers, only: layer_type, law_piece_type, law_piece, is_curve, law_by_points, law_hardening
     use gapbeam_ground_laws, only: between, along, contact_line, slope_of_layer, offset_of_layer, take_curves
@@ -278,9 +278,7 @@ contains
                 link%shear_b(1) = -link%shear_b(1)
                 return
             end if
-            call condense_stretch(s, grounded%beam%ground(i))
-            call load_stretch(s, dead, link%turn_a(1), link%turn_b(1), link%shear_a(1), link%shear_b(1))
-            call load_stretch(s, live, link%turn_a(2), link%turn_b(2), link%shear_a(2), link%shear_b(2))
+            call condense_loaded(s, [dead, live], grounded%beam%ground(i), link%turn_a, link%turn_b, link%shear_a, link%shear_b)
             link%shear_b(:) = -link%shear_b
         end associate
     end subroutine place_stretch

@@ -177,18 +177,19 @@ contains
         type(zones_type), intent(in) :: last, last_asked, zones
         !> Those that the solution of this round asks for in, those of the next one out
         type(zones_type), intent(inout) :: found
-        real(wp) :: place, before, now, ratio, farther(size(found%piece))
+        real(wp) :: place, came_to, came_from, now, ratio, farther(size(found%piece))
         integer :: i
 
         farther(:) = 0.0_wp
         do i = 1, size(found%piece) - 1
             if (found%piece(i) /= found%piece(i + 1)) cycle
             place = nearest_end(zones, found, i, found%to(i))
+            came_to = nearest_end(last_asked, found, i, place)
+            came_from = nearest_end(last, found, i, came_to)
+            if (min(place, came_to, came_from) < 0.0_wp) cycle
             now = found%to(i) - place
-            place = nearest_end(last_asked, found, i, place)
-            before = place - nearest_end(last, found, i, place)
-            if (.not. before*now > 0.0_wp) cycle
-            ratio = min(now/before, largest_ratio)
+            if (.not. now*(came_to - came_from) > 0.0_wp) cycle
+            ratio = min(now/(came_to - came_from), largest_ratio)
             farther(i) = sign(min(abs(now)*ratio/(4 - 4*ratio), merge(found%to(i + 1) - found%from(i + 1), &
                                                                      found%to(i) - found%from(i), now > 0.0_wp)*largest_share), now)
         end do
@@ -199,7 +200,7 @@ contains
         end do
     end subroutine go_farther
 
-    !> Where an end was in other zones: the nearest one between the same, huge if there is none
+    !> Where an end was in other zones: the nearest one between the same, -1 if there is none
     pure function nearest_end(zones, found, i, at) result(place)
         type(zones_type), intent(in) :: zones, found
         !> Number of the end of found, and near which place
@@ -208,11 +209,11 @@ contains
         real(wp) :: place
         integer :: k
 
-        place = sqrt(huge(place))
+        place = -1.0_wp
         do k = 1, size(zones%piece) - 1
             if (zones%piece(k) /= found%piece(i) .or. zones%piece(k + 1) /= found%piece(i)) cycle
             if (any(zones%acts(:, k) /= found%acts(:, i)) .or. any(zones%acts(:, k + 1) /= found%acts(:, i + 1))) cycle
-            if (abs(zones%to(k) - at) < abs(place - at)) place = zones%to(k)
+            if (place < 0.0_wp .or. abs(zones%to(k) - at) < abs(place - at)) place = zones%to(k)
         end do
     end function nearest_end
 
