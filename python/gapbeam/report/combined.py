@@ -12,6 +12,7 @@ from .writer import Writer
 if TYPE_CHECKING:
     from ..results.combined import CombinedResult
     from ..results.envelope import Extreme
+    from ..results.ground_envelope import GroundExtreme
 
 MOST_FOLLOWED = 100
 """Combinations that are followed from event to event for the report, to find factors between that govern."""
@@ -41,6 +42,7 @@ def write_combined(say: Writer, result: "CombinedResult") -> None:
     elif number:
         _fields(say, result)
         _supports(say, result)
+        _foundations(say, result)
         _factors_between(say, result)
     _list(say, result)
     for remark in result.remarks:
@@ -61,7 +63,7 @@ def _fallen(say: Writer, result: "CombinedResult") -> None:
         say.line("They are left out of what follows.")
 
 
-def _source(extreme: "Extreme") -> str:
+def _source(extreme: "Extreme | GroundExtreme") -> str:
     """Name the combinations that an extreme comes from."""
     names = [visible(source.combination or "") for source in extreme.ties]
     more = len(names) - 1 - MOST_TIES
@@ -107,6 +109,37 @@ def _supports(say: Writer, result: "CombinedResult") -> None:
         headings += [fmt.stacked(scene, "opening"), "combination"]
     say.table(headings, rows, left=(0, 1, 3, 5))
     say.line("Reactions upward positive.", "dim")
+
+
+def _foundations(say: Writer, result: "CombinedResult") -> None:
+    """Tell what the foundations carry at most and at least, and where the beam hangs free."""
+    scene = result.scene
+    if not scene.foundation:
+        return
+    say.heading(f"Foundations, all combinations {_when(result)}")
+    names, found = fmt.numbered(scene.foundation), result.envelope().foundations
+    rows = []
+    for name, row in zip(names, found, strict=True):
+        for kind, words in PLACES:
+            one = row["resultant"][kind]
+            rows.append([name if kind == "max" else "", words, fmt.number(one.value), _source(one)])
+    say.table(["", "", fmt.stacked(scene, "resultant"), "combination"], rows, left=(0, 1, 3))
+    rows = []
+    for name, row in zip(names, found, strict=True):
+        for kind, one in row["free_span"].items():
+            if one is not None:
+                span = one.span
+                numbers = [fmt.number(value, 4) for value in (span.from_, span.to, span.to - span.from_, span.sag)]
+                rows.append([name if kind == "longest" else "", kind, *numbers, _source(one)])
+    if not rows:
+        say.line("Resultants upward positive. The beam hangs free nowhere.", "dim")
+        return
+    say.line("Resultants upward positive.", "dim")
+    say.heading(f"Free spans, all combinations {_when(result)}")
+    quantities = (("x", "from"), ("x", "to"), ("length", "length"), ("sag", "sag"))
+    headings = [fmt.stacked(scene, quantity, words) for quantity, words in quantities]
+    say.table(["", "", *headings, "combination"], rows, left=(0, 1, 6))
+    say.line("Sag: largest distance between beam and ground.", "dim")
 
 
 def _factors_between(say: Writer, result: "CombinedResult") -> None:

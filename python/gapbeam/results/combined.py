@@ -17,13 +17,14 @@ from ..engine.beam import Beam, RefusalError
 from ..engine.combinations import Combined, all_combinations, solve_combinations
 from ..scene.columns import columns, curves
 from ..scene.combinations import Plan, plan_combinations
-from ..scene.names import label, names_in_errors
+from ..scene.names import label, labels, names_in_errors
 from ..scene.refusals import refusal
 from ..scene.structs import Scene
 from ..scene.wording import shown
 from .envelope import Envelope, Source, at_full_load, fields_on_sides
 from .following import follow_load, starting_scheme
 from .result import Result
+from .tables import KINDS, extremes_while_trains_pass
 from .train_envelope import Member, Standing, TrainEnvelope, places_given
 
 if TYPE_CHECKING:
@@ -61,6 +62,41 @@ class Combinations(Pickled, Mapping[str, Result]):
         self._plan, self._beam, self._rule, self._start = plan, beam, rule, start
         self.failed: dict[int, Status] = {}
         self._kept: OrderedDict[int, Result] = OrderedDict()
+        self._solved: tuple[Combined, tuple[str, ...], dict[str, int]] | None = None
+
+    def take(self, found: Combined, statuses: tuple[str, ...], fields: dict[str, int]) -> None:
+        """Take what came of all, for `columns`.
+
+        Parameters
+        ----------
+        found : Combined
+            Their states at full load.
+        statuses : tuple of str
+            The status of each.
+        fields : dict
+            Names of the fields, and which of FIELDS they are.
+        """
+        self._solved = found, statuses, fields
+
+    def columns(self) -> dict[str, Any]:
+        """As columns of a table with a row for every combination, for example for pandas.
+
+        Returns
+        -------
+        dict
+            ``combination``, ``status``; of every field its extremes and their places (``moment_max``, ``moment_max_x``), of every
+            support its reaction (``reaction R-104``, or by number), at full load; with trains the extremes over all their
+            positions, of reactions too (``reaction R-104_max``). Not-a-number where a combination is not solved.
+        """
+        found, statuses, fields = self._solved
+        table: dict[str, Any] = {"combination": list(self._plan.names), "status": list(statuses)}
+        scene = self._plan.scene
+        if scene.trains:
+            return table | extremes_while_trains_pass(self)
+        for name, column in fields.items():
+            for i, kind in enumerate(KINDS):
+                table |= {f"{name}_{kind}": found.extremes[:, column, i], f"{name}_{kind}_x": found.places[:, column, i]}
+        return table | {f"reaction {name}": found.at_supports[:, 0, k] for k, name in enumerate(labels(scene.supports))}
 
     def __len__(self) -> int:
         """Count the combinations."""
@@ -256,6 +292,7 @@ class CombinedResult(Result):
         self._check_products()
         self._found, reasons = self._solve_at_once() if self._at_once else self._solve_one_by_one()
         self.statuses = tuple(reasons)
+        self._combinations.take(self._found, self.statuses, self.fields_there)
         self._seconds = perf_counter() - begin
         self.remarks = [f"no combination has loads of the case {shown(case)}" for case in plan.idle]
         self.remarks += [words for k in range(len(plan)) if (words := self._doubt(k))]

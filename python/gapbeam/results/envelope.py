@@ -13,8 +13,10 @@ from ..base.records import Record
 from ..engine.beam import FIELDS
 from ..scene.names import names_of
 from ..scene.structs import Scene
+from .tables import support_places
 
 if TYPE_CHECKING:
+    from .ground_envelope import GroundExtreme
     from .result import Result
 
 AT_SUPPORTS = ("reaction", "deflection", "opening", "couple")
@@ -197,6 +199,23 @@ class SupportExtremes(Sequence):
             for i, (name, row) in enumerate(zip(OF_SUPPORTS, self._rows, strict=True))
         }
 
+    def columns(self) -> dict[str, Any]:
+        """As columns of a table, for example for pandas.
+
+        Returns
+        -------
+        dict
+            ``support`` (name or number), ``x``, and of every quantity ``reaction_max`` and ``reaction_min``, in a scene with
+            combinations each with the first one it comes from, ``reaction_max_combination``.
+        """
+        found, supports = support_places(self._of.scene), np.arange(len(self))
+        for i, (name, row) in enumerate(zip(OF_SUPPORTS, self._rows, strict=True)):
+            for kind, which in self._of_all.items():
+                found[f"{name}_{kind}"] = self._of.at_supports[which[i], row, supports]
+                if self._of.scene.combinations:
+                    found[f"{name}_{kind}_combination"] = [self._of.sources[k].combination for k in which[i].tolist()]
+        return found
+
 
 class Envelope:
     """Largest and smallest values over all combinations that are solved, each at its full load; never floored at zero.
@@ -209,6 +228,8 @@ class Envelope:
         By field ``{"max": Extreme, "min": Extreme}``: exact values along the whole beam.
     supports : sequence of dict
         For every support by quantity (``reaction``, ``opening``, ``deflection``) the same.
+    foundations : list of dict
+        For every foundation ``{"resultant": {"max": ..., "min": ...}, "free_span": {"longest": ..., "deepest": ...}}``.
     """
 
     def __init__(
@@ -260,6 +281,18 @@ class Envelope:
         return SupportExtremes(self)
 
     @cached_property
+    def foundations(self) -> list[dict[str, dict[str, GroundExtreme | None]]]:
+        """Extremes of every foundation, in the order of the scene.
+
+        ``resultant`` by ``max`` and ``min``, ``free_span`` by ``longest`` and ``deepest`` (None where the beam lies on the
+        foundation everywhere and always). Every combination is looked at, so each is solved once more.
+        """
+        from .ground_envelope import find_ground_extremes
+
+        solved = np.flatnonzero(np.isfinite(self._values[:, 2, 0])).tolist()
+        return find_ground_extremes(self, solved) if self.scene.foundation else []
+
+    @cached_property
     def fields(self) -> Curves:
         """Largest and smallest values of every field along the beam."""
         x, parts = self._make()
@@ -288,6 +321,8 @@ class Envelope:
         dict
             Only numbers, strings, lists and dicts.
         """
+        from .ground_envelope import ground_extremes_data
+
         names = names_of(self.scene.supports)
         curves = self.fields
         return {
@@ -298,6 +333,7 @@ class Envelope:
                 }
                 for k, support in enumerate(self.supports)
             ],
+            **({"foundations": ground_extremes_data(self)} if self.scene.foundation else {}),
             "extremes": {
                 name: {kind: [one.value, one.x, one.to_dict()] for kind, one in row.items()} for name, row in self.extremes.items()
             },

@@ -15,6 +15,7 @@ from ..engine.trains import SIDES, Extremes
 from ..scene.names import names_of
 from .arguments import numbers
 from .envelope import AT_SUPPORTS, Curves
+from .tables import KINDS, SupportRows
 
 if TYPE_CHECKING:
     from .result import Result
@@ -25,7 +26,6 @@ FIELDS = ("deflection", "rotation", "moment", "shear")
 """Fields that have envelopes."""
 OF_SUPPORTS = ("reaction", "opening", "deflection", "couple")
 """Values of supports that have them."""
-KINDS = ("max", "min")
 EQUAL = 2.0**-40
 """Share of a value by which ties differ at most."""
 
@@ -281,7 +281,7 @@ class TrainEnvelope:
         ``{"moment": {"max": TrainExtreme, "min": TrainExtreme}, ...}`` of the whole beam, exact in place and position; None
         where nothing is solved.
     supports : list of dict
-        The same of reaction, opening, deflection, couple of every support.
+        The same of reaction, opening, deflection, couple of every support; its `columns` are a table.
     gaps : list of (Member, Gap)
         Positions that are not in it, as there the beam cannot stand.
     """
@@ -301,15 +301,16 @@ class TrainEnvelope:
         }
 
     @cached_property
-    def supports(self) -> list[dict[str, dict[str, TrainExtreme | None]]]:
+    def supports(self) -> SupportRows:
         """Extremes at every support, in the order of the scene, by quantity and by ``max`` and ``min``."""
-        return [
+        rows = [
             {
                 name: {kind: _merged([one.of_supports(k, name, i) for one in self.members], i) for i, kind in enumerate(KINDS)}
                 for name in OF_SUPPORTS
             }
             for k in range(len(self._result.scene.supports))
         ]
+        return SupportRows(self._result.scene, rows)
 
     @cached_property
     def fields(self) -> TrainCurves:
