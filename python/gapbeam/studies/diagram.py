@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from math import isfinite
 
 from matplotlib.axes import Axes
@@ -12,6 +12,7 @@ from matplotlib.ticker import LogLocator
 
 from ..plots.save import literal, save
 from . import foundation as ground
+from . import trains as moving
 from .accuracy import Comparison
 from .methods import front
 
@@ -42,6 +43,14 @@ GROUND_STYLES = {
     ground.OPENSEES: ("#009e73", "-", "s"),
 }
 """The same for foundations and springs."""
+TRAIN_STYLES = {
+    moving.OWN: ("black", "none", "*"),
+    moving.NUMPY: ("#0072b2", "-", "o"),
+    moving.REFINED: ("#0072b2", "--", "D"),
+    moving.PYCBA: ("#d55e00", "-", "v"),
+    moving.OPENSEES: ("#009e73", "-", "s"),
+}
+"""The same for trains."""
 LOWEST, HIGHEST = 3e-17, 4.0
 """Errors shown; those beyond stand on the edge."""
 
@@ -110,7 +119,7 @@ def _panel(axes: Axes, name: str, members: Sequence[Comparison]) -> None:
     _decorate(axes, f"{name}: {span}", "largest relative error")
 
 
-def _decorate(axes: Axes, title: str, error: str) -> None:
+def _decorate(axes: Axes, title: str, error: str, time: str = "time of one solve") -> None:
     """Axes of error over run time."""
     axes.set_title(title, fontsize=9, loc="left")
     axes.set_xscale("log")
@@ -121,7 +130,7 @@ def _decorate(axes: Axes, title: str, error: str) -> None:
     axes.minorticks_off()
     axes.xaxis.set_major_formatter(lambda seconds, _: _time(seconds))
     axes.yaxis.set_major_formatter(lambda error, _: f"{error:.0e}" if error < 1.0 else "1")
-    axes.set_xlabel("time of one solve", fontsize=8)
+    axes.set_xlabel(time, fontsize=8)
     axes.set_ylabel(error, fontsize=8)
     axes.tick_params(labelsize=8)
     axes.grid(True, color="0.92", linewidth=0.6)
@@ -142,20 +151,44 @@ def foundation_figure(rows: Sequence[ground.Row]) -> Figure:
     matplotlib.figure.Figure
         The points of a line are meshes of more and more springs; what has other zones stands on the upper edge.
     """
-    problems = list(dict.fromkeys(row.problem for row in rows))
     kinds = (("ends", "contact ends"), ("deflection", "deflection"), ("moment", "moment"))
+    return _side_by_side(rows, kinds, GROUND_STYLES)
+
+
+def trains_figure(rows: Sequence[moving.Row]) -> Figure:
+    """Draw error against run time of envelopes of trains, a row of panels for every problem.
+
+    Parameters
+    ----------
+    rows : sequence of Row
+        From `studies.trains.trains`.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The points of a line are more and more positions.
+    """
+    kinds = (("moment", "moment"), ("shear", "shear"), ("most", "largest reaction"), ("least", "smallest reaction"))
+    return _side_by_side(rows, kinds, TRAIN_STYLES, "time of one envelope")
+
+
+def _side_by_side(
+    rows: Sequence, kinds: Sequence[tuple[str, str]], styles: Mapping[str, tuple[str, str, str]], time: str = "time of one solve"
+) -> Figure:
+    """Draw a row of panels for every problem, a panel for every kind of error, a line for every program."""
+    problems = list(dict.fromkeys(row.problem for row in rows))
     picture = Figure(figsize=(9.6, 2.9 * len(problems) + 0.5), dpi=150, layout="constrained")
-    panels = picture.subplots(len(problems), 3, squeeze=False, sharex=True, sharey=True)
+    panels = picture.subplots(len(problems), len(kinds), squeeze=False, sharex=True, sharey=True)
     for line, problem in zip(panels, problems, strict=True):
         for axes, (kind, name) in zip(line, kinds, strict=True):
-            for program, (color, style, marker) in GROUND_STYLES.items():
+            for program, (color, style, marker) in styles.items():
                 found = [row for row in rows if (row.problem, row.program) == (problem, program) and isfinite(row.seconds)]
                 points = [(row.seconds, min(max(getattr(row, kind), LOWEST), HIGHEST)) for row in found]
                 if points:
-                    size = 11 if program == ground.OWN else 4
+                    size = 11 if marker == "*" else 4
                     look = {"marker": marker, "color": color, "markersize": size, "linewidth": 1.2, "label": program}
                     axes.plot(*zip(*points, strict=True), linestyle=style, clip_on=False, **look)
-            _decorate(axes, f"{problem}: {name}", "relative error")
+            _decorate(axes, f"{problem}: {name}", "relative error", time)
     for axes in panels.flat:
         axes.label_outer()
     lines = panels[0, 0].get_legend_handles_labels()
