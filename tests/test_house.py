@@ -9,7 +9,7 @@ import pytest
 
 TOP = Path(__file__).resolve().parents[1]
 FORTRAN = ("base", "beam", "chain", "contact", "verification", "path", "scene", "result", "face")
-PYTHON = ("base", "engine", "scene", "results", "report", "plots", "studies", "cli")
+PYTHON = ("base", "engine", "scene", "results", "batches", "report", "plots", "studies", "cli")
 
 
 def fortran_sources():

@@ -3,6 +3,8 @@
 from importlib.metadata import version
 
 from .base.errors import EngineError, GapbeamError, SceneError, Status
+from .batches.batch import Batch
+from .batches.run import batch
 from .results.cases import Cases, Prepared, prepare
 from .results.combined import CombinedResult
 from .results.envelope import Envelope
@@ -34,6 +36,7 @@ __version__ = version("gapbeam")
 __all__ = [
     "Analysis",
     "AxialLoad",
+    "Batch",
     "Beam",
     "Cases",
     "Combination",
@@ -60,6 +63,7 @@ __all__ = [
     "UniformLoad",
     "Units",
     "__version__",
+    "batch",
     "prepare",
     "read_scene",
     "scene_schema",

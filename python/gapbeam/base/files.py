@@ -48,6 +48,48 @@ def write_files(contents: Mapping[str | os.PathLike, bytes | Iterable[str]]) -> 
         remove_unfinished(beside.values())
 
 
+def write_lasting(path: str | os.PathLike, data: bytes) -> None:
+    """Write a file that is there in whole or not at all, even where the machine loses its power meanwhile.
+
+    It is written beside its place, under its name after a dot, down to the disk; then it is renamed, and the folder written.
+
+    Parameters
+    ----------
+    path : path
+        The file; another one of this name is replaced.
+    data : bytes
+        What is to stand in it.
+
+    Raises
+    ------
+    OSError
+        Names the file, and why it cannot be written.
+    """
+    folder, name = os.path.split(os.path.abspath(path))
+    beside = os.path.join(folder, f".{name}")
+    _UNFINISHED.add(beside)
+    try:
+        with _named(path):
+            with open(beside, "wb") as stream:
+                stream.write(data)
+                stream.flush()
+                os.fsync(stream.fileno())
+            os.replace(beside, path)
+            _sync_folder(folder)
+    finally:
+        remove_unfinished([beside])
+
+
+def _sync_folder(folder: str) -> None:
+    """Write the names of a folder down to the disk, where the system can do that."""
+    with suppress(PermissionError):  # Windows opens no folders
+        descriptor = os.open(folder, os.O_RDONLY)
+        try:
+            os.fsync(descriptor)
+        finally:
+            os.close(descriptor)
+
+
 def remove_unfinished(paths: Iterable[str] = _UNFINISHED) -> None:
     """Remove files that are not complete.
 

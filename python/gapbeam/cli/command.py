@@ -195,8 +195,10 @@ def _parser() -> argparse.ArgumentParser:
     )  # fmt: skip
     schema.set_defaults(command=_schema)
 
+    from .batch import add_batch
     from .studies import add_studies
 
+    add_batch(commands)
     add_studies(commands)
     return parser
 

@@ -144,6 +144,16 @@ class Cases(Record):
         of = self._asked.beam.fields
         return Fields(places, **{name: found.fields[:, :, column].reshape(shape).copy() for name, column in of.items()})
 
+    def states(self) -> Combined:
+        """Values at all supports and extremes of all fields, of all cases in few calls of the engine.
+
+        Returns
+        -------
+        Combined
+            As arrays, cases along their first axis.
+        """
+        return self._asked.solve()
+
     def extremes(self) -> dict[str, dict[str, tuple[np.ndarray, np.ndarray]]]:
         """Exact largest and smallest values of every field with their places, of all cases in few calls of the engine.
 

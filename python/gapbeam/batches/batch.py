@@ -1,0 +1,171 @@
+"""What a batch has written so far."""
+
+from __future__ import annotations
+
+import os
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from difflib import get_close_matches
+from typing import Any
+
+import numpy as np
+
+from ..base.errors import SceneError
+from ..scene.reading import read_scene
+from ..scene.structs import Scene
+from ..scene.wording import shown
+from .chunks import TEXTS, read_columns
+from .folder import from_json, open_folder
+from .paths import find_paths, with_values
+
+FAILED = ("refused", "no-answer", "failed")
+"""Outcomes that are no outcome of the structure."""
+
+
+class Batch:
+    """Results in the folder of a batch, also while it runs.
+
+    Parameters
+    ----------
+    path : str or path
+        The folder.
+
+    Attributes
+    ----------
+    cases : int
+        Cases of the whole table.
+    done : int
+        Cases that are solved so far, or have failed.
+    columns : tuple of str
+        Names of what `read` gives.
+
+    Raises
+    ------
+    SceneError
+        There is no batch in that folder.
+    """
+
+    def __init__(self, path: str | os.PathLike):
+        self._folder = open_folder(path)
+        manifest = self._folder.manifest
+        self._chunks = self._folder.done()
+        self.path = self._folder.path
+        self.cases: int = manifest["cases"]
+        self.done: int = sum(stop - first for first, stop in map(self._folder.part, self._chunks))
+        of_folder = () if manifest["data"] is not None else ("scene",)
+        self.columns: tuple[str, ...] = ("case", *of_folder, "status", "reason", *manifest["columns"])
+
+    def __repr__(self) -> str:
+        """Say where it is and how far."""
+        return f"Batch({os.fspath(self.path)!r}): {self.done:,} of {self.cases:,} cases"
+
+    @property
+    def numbers(self) -> tuple[str, ...]:
+        """Columns that hold numbers."""
+        return tuple(name for name in self.columns if name not in TEXTS and name != "case")
+
+    def chunks(self, names: Sequence[str] | None = None) -> Iterator[dict[str, np.ndarray]]:
+        """Go through what is done, file by file.
+
+        Parameters
+        ----------
+        names : sequence of str, optional
+            Of the columns; default all.
+
+        Yields
+        ------
+        dict of numpy.ndarray
+            By name.
+
+        Raises
+        ------
+        SceneError
+            There is no such column, or a file cannot be read.
+        """
+        names = self.columns if names is None else tuple(names)
+        for name in names:
+            if name not in self.columns:
+                near = get_close_matches(str(name), self.columns, n=1, cutoff=0.5)
+                hint = f"did you mean {shown(near[0])}?" if near else f"there are {', '.join(map(shown, self.columns[:12]))}"
+                raise SceneError(str(self.path), f"has no column {shown(name)}; {hint}")
+        for k in self._chunks:
+            yield read_columns(self._folder.file(k), names)
+
+    def read(self, names: Sequence[str] | None = None) -> dict[str, np.ndarray]:
+        """Give columns of all cases that are done, as `pandas.DataFrame` takes them.
+
+        Parameters
+        ----------
+        names : sequence of str, optional
+            Of the columns; default all.
+
+        Returns
+        -------
+        dict of numpy.ndarray
+            By name; texts are empty, and numbers not-a-number, where there is none.
+
+        Raises
+        ------
+        SceneError
+            As for `chunks`.
+        """
+        parts = list(self.chunks(names))
+        names = self.columns if names is None else tuple(names)
+        return {name: np.concatenate([part[name] for part in parts]) if parts else np.empty(0) for name in names}
+
+    def statuses(self) -> dict[str, int]:
+        """Count the cases by their outcome.
+
+        Returns
+        -------
+        dict of int
+            ``solved``, ``no-equilibrium``, ``limit-load``, ``refused``, ``no-answer``, ``failed``: those that there are.
+        """
+        found: Counter[str] = Counter()
+        for part in self.chunks(["status"]):
+            found.update(part["status"].tolist())
+        return dict(found.most_common())
+
+    def failed_chunks(self) -> list[int]:
+        """Give the files with cases that were refused, have no answer or failed, by number.
+
+        Returns
+        -------
+        list of int
+        """
+        return [
+            k for k, part in zip(self._chunks, self.chunks(["status"]), strict=True) if np.isin(part["status"], FAILED).any()
+        ]
+
+    def scene_of(self, case: int) -> Scene:
+        """Give a case as a scene of its own, for `gapbeam.solve`.
+
+        Parameters
+        ----------
+        case : int
+            Its number, from 0; it must be done.
+
+        Returns
+        -------
+        Scene
+
+        Raises
+        ------
+        ValueError
+            The case is not done, or its row was not kept (``want`` without ``input``).
+        SceneError
+            Its numbers make no scene.
+        """
+        manifest: dict[str, Any] = self._folder.manifest
+        if manifest["data"] is None:
+            raise ValueError("scene_of: the cases of this batch are files; solve the one that the column scene names")
+        if "input" not in manifest["want"]:
+            raise ValueError('scene_of: the rows of the table were not kept; take "input" into what is wanted')
+        size = manifest["chunk"]
+        if not 0 <= case < self.cases or case // size not in self._chunks:
+            raise ValueError(f"scene_of: case {case} is not done; there are {self.done:,} of {self.cases:,}")
+        data = from_json(manifest["data"])
+        row = read_columns(self._folder.file(case // size), manifest["inputs"])
+        values = [float(row[name][case % size]) for name in manifest["inputs"]]
+        paths = find_paths(read_scene(data), manifest["inputs"])
+        return read_scene(with_values(data, paths, values))

@@ -1,0 +1,137 @@
+"""Tables in CSV: names of columns in the first line, then a case a line."""
+
+from __future__ import annotations
+
+import csv
+import hashlib
+import io
+from dataclasses import dataclass
+from pathlib import Path
+from warnings import catch_warnings, simplefilter
+
+import numpy as np
+
+from ..base.errors import SceneError
+from ..scene.wording import shown
+
+BLOCK = 2**22
+"""Bytes that are looked through at a time."""
+EVERY = 1024
+"""Every so many lines their place in the file is kept."""
+
+
+@dataclass(frozen=True)
+class CsvRows:
+    """Some lines of a CSV file."""
+
+    text: bytes
+    names: tuple[str, ...]
+    count: int
+
+    def __len__(self) -> int:
+        """Count the rows."""
+        return self.count
+
+    def columns(self) -> tuple[np.ndarray, dict[int, str]]:
+        """Make numbers of the lines, columns by rows, and say what is wrong with lines that are none."""
+        text = self.text.decode("utf-8", "replace")
+        try:
+            with catch_warnings():
+                simplefilter("ignore")  # of no rows
+                found = np.loadtxt(io.StringIO(text), delimiter=",", ndmin=2, comments=None)
+            if found.shape == (self.count, len(self.names)):
+                return np.ascontiguousarray(found.T), {}
+        except ValueError:
+            pass
+        return self._one_by_one(text)
+
+    def _one_by_one(self, text: str) -> tuple[np.ndarray, dict[int, str]]:
+        values, problems = np.full((len(self.names), self.count), np.nan), {}
+        lines = (line for line in text.split("\n") if line.rstrip("\r"))
+        for row, line in enumerate(lines):
+            cells = next(csv.reader([line.rstrip("\r")]), [])
+            if len(cells) != len(self.names):
+                problems[row] = f"the line has {len(cells)} values, and the table {len(self.names)} columns"
+                continue
+            for k, cell in enumerate(cells):
+                try:
+                    values[k, row] = float(cell.replace("_", "x"))  # Python's own digits 1_000 are nobody else's
+                except ValueError:
+                    problems.setdefault(row, f"{self.names[k]}: expected a number, got {shown(cell)}")
+        return values, problems
+
+
+class CsvTable:
+    """A CSV file, read some lines at a time.
+
+    Parameters
+    ----------
+    path : pathlib.Path
+        The file; numbers with a decimal point, separated by commas.
+
+    Raises
+    ------
+    SceneError
+        It cannot be read, or its first lines are no table.
+    """
+
+    def __init__(self, path: Path):
+        self._path = path
+        digest = hashlib.sha256()
+        self.cases, self._places = 0, []
+        try:
+            with open(path, "rb") as stream:
+                header = stream.readline()
+                digest.update(header)
+                self.names = self._header(header)
+                place, rest = stream.tell(), b""
+                while block := stream.read(BLOCK):
+                    digest.update(block)
+                    place, rest = self._count(place, rest + block)
+                if rest.strip(b"\r"):
+                    self._note(np.array([place]))
+        except OSError as error:
+            problem = "there is no such file" if isinstance(error, FileNotFoundError) else f"cannot be read ({error.strerror})"
+            raise SceneError(str(path), problem) from None
+        self.digest = digest.hexdigest()
+        if not self.cases:
+            raise SceneError(str(path), "the table has no row; give a case a line below the names of the columns")
+        problems = self.rows(0, 1).columns()[1]
+        if problems:
+            raise SceneError(f"{path}, first case", f"{problems[0]}; separate values by commas, and write numbers with a point")
+
+    def rows(self, first: int, stop: int) -> CsvRows:
+        """Give the lines from first to stop, which is left out."""
+        with open(self._path, "rb") as stream:
+            stream.seek(self._places[first // EVERY])
+            lines = (line for line in stream if line.strip(b"\r\n"))
+            for _ in range(first % EVERY):
+                next(lines)
+            return CsvRows(b"".join(next(lines) for _ in range(first, stop)), self.names, stop - first)
+
+    def _header(self, line: bytes) -> tuple[str, ...]:
+        try:
+            cells = next(csv.reader([line.decode("utf-8-sig").strip()]), [])
+        except UnicodeDecodeError:
+            raise SceneError(f"{self._path}, first line", "not a text in UTF-8") from None
+        if not cells:
+            raise SceneError(f"{self._path}, first line", "expected the names of the columns, such as supports.R-104.gap")
+        return tuple(cell.strip() for cell in cells)
+
+    def _count(self, place: int, block: bytes) -> tuple[int, bytes]:
+        """Count whole lines that are not empty; give the place of the first line that goes on, and its beginning."""
+        text = np.frombuffer(block, dtype=np.uint8)
+        ends = np.flatnonzero(text == 10)
+        if not len(ends):
+            return place, block
+        starts = np.concatenate(([0], ends[:-1] + 1))
+        length = ends - starts
+        empty = (length == 0) | ((length == 1) & (text[starts] == 13))
+        self._note(place + starts[~empty])
+        return place + int(ends[-1]) + 1, block[ends[-1] + 1 :]
+
+    def _note(self, places: np.ndarray) -> None:
+        """Keep where some of the lines begin."""
+        first = -self.cases % EVERY
+        self._places.extend(places[first::EVERY].tolist())
+        self.cases += len(places)

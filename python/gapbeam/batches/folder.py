@@ -1,0 +1,209 @@
+"""The folder of a batch: a manifest that says what is solved, and a file for every chunk that is done.
+
+A chunk is done where its file is there: it is written under another name, down to the disk, and renamed. So whatever ends a
+batch, it goes on from what is there, and nothing is in part.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ..base.errors import SceneError
+from ..base.files import write_lasting
+
+MANIFEST = "_manifest.json"
+"""Programs that read all Parquet files of a folder pass over names that begin like this."""
+LOCK = ".lock"
+ELSE = "give --out another folder, or remove this one to begin anew"
+CHANGES = {
+    "gapbeam": "was written by gapbeam {0}, and this is {1}",
+    "writer": "was written with {0}, and here is {1}, which may write other bytes",
+    "scene": "holds results of another scene",
+    "table": "holds results of another table",
+    "columns": "holds other columns ({0})",
+    "chunk": "has files of {0} cases, not of {1}",
+}
+"""What may be different in a folder, in words."""
+
+
+@dataclass(frozen=True)
+class Folder:
+    """A folder of results.
+
+    Attributes
+    ----------
+    path : pathlib.Path
+        Where it is.
+    manifest : dict
+        ``gapbeam`` and ``writer`` (versions), ``format``, ``scene`` and ``table`` (hashes), ``data`` (the scene), ``want``,
+        ``columns``, ``inputs``, ``cases``, ``chunk`` (cases a file) and ``chunks`` (files).
+    """
+
+    path: Path
+    manifest: dict[str, Any]
+
+    def file(self, chunk: int) -> Path:
+        """Give the file of a chunk."""
+        return self.path / f"part-{chunk:06d}.{self.manifest['format']}"
+
+    def part(self, chunk: int) -> tuple[int, int]:
+        """Give the first case of a chunk, and the one after its last."""
+        size = self.manifest["chunk"]
+        return chunk * size, min((chunk + 1) * size, self.manifest["cases"])
+
+    def done(self) -> list[int]:
+        """Give the chunks that are done, in order."""
+        there = {one.name for one in os.scandir(self.path)}
+        return [k for k in range(self.manifest["chunks"]) if self.file(k).name in there]
+
+    def write(self, chunk: int, data: bytes) -> None:
+        """Write a chunk.
+
+        Raises
+        ------
+        OSError
+            Names the file, and why it cannot be written; the batch can be started again.
+        """
+        write_lasting(self.file(chunk), data)
+
+    def remove(self, chunk: int) -> None:
+        """Remove a chunk, so that it is made anew."""
+        self.file(chunk).unlink(missing_ok=True)
+
+
+def open_folder(path: str | os.PathLike) -> Folder:
+    """Open a folder that a batch has begun.
+
+    Parameters
+    ----------
+    path : str or path
+        The folder.
+
+    Returns
+    -------
+    Folder
+
+    Raises
+    ------
+    SceneError
+        It is none.
+    """
+    path = Path(path)
+    try:
+        manifest = json.loads((path / MANIFEST).read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        raise SceneError(str(path), "is no folder of a batch; give the one that gapbeam batch --out has written") from None
+    except (OSError, ValueError) as error:
+        raise SceneError(str(path / MANIFEST), f"cannot be read ({error})") from None
+    return Folder(path, manifest)
+
+
+def begin_folder(path: Path, manifest: Mapping[str, Any]) -> Folder:
+    """Begin a folder, or go on with it.
+
+    Parameters
+    ----------
+    path : pathlib.Path
+        The folder, locked.
+    manifest : mapping
+        What is to be solved.
+
+    Returns
+    -------
+    Folder
+
+    Raises
+    ------
+    SceneError
+        It holds results of something else.
+    OSError
+        It cannot be written.
+    """
+    if not (path / MANIFEST).exists():
+        if any(not one.name.startswith(".") for one in os.scandir(path)):
+            raise SceneError(str(path), "holds other files, and no batch; give --out a new folder")
+        write_lasting(path / MANIFEST, (json.dumps(manifest, indent=1) + "\n").encode())
+    folder = open_folder(path)
+    for key, words in CHANGES.items():
+        before, now = folder.manifest.get(key), manifest[key]
+        if before != now:
+            told = [", ".join(one) if isinstance(one, list) else one for one in (before, now)]
+            raise SceneError(str(path), f"{words.format(*told)}; {ELSE}")
+    for one in os.scandir(path):
+        if one.name.startswith(".part-"):  # what was being written when the process ended
+            os.unlink(one.path)
+    return folder
+
+
+@contextmanager
+def locked(path: Path) -> Iterator[None]:
+    """Keep other batches out of a folder, which is made where it is not there.
+
+    The lock is the system's, so it ends with the process, whatever ends that.
+
+    Parameters
+    ----------
+    path : pathlib.Path
+        The folder.
+
+    Raises
+    ------
+    SceneError
+        Another batch is at work there.
+    OSError
+        It cannot be made or written.
+    """
+    path.mkdir(parents=True, exist_ok=True)
+    name = path / LOCK
+    descriptor = os.open(name, os.O_RDWR | os.O_CREAT, 0o666)
+    try:
+        try:
+            _lock(descriptor)
+        except OSError:
+            raise SceneError(str(path), "another batch writes into this folder; wait for its end, or give another one") from None
+        yield
+    finally:
+        os.close(descriptor)
+
+
+def _lock(descriptor: int) -> None:
+    try:
+        import fcntl
+    except ImportError:  # Windows
+        import msvcrt
+
+        msvcrt.locking(descriptor, msvcrt.LK_NBLCK, 1)
+        return
+    fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+
+
+def as_json(value: Any) -> Any:
+    """Give plain data without numbers that JSON does not know: inf is written as a text.
+
+    Examples
+    --------
+    >>> as_json({"EI": float("inf"), "spans": [6.0]})
+    {'EI': 'inf', 'spans': [6.0]}
+    """
+    if isinstance(value, dict):
+        return {key: as_json(one) for key, one in value.items()}
+    if isinstance(value, list | tuple):
+        return [as_json(one) for one in value]
+    if isinstance(value, float) and value in (float("inf"), -float("inf")):
+        return str(value)
+    return value
+
+
+def from_json(value: Any) -> Any:
+    """Take back what `as_json` wrote, where no text is inf by itself."""
+    if isinstance(value, dict):
+        return {key: one if key in ("title", "name", "case") else from_json(one) for key, one in value.items()}
+    if isinstance(value, list):
+        return [from_json(one) for one in value]
+    return float(value) if value in ("inf", "-inf") else value

@@ -1,0 +1,173 @@
+"""What is done with every case of a batch, the same wherever it is done."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from functools import cached_property
+from threading import Event
+from typing import Any
+
+import numpy as np
+
+from ..base.characters import visible
+from ..base.errors import EngineError, SceneError
+from ..results.result import Result
+from ..results.stepping import solve
+from .paths import KeyPath, with_values
+from .prepared import PreparedRoad, can_be_prepared
+from .tables import Rows, SceneFiles
+
+SOLVED, FAILED = "solved", "failed"
+"""Outcomes of a case are those of a `Result` (solved, no-equilibrium, limit-load), and refused (its numbers make no scene),
+no-answer (the engine gives none) and failed (a fault of the program or its memory)."""
+STATUS = "S14"
+LONGEST = 400
+"""Characters of a reason."""
+AT_SUPPORTS = ("reaction", "opening", "couple")
+FIELDS = ("deflection", "rotation", "moment", "shear")
+"""Fields that every beam has."""
+WANTED = ("input", "reaction", "opening", "deflection", "moment")
+"""What is kept of every case where nothing else is said."""
+
+
+class StoppedError(Exception):
+    """The batch is to end before this chunk does."""
+
+
+@dataclass(frozen=True)
+class Job:
+    """What is done with every row of a table.
+
+    Attributes
+    ----------
+    scene : dict or None
+        The scene as plain data; None where every row is a scene of its own.
+    paths : tuple of KeyPath
+        What the columns of the table are.
+    want : tuple of str
+        What is kept of each case.
+    supports : tuple of str
+        Names or numbers of the supports.
+    """
+
+    scene: dict[str, Any] | None
+    paths: tuple[KeyPath, ...]
+    want: tuple[str, ...]
+    supports: tuple[str, ...]
+
+    @cached_property
+    def is_prepared(self) -> bool:
+        """Whether cases are solved on a prepared beam, or each as a scene of its own."""
+        return self.scene is not None and can_be_prepared(self.scene, self.paths)
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """Names of the numbers that are kept of each case."""
+        found: list[str] = []
+        for name in self.want:
+            if name == "input":
+                found += [path.text for path in self.paths]
+            elif name in AT_SUPPORTS:
+                found += [f"{name}.{one}" for one in (self.supports if self.scene is not None else ("max", "min"))]
+            else:
+                found += [f"{name}.{kind}" for kind in ("max", "max_x", "min", "min_x")]
+        return tuple(found)
+
+    @cached_property
+    def _prepared(self) -> PreparedRoad:
+        return PreparedRoad(self.scene, self.paths)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Pickle without what is made on the way."""
+        return {name: getattr(self, name) for name in self.__dataclass_fields__}
+
+    def solve(self, rows: Rows, first: int, stop: Event | None = None) -> dict[str, np.ndarray]:
+        """Solve some cases.
+
+        Parameters
+        ----------
+        rows : Rows
+            Of the table.
+        first : int
+            Number of the first of them.
+        stop : threading.Event, optional
+            Set where the work is to end.
+
+        Returns
+        -------
+        dict
+            ``case``, ``status``, ``reason`` and the numbers wanted: an entry for every case, not-a-number where it is not solved.
+
+        Raises
+        ------
+        StoppedError
+            `stop` was set.
+        """
+        values, problems = rows.columns()
+        count = len(rows)
+        numbers = {name: np.full(count, np.nan) for name in self.columns}
+        if "input" in self.want:
+            numbers |= {path.text: row for path, row in zip(self.paths, values, strict=True)}
+        outcomes: dict[int, tuple[str, str]] = {row: ("refused", problem) for row, problem in problems.items()}
+        rest: Sequence[int] = range(count)
+        if self.is_prepared:
+            with suppress(MemoryError):  # one by one they may fit
+                rest = np.flatnonzero(~self._prepared.solve(values, self.want, numbers, self.supports)).tolist()
+        for row in rest:
+            if stop is not None and stop.is_set():
+                raise StoppedError
+            if row not in problems:
+                source = rows.paths[row] if isinstance(rows, SceneFiles) else None
+                outcomes[row] = self._solve_one(source, values[:, row].tolist(), row, numbers)
+        found: dict[str, np.ndarray] = {"case": np.arange(first, first + count)}
+        if self.scene is None:
+            found["scene"] = np.array([path.replace("\\", "/").rpartition("/")[2].encode() for path in rows.paths])
+        status = np.full(count, SOLVED, dtype=STATUS)
+        reasons = {}
+        for row, (outcome, reason) in outcomes.items():
+            status[row] = outcome
+            if reason:
+                reasons[row] = visible(" ".join(reason.split()))[:LONGEST].encode()
+        reason = np.zeros(count, dtype=f"S{max(map(len, reasons.values()), default=1)}")
+        for row, text in reasons.items():
+            reason[row] = text
+        return found | {"status": status, "reason": reason} | numbers
+
+    def _solve_one(self, source: Any, row: list[float], k: int, numbers: dict[str, np.ndarray]) -> tuple[str, str]:
+        """Solve a case as a scene of its own."""
+        try:
+            wrong = next((path.text for path, value in zip(self.paths, row, strict=True) if value != value), None)
+            if wrong is not None:
+                raise SceneError(wrong, "expected a number, got none")
+            result = solve(with_values(self.scene, self.paths, row) if source is None else source)
+            if result.combinations or result.scene.trains:
+                raise SceneError("a scene of a batch has one load; leave combinations and trains out, or use gapbeam.solve")
+            if result.status == SOLVED:
+                self._keep(result, k, numbers)
+            return result.status, result.reason or ""
+        except SceneError as error:
+            return "refused", str(error)
+        except EngineError as error:
+            return "no-answer", str(error)
+        except MemoryError:
+            return FAILED, "not enough memory; start fewer jobs, and the batch again with --retry-failed"
+        except Exception as error:
+            return FAILED, f"internal error: {type(error).__name__} ({error}); this is a fault of gapbeam, please report it"
+
+    def _keep(self, result: Result, k: int, numbers: dict[str, np.ndarray]) -> None:
+        """Keep what is wanted of a case that is solved."""
+        step = result.steps[-1]
+        extremes = result.extremes() if set(self.want) - {"input", *AT_SUPPORTS} else {}
+        for name in self.want:
+            if name in AT_SUPPORTS:
+                values = getattr(step, name)
+                if self.scene is None:
+                    numbers[f"{name}.max"][k], numbers[f"{name}.min"][k] = values.max(initial=-np.inf), values.min(initial=np.inf)
+                    continue
+                for one, value in zip(self.supports, values, strict=True):
+                    numbers[f"{name}.{one}"][k] = value
+            elif name != "input":
+                for kind in ("max", "min"):
+                    numbers[f"{name}.{kind}"][k], numbers[f"{name}.{kind}_x"][k] = extremes[name][kind]

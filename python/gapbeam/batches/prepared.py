@@ -1,0 +1,133 @@
+"""Many cases at once on a prepared beam, where the columns of a table are loads, factors of cases, gaps and settlements."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from ..base.errors import GapbeamError, Status
+from ..engine.beam import FIELDS as ENGINE_FIELDS
+from ..results.cases import prepare
+from ..scene.columns import SIDES
+from ..scene.combinations import VALUES
+from .paths import KeyPath, with_values
+
+ROWS = {"reaction": 0, "opening": 2, "couple": 3}
+"""Values at supports, as `Cases.states` has them."""
+
+
+def can_be_prepared(scene: dict[str, Any], paths: Sequence[KeyPath]) -> bool:
+    """Tell whether the cases of a table can be solved on a prepared beam.
+
+    Parameters
+    ----------
+    scene : dict
+        As plain data.
+    paths : sequence of KeyPath
+        What the columns of the table are.
+
+    Returns
+    -------
+    bool
+        Else each is solved as a scene of its own.
+    """
+    if scene["foundation"] or scene["analysis"]["history"] != [1.0] or not all(_varies(scene, path) for path in paths):
+        return False
+    try:
+        PreparedRoad(scene, paths)
+    except GapbeamError:
+        return False
+    return True
+
+
+def _varies(scene: dict[str, Any], path: KeyPath) -> bool:
+    head, *rest = path.parts
+    if head == "loads":
+        return len(rest) == 2 and rest[1] in VALUES and not isinstance(scene["loads"][rest[0]][rest[1]], list)
+    if head == "supports" and rest[1] == "gap":  # it moves the place where a one-sided support begins to act
+        support = scene["supports"][rest[0]]
+        return support["side"] != "both" and support["law"] is None
+    return head == "factors" or (head == "supports" and rest[1] == "settlement")
+
+
+class PreparedRoad:
+    """A scene prepared for the columns of a table: what varies by case is 1 or 0 in it, so that the digits are those of the table.
+
+    Parameters
+    ----------
+    scene : dict
+        As plain data.
+    paths : sequence of KeyPath
+        What the columns of the table are.
+
+    Raises
+    ------
+    GapbeamError
+        The scene cannot be prepared.
+    """
+
+    def __init__(self, scene: dict[str, Any], paths: Sequence[KeyPath]):
+        values = [0.0 if path.parts[0] == "supports" else 1.0 for path in paths]
+        self._beam = prepare(with_values(scene, paths, values))
+        self._paths = paths
+        self._cases = np.array([load["case"] for load in scene["loads"]], dtype=object)
+        self._sides = [SIDES[support["side"]] for support in scene["supports"]]
+        self._axial = len(self._beam.supports) < len(scene["supports"])
+
+    def solve(
+        self, values: np.ndarray, want: Sequence[str], numbers: dict[str, np.ndarray], supports: Sequence[str]
+    ) -> np.ndarray:
+        """Solve cases.
+
+        Parameters
+        ----------
+        values : numpy.ndarray
+            Columns by cases.
+        want : sequence of str
+            What is kept.
+        numbers : dict of numpy.ndarray
+            By name of the column; changed where cases are solved.
+        supports : sequence of str
+            Names of all supports.
+
+        Returns
+        -------
+        numpy.ndarray of bool
+            Which cases are solved.
+        """
+        factors, moves = self._numbers(values)
+        fine = np.isfinite(values).all(axis=0) & np.isfinite(factors).all(axis=1)
+        factors[~fine] = 0.0
+        found = self._beam.solve(factors, settlements={k: np.where(fine, row, 0.0) for k, row in moves.items()})
+        solved = fine & (found.status == Status.SOLVED)
+        if tuple(want) == ("reaction",) and not self._axial:
+            for k, one in enumerate(supports):
+                numbers[f"reaction.{one}"][solved] = found.reaction[solved, k]
+            return solved
+        states = found.states()
+        for name in want:
+            if name in ROWS:
+                for k, one in enumerate(supports):
+                    numbers[f"{name}.{one}"][solved] = states.at_supports[solved, ROWS[name], k]
+            elif name != "input":
+                column = ENGINE_FIELDS.index(name)
+                for row, kind in enumerate(("max", "min")):
+                    numbers[f"{name}.{kind}"][solved] = states.extremes[solved, column, row]
+                    numbers[f"{name}.{kind}_x"][solved] = states.places[solved, column, row]
+        return solved
+
+    def _numbers(self, values: np.ndarray) -> tuple[np.ndarray, dict[int, np.ndarray]]:
+        """Factor of every load, cases by loads, and movements of supports."""
+        factors, moves = np.ones((values.shape[1], len(self._cases))), {}
+        with np.errstate(over="ignore", invalid="ignore"):
+            for path, column in zip(self._paths, values, strict=True):
+                if path.parts[0] == "loads":
+                    factors[:, path.parts[1]] *= column
+                elif path.parts[0] == "factors":
+                    factors[:, self._cases == path.parts[1]] *= column[:, None]
+                else:
+                    _, k, key = path.parts
+                    moves[k] = moves.get(k, 0.0) + (column if key == "settlement" else self._sides[k] * column)
+        return factors, moves

@@ -1,0 +1,176 @@
+"""Where chunks are solved: threads, processes, or whatever has the interface of `concurrent.futures.Executor`."""
+
+from __future__ import annotations
+
+import os
+import pickle
+import signal
+import threading
+from collections.abc import Callable, Iterator
+from concurrent.futures import (
+    FIRST_COMPLETED,
+    BrokenExecutor,
+    Executor,
+    Future,
+    ProcessPoolExecutor,
+    ThreadPoolExecutor,
+    wait,
+)
+from contextlib import contextmanager
+from functools import partial
+from multiprocessing import get_context, parent_process
+
+from ..base.errors import GapbeamError
+from .chunks import encode
+from .job import Job
+from .tables import Rows
+
+LOOK = 0.2
+"""Seconds between two looks whether something is done."""
+_MADE = threading.local()
+"""Of each thread the job that it last worked at."""
+
+
+class LostWorkerError(GapbeamError):
+    """A process that solved cases is gone."""
+
+
+def work(key: str, packed: bytes, rows: Rows, first: int, kind: str, stop: threading.Event | None = None) -> bytes:
+    """Solve a chunk, in whatever process.
+
+    Parameters
+    ----------
+    key : str
+        Tells jobs apart.
+    packed : bytes
+        The job, pickled once for all chunks.
+    rows : Rows
+        Of the table.
+    first : int
+        Number of the first case.
+    kind : {"parquet", "npy"}
+        Format of the file.
+    stop : threading.Event, optional
+        As for `Job.solve`.
+
+    Returns
+    -------
+    bytes
+        Contents of the file.
+    """
+    if getattr(_MADE, "key", None) != key:
+        _MADE.key, _MADE.job = key, pickle.loads(packed)
+    job: Job = _MADE.job
+    return encode(job.solve(rows, first, stop), kind)
+
+
+def cores() -> int:
+    """Count the cores that this process may use.
+
+    Returns
+    -------
+    int
+    """
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+@contextmanager
+def threads(jobs: int) -> Iterator[tuple[Executor, Callable]]:
+    """Offer threads of this process, which end soon when the batch is interrupted.
+
+    Parameters
+    ----------
+    jobs : int
+        How many.
+
+    Yields
+    ------
+    executor : Executor
+        The threads.
+    work : callable
+        What they are to be given.
+    """
+    stop = threading.Event()
+    executor = ThreadPoolExecutor(jobs, "gapbeam-batch")
+    try:
+        yield executor, partial(work, stop=stop)
+    finally:
+        stop.set()
+        executor.shutdown(wait=False, cancel_futures=True)
+
+
+@contextmanager
+def processes(jobs: int) -> Iterator[Executor]:
+    """Offer processes of this machine; they end with the process that made them, whatever ends it.
+
+    Parameters
+    ----------
+    jobs : int
+        How many.
+
+    Yields
+    ------
+    Executor
+    """
+    executor = ProcessPoolExecutor(jobs, get_context("spawn"), _begin_process)
+    try:
+        yield executor
+    finally:
+        executor.shutdown(wait=False, cancel_futures=True)
+
+
+def _begin_process() -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C goes to all; the first process sees to it
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+
+
+def _end_with_parent() -> None:
+    parent_process().join()
+    os._exit(1)
+
+
+def in_turn(
+    executor: Executor, tasks: Iterator[tuple[int, Callable[[], tuple]]], call: Callable, most: int
+) -> Iterator[tuple[int, bytes]]:
+    """Give an executor so many tasks at a time that memory holds them, and what is done as soon as it is.
+
+    Parameters
+    ----------
+    executor : Executor
+        Where they are done.
+    tasks : iterator of (int, callable)
+        A number, and what makes the arguments when they are needed.
+    call : callable
+        What is called there.
+    most : int
+        Tasks at a time.
+
+    Yields
+    ------
+    number : int
+        Of the task.
+    data : bytes
+        What came of it.
+
+    Raises
+    ------
+    LostWorkerError
+        A worker is gone.
+    """
+    running: dict[Future, int] = {}
+    try:
+        while True:
+            while len(running) < most and (task := next(tasks, None)) is not None:
+                running[executor.submit(call, *task[1]())] = task[0]
+            if not running:
+                return
+            for ready in wait(running, LOOK, FIRST_COMPLETED).done:
+                yield running.pop(ready), ready.result()
+    except BrokenExecutor:
+        raise LostWorkerError(
+            "a worker process is gone: it was ended, or there was not enough memory; start the same batch again, and it goes on, "
+            "with fewer jobs if memory was short"
+        ) from None
+    finally:
+        for one in running:
+            one.cancel()

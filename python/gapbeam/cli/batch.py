@@ -1,0 +1,126 @@
+"""The batches of the command line: ``gapbeam batch ...``."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Callable, Iterator
+from concurrent.futures import Executor
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+from ..base.errors import SceneError
+from .command import NO_SOLUTION, SOLVED
+from .outputs import source, until_closed
+
+if TYPE_CHECKING:
+    from ..batches.batch import Batch
+
+TEXT = """\
+A column of TABLE is a key path of the scene (supports.R-104.gap, loads[2].q, beam.EI), or factors.CASE; a row is a case:
+
+  supports.R-104.gap,factors.wind
+  0.012,1.0
+  0.007,-0.8
+
+Files of results can be read in one line, also while the batch runs: pandas.read_parquet("DIR"),
+polars.read_parquet("DIR/*.parquet"), duckdb: select * from 'DIR/*.parquet'. Without pyarrow they are .npy.
+
+Whatever ends a batch, the same command goes on where it was, and the files come out the same to the last byte.
+
+Exit status: 0 all cases are solved, 1 not all, 2 refused, 3 failed, 130 ended by Ctrl-C.
+"""
+
+
+def add_batch(commands: argparse._SubParsersAction) -> None:
+    """Add the command ``batch``.
+
+    Parameters
+    ----------
+    commands : argparse._SubParsersAction
+        The commands of ``gapbeam``.
+    """
+    parser = commands.add_parser(
+        "batch", help="solve a scene for every row of a table", formatter_class=argparse.RawDescriptionHelpFormatter, epilog=TEXT,
+        description="Solve a scene for every row of a table, or every scene of a folder, into a folder of results.",
+    )  # fmt: skip
+    parser.add_argument("scene", metavar="SCENE", nargs="?", help="a .toml or .json file, or a folder of them; - is standard input")
+    parser.add_argument("table", metavar="TABLE", nargs="?", help="a .csv or .parquet file; none with a folder of scenes")
+    parser.add_argument("--out", metavar="DIR", help="the folder for the results")
+    parser.add_argument("--want", metavar="NAMES", help="what is kept of every case, separated by commas: input, reaction, "
+                        "opening, couple, fields such as moment (default input,reaction,opening,deflection,moment)")  # fmt: skip
+    parser.add_argument("--jobs", metavar="N", type=int, help="how many cores work (default all)")
+    parser.add_argument("--dask", metavar="ADDRESS", help="let the workers of a Dask scheduler work instead, such as "
+                        "tcp://host:8786")  # fmt: skip
+    parser.add_argument("--retry-failed", action="store_true", help="solve those files again that hold cases which were refused, "
+                        "have no answer or failed")  # fmt: skip
+    parser.add_argument("--quiet", action="store_true", help="show no progress and print nothing")
+    parser.set_defaults(command=_batch)
+
+
+def _batch(arguments: argparse.Namespace) -> int:
+    if arguments.scene is None or arguments.out is None:
+        raise SceneError("batch", "give SCENE, TABLE and --out DIR")
+    from ..batches.run import run_batch
+
+    if arguments.jobs is not None and arguments.jobs < 1:
+        raise SceneError("--jobs", f"expected a positive number, got {arguments.jobs}")
+    want = None if arguments.want is None else [name.strip() for name in arguments.want.split(",")]
+    scene = arguments.scene if os.path.isdir(arguments.scene) else source(arguments.scene)
+    with _executor(arguments) as executor, _progress(not arguments.quiet) as progress:
+        done = run_batch(
+            scene, arguments.table, arguments.out, want, arguments.jobs, executor, arguments.retry_failed, None, progress,
+            by_processes=True,
+        )
+    return _tell(done, arguments.quiet)
+
+
+@contextmanager
+def _executor(arguments: argparse.Namespace) -> Iterator[Executor | None]:
+    """Dask's workers, or none."""
+    if arguments.dask is None:
+        yield None
+        return
+    try:
+        from distributed import Client
+    except ImportError:
+        raise SceneError("--dask", "needs Dask: pip install gapbeam[dask]") from None
+    try:
+        client = Client(arguments.dask, timeout=10)
+    except (OSError, ValueError) as error:
+        raise SceneError("--dask", f"no scheduler answers at {arguments.dask} ({error})") from None
+    with client:
+        if arguments.jobs is None:
+            arguments.jobs = max(sum(client.ncores().values()), 1)
+        yield client.get_executor()
+
+
+@contextmanager
+def _progress(wanted: bool) -> Iterator[Callable[[int, int], None] | None]:
+    """A bar with rate and time left, on a terminal."""
+    if not wanted or sys.stderr is None or not sys.stderr.isatty():
+        yield None
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+    columns = (BarColumn(), MofNCompleteColumn(), TextColumn("cases  {task.fields[rate]}"), TimeRemainingColumn())
+    with Progress(*columns, console=Console(stderr=True)) as bar:
+        task = bar.add_task("", total=None, rate="")
+
+        def progress(done: int, total: int) -> None:
+            speed = bar.tasks[0].speed
+            bar.update(task, completed=done, total=total, rate=f"{speed:,.0f} a second" if speed else "")
+
+        yield progress
+
+
+def _tell(done: Batch, quiet: bool) -> int:
+    """Say how many cases there are by their outcome."""
+    statuses = done.statuses()
+    counts = ", ".join(f"{count:,} {status}" for status, count in statuses.items())
+    if not quiet:
+        with until_closed():
+            print(f"{done.path}: {done.done:,} of {done.cases:,} cases: {counts}")
+    return SOLVED if set(statuses) <= {"solved"} else NO_SOLUTION

@@ -1,0 +1,330 @@
+"""Batches: rows of tables as cases, files that are the same whatever happens, refusals."""
+
+import errno
+import hashlib
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
+
+import gapbeam
+import numpy as np
+import pytest
+from gapbeam.batches import folder, run
+from gapbeam.batches.job import Job
+from gapbeam.batches.paths import find_paths, scene_data, with_values
+from gapbeam.batches.tables import Arrays, ParquetTable, take_table
+from gapbeam.cli import main
+from scenes import random_scene
+
+SCENE = {
+    "beam": {"spans": [6.0, 5.0, 6.0], "EI": 1e4},
+    "supports": [
+        {"node": 0, "side": "below", "name": "R-101"},
+        {"node": 1, "side": "below", "name": "R 102", "gap": 0.01},
+        {"node": 2, "side": "below"},
+        {"node": 3},
+    ],
+    "loads": [{"type": "uniform", "q": 5.0, "case": "dead"}, {"type": "force", "x": 3.0, "F": 20.0, "case": "wind"}],
+}
+TOML = """\
+beam = { spans = [6.0, 5.0, 6.0], EI = 1.0e4 }
+supports = [{ node = 0, side = "below" }, { node = 1, side = "below" }, { node = 2, side = "below" }, { node = 3 }]
+loads = [{ type = "uniform", q = 5.0, case = "dead" }, { type = "force", x = 3.0, F = 20.0, case = "wind" }]
+"""
+
+
+def table(cases, seed=0):
+    rng = np.random.default_rng(seed)
+    return {"supports.R-101.gap": rng.normal(0.0, 0.01, cases), "factors.wind": rng.normal(1.0, 0.3, cases)}
+
+
+def digests(path):
+    """Every file of a folder, what begins with a dot too."""
+    return {one: hashlib.sha256((path / one).read_bytes()).hexdigest() for one in sorted(os.listdir(path))}
+
+
+def job(scene, columns, want=("reaction", "opening", "couple", "moment")):
+    scene = gapbeam.read_scene(scene)
+    return Job(scene_data(scene), find_paths(scene, columns), want, tuple(map(str, range(len(scene.supports)))))
+
+
+# What is solved
+
+
+def test_a_row_is_the_scene_with_its_numbers():
+    columns = ["supports.R-101.gap", 'supports."R 102".settlement', "loads[1].F", "factors.wind", "beam.EI", "supports[2].node"]
+    data = with_values(scene_data(gapbeam.read_scene(SCENE)), find_paths(gapbeam.read_scene(SCENE), columns),
+                       [0.02, 0.03, 7.0, 2.0, 5e3, 2.0])  # fmt: skip
+    assert data["supports"][0]["gap"] == 0.02
+    assert data["supports"][1]["settlement"] == 0.03
+    assert data["loads"][1]["F"] == 14.0
+    assert data["beam"]["EI"] == 5e3
+    assert gapbeam.read_scene(data).supports[2].node == 2
+
+
+def test_prepared_beams_give_what_scenes_give():
+    """Loads, factors, gaps and settlements of random scenes, some of them impossible, on both roads."""
+    seen = set()
+    for seed in range(16):
+        rng = random.Random(seed)
+        scene = gapbeam.read_scene(random_scene(rng, held=rng.choice((True, None))))
+        columns = [f"supports[{k}].settlement" for k in range(len(scene.supports))]
+        columns += [f"supports[{k}].gap" for k, one in enumerate(scene.supports) if one.side != "both"]
+        columns += [f"factors.{case}" for case in sorted({load.case for load in scene.loads})]
+        made = job(scene, columns)
+        if not made.is_prepared:
+            continue
+        size = [1.0 if name.startswith("f") else 0.02 for name in columns]
+        values = np.array([[s * rng.choice((0.0, 1.0, rng.uniform(-1, 1), rng.uniform(-1, 1))) for _ in range(4)] for s in size])
+        values[0, 3] = np.nan
+        found = made.solve(Arrays(dict(zip(columns, values, strict=True))).rows(0, 4), 0)
+        alone = job(scene, columns)
+        alone.__dict__["is_prepared"] = False
+        for name, column in alone.solve(Arrays(dict(zip(columns, values, strict=True))).rows(0, 4), 0).items():
+            tolerance = 1e-9 * max(np.nanmax(np.abs(column), initial=0.0), 1e-3) if column.dtype == float else 0.0
+            same = np.allclose(found[name], column, 1e-9, tolerance, equal_nan=True) if tolerance else (found[name] == column).all()
+            assert same or name.endswith("_x"), (seed, name)
+        seen |= set(found["status"].tolist())
+    assert seen == {b"solved", b"no-equilibrium", b"refused"}
+
+
+def test_what_is_kept(tmp_path):
+    want = ["reaction", "shear", "couple"]
+    done = gapbeam.batch(SCENE, table(50), tmp_path / "out", want=want)
+    assert done.columns[3:6] == ("reaction.R-101", "reaction.R 102", "reaction.2")
+    found = done.read()
+    gap, factor = (column[7] for column in table(50).values())
+    supports = [{**SCENE["supports"][0], "gap": gap}, *SCENE["supports"][1:]]
+    case = gapbeam.solve({**SCENE, "supports": supports, "loads": [SCENE["loads"][0], {**SCENE["loads"][1], "F": 20.0 * factor}]})
+    assert [found[f"reaction.{one}"][7] for one in ("R-101", "R 102", "2", "3")] == pytest.approx(case.steps[-1].reaction, abs=1e-9)
+    assert (found["shear.min"][7], found["shear.min_x"][7]) == pytest.approx(case.extremes()["shear"]["min"])
+    assert (done.done, done.cases, done.statuses()) == (50, 50, {"solved": 50})
+
+
+def test_a_case_that_fails_is_a_row_with_its_reason(tmp_path):
+    columns = {"beam.EI": [1e4, -1.0, np.nan, 1e4], "supports[3].stiffness": [np.inf, np.inf, np.inf, 0.0],
+               "factors.wind": [1.0, 1.0, 1.0, -50.0]}  # fmt: skip
+    done = gapbeam.batch(SCENE, columns, tmp_path / "out")
+    found = done.read()
+    assert found["status"].tolist() == ["solved", "refused", "refused", "no-equilibrium"]
+    assert found["reason"][1] == "beam.EI: expected a number above 0 (inf = rigid), got -1"
+    assert found["reason"][2] == "beam.EI: expected a number, got none"
+    assert found["reason"][3].startswith("no equilibrium at load factor 1: ")
+    assert np.isnan(found["moment.max"]).tolist() == [False, True, True, True]
+    assert gapbeam.solve(done.scene_of(3)).reason == found["reason"][3]
+    assert done.failed_chunks() == [0]
+
+
+def test_scenes_of_a_folder(tmp_path):
+    (tmp_path / "scenes").mkdir()
+    for name, text in (("b.toml", TOML), ("a.toml", TOML.replace("q = 5.0", "q = 6.0")), ("c.toml", "nonsense")):
+        (tmp_path / "scenes" / name).write_text(text)
+    assert main(["batch", str(tmp_path / "scenes"), "--out", str(tmp_path / "out"), "--jobs", "1", "--quiet"]) == 1
+    found = gapbeam.Batch(tmp_path / "out").read()
+    assert found["scene"].tolist() == ["a.toml", "b.toml", "c.toml"]
+    assert found["status"].tolist() == ["solved", "solved", "refused"]
+    assert found["reaction.max"][1] == gapbeam.solve(tmp_path / "scenes" / "b.toml").steps[-1].reaction.max()
+
+
+# Tables
+
+
+def test_tables_of_all_kinds_are_one(tmp_path):
+    pyarrow = pytest.importorskip("pyarrow")
+    from pyarrow import parquet
+
+    columns = table(3000)
+    parquet.write_table(pyarrow.table(columns), tmp_path / "t.parquet", row_group_size=700)
+    lines = [",".join(map(repr, map(float, row))) for row in zip(*columns.values(), strict=True)]
+    (tmp_path / "t.csv").write_bytes(("\ufeff" + ",".join(columns) + "\r\n" + "\r\n".join([*lines[:9], "", *lines[9:]])).encode())
+    for source in (tmp_path / "t.parquet", tmp_path / "t.csv", iter(columns.items())):
+        made = take_table(source)
+        assert (made.names, made.cases) == (tuple(columns), 3000)
+        for first, stop in ((0, 1000), (1000, 2500), (2500, 3000), (701, 702)):
+            values, problems = made.rows(first, stop).columns()
+            assert not problems
+            assert np.array_equal(values, [column[first:stop] for column in columns.values()])
+    assert isinstance(take_table(tmp_path / "t.parquet"), ParquetTable)
+
+
+def test_lines_that_are_no_numbers(tmp_path):
+    (tmp_path / "t.csv").write_text("supports[1].gap,factors.wind\n0.01,1\nabc,1\n0.01\n,2\n0.02,1\n")
+    found = gapbeam.batch(SCENE, tmp_path / "t.csv", tmp_path / "out").read(["status", "reason"])
+    assert found["status"].tolist() == ["solved", "refused", "refused", "refused", "solved"]
+    assert found["reason"].tolist()[1:4] == [
+        'supports[1].gap: expected a number, got "abc"', "the line has 1 values, and the table 2 columns",
+        'supports[1].gap: expected a number, got ""',
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("columns", "message"),
+    [
+        ({"supports.R-1.gap": [0.0]}, 'column "supports.R-1.gap": is no key path of the scene; did you mean "supports.R-101.gap"?'),
+        ({"factors.wnd": [0.0]}, 'column "factors.wnd": is no key path of the scene; did you mean "factors.wind"?'),
+        ({"x": [0.0]}, 'column "x": is no key path of the scene; such are '),
+        ({"supports[0].side": [0.0]}, 'column "supports[0].side": is "below" in the scene; only numbers can be taken from a table'),
+        ({"beam.spans": [0.0]}, 'column "beam.spans": is a list of 3 numbers here; name one of them, such as "beam.spans[0]"'),
+        ({"supports[0].gap": [0.0], "supports.R-101.gap": [0.0]}, 'column "supports.R-101.gap": is the same number as column'),
+        ({"supports[0].gap": [0.0, 1.0], "factors.wind": [1.0]}, "table: its columns are of unequal length: supports[0].gap has 2"),
+        ({"supports[0].gap": ["a"]}, 'column "supports[0].gap": expected numbers, one a case'),
+        ({"supports[0].gap": []}, "table: has no row"),
+        ({}, "table: has no column"),
+        (7, "table: expected columns of numbers by name"),
+        ("t.txt", 't.txt: a table ends in .csv or .parquet, not in ".txt"'),
+        ("t.csv", "t.csv: there is no such file"),
+        (None, "table: give a table, or a folder of scenes"),
+    ],
+)
+def test_tables_that_are_refused(columns, message, tmp_path):
+    with pytest.raises(gapbeam.SceneError) as error:
+        gapbeam.batch(SCENE, columns, tmp_path / "out")
+    assert str(error.value).startswith(message)
+    assert not (tmp_path / "out").exists()
+
+
+def test_scenes_that_are_refused(tmp_path):
+    combined = {**SCENE, "combinations": [{"name": "a", "factors": {"wind": 1.0}}]}
+    with pytest.raises(gapbeam.SceneError, match="combinations: a case of a batch has one load"):
+        gapbeam.batch(combined, table(3), tmp_path / "out")
+    with pytest.raises(gapbeam.SceneError, match=r'want: expected some of input, .*got "pressure"'):
+        gapbeam.batch(SCENE, table(3), tmp_path / "out", want=["pressure"])
+
+
+# Files that last
+
+
+@pytest.fixture
+def whole(tmp_path):
+    """An undisturbed run with one thread: six files."""
+    gapbeam.batch(SCENE, table(550), tmp_path / "whole", jobs=1, chunk=100)
+    return digests(tmp_path / "whole")
+
+
+@pytest.mark.parametrize("kind", ["parquet", "npy"])
+def test_bytes_are_the_same_whatever_works(kind, tmp_path, monkeypatch):
+    if kind == "parquet":
+        pytest.importorskip("pyarrow")
+    monkeypatch.setattr(run, "best_format", lambda: kind)
+    gapbeam.batch(SCENE, table(550), tmp_path / "one", jobs=1, chunk=100)
+    gapbeam.batch(SCENE, table(550), tmp_path / "three", jobs=3, chunk=100)
+    with ProcessPoolExecutor(2, get_context("spawn")) as pool:
+        done = gapbeam.batch(SCENE, table(550), tmp_path / "processes", executor=pool, chunk=100)
+    assert digests(tmp_path / "one") == digests(tmp_path / "three") == digests(tmp_path / "processes")
+    assert done.read(["case"])["case"].tolist() == list(range(550))
+    assert f"part-000005.{kind}" in digests(tmp_path / "one")
+
+
+def test_it_goes_on_after_kills(tmp_path):
+    """SIGKILL as soon as some files are there, and at a random moment."""
+    program = f"""if True:
+        import sys, gapbeam, numpy
+        rng = numpy.random.default_rng(0)
+        table = {{"factors.wind": rng.normal(1.0, 0.3, 6000), "supports[0].gap": rng.normal(0.0, 0.01, 6000)}}
+        gapbeam.batch({SCENE!r}, table, sys.argv[1], jobs=int(sys.argv[2]), chunk=500)
+    """
+    command = [sys.executable, "-c", program]
+    subprocess.run([*command, "whole", "1"], cwd=tmp_path, check=True)
+    for _ in range(2):
+        process = subprocess.Popen([*command, "out", "2"], cwd=tmp_path)
+        before = len(list(tmp_path.glob("out/part-*")))
+        while len(list(tmp_path.glob("out/part-*"))) == before and process.poll() is None:
+            time.sleep(0.01)
+        time.sleep(random.uniform(0.0, 0.05))
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+    assert gapbeam.Batch(tmp_path / "out").done < 6000
+    subprocess.run([*command, "out", "2"], cwd=tmp_path, check=True)
+    assert digests(tmp_path / "out") == digests(tmp_path / "whole")
+
+
+def test_a_full_disk_and_what_was_in_part(tmp_path, whole, monkeypatch):
+    sync, calls = os.fsync, []
+
+    def full(descriptor):
+        calls.append(descriptor)
+        if len(calls) == 7:  # files and folders
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        sync(descriptor)
+
+    monkeypatch.setattr(os, "fsync", full)
+    with pytest.raises(OSError, match="No space left") as error:
+        gapbeam.batch(SCENE, table(550), tmp_path / "out", jobs=2, chunk=100)
+    assert str(tmp_path / "out" / "part-0") in error.value.filename
+    (tmp_path / "out" / ".part-000004.parquet").write_bytes(b"half")
+    gapbeam.batch(SCENE, table(550), tmp_path / "out")  # files of as many cases as before
+    assert digests(tmp_path / "out") == whole
+
+
+def test_ctrl_c_leaves_what_goes_on(tmp_path, whole):
+    def progress(done, cases):
+        if done > 100:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        gapbeam.batch(SCENE, table(550), tmp_path / "out", jobs=2, chunk=100, progress=progress)
+    assert 0 < gapbeam.Batch(tmp_path / "out").done < 550
+    gapbeam.batch(SCENE, table(550), tmp_path / "out")
+    assert digests(tmp_path / "out") == whole
+
+
+def test_a_folder_of_something_else_is_refused(tmp_path, whole):
+    def refusal(scene=SCENE, columns=None, out=tmp_path / "whole", **options):
+        with pytest.raises(gapbeam.SceneError) as error:
+            gapbeam.batch(scene, table(550) if columns is None else columns, out, **options)
+        return error.value.problem
+
+    remedy = "; give --out another folder, or remove this one to begin anew"
+    assert refusal(columns=table(550, seed=1)) == "holds results of another table" + remedy
+    assert refusal({**SCENE, "title": "other"}) == "holds results of another scene" + remedy
+    assert refusal(chunk=50) == "has files of 100 cases, not of 50" + remedy
+    assert refusal(want=["reaction"]).startswith("holds other columns (supports.R-101.gap, factors.wind, reaction.R-101, ")
+    with folder.locked(tmp_path / "whole"):
+        assert refusal() == "another batch writes into this folder; wait for its end, or give another one"
+    (tmp_path / "other").mkdir()
+    (tmp_path / "other" / "notes.txt").write_text("mine")
+    assert refusal(out=tmp_path / "other") == "holds other files, and no batch; give --out a new folder"
+    with pytest.raises(OSError, match=r"notes\.txt"):
+        gapbeam.batch(SCENE, table(5), tmp_path / "other" / "notes.txt")
+    assert digests(tmp_path / "whole") == whole
+
+
+def test_failed_cases_are_solved_again(tmp_path, whole, monkeypatch):
+    def short_of_memory(*_):
+        raise MemoryError
+
+    with monkeypatch.context() as patch:
+        patch.setattr("gapbeam.batches.job.solve", short_of_memory)
+        patch.setattr("gapbeam.batches.prepared.PreparedRoad.solve", short_of_memory)
+        done = gapbeam.batch(SCENE, table(550), tmp_path / "out", chunk=100)
+    assert done.statuses() == {"failed": 550}
+    assert done.read(["reason"])["reason"][0].startswith("not enough memory")
+    assert gapbeam.batch(SCENE, table(550), tmp_path / "out").statuses() == {"failed": 550}
+    gapbeam.batch(SCENE, table(550), tmp_path / "out", retry_failed=True)
+    assert digests(tmp_path / "out") == whole
+
+
+def test_pandas_reads_it_in_one_line(tmp_path):
+    pandas = pytest.importorskip("pandas")
+    pytest.importorskip("pyarrow")
+    done = gapbeam.batch(SCENE, pandas.DataFrame(table(250)), tmp_path / "out", chunk=100)
+    frame = pandas.read_parquet(tmp_path / "out")
+    assert list(frame.columns) == list(done.columns)
+    assert frame["reaction.R-101"].tolist() == done.read(["reaction.R-101"])["reaction.R-101"].tolist()
+
+
+def test_command(tmp_path, capsys):
+    (tmp_path / "beam.toml").write_text(TOML)
+    (tmp_path / "t.csv").write_text("factors.wind,beam.EI\n1,1e4\n2,1e4\n-40,1e4\n")
+    command = ["batch", str(tmp_path / "beam.toml"), str(tmp_path / "t.csv"), "--out", str(tmp_path / "out")]
+    assert main([*command, "--jobs", "1"]) == 1
+    assert capsys.readouterr().out.endswith("out: 3 of 3 cases: 2 solved, 1 no-equilibrium\n")
+    assert main([*command, "--jobs", "0"]) == 2
+    assert main(command[:3]) == 2
+    assert main([*command, "--dask", "tcp://127.0.0.1:1"]) == 2
+    assert "--jobs: expected a positive number, got 0" in capsys.readouterr().err
