@@ -3,6 +3,7 @@
 from importlib.metadata import version
 
 from .base.errors import EngineError, GapbeamError, SceneError, Status
+from .batches import sample
 from .batches.batch import Batch
 from .batches.run import batch
 from .results.cases import Cases, Prepared, prepare
@@ -66,6 +67,7 @@ __all__ = [
     "batch",
     "prepare",
     "read_scene",
+    "sample",
     "scene_schema",
     "solve",
 ]

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import os
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from difflib import get_close_matches
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -17,6 +17,9 @@ from ..scene.wording import shown
 from .chunks import TEXTS, read_columns
 from .folder import from_json, open_folder
 from .paths import find_paths, with_values
+
+if TYPE_CHECKING:
+    from .summary import Summary
 
 FAILED = ("refused", "no-answer", "failed")
 """Outcomes that are no outcome of the structure."""
@@ -63,6 +66,11 @@ class Batch:
     def numbers(self) -> tuple[str, ...]:
         """Columns that hold numbers."""
         return tuple(name for name in self.columns if name not in TEXTS and name != "case")
+
+    @property
+    def results(self) -> tuple[str, ...]:
+        """Columns that hold results: numbers that are not from the table."""
+        return tuple(name for name in self.numbers if name not in self._folder.manifest["inputs"])
 
     def chunks(self, names: Sequence[str] | None = None) -> Iterator[dict[str, np.ndarray]]:
         """Go through what is done, file by file.
@@ -136,6 +144,30 @@ class Batch:
         return [
             k for k, part in zip(self._chunks, self.chunks(["status"]), strict=True) if np.isin(part["status"], FAILED).any()
         ]
+
+    def summary(self, names: Iterable[str] | None = None, **options: Any) -> Summary:
+        """Tell how results are distributed: quantiles, histograms, how many exceed a limit.
+
+        Parameters
+        ----------
+        names : iterable of str, optional
+            Of results; default all but the places of extremes.
+        **options
+            ``shares``, ``limits``, ``bins`` as for `gapbeam.batches.summary.summarize`.
+
+        Returns
+        -------
+        Summary
+            Of the cases that are done so far; counts and quantiles are exact.
+
+        Raises
+        ------
+        SceneError, ValueError
+            As there.
+        """
+        from .summary import summarize
+
+        return summarize(self, names, **options)
 
     def scene_of(self, case: int) -> Scene:
         """Give a case as a scene of its own, for `gapbeam.solve`.

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from ..base.errors import SceneError
 from .command import NO_SOLUTION, SOLVED
-from .outputs import source, until_closed
+from .outputs import Outputs, source, until_closed
 
 if TYPE_CHECKING:
     from ..batches.batch import Batch
@@ -55,11 +55,22 @@ def add_batch(commands: argparse._SubParsersAction) -> None:
                         "tcp://host:8786")  # fmt: skip
     parser.add_argument("--retry-failed", action="store_true", help="solve those files again that hold cases which were refused, "
                         "have no answer or failed")  # fmt: skip
+    parser.add_argument("--summary", metavar="DIR", help="print how the results in a folder are distributed, also while its batch "
+                        "runs; nothing is solved")  # fmt: skip
+    parser.add_argument("--limit", metavar="NAME=VALUE", action="append", default=[], help="with --summary: count the cases whose "
+                        "result of this name is greater; more than once if need be")  # fmt: skip
+    parser.add_argument("--json", metavar="FILE", help="with --summary: write all of it as JSON (.json); - is standard output")
+    parser.add_argument("--plot", metavar="FILE", help="with --summary: draw histograms (.png, .pdf or .svg)")
     parser.add_argument("--quiet", action="store_true", help="show no progress and print nothing")
     parser.set_defaults(command=_batch)
 
 
 def _batch(arguments: argparse.Namespace) -> int:
+    if arguments.summary is not None:
+        return _summarize(arguments)
+    for option in ("limit", "json", "plot"):
+        if getattr(arguments, option):
+            raise SceneError(f"--{option}", "is for a folder of results; give --summary DIR")
     if arguments.scene is None or arguments.out is None:
         raise SceneError("batch", "give SCENE, TABLE and --out DIR")
     from ..batches.run import run_batch
@@ -114,6 +125,40 @@ def _progress(wanted: bool) -> Iterator[Callable[[int, int], None] | None]:
             bar.update(task, completed=done, total=total, rate=f"{speed:,.0f} a second" if speed else "")
 
         yield progress
+
+
+def _summarize(arguments: argparse.Namespace) -> int:
+    """Tell how the results in a folder are distributed."""
+    if arguments.scene is not None or arguments.out is not None:
+        raise SceneError("--summary", "solves nothing; leave SCENE, TABLE and --out out")
+    outputs = Outputs({"--json": arguments.json, "--plot": arguments.plot})
+    from ..batches.batch import Batch
+
+    limits: dict[str, list[float]] = {}
+    for text in arguments.limit:
+        name, _, value = text.rpartition("=")
+        try:
+            limits.setdefault(name, []).append(float(value))
+        except ValueError:
+            raise SceneError("--limit", f'expected a name and a number, such as reaction.R-101=12.5, got "{text}"') from None
+    summary = Batch(arguments.summary).summary(limits=limits)
+    contents: dict[str, bytes | list[str]] = {}
+    if "--json" in outputs:
+        import json
+
+        contents["--json"] = [json.dumps(summary.asdict(), indent=1, allow_nan=False) + "\n"]
+    if "--plot" in outputs:
+        from ..plots.batch import summary_figure
+        from ..plots.save import picture
+
+        contents["--plot"] = picture(summary_figure(summary), outputs.suffix("--plot"))
+    outputs.write(contents)
+    if not arguments.quiet and not outputs.on_standard_output:
+        from ..report.batch import print_summary
+
+        with until_closed():
+            print_summary(summary)
+    return SOLVED
 
 
 def _tell(done: Batch, quiet: bool) -> int:
