@@ -12,6 +12,7 @@ C     Compiled with -std=legacy.
       CALL LAWS
       CALL GROUND
       CALL CURVED
+      CALL TRAINS
       WRITE (*, '(A, I3)') '1..', NCHECK
       IF (NFAIL .GT. 0) STOP 1
       END
@@ -657,4 +658,150 @@ C     threefold along it: 8 tanh(20 w/8) = 6 at its left end
       CALL GBCONT(WORK, IWORK, STATE, ISTATE, 1, NZ, Z, IZ, INFO)
       CALL CHECK(NZ .EQ. 1 .AND. IZ(2,1) .EQ. 1, 'one zone')
       CALL CLOSE(Z(3,1), 144.0D0, 'its force')
+      END
+C
+C     A weight of 1 on two spans of 1: the far end lifts where
+C     P s (1 - s**2) > 3/2, by P s (1 - s**2)/6 - 1/4
+      SUBROUTINE TRAINS
+      DOUBLE PRECISION SPAN(4,2), SUP(5,3), ALOAD(4,2), HINGE(1)
+      DOUBLE PRECISION WORK(900), CWORK(900), AXLE(2,2), EV(4), G(2,2)
+      DOUBLE PRECISION F(4,2,4), S(4,2,4,3), X(2), C(2,4,2), P(2,4,2)
+      DOUBLE PRECISION FACT(2), SETT(3), STATE(300), V(4,3), Q(1)
+      DOUBLE PRECISION ZERO, R, GBINF
+      INTEGER ISUP(3,3), ILOAD(3,2), IWORK(600), JWORK(600), IE(3,4)
+      INTEGER IG(2), N(3), K, INFO, ISTATE(200), KIND(3), IQ(1)
+      EXTERNAL GBINF, GBPREP, GBCMBN, GBTRAN, GBTXTR, GBTCRV, GBSOLV
+      EXTERNAL GBSUPP
+      PARAMETER (ZERO = 0.0D0)
+      CALL TWO(SPAN, ISUP, SUP, ILOAD, ALOAD)
+      DO 10 K = 1, 2
+         SPAN(1,K) = 1.0D0
+         SPAN(2,K) = 1.0D0
+   10 CONTINUE
+      DO 20 K = 1, 3
+         ISUP(1,K) = 1
+         SUP(3,K) = ZERO
+         SETT(K) = ZERO
+   20 CONTINUE
+C     The load is 3, the weight a third of it; a second one does nothing
+      ALOAD(2,1) = 2.0D0
+      ILOAD(2,1) = 1
+      ILOAD(1,2) = 1
+      ILOAD(2,2) = 0
+      ILOAD(3,2) = 1
+      ALOAD(1,2) = ZERO
+      ALOAD(2,2) = ZERO
+      ALOAD(3,2) = 5.0D0
+      ALOAD(4,2) = ZERO
+      AXLE(1,1) = ZERO
+      AXLE(2,1) = 8.0D0
+      R = GBINF()
+      IWORK(1) = 0
+      CALL GBTRAN(WORK, IWORK, 1, AXLE, ZERO, 0, ZERO, 1.0D0, 4, EV, IE,
+     +            2, G, IG, N, INFO)
+      CALL EXPECT(INFO, -1, 'nothing prepared')
+      CALL GBPREP(2, SPAN, 0, HINGE, 3, ISUP, SUP, 2, ILOAD, ALOAD,
+     +            WORK, 900, IWORK, 600, INFO)
+      CALL EXPECT(INFO, 0, 'prepared')
+      FACT(1) = 1.0D0/3.0D0
+      FACT(2) = R
+      CALL GBCMBN(WORK, IWORK, FACT, SETT, CWORK, 900, JWORK, 600,
+     +            INFO)
+      CALL EXPECT(INFO, -3, 'a factor without end')
+      CALL EXPECT(JWORK(1), 2, 'of load 2')
+      FACT(2) = ZERO
+      SETT(3) = R
+      CALL GBCMBN(WORK, IWORK, FACT, SETT, CWORK, 900, JWORK, 600,
+     +            INFO)
+      CALL EXPECT(INFO, -4, 'a movement without end')
+      SETT(3) = ZERO
+      CALL GBCMBN(WORK, IWORK, FACT, SETT, Q, -1, IQ, -1, INFO)
+      CALL CHECK(INFO .EQ. 0 .AND. INT(Q(1)) .EQ. 900 .AND.
+     +           IQ(1) .EQ. 600, 'lengths')
+      CALL GBCMBN(WORK, IWORK, FACT, SETT, CWORK, 10, JWORK, 600, INFO)
+      CALL EXPECT(INFO, -6, 'CWORK too short')
+      CALL GBCMBN(WORK, IWORK, FACT, SETT, CWORK, 900, JWORK, 10, INFO)
+      CALL EXPECT(INFO, -8, 'ICWORK too short')
+      CALL GBCMBN(WORK, IWORK, FACT, SETT, CWORK, 900, JWORK, 600,
+     +            INFO)
+      CALL EXPECT(INFO, 0, 'combined')
+      CALL GBSOLV(CWORK, JWORK, 1.0D0, 0, 0, STATE, 300, ISTATE, 200,
+     +            INFO)
+      CALL GBSUPP(CWORK, JWORK, STATE, ISTATE, V, KIND, INFO)
+      CALL CLOSE(V(1,2), 1.25D0, 'its weight alone')
+      CALL GBTRAN(CWORK, JWORK, 0, AXLE, ZERO, 0, ZERO, 1.0D0, 4, EV,
+     +            IE, 2, G, IG, N, INFO)
+      CALL EXPECT(INFO, -3, 'no axle')
+      AXLE(1,1) = -1.0D0
+      CALL GBTRAN(CWORK, JWORK, 1, AXLE, ZERO, 0, ZERO, 1.0D0, 4, EV,
+     +            IE, 2, G, IG, N, INFO)
+      CALL EXPECT(INFO, -4, 'an axle before the first')
+      AXLE(1,1) = ZERO
+      CALL GBTRAN(CWORK, JWORK, 1, AXLE, R, 0, ZERO, 1.0D0, 4, EV, IE,
+     +            2, G, IG, N, INFO)
+      CALL EXPECT(INFO, -5, 'Q without end')
+      CALL GBTRAN(CWORK, JWORK, 1, AXLE, ZERO, 2, ZERO, 1.0D0, 4, EV,
+     +            IE, 2, G, IG, N, INFO)
+      CALL EXPECT(INFO, -6, 'no such direction')
+      CALL GBTRAN(CWORK, JWORK, 1, AXLE, ZERO, 0, R, R, 4, EV, IE, 2, G,
+     +            IG, N, INFO)
+      CALL EXPECT(INFO, -7, 'FROM without end')
+      CALL GBTRAN(CWORK, JWORK, 1, AXLE, ZERO, 0, 3.0D0, R, 4, EV, IE,
+     +            2, G, IG, N, INFO)
+      CALL EXPECT(INFO, -8, 'no position')
+      CALL GBTRAN(CWORK, JWORK, 1, AXLE, ZERO, 0, ZERO, R, -1, EV, IE,
+     +            2, G, IG, N, INFO)
+      CALL EXPECT(INFO, -9, 'MAXEV = -1')
+      CALL GBTRAN(CWORK, JWORK, 1, AXLE, ZERO, 0, ZERO, R, 0, EV, IE,
+     +            -1, G, IG, N, INFO)
+      CALL EXPECT(INFO, -12, 'MAXGAP = -1')
+      CALL GBTRAN(CWORK, JWORK, 1, AXLE, ZERO, 0, -R, R, 4, EV, IE, 2,
+     +            G, IG, N, INFO)
+      CALL CHECK(INFO .EQ. 0 .AND. N(1) .EQ. 4 .AND. N(2) .EQ. 0,
+     +           'four events')
+      CALL CHECK(IE(1,1) .EQ. 3 .AND. IE(2,1) .EQ. 0 .AND. IE(3,1)
+     +           .EQ. 0 .AND. IE(1,3) .EQ. 1, 'the far end opens')
+      CALL CLOSE(8.0D0*EV(1)*(1.0D0 - EV(1)**2), 1.5D0, 'where')
+      CALL CLOSE(EV(2) + EV(3), 2.0D0, 'the other way round')
+      CALL GBTRAN(CWORK, JWORK, 1, AXLE, ZERO, 1, -R, R, 1, EV(2), IE,
+     +            2, G, IG, N, INFO)
+      CALL CLOSE(EV(1) + EV(2), 2.0D0, 'to the left')
+      CALL GBTXTR(CWORK, JWORK, 1, AXLE, ZERO, 0, ZERO, 1.0D0, F, S,
+     +            INFO)
+      CALL EXPECT(INFO, 0, 'extremes')
+      CALL CLOSE(F(1,1,3), 32.0D0/17.0D0, 'largest moment')
+      CALL CLOSE(F(2,1,3), 8.0D0/17.0D0, 'its place')
+      CALL CLOSE(F(3,1,3), 8.0D0/17.0D0, 'and position')
+      CALL CLOSE(S(1,1,2,3), 8.0D0/(9.0D0*SQRT(3.0D0)) - 0.25D0,
+     +           'the far end lifts')
+      X(1) = 0.5D0
+      X(2) = 1.0D0
+      CALL GBTCRV(CWORK, JWORK, 1, AXLE, ZERO, 0, ZERO, 1.0D0, 2, X, C,
+     +            P, INFO)
+      CALL EXPECT(INFO, 0, 'curves')
+      CALL CLOSE(C(1,3,1), 1.875D0, 'moment under the wheel')
+      CALL CLOSE(P(1,3,1), 0.5D0, 'there')
+      CALL CLOSE(C(2,3,2), -0.5D0, 'above the support')
+      X(2) = 3.0D0
+      CALL GBTCRV(CWORK, JWORK, 1, AXLE, ZERO, 0, ZERO, 1.0D0, 2, X, C,
+     +            P, INFO)
+      CALL EXPECT(INFO, -10, 'off the beam')
+      CALL GBTCRV(CWORK, JWORK, 1, AXLE, ZERO, 0, ZERO, 1.0D0, -1, X, C,
+     +            P, INFO)
+      CALL EXPECT(INFO, -9, 'NX = -1')
+      FACT(1) = -1.0D0
+      CALL GBCMBN(WORK, IWORK, FACT, SETT, CWORK, 900, JWORK, 600,
+     +            INFO)
+      AXLE(2,1) = 1.0D0
+      CALL GBTRAN(CWORK, JWORK, 1, AXLE, ZERO, 0, ZERO, 2.0D0, 0, EV,
+     +            IE, 2, G, IG, N, INFO)
+      CALL CHECK(N(1) .EQ. 0 .AND. N(2) .EQ. 1 .AND. IG(1) .EQ. 1 .AND.
+     +           .NOT. ABS(G(1,1)) .GT. 0.0D0 .AND. G(2,1) .GT. 1.9D0,
+     +           'lifted off')
+      CALL GBTXTR(CWORK, JWORK, 1, AXLE, ZERO, 0, ZERO, 2.0D0, F, S,
+     +            INFO)
+      CALL EXPECT(INFO, 1, 'no position is solved')
+      CALL GBTCRV(CWORK, JWORK, 1, AXLE, ZERO, 0, ZERO, 2.0D0, 1, X, C,
+     +            P, INFO)
+      CALL EXPECT(INFO, 1, 'nor a place of the curves')
       END

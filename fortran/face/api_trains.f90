@@ -235,8 +235,10 @@ contains
         to = train%to
         if (.not. from > gapbeam_unchanged) from = merge(-longest, 0.0_wp, train%to_the_left)
         if (.not. to > gapbeam_unchanged) to = merge(end, end + longest, train%to_the_left)
-        if (from > to) call fatal_error(error, gapbeam_bad_input, "the positions from "//trim(shown(from))//" to "// &
-                                        trim(shown(to))//" are none: from must be at most to")
+        if (from <= to) return
+        call fatal_error(error, gapbeam_bad_input, "the positions from "//trim(shown(from))//" to "//trim(shown(to))// &
+                         " are none: from must be at most to")
+        error%key = "positions"
     end subroutine check_train
 
     !> Axles as distances from the position, to the right

@@ -1,7 +1,7 @@
 ! The Fortran 77 interface: plain arrays and integers, no data kept but in the caller's work arrays. Marshalling only.
 !
 ! Units, signs: see gapbeam.f90. Nodes (span ends) count from 0, spans, supports, loads and hinges from 1. Beams on foundations:
-! fortran77_ground.f90.
+! fortran77_ground.f90. Combinations and trains: fortran77_trains.f90.
 !
 !     SPAN(4, NSPAN)    length; EI; GA (GBINF(): rigid in shear); EA (GBINF() if not needed), above 0
 !     HINGE(NHINGE)     places of moment hinges
