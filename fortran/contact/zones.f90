@@ -96,6 +96,7 @@ contains
         type(zones_type) :: found
         real(wp) :: moved
         integer :: round, solves
+        logical :: lost
 
         settled = .false.
         solves = 0
@@ -103,7 +104,8 @@ contains
             call solve_on_zones(ground, factor, rule, zones, solves, closed, grounded, work, outcome, error)
             if (allocated(error)) return
             if (outcome%status /= gapbeam_solved) return
-            call move_ends(ground, grounded, zones, factor, work, found)
+            call move_ends(ground, grounded, zones, factor, work, found, lost)
+            if (lost) return
             call take_fields(grounded, zones, factor, work, found%start)
             moved = max(way_of_ends(zones, found), way_of_fields(ground, grounded, zones, found))
             zones = found
@@ -141,17 +143,20 @@ contains
     end subroutine solve_on_zones
 
     !> Move every end along the tangent at it
-    pure subroutine move_ends(ground, grounded, zones, factor, work, found)
+    pure subroutine move_ends(ground, grounded, zones, factor, work, found, lost)
         type(ground_type), intent(in) :: ground
         type(grounded_type), intent(in) :: grounded
         type(zones_type), intent(in) :: zones
         real(wp), intent(in) :: factor
         type(workspace_type), intent(in) :: work
         type(zones_type), intent(out) :: found
+        !> Does an end go beyond a stretch beside it: more is wrong than last digits
+        logical, intent(out) :: lost
         real(wp) :: rotation(2), shear(2), slope, away
         integer :: i, k, law
 
         found = zones
+        lost = .false.
         do i = 1, size(zones%piece) - 1
             if (zones%piece(i) /= zones%piece(i + 1)) cycle
             k = findloc(zones%acts(:, i) /= zones%acts(:, i + 1), .true., 1)
@@ -162,7 +167,8 @@ contains
                 call fields_at_ends(grounded, factor, work, i, rotation, shear)
                 call approach_kink(ground%laws, layer, law, work%answers(i)%deflection, &
                                    rotation(2) + s%shear_flexibility*shear(2), at, length, away, slope)
-                if (.not. abs(away) < abs(slope)*min(s%length, grounded%stretches(i + 1)%length)) cycle
+                lost = .not. abs(away) < abs(slope)*min(s%length, grounded%stretches(i + 1)%length)
+                if (lost) return
                 found%to(i) = at - away/slope
                 found%from(i + 1) = found%to(i)
             end associate
