@@ -115,6 +115,25 @@ def test_a_beam_that_lies_evenly_cannot_move(law):
     assert [zone.resultant for zone in step.contact] == [8.0]
 
 
+def scaled_scene(seed, factor):
+    """A random scene with its live loads, forces and couples, times a factor."""
+    made = random_scene(seed)
+    for load in made["loads"]:
+        if load.get("case") != "dead":
+            load |= {key: load[key] * factor for key in ("F", "M") if key in load}
+    return made
+
+
+def test_a_beam_about_to_tip_over_an_edge():
+    """All of it stands on 6e-7 next to the edge, in three zones, two of them 1e-12 long; and then it tips."""
+    made = scaled_scene(10316, 0.0383832)
+    with mp.workdps(50):
+        ends = sorted(float(zone.end) for zones in reference(made, digits=25).contact for zone in zones)
+    found = zones_of(gapbeam.solve(made).steps[-1].contact)
+    assert sorted(zone[1] for zones in found.values() for zone in zones) == pytest.approx(ends, rel=1e-15)
+    assert gapbeam.solve(scaled_scene(10316, 0.0383834)).status == "no-equilibrium"
+
+
 @pytest.mark.parametrize("over", [0.0, 1e-15, -1e-15, 1e-14, -1e-14])
 def test_a_place_that_is_only_touched(over):
     (zone,) = gapbeam.solve(touching(over)).steps[-1].contact
@@ -191,6 +210,19 @@ def test_steps_and_events_end_in_the_same_state(made):
     assert len(state.contact) in (1, 2)
     assert by_events.steps[-1].contact == by_steps.steps[-1].contact
     np.testing.assert_array_equal(by_events.fields().moment, by_steps.fields().moment)
+
+
+@pytest.mark.parametrize(
+    ("seed", "factors"),
+    [
+        (10054, []),  # at first the load is nothing beside the gaps
+        (10132, [0.3497043154, 0.3497043154, 0.6559202896, 0.6603196871]),  # a tip goes from one side to the other
+    ],
+)
+def test_paths_along_which_next_to_nothing_holds_for_a_while(seed, factors):
+    result = gapbeam.solve({**random_scene(seed), "analysis": {"follow": "events"}})
+    assert result.status == "solved"
+    assert [event.factor for event in result.events] == pytest.approx(factors, rel=1e-9)
 
 
 def test_prepared_cases(made):

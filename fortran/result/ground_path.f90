@@ -23,9 +23,10 @@ module gapbeam_ground_path
     real(wp), parameter :: near = 2.0_wp**(-44)
     !> Next to an event a state may not be settled, since a zone has next to no length there: factors on both sides of it that are
     !> as near as this are neighbours
-    real(wp), parameter :: next_to = 2.0_wp**(-40)
-    !> What acts at this share of the way acts from the beginning: at factor 0 a beam without dead load lies there without any force
-    real(wp), parameter :: begin_share = 2.0_wp**(-40)
+    real(wp), parameter :: next_to = 2.0_wp**(-32)
+    !> What acts at this share of the way, a power of 2, acts from the beginning: at factor 0 a beam without dead load lies there
+    !> without any force. Where so small a load is nothing beside gaps and settlements, it is what acts at one of the next shares
+    integer, parameter :: begin_powers(*) = [-40, -34, -28, -22]
 
     !> A change of what holds the beam
     type :: ground_event_type
@@ -95,9 +96,13 @@ contains
         allocate (start(size(state%closed)), path%events(8), path%segment(8))
         start(:) = state%closed
         path%beyond = factor
-        at = begin_share*factor
-        call hold(at, now)
-        if (allocated(error)) return
+        do k = 1, size(begin_powers)
+            at = factor*2.0_wp**begin_powers(k)
+            if (allocated(trouble)) deallocate (trouble)
+            call hold(at, now)
+            if (allocated(error)) return
+            if (.not. allocated(trouble)) exit
+        end do
         if (.not. now%stands) then
             call move_alloc(trouble, error)
             path%beyond = 0.0_wp
