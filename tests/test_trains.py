@@ -8,6 +8,7 @@ from math import sqrt
 import gapbeam
 import numpy as np
 import pytest
+from gapbeam.cli import main
 from gapbeam.plots.train_envelope import train_envelope_figure
 from gapbeam.report.text import report_text, to_csv, to_json
 
@@ -113,7 +114,7 @@ def test_largest_moments_of_simple_beams():
     assert curves.smallest["moment"] == pytest.approx([0.0, 0.0], abs=1e-14)
 
 
-def test_a_plank_tips():
+def test_a_plank_tips(tmp_path, capsys):
     made = two_spans(
         beam={"spans": [2.0, 1.0], "EI": 1.0},
         supports=[{"node": 0, "side": "below"}, {"node": 1, "side": "below"}],
@@ -129,6 +130,11 @@ def test_a_plank_tips():
     with pytest.raises(ValueError, match=r"position: no equilibrium at position 2\.5 of train man"):
         result.trains["man"].at(2.5)
     assert "tips about" in report_text(result)
+    (tmp_path / "plank.json").write_text(json.dumps(made))
+    assert main(["run", str(tmp_path / "plank.json"), "--quiet"]) == 1
+    assert "train man, positions 2.3 to 3: no equilibrium: the beam tips" in capsys.readouterr().err
+    (tmp_path / "crane.json").write_text(json.dumps(two_spans()))
+    assert main(["run", str(tmp_path / "crane.json"), "--quiet"]) == 0
 
 
 @pytest.mark.parametrize("seed", range(40))

@@ -20,6 +20,7 @@ from ..base.files import remove_unfinished
 from .outputs import Outputs, source, until_closed
 
 if TYPE_CHECKING:
+    from ..results.result import Result
     from ..scene.structs import Scene
 
 #: Exit statuses
@@ -67,7 +68,8 @@ Units: any consistent set. The scene's labels go into the report and change no n
 STATUSES = """\
 Exit status:
   0    solved, or the scene is valid
-  1    the structure cannot stand, or one of its combinations cannot or has no single answer: the report says why
+  1    the structure cannot stand, or a combination or a position of a train cannot or has no single answer: the
+       report says why
   2    refused: bad input, a file that cannot be read or written, or a scene without one single answer;
        one line on standard error says why, no file is written
   3    failed: not enough memory, or a fault of gapbeam; one line says what happened and what to do
@@ -229,7 +231,7 @@ def _run(arguments: argparse.Namespace) -> int:
         raise SceneError("--path", "draws the way of one load, and the scene has combinations; leave it out, or draw that of one "
                          "of them in Python (gapbeam.plots.plot_path)")  # fmt: skip
     result = solve(scene)
-    solved = result.status == "solved"
+    solved, lost = result.status == "solved", _lost_position(result)
     from ..report.text import csv_parts, json_parts, print_report, to_json
 
     contents: dict[str, bytes | Iterable[str]] = {}
@@ -252,12 +254,23 @@ def _run(arguments: argparse.Namespace) -> int:
     if not arguments.quiet and not outputs.on_standard_output:
         with until_closed():  # after the files: the reader of the report, such as head, may leave early
             print_report(result)
-    elif not solved:
-        _tell(NO_SOLUTION, result.reason)
+    elif not solved or lost:
+        _tell(NO_SOLUTION, result.reason or lost)
     for option in ("--csv", "--path"):
         if option in outputs and option not in contents:
             _tell(NO_SOLUTION, f"{outputs[option]} is not written: there is nothing to show without equilibrium")
-    return SOLVED if solved else NO_SOLUTION
+    return SOLVED if solved and not lost else NO_SOLUTION
+
+
+def _lost_position(result: "Result") -> str:
+    """Say where the first train is at whose positions the beam is not solved; nothing where it is solved at all positions."""
+    from ..results.train_data import passing_trains
+
+    for combination, train in passing_trains(result) if result.scene.trains else ():
+        if train.gaps:
+            gap, where = train.gaps[0], "" if combination is None else f"combination {combination}, "
+            return f"{where}train {train.name}, positions {gap.from_:.6g} to {gap.to:.6g}: {gap.reason}"
+    return ""
 
 
 def _check(arguments: argparse.Namespace) -> int:
