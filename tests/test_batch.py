@@ -220,18 +220,45 @@ def test_bytes_are_the_same_whatever_works(kind, tmp_path, monkeypatch):
     assert f"part-000005.{kind}" in digests(tmp_path / "one")
 
 
+def test_a_lost_process_is_told(tmp_path, whole):
+    def progress(done, cases):
+        for process in list(pool._processes.values()):
+            process.kill()
+
+    with ProcessPoolExecutor(1, get_context("spawn")) as pool:
+        pool.submit(int).result()
+        with pytest.raises(gapbeam.GapbeamError, match=r"a worker is gone .* start the same batch again, and it goes on"):
+            gapbeam.batch(SCENE, table(550), tmp_path / "out", executor=pool, chunk=100, progress=progress)
+    gapbeam.batch(SCENE, table(550), tmp_path / "out")
+    assert digests(tmp_path / "out") == whole
+
+
+def test_dask_solves_what_a_lost_worker_had(tmp_path, whole):
+    distributed = pytest.importorskip("distributed")
+    killed = []
+
+    def progress(done, cases):
+        if done >= 100 and not killed:
+            killed.append(next(iter(cluster.workers.values())).pid)
+            os.kill(killed[0], signal.SIGKILL)
+
+    options = {"n_workers": 2, "threads_per_worker": 1, "processes": True, "dashboard_address": None}
+    with distributed.LocalCluster(**options) as cluster, distributed.Client(cluster) as client:
+        gapbeam.batch(SCENE, table(550), tmp_path / "out", executor=client.get_executor(), jobs=1, chunk=100, progress=progress)
+    assert killed
+    assert digests(tmp_path / "out") == whole
+
+
 def test_it_goes_on_after_kills(tmp_path):
     """SIGKILL as soon as some files are there, and at a random moment."""
     program = f"""if True:
-        import sys, gapbeam, numpy
-        rng = numpy.random.default_rng(0)
-        table = {{"factors.wind": rng.normal(1.0, 0.3, 6000), "supports[0].gap": rng.normal(0.0, 0.01, 6000)}}
-        gapbeam.batch({SCENE!r}, table, sys.argv[1], jobs=int(sys.argv[2]), chunk=500)
+        import sys
+        sys.path.insert(0, {os.path.dirname(__file__)!r})
+        from test_batch import SCENE, gapbeam, table
+        gapbeam.batch(SCENE, table(6000), "out", jobs=2, chunk=500)
     """
-    command = [sys.executable, "-c", program]
-    subprocess.run([*command, "whole", "1"], cwd=tmp_path, check=True)
     for _ in range(2):
-        process = subprocess.Popen([*command, "out", "2"], cwd=tmp_path)
+        process = subprocess.Popen([sys.executable, "-c", program], cwd=tmp_path)
         before = len(list(tmp_path.glob("out/part-*")))
         while len(list(tmp_path.glob("out/part-*"))) == before and process.poll() is None:
             time.sleep(0.01)
@@ -239,7 +266,8 @@ def test_it_goes_on_after_kills(tmp_path):
         process.send_signal(signal.SIGKILL)
         process.wait()
     assert gapbeam.Batch(tmp_path / "out").done < 6000
-    subprocess.run([*command, "out", "2"], cwd=tmp_path, check=True)
+    gapbeam.batch(SCENE, table(6000), tmp_path / "out")
+    gapbeam.batch(SCENE, table(6000), tmp_path / "whole", jobs=1, chunk=500)
     assert digests(tmp_path / "out") == digests(tmp_path / "whole")
 
 
@@ -318,13 +346,17 @@ def test_pandas_reads_it_in_one_line(tmp_path):
     assert frame["reaction.R-101"].tolist() == done.read(["reaction.R-101"])["reaction.R-101"].tolist()
 
 
-def test_command(tmp_path, capsys):
+def test_command(tmp_path, capsys, monkeypatch):
     (tmp_path / "beam.toml").write_text(TOML)
     (tmp_path / "t.csv").write_text("factors.wind,beam.EI\n1,1e4\n2,1e4\n-40,1e4\n")
     command = ["batch", str(tmp_path / "beam.toml"), str(tmp_path / "t.csv"), "--out", str(tmp_path / "out")]
     assert main([*command, "--jobs", "1"]) == 1
+    assert "out: 3 of 3 cases: 2 solved, 1 no-equilibrium; 3 of them in " in capsys.readouterr().out
+    assert main(command) == 1
     assert capsys.readouterr().out.endswith("out: 3 of 3 cases: 2 solved, 1 no-equilibrium\n")
     assert main([*command, "--jobs", "0"]) == 2
     assert main(command[:3]) == 2
-    assert main([*command, "--dask", "tcp://127.0.0.1:1"]) == 2
     assert "--jobs: expected a positive number, got 0" in capsys.readouterr().err
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    assert main([*command, "--dask", "tcp://127.0.0.1:1"]) == 2
+    assert "--dask: needs Dask: pip install gapbeam[dask]" in capsys.readouterr().err

@@ -188,6 +188,14 @@ def test_slab_on_mound_script(capsys, tmp_path):
     assert (tmp_path / "slab_on_mound.png").stat().st_size > 10_000
 
 
+def test_pipe_rack_gaps_script(capsys, tmp_path):
+    script = runpy.run_path(str(EXAMPLES / "pipe_rack_gaps.py"))
+    script["main"](tmp_path / "out", 4000)
+    shown = re.search(r"```text\n(20,000 cases.*?)```", (EXAMPLES.parent / "docs" / "batch.md").read_text(), re.DOTALL)[1]
+    printed, shown = (re.findall(r"(\d+\.\d+) kN", text) for text in (capsys.readouterr().out, shown))
+    assert [float(one) for one in printed] == pytest.approx([float(one) for one in shown], rel=0.01)
+
+
 def test_paper_beam_script(capsys, tmp_path):
     script = runpy.run_path(str(EXAMPLES / "paper_beam.py"))
     script["main"](tmp_path / "new" / "folder")

@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import (
     FIRST_COMPLETED,
     BrokenExecutor,
+    CancelledError,
     Executor,
     Future,
     ProcessPoolExecutor,
@@ -129,6 +130,18 @@ def _end_with_parent() -> None:
     os._exit(1)
 
 
+def _result(ready: Future) -> bytes:
+    try:
+        return ready.result()
+    except Exception as error:
+        if not isinstance(error, BrokenExecutor | CancelledError) and type(error).__module__.partition(".")[0] != "distributed":
+            raise
+        raise LostWorkerError(
+            f"a worker is gone ({type(error).__name__}): it was ended, or there was not enough memory; start the same batch again, "
+            "and it goes on, with fewer jobs if memory was short"
+        ) from None
+
+
 def in_turn(
     executor: Executor, tasks: Iterator[tuple[int, Callable[[], tuple]]], call: Callable, most: int
 ) -> Iterator[tuple[int, bytes]]:
@@ -165,12 +178,7 @@ def in_turn(
             if not running:
                 return
             for ready in wait(running, LOOK, FIRST_COMPLETED).done:
-                yield running.pop(ready), ready.result()
-    except BrokenExecutor:
-        raise LostWorkerError(
-            "a worker process is gone: it was ended, or there was not enough memory; start the same batch again, and it goes on, "
-            "with fewer jobs if memory was short"
-        ) from None
+                yield running.pop(ready), _result(ready)
     finally:
         for one in running:
             one.cancel()

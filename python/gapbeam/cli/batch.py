@@ -8,6 +8,7 @@ import sys
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor
 from contextlib import contextmanager
+from time import perf_counter
 from typing import TYPE_CHECKING
 
 from ..base.errors import SceneError
@@ -80,11 +81,12 @@ def _batch(arguments: argparse.Namespace) -> int:
     want = None if arguments.want is None else [name.strip() for name in arguments.want.split(",")]
     scene = arguments.scene if os.path.isdir(arguments.scene) else source(arguments.scene)
     with _executor(arguments) as executor, _progress(not arguments.quiet) as progress:
+        clock = _Clock(progress)
         done = run_batch(
-            scene, arguments.table, arguments.out, want, arguments.jobs, executor, arguments.retry_failed, None, progress,
+            scene, arguments.table, arguments.out, want, arguments.jobs, executor, arguments.retry_failed, None, clock,
             by_processes=True,
         )
-    return _tell(done, arguments.quiet)
+    return _tell(done, arguments.quiet, clock)
 
 
 @contextmanager
@@ -161,10 +163,27 @@ def _summarize(arguments: argparse.Namespace) -> int:
     return SOLVED
 
 
-def _tell(done: Batch, quiet: bool) -> int:
+class _Clock:
+    """Counts the cases that are solved now, and the time it takes."""
+
+    def __init__(self, progress: Callable[[int, int], None] | None):
+        self._progress = progress
+        self.before: int | None = None
+        self.cases, self.begin, self.seconds = 0, perf_counter(), 0.0
+
+    def __call__(self, done: int, total: int) -> None:
+        self.before = done if self.before is None else self.before
+        self.cases, self.seconds = done - self.before, perf_counter() - self.begin
+        if self._progress is not None:
+            self._progress(done, total)
+
+
+def _tell(done: Batch, quiet: bool, clock: _Clock) -> int:
     """Say how many cases there are by their outcome."""
     statuses = done.statuses()
     counts = ", ".join(f"{count:,} {status}" for status, count in statuses.items())
+    if clock.cases:
+        counts += f"; {clock.cases:,} of them in {clock.seconds:.3g} s, {clock.cases / clock.seconds:,.0f} a second"
     if not quiet:
         with until_closed():
             print(f"{done.path}: {done.done:,} of {done.cases:,} cases: {counts}")
