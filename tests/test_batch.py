@@ -220,6 +220,22 @@ def test_bytes_are_the_same_whatever_works(kind, tmp_path, monkeypatch):
     assert f"part-000005.{kind}" in digests(tmp_path / "one")
 
 
+def test_ctrl_c_ends_the_command(tmp_path):
+    """Whether processes or threads work, one line is said, and the folder goes on."""
+    (tmp_path / "beam.toml").write_text(TOML)
+    for column in ("factors.wind", "beam.EI"):
+        (tmp_path / f"{column}.csv").write_text("\n".join([column, *["1.0"] * 60_000]))
+        command = [sys.executable, "-m", "gapbeam", "batch", "beam.toml", f"{column}.csv", "--out", column, "--jobs", "2"]
+        process = subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE, text=True)
+        while not (tmp_path / column / "_manifest.json").exists() and process.poll() is None:
+            time.sleep(0.01)
+        time.sleep(0.1)
+        process.send_signal(signal.SIGINT)
+        assert process.communicate()[1] == "gapbeam: interrupted\n"
+        assert process.returncode == 130
+        assert gapbeam.Batch(tmp_path / column).done < 60_000
+
+
 def test_a_lost_process_is_told(tmp_path, whole):
     def progress(done, cases):
         for process in list(pool._processes.values()):

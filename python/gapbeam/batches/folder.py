@@ -20,6 +20,8 @@ from ..base.files import write_lasting
 MANIFEST = "_manifest.json"
 """Programs that read all Parquet files of a folder pass over names that begin like this."""
 LOCK = ".lock"
+TEXTS = {"title", "name", "case", "force", "length"}
+"""Keys of a scene that hold any text."""
 ELSE = "give --out another folder, or remove this one to begin anew"
 CHANGES = {
     "gapbeam": "was written by gapbeam {0}, and this is {1}",
@@ -203,7 +205,7 @@ def as_json(value: Any) -> Any:
 def from_json(value: Any) -> Any:
     """Take back what `as_json` wrote, where no text is inf by itself."""
     if isinstance(value, dict):
-        return {key: one if key in ("title", "name", "case") else from_json(one) for key, one in value.items()}
+        return {key: one if key in TEXTS else from_json(one) for key, one in value.items()}
     if isinstance(value, list):
         return [from_json(one) for one in value]
     return float(value) if value in ("inf", "-inf") else value

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass
@@ -123,7 +124,7 @@ class Job:
                 outcomes[row] = self._solve_one(source, values[:, row].tolist(), row, numbers)
         found: dict[str, np.ndarray] = {"case": np.arange(first, first + count)}
         if self.scene is None:
-            found["scene"] = np.array([path.replace("\\", "/").rpartition("/")[2].encode() for path in rows.paths])
+            found["scene"] = np.array([visible(os.path.basename(path)).encode() for path in rows.paths])
         status = np.full(count, SOLVED, dtype=STATUS)
         reasons = {}
         for row, (outcome, reason) in outcomes.items():

@@ -113,7 +113,16 @@ def processes(jobs: int) -> Iterator[Executor]:
     ------
     Executor
     """
-    executor = ProcessPoolExecutor(jobs, get_context("spawn"), _begin_process)
+    before = os.environ.get("PYTHONWARNINGS")
+    # Python's own helper would complain on the terminal of semaphores that Ctrl-C leaves, and remove them
+    os.environ["PYTHONWARNINGS"] = ",".join(filter(None, (before, "ignore:resource_tracker:UserWarning")))
+    try:
+        executor = ProcessPoolExecutor(jobs, get_context("spawn"), _begin_process)
+    finally:
+        if before is None:
+            del os.environ["PYTHONWARNINGS"]
+        else:
+            os.environ["PYTHONWARNINGS"] = before
     try:
         yield executor
     finally:

@@ -121,10 +121,11 @@ def _progress(wanted: bool) -> Iterator[Callable[[int, int], None] | None]:
     columns = (BarColumn(), MofNCompleteColumn(), TextColumn("cases  {task.fields[rate]}"), TimeRemainingColumn())
     with Progress(*columns, console=Console(stderr=True)) as bar:
         task = bar.add_task("", total=None, rate="")
+        clock = _Clock()
 
         def progress(done: int, total: int) -> None:
-            speed = bar.tasks[0].speed
-            bar.update(task, completed=done, total=total, rate=f"{speed:,.0f} a second" if speed else "")
+            clock(done, total)
+            bar.update(task, completed=done, total=total, rate=f"{clock.rate:,.0f} a second" if clock.cases else "")
 
         yield progress
 
@@ -166,7 +167,7 @@ def _summarize(arguments: argparse.Namespace) -> int:
 class _Clock:
     """Counts the cases that are solved now, and the time it takes."""
 
-    def __init__(self, progress: Callable[[int, int], None] | None):
+    def __init__(self, progress: Callable[[int, int], None] | None = None):
         self._progress = progress
         self.before: int | None = None
         self.cases, self.begin, self.seconds = 0, perf_counter(), 0.0
@@ -177,13 +178,18 @@ class _Clock:
         if self._progress is not None:
             self._progress(done, total)
 
+    @property
+    def rate(self) -> float:
+        """Cases a second."""
+        return self.cases / self.seconds
+
 
 def _tell(done: Batch, quiet: bool, clock: _Clock) -> int:
     """Say how many cases there are by their outcome."""
     statuses = done.statuses()
     counts = ", ".join(f"{count:,} {status}" for status, count in statuses.items())
     if clock.cases:
-        counts += f"; {clock.cases:,} of them in {clock.seconds:.3g} s, {clock.cases / clock.seconds:,.0f} a second"
+        counts += f"; {clock.cases:,} of them in {clock.seconds:.3g} s, {clock.rate:,.0f} a second"
     if not quiet:
         with until_closed():
             print(f"{done.path}: {done.done:,} of {done.cases:,} cases: {counts}")
