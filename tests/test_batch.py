@@ -68,18 +68,19 @@ def test_a_row_is_the_scene_with_its_numbers():
 
 
 def test_prepared_beams_give_what_scenes_give():
-    """Loads, factors, gaps and settlements of random scenes, some of them impossible, on both roads."""
+    """Factors, gaps, settlements and stiffnesses of random scenes, some of them impossible, on both roads."""
     seen = set()
     for seed in range(16):
         rng = random.Random(seed)
         scene = gapbeam.read_scene(random_scene(rng, held=rng.choice((True, None))))
         columns = [f"supports[{k}].settlement" for k in range(len(scene.supports))]
         columns += [f"supports[{k}].gap" for k, one in enumerate(scene.supports) if one.side != "both"]
+        columns += [f"supports[{k}].stiffness" for k in range(len(scene.supports))]
         columns += [f"factors.{case}" for case in sorted({load.case for load in scene.loads})]
         made = job(scene, columns)
         if not made.is_prepared:
             continue
-        size = [1.0 if name.startswith("f") else 0.02 for name in columns]
+        size = [1.0 if name.startswith("f") else 1e5 if name.endswith("ss") else 0.02 for name in columns]
         values = np.array([[s * rng.choice((0.0, 1.0, rng.uniform(-1, 1), rng.uniform(-1, 1))) for _ in range(4)] for s in size])
         values[0, 3] = np.nan
         found = made.solve(Arrays(dict(zip(columns, values, strict=True))).rows(0, 4), 0)

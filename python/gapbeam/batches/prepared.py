@@ -1,4 +1,4 @@
-"""Many cases at once on a prepared beam, where the columns of a table are loads, factors of cases, gaps and settlements."""
+"""Many cases at once on a prepared beam: columns are loads, factors of cases, or gaps, settlements and stiffnesses of supports."""
 
 from __future__ import annotations
 
@@ -49,6 +49,8 @@ def _varies(scene: dict[str, Any], path: KeyPath) -> bool:
     if head == "supports" and rest[1] == "gap":  # it moves the place where a one-sided support begins to act
         support = scene["supports"][rest[0]]
         return support["side"] != "both" and support["law"] is None
+    if head == "supports" and rest[1] == "stiffness":
+        return scene["supports"][rest[0]]["law"] is None
     return head == "factors" or (head == "supports" and rest[1] == "settlement")
 
 
@@ -69,7 +71,7 @@ class PreparedRoad:
     """
 
     def __init__(self, scene: dict[str, Any], paths: Sequence[KeyPath]):
-        values = [0.0 if path.parts[0] == "supports" else 1.0 for path in paths]
+        values = [0.0 if path.parts[0] == "supports" and path.parts[2] != "stiffness" else 1.0 for path in paths]
         self._beam = prepare(with_values(scene, paths, values))
         self._paths = paths
         self._cases = np.array([load["case"] for load in scene["loads"]], dtype=object)
@@ -97,10 +99,17 @@ class PreparedRoad:
         numpy.ndarray of bool
             Which cases are solved.
         """
-        factors, moves = self._numbers(values)
-        fine = np.isfinite(values).all(axis=0) & np.isfinite(factors).all(axis=1)
+        factors, moves, stiffness = self._numbers(values)
+        fine = np.isfinite(factors).all(axis=1)
+        for row in moves.values():
+            fine &= np.isfinite(row)
+        for row in stiffness.values():
+            fine &= row > 0.0
         factors[~fine] = 0.0
-        found = self._beam.solve(factors, settlements={k: np.where(fine, row, 0.0) for k, row in moves.items()})
+        found = self._beam.solve(
+            factors, settlements={k: np.where(fine, row, 0.0) for k, row in moves.items()},
+            stiffness={k: np.where(fine, row, 1.0) for k, row in stiffness.items()} or None,
+        )
         solved = fine & (found.status == Status.SOLVED)
         if tuple(want) == ("reaction",) and not self._axial:
             for k, one in enumerate(supports):
@@ -118,16 +127,18 @@ class PreparedRoad:
                     numbers[f"{name}.{kind}_x"][solved] = states.places[solved, column, row]
         return solved
 
-    def _numbers(self, values: np.ndarray) -> tuple[np.ndarray, dict[int, np.ndarray]]:
-        """Factor of every load, cases by loads, and movements of supports."""
-        factors, moves = np.ones((values.shape[1], len(self._cases))), {}
+    def _numbers(self, values: np.ndarray) -> tuple[np.ndarray, dict[int, np.ndarray], dict[int, np.ndarray]]:
+        """Factor of every load, cases by loads, movements and stiffnesses of supports."""
+        factors, moves, stiffness = np.ones((values.shape[1], len(self._cases))), {}, {}
         with np.errstate(over="ignore", invalid="ignore"):
             for path, column in zip(self._paths, values, strict=True):
                 if path.parts[0] == "loads":
                     factors[:, path.parts[1]] *= column
                 elif path.parts[0] == "factors":
                     factors[:, self._cases == path.parts[1]] *= column[:, None]
+                elif path.parts[2] == "stiffness":
+                    stiffness[path.parts[1]] = column
                 else:
                     _, k, key = path.parts
                     moves[k] = moves.get(k, 0.0) + (column if key == "settlement" else self._sides[k] * column)
-        return factors, moves
+        return factors, moves, stiffness
