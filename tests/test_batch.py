@@ -121,6 +121,30 @@ def test_a_case_that_fails_is_a_row_with_its_reason(tmp_path):
     assert done.failed_chunks() == [0]
 
 
+def test_envelopes_of_combinations_and_trains(tmp_path):
+    storm = {"name": "storm", "factors": {"dead": 1.0, "wind": 1.0, "crane": 1.0}, "settlements": {"R-101": 0.01}}
+    combinations = [{"name": "calm", "factors": {"dead": 1.0}}, storm]
+    train = {"name": "crane", "axles": [[0.0, 9.0], [2.0, 9.0]], "case": "crane"}
+    columns = {"supports.R-101.gap": [0.0, 0.02], "combinations.storm.settlements.R-101": [0.03, 0.01],
+               "factors.crane": [1.0, 2.0], "trains.crane.axles[1][1]": [9.0, 5.0]}  # fmt: skip
+    scene = {**SCENE, "trains": [train], "combinations": combinations}
+    done = gapbeam.batch(scene, columns, tmp_path / "out")
+    assert done.statuses() == {"solved": 2}
+    for case in range(2):
+        row = {name: column[case] for name, column in done.read().items()}
+        envelope = gapbeam.solve(done.scene_of(case)).envelope()
+        for kind in ("max", "min"):
+            assert row[f"reaction.R-101.{kind}"] == envelope.supports[0]["reaction"][kind].value
+            moment = envelope.extremes["moment"][kind]
+            assert (row[f"moment.{kind}"], row[f"moment.{kind}_x"]) == (moment.value, moment.x)
+    heavier = {**train, "factor": 2.0, "axles": [[0.0, 9.0], [2.0, 5.0]]}
+    supports = [{**SCENE["supports"][0], "gap": 0.02}, *SCENE["supports"][1:]]
+    envelope = gapbeam.solve({**scene, "trains": [heavier], "supports": supports}).envelope()
+    assert envelope.extremes["moment"]["max"].value == row["moment.max"]
+    with pytest.raises(gapbeam.SceneError, match="want: expected some of input, reaction, opening, deflection"):
+        gapbeam.batch(scene, columns, tmp_path / "out", want=["couple"])
+
+
 def test_scenes_of_a_folder(tmp_path):
     (tmp_path / "scenes").mkdir()
     for name, text in (("b.toml", TOML), ("a.toml", TOML.replace("q = 5.0", "q = 6.0")), ("c.toml", "nonsense")):
@@ -176,6 +200,7 @@ def test_lines_that_are_no_numbers(tmp_path):
         ({"supports[0].gap": ["a"]}, 'column "supports[0].gap": expected numbers, one a case'),
         ({"supports[0].gap": []}, "table: has no row"),
         ({}, "table: has no column"),
+        ({"combinations[0].factors.wind": [1.0]}, 'column "combinations[0].factors.wind": is no key path of the scene'),
         (7, "table: expected columns of numbers by name"),
         ("t.txt", 't.txt: a table ends in .csv or .parquet, not in ".txt"'),
         ("t.csv", "t.csv: there is no such file"),
@@ -190,9 +215,6 @@ def test_tables_that_are_refused(columns, message, tmp_path):
 
 
 def test_scenes_that_are_refused(tmp_path):
-    combined = {**SCENE, "combinations": [{"name": "a", "factors": {"wind": 1.0}}]}
-    with pytest.raises(gapbeam.SceneError, match="combinations: a case of a batch has one load"):
-        gapbeam.batch(combined, table(3), tmp_path / "out")
     with pytest.raises(gapbeam.SceneError, match=r'want: expected some of input, .*got "pressure"'):
         gapbeam.batch(SCENE, table(3), tmp_path / "out", want=["pressure"])
 

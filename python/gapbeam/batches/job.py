@@ -23,10 +23,11 @@ from .tables import Rows, SceneFiles
 SOLVED, FAILED = "solved", "failed"
 """Outcomes of a case are those of a `Result` (solved, no-equilibrium, limit-load), and refused (its numbers make no scene),
 no-answer (the engine gives none) and failed (a fault of the program or its memory)."""
-STATUS = "S14"
+STATUS = "S20"
 LONGEST = 400
 """Characters of a reason."""
 AT_SUPPORTS = ("reaction", "opening", "couple")
+KINDS = ("max", "min")
 FIELDS = ("deflection", "rotation", "moment", "shear")
 """Fields that every beam has."""
 WANTED = ("input", "reaction", "opening", "deflection", "moment")
@@ -64,6 +65,16 @@ class Job:
         return self.scene is not None and can_be_prepared(self.scene, self.paths)
 
     @property
+    def has_envelopes(self) -> bool:
+        """Whether a case has an envelope, over combinations or trains, in place of one state."""
+        return self.scene is not None and bool(self.scene["combinations"] or self.scene["trains"])
+
+    @property
+    def _ends(self) -> list[str]:
+        """What stands behind the name of a support."""
+        return [f".{kind}" for kind in KINDS] if self.has_envelopes else [""]
+
+    @property
     def columns(self) -> tuple[str, ...]:
         """Names of the numbers that are kept of each case."""
         found: list[str] = []
@@ -71,9 +82,9 @@ class Job:
             if name == "input":
                 found += [path.text for path in self.paths]
             elif name in AT_SUPPORTS:
-                found += [f"{name}.{one}" for one in (self.supports if self.scene is not None else ("max", "min"))]
+                found += [f"{name}.{one}{end}" for one in (KINDS if self.scene is None else self.supports) for end in self._ends]
             else:
-                found += [f"{name}.{kind}" for kind in ("max", "max_x", "min", "min_x")]
+                found += [f"{name}.{kind}{end}" for kind in KINDS for end in ("", "_x")]
         return tuple(found)
 
     @cached_property
@@ -143,11 +154,15 @@ class Job:
             if wrong is not None:
                 raise SceneError(wrong, "expected a number, got none")
             result = solve(with_values(self.scene, self.paths, row) if source is None else source)
+            if result.status != SOLVED:
+                return result.status, result.reason or ""
             if result.combinations or result.scene.trains:
-                raise SceneError("a scene of a batch has one load; leave combinations and trains out, or use gapbeam.solve")
-            if result.status == SOLVED:
-                self._keep(result, k, numbers)
-            return result.status, result.reason or ""
+                return self._keep_envelope(result, k, numbers)
+            step, extremes = result.steps[-1], {}
+            if set(self.want) - {"input", *AT_SUPPORTS}:
+                extremes = result.extremes()
+            self._keep(k, numbers, {name: (getattr(step, name),) for name in AT_SUPPORTS}, extremes)
+            return SOLVED, ""
         except SceneError as error:
             return "refused", str(error)
         except EngineError as error:
@@ -157,18 +172,33 @@ class Job:
         except Exception as error:
             return FAILED, f"internal error: {type(error).__name__} ({error}); this is a fault of gapbeam, please report it"
 
-    def _keep(self, result: Result, k: int, numbers: dict[str, np.ndarray]) -> None:
-        """Keep what is wanted of a case that is solved."""
-        step = result.steps[-1]
-        extremes = result.extremes() if set(self.want) - {"input", *AT_SUPPORTS} else {}
+    def _keep_envelope(self, result: Result, k: int, numbers: dict[str, np.ndarray]) -> tuple[str, str]:
+        """Keep what is wanted of an envelope, if the beam can stand everywhere in it."""
+        envelope = result.envelope()
+        for _, gap in getattr(envelope, "gaps", ()):
+            return "no-equilibrium", f"with a train from x = {gap.from_:g} to {gap.to:g} the beam cannot stand: {gap.reason}"
+        at_supports = {
+            name: tuple(np.array([one[name][kind].value for one in envelope.supports]) for kind in KINDS)
+            for name in AT_SUPPORTS
+            if name in self.want
+        }
+        extremes = {name: {kind: (one[kind].value, one[kind].x) for kind in KINDS} for name, one in envelope.extremes.items()}
+        self._keep(k, numbers, at_supports, extremes)
+        return SOLVED, ""
+
+    def _keep(
+        self, k: int, numbers: dict[str, np.ndarray], at_supports: dict[str, tuple[np.ndarray, ...]],
+        extremes: dict[str, dict[str, tuple[float, float]]],
+    ) -> None:  # fmt: skip
+        """Keep what is wanted of a case: values at supports (or their largest and smallest ones), extremes of fields."""
         for name in self.want:
-            if name in AT_SUPPORTS:
-                values = getattr(step, name)
-                if self.scene is None:
-                    numbers[f"{name}.max"][k], numbers[f"{name}.min"][k] = values.max(initial=-np.inf), values.min(initial=np.inf)
-                    continue
-                for one, value in zip(self.supports, values, strict=True):
-                    numbers[f"{name}.{one}"][k] = value
+            if name in AT_SUPPORTS and self.scene is None:
+                numbers[f"{name}.max"][k] = at_supports[name][0].max(initial=-np.inf)
+                numbers[f"{name}.min"][k] = at_supports[name][-1].min(initial=np.inf)
+            elif name in AT_SUPPORTS:
+                for end, values in zip(self._ends, at_supports[name], strict=True):
+                    for one, value in zip(self.supports, values, strict=True):
+                        numbers[f"{name}.{one}{end}"][k] = value
             elif name != "input":
-                for kind in ("max", "min"):
+                for kind in KINDS:
                     numbers[f"{name}.{kind}"][k], numbers[f"{name}.{kind}_x"][k] = extremes[name][kind]

@@ -25,10 +25,11 @@ from ..scene.structs import Scene
 from ..scene.typed import plain
 from ..scene.wording import key_of, shown
 
-HEADS = ("beam", "sections", "supports", "foundation", "loads")
+HEADS = ("beam", "sections", "supports", "foundation", "loads", "trains", "combinations")
 """What of a scene has numbers that may vary by row."""
 OPTIONAL = {"x", "to", "k", "EI", "GA", "EA"}
 """Keys that hold a number where they are given."""
+NAMES = (*NAMED, "trains")
 MOST = 20_000
 """Numbers of a scene among which a similar one is looked for."""
 PIECE = re.compile(r"""\.?(?:"(?P<quoted>[^"]*)"|'(?P<single>[^']*)'|\[(?P<index>\d{1,9})\]|(?P<bare>[^.\[\]"']+))""")
@@ -106,7 +107,7 @@ def with_values(data: Mapping[str, Any], paths: Sequence[KeyPath], values: Seque
     paths : sequence of KeyPath
         Of the columns.
     values : sequence of float
-        One for each; factors multiply the loads of their case, after all other numbers are in their places.
+        One for each; factors multiply the loads and trains of their case, after all other numbers are in their places.
 
     Returns
     -------
@@ -122,6 +123,10 @@ def with_values(data: Mapping[str, Any], paths: Sequence[KeyPath], values: Seque
             scene = _put(scene, path.parts, value)
     if factors:
         scene["loads"] = [_times(load, factors[load["case"]]) if load["case"] in factors else load for load in scene["loads"]]
+        scene["trains"] = [
+            {**train, "factor": factors[train["case"]] * train["factor"]} if train["case"] in factors else train
+            for train in scene["trains"]
+        ]
     return scene
 
 
@@ -146,7 +151,7 @@ def _resolve(scene: Scene, data: dict[str, Any], name: str) -> tuple[str | int, 
     if not pieces:
         raise _unknown(scene, data, place, name)
     if pieces[0] == "factors":
-        if len(pieces) != 2 or pieces[1] not in cases_of(scene.loads):
+        if len(pieces) != 2 or pieces[1] not in _cases(scene):
             raise _unknown(scene, data, place, name)
         return "factors", pieces[1]
     if pieces[0] not in HEADS:
@@ -156,7 +161,7 @@ def _resolve(scene: Scene, data: dict[str, Any], name: str) -> tuple[str | int, 
     for piece in pieces:
         if isinstance(value, dict) and piece in value:
             key: str | int = piece
-        elif isinstance(value, list) and (k := _entry(value, piece, len(parts) == 1 and parts[0] in NAMED)) is not None:
+        elif isinstance(value, list) and (k := _entry(value, piece, len(parts) == 1 and parts[0] in NAMES)) is not None:
             key = k
         else:
             raise _unknown(scene, data, place, name)
@@ -169,6 +174,11 @@ def _resolve(scene: Scene, data: dict[str, Any], name: str) -> tuple[str | int, 
             raise _unknown(scene, data, place, name)
         raise SceneError(place, f"is {shown(value)} in the scene; only numbers can be taken from a table")
     return tuple(parts)
+
+
+def _cases(scene: Scene) -> dict[str, None]:
+    """Load cases, in their order."""
+    return dict.fromkeys((*cases_of(scene.loads), *(train.case for train in scene.trains)))
 
 
 def _pieces(name: str) -> list[str | int] | None:
@@ -212,10 +222,10 @@ def _unknown(scene: Scene, data: dict[str, Any], place: str, name: str) -> Scene
 
 def _all_paths(scene: Scene, data: dict[str, Any]) -> Iterator[str]:
     """Every number of a scene as a path, by names where there are any."""
-    for case in dict.fromkeys(cases_of(scene.loads)):
+    for case in _cases(scene):
         yield f"factors.{key_of(case)}"
-    for head in ("supports", "loads", "beam", "foundation", "sections"):
-        yield from _paths_in(head, data[head], head in NAMED)
+    for head in ("supports", "loads", "beam", "foundation", "sections", "trains", "combinations"):
+        yield from _paths_in(head, data[head], head in NAMES)
 
 
 def _paths_in(path: str, value: Any, named: bool) -> Iterator[str]:
@@ -228,7 +238,7 @@ def _paths_in(path: str, value: Any, named: bool) -> Iterator[str]:
     elif isinstance(value, list):
         for k, one in enumerate(value):
             name = one.get("name") if named else None
-            at = f"{path}[{k}]" if name is None else f"{path}.{key_of(name)}"
+            at = f"{path}[{k}]" if not name else f"{path}.{key_of(name)}"
             if isinstance(one, dict | list):
                 yield from _paths_in(at, one, False)
             elif _may_vary(k, one):

@@ -33,7 +33,9 @@ def can_be_prepared(scene: dict[str, Any], paths: Sequence[KeyPath]) -> bool:
     bool
         Else each is solved as a scene of its own.
     """
-    if scene["foundation"] or scene["analysis"]["history"] != [1.0] or not all(_varies(scene, path) for path in paths):
+    if any(scene[key] for key in ("foundation", "combinations", "trains")) or scene["analysis"]["history"] != [1.0]:
+        return False
+    if not all(_varies(scene, path) for path in paths):
         return False
     try:
         PreparedRoad(scene, paths)

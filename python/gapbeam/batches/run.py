@@ -15,6 +15,7 @@ import msgspec
 
 from ..base.errors import SceneError
 from ..results.arguments import whole
+from ..scene.combinations import plan_combinations
 from ..scene.names import labels
 from ..scene.reading import read_beam
 from ..scene.structs import Scene
@@ -32,6 +33,8 @@ SECONDS = 0.5
 NUMBERS = 4_000_000
 """Numbers in a chunk, at most."""
 SCENES_A_FILE = 100
+A_TRAIN = 30
+"""States that a train counts for."""
 CHUNKS_A_WORKER = 2
 """Chunks that are given to an executor for each of its workers, so that none waits."""
 
@@ -140,18 +143,18 @@ def _plan(scene: Any, table: Any, want: tuple[str, ...] | None) -> tuple[Table, 
     if table is None:
         raise SceneError("table", "give a table, or a folder of scenes in place of the scene")
     checked, beam = read_beam(scene)
-    for key in ("combinations", "trains"):
-        if getattr(checked, key):
-            raise SceneError(key, f"a case of a batch has one load; leave {key} out, and give factors of cases as columns of "
-                             "the table (factors.snow)")  # fmt: skip
     rows = take_table(table)
     if not rows.cases:
         raise SceneError("table", "has no row; give a case at least")
     data = scene_data(checked)
     known = ("input", *AT_SUPPORTS, *beam.fields)
+    states = 1
+    if checked.combinations or checked.trains:
+        known = ("input", "reaction", "opening", *FIELDS)
+        states = (len(plan_combinations(checked)) if checked.combinations else 1) * (1 + A_TRAIN * len(checked.trains))
     job = Job(data, find_paths(checked, rows.names), _wanted(want, known, WANTED), tuple(labels(checked.supports)))
     digest = hashlib.sha256(msgspec.msgpack.encode(data)).hexdigest()
-    return rows, job, digest, _cases_a_file(job, beam.links + 1, len(rows.names))
+    return rows, job, digest, _cases_a_file(job, beam.links + 1, len(rows.names), states)
 
 
 def _wanted(want: tuple[str, ...] | None, known: Sequence[str], default: tuple[str, ...]) -> tuple[str, ...]:
@@ -165,9 +168,9 @@ def _wanted(want: tuple[str, ...] | None, known: Sequence[str], default: tuple[s
     return tuple(dict.fromkeys(want))
 
 
-def _cases_a_file(job: Job, nodes: int, columns: int) -> int:
+def _cases_a_file(job: Job, nodes: int, columns: int, states: int) -> int:
     """Cases that take about half a second, by their number of nodes alone: files must not depend on how fast a machine is."""
-    alone = 7e-4 + 6e-6 * nodes + (2e-2 if job.scene["foundation"] else 0.0)
+    alone = states * (7e-4 + 6e-6 * nodes + (2e-2 if job.scene["foundation"] else 0.0))
     seconds = 2e-5 + 3e-6 * nodes if job.is_prepared else alone
     numbers = columns + len(job.columns) + len(job.scene["loads"]) + 4 * len(job.supports) + 14
     most = max(min(SECONDS / seconds, NUMBERS / numbers), 1.0)

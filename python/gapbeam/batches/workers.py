@@ -139,9 +139,10 @@ def _end_with_parent() -> None:
     os._exit(1)
 
 
-def _result(ready: Future) -> bytes:
+@contextmanager
+def _telling_of_lost_workers() -> Iterator[None]:
     try:
-        return ready.result()
+        yield
     except Exception as error:
         if not isinstance(error, BrokenExecutor | CancelledError) and type(error).__module__.partition(".")[0] != "distributed":
             raise
@@ -183,11 +184,15 @@ def in_turn(
     try:
         while True:
             while len(running) < most and (task := next(tasks, None)) is not None:
-                running[executor.submit(call, *task[1]())] = task[0]
+                arguments = task[1]()
+                with _telling_of_lost_workers():
+                    running[executor.submit(call, *arguments)] = task[0]
             if not running:
                 return
             for ready in wait(running, LOOK, FIRST_COMPLETED).done:
-                yield running.pop(ready), _result(ready)
+                with _telling_of_lost_workers():
+                    data = ready.result()
+                yield running.pop(ready), data
     finally:
         for one in running:
             one.cancel()
