@@ -8,7 +8,7 @@ import gapbeam
 import pytest
 
 TOP = Path(__file__).resolve().parents[1]
-FORTRAN = ("base", "beam", "chain", "contact", "verification", "path", "scene", "result", "face")
+FORTRAN = ("base", "beam", "chain", "contact", "verification", "path", "lanes", "scene", "result", "face")
 PYTHON = ("base", "engine", "scene", "results", "batches", "report", "plots", "studies", "cli")
 
 
@@ -24,7 +24,7 @@ def test_fortran_folders_use_only_those_above():
         for name in re.findall(r"^ *use +(gapbeam_\w+)", path.read_text(), re.MULTILINE):
             if name == "gapbeam_version":
                 continue
-            used = sources[name if name in sources else name.removesuffix("_quad")]
+            used = sources[name if name in sources else re.sub(r"_(quad|v\d)$", "", name)]
             if FORTRAN.index(used.parent.name) > FORTRAN.index(path.parent.name):
                 wrong.append(f"{path.parent.name}/{path.name} uses {used.parent.name}/{used.name}")
     assert wrong == []
@@ -33,7 +33,7 @@ def test_fortran_folders_use_only_those_above():
 def test_fortran_modules_use_no_other_in_a_circle():
     sources = fortran_sources()
     uses = {
-        name: {used.removesuffix("_quad") for used in re.findall(r"^ *use +(gapbeam_\w+)", path.read_text(), re.MULTILINE)}
+        name: {re.sub(r"_(quad|v\d)$", "", used) for used in re.findall(r"^ *use +(gapbeam_\w+)", path.read_text(), re.MULTILINE)}
         for name, path in sources.items()
     }
     left = {name.removesuffix("_quad") for name in uses}

@@ -862,6 +862,8 @@ subroutine gbcase(beam, nl, ns, nd, nv, nc, factor, supp, rule, closed, w, ml, m
     use gapbeam_units, only: moment_unit
     use gapbeam_handle, only: handle_type, handle_of
     use gapbeam_cases, only: solve_case, replace_supports
+    use gapbeam_search, only: rule_block
+    use gapbeam_lane_cases, only: fits_lanes, solve_in_lanes
     implicit none
     integer(8), intent(in) :: beam
     integer, intent(in) :: nl, ns
@@ -886,7 +888,7 @@ subroutine gbcase(beam, nl, ns, nd, nv, nc, factor, supp, rule, closed, w, ml, m
     type(handle_type), pointer :: handle
     type(beam_type) :: loaded
     type(workspace_type) :: work
-    logical, allocatable :: acting(:)
+    logical, allocatable :: acting(:), done(:)
     double precision :: nan
     integer :: i
 
@@ -894,15 +896,24 @@ subroutine gbcase(beam, nl, ns, nd, nv, nc, factor, supp, rule, closed, w, ml, m
     solves = 0
     status = gapbeam_no_memory
     if (.not. enough_memory(for_solving, nl, ns, 0)) return
-    allocate (acting(ns))
+    allocate (acting(ns), done(nc))
+    done(:) = .false.
+    if (rule == rule_block .and. fits_lanes(handle%lowered)) then
+        call solve_in_lanes(handle%lowered, handle%cases, factor, supp(:, :nv - 1, :), closed, w, ml, mr, react, solves, done)
+        where (done) status = gapbeam_solved
+        react(ns + 1, :) = 0.0d0
+        closed(ns + 1, :) = 0
+        if (all(done)) return
+    end if
     loaded = handle%lowered%beam
     call new_workspace(loaded, work)
     nan = ieee_value(nan, ieee_quiet_nan)
-    w = nan
-    ml = nan
-    mr = nan
-    react = nan
     do i = 1, nc
+        if (done(i)) cycle
+        w(:, i) = nan
+        ml(:, i) = nan
+        mr(:, i) = nan
+        react(:, i) = nan
         acting(:) = closed(:ns, i) /= 0
         closed(:, i) = 0
         if (nv > 1) then

@@ -31,7 +31,6 @@ module gapbeam_cases
 
     !> The loads of a beam one by one, in the engine's units
     type :: case_loads_type
-        private
         type(share_type), allocatable :: of_links(:)
         type(node_share_type), allocatable :: of_nodes(:)
     end type case_loads_type

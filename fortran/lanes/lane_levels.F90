@@ -1,0 +1,85 @@
+!> Eight cases by the best instructions that the processor has. Modules whose names end in _v3 and _v4 are the same sources compiled
+!> for AVX2 and for AVX-512 (x86-64-v3 and v4 of the psABI); all give the same digits
+module gapbeam_lane_levels
+    use, intrinsic :: iso_c_binding, only: c_int
+    use gapbeam_kinds, only: wp
+    use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type
+    use gapbeam_lane_search, only: search_pack, finish_pack
+#ifdef GAPBEAM_LEVELS
+    use gapbeam_lane_search_v3, only: search_pack_v3 => search_pack, finish_pack_v3 => finish_pack
+    use gapbeam_lane_search_v4, only: search_pack_v4 => search_pack, finish_pack_v4 => finish_pack
+#endif
+    implicit none
+    private
+    public :: best_level, least_level, search_pack_at, finish_pack_at
+
+    !> Level of what every processor has
+    integer, parameter :: least_level = 2
+
+#ifdef GAPBEAM_LEVELS
+    interface
+        !> lanes/processor.c
+        pure function level_of_processor() result(level) bind(c, name="lanes_level_of_processor")
+            import :: c_int
+            implicit none
+            integer(c_int) :: level
+        end function level_of_processor
+    end interface
+#endif
+
+contains
+
+    !> The highest level at which this processor can compute
+    pure function best_level() result(level)
+        integer :: level
+
+        level = least_level
+#ifdef GAPBEAM_LEVELS
+        level = level_of_processor()
+#endif
+    end function best_level
+
+    !> search_pack at a level that the processor has
+    subroutine search_pack_at(level, beam, factors, pack, solves, method)
+        !> From least_level to best_level()
+        integer, intent(in) :: level
+        !> As for search_pack
+        type(lane_beam_type), intent(in) :: beam
+        real(wp), intent(in) :: factors(:, :)
+        type(pack_type), intent(inout) :: pack
+        integer, intent(out) :: solves(lanes), method(lanes)
+
+        select case (level)
+#ifdef GAPBEAM_LEVELS
+        case (4)
+            call search_pack_v4(beam, factors, pack, solves, method)
+        case (3)
+            call search_pack_v3(beam, factors, pack, solves, method)
+#endif
+        case default
+            call search_pack(beam, factors, pack, solves, method)
+        end select
+    end subroutine search_pack_at
+
+    !> finish_pack likewise
+    subroutine finish_pack_at(level, beam, method, pack, doubtful)
+        integer, intent(in) :: level
+        !> As for finish_pack
+        type(lane_beam_type), intent(in) :: beam
+        integer, intent(in) :: method
+        type(pack_type), intent(inout) :: pack
+        logical, intent(out) :: doubtful(lanes)
+
+        select case (level)
+#ifdef GAPBEAM_LEVELS
+        case (4)
+            call finish_pack_v4(beam, method, pack, doubtful)
+        case (3)
+            call finish_pack_v3(beam, method, pack, doubtful)
+#endif
+        case default
+            call finish_pack(beam, method, pack, doubtful)
+        end select
+    end subroutine finish_pack_at
+
+end module gapbeam_lane_levels

@@ -1,0 +1,213 @@
+!> What follows from the solutions of eight cases: shears, reactions, and which of them rounding could turn. gapbeam_reactions and
+!> gapbeam_law for ordinary supports, one at a node, number by number
+module gapbeam_lane_reactions
+    use gapbeam_kinds, only: wp
+    use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type
+    implicit none
+    private
+    public :: complete
+
+    !> As first_width of gapbeam_rules and worst_digits of gapbeam_referee
+    real(wp), parameter :: width = 32.0_wp, worst_digits = 1e-8_wp
+
+contains
+
+    !> Reactions, and whether the scheme is beyond doubt
+    pure subroutine complete(beam, n, pack, doubtful)
+        type(lane_beam_type), intent(in) :: beam
+        integer, intent(in) :: n
+        !> Solved
+        type(pack_type), intent(inout) :: pack
+        !> Above 0: a sign is wrong or within its rounding error, digits are lost, or numbers are not finite
+        real(wp), intent(out) :: doubtful(lanes)
+
+        call find_sizes(beam, n, pack%held, pack%contact, pack%closed, pack%load_size, pack%turn_size, pack%w, pack%ml, pack%mr, &
+                        pack%room)
+        call find_shears(beam, n, pack%held, pack%spring, pack%force, pack%w, pack%ml, pack%mr, pack%room)
+        call find_reactions(beam, n, pack%shear, pack%load_size, pack%stiffness, pack%rigid, pack%contact, pack%closed, pack%w, &
+                            pack%ml, pack%mr, pack%room, pack%reaction, doubtful)
+    end subroutine complete
+
+    !> Sizes whose rounding errors reach a node: room 1 of shears, 2 of deflections
+    pure subroutine find_sizes(beam, n, held, contact, closed, load_size, turn_size, w, ml, mr, room)
+        type(lane_beam_type), intent(in) :: beam
+        integer, intent(in) :: n
+        real(wp), intent(in), dimension(lanes, 0:n) :: held, contact, closed, load_size, turn_size, w, ml, mr
+        real(wp), intent(inout) :: room(lanes, 0:n, 10)
+        real(wp) :: moment, turn, by_shear, by_deflection, share, s, d, inverse, fixity, reach
+        real(wp), dimension(lanes) :: shear, deflection
+        integer :: i, l
+
+        do i = 0, n
+            !$omp simd
+            do l = 1, lanes
+                room(l, i, 3) = load_size(l, i)
+                room(l, i, 4) = abs(w(l, i))
+            end do
+        end do
+        do i = 1, n
+            inverse = beam%inverse(i)
+            fixity = beam%fixity(i)
+            reach = beam%reach(i)
+            !$omp simd private(moment, turn, by_shear, by_deflection)
+            do l = 1, lanes
+                turn = turn_size(l, i) + (abs(contact(l, i))*closed(l, i) + abs(contact(l, i - 1))*closed(l, i - 1))*inverse
+                moment = larger(larger(abs(mr(l, i - 1)), abs(ml(l, i))), turn*fixity)
+                by_shear = 2*moment*inverse
+                by_deflection = reach*moment
+                room(l, i - 1, 3) = larger(room(l, i - 1, 3), by_shear)
+                room(l, i - 1, 4) = larger(room(l, i - 1, 4), by_deflection)
+                room(l, i, 3) = larger(room(l, i, 3), by_shear)
+                room(l, i, 4) = larger(room(l, i, 4), by_deflection)
+            end do
+        end do
+        shear(:) = 0.0_wp
+        deflection(:) = 0.0_wp
+        do i = 0, n
+            !$omp simd private(share)
+            do l = 1, lanes
+                share = 1.0_wp - 0.5_wp*held(l, i)
+                shear(l) = larger(room(l, i, 3), share*shear(l))
+                deflection(l) = larger(room(l, i, 4), share*deflection(l))
+                room(l, i, 1) = shear(l)
+                room(l, i, 2) = deflection(l)
+            end do
+        end do
+        shear(:) = 0.0_wp
+        deflection(:) = 0.0_wp
+        do i = n, 0, -1
+            !$omp simd private(share, s, d)
+            do l = 1, lanes
+                share = 1.0_wp - 0.5_wp*held(l, i)
+                shear(l) = larger(room(l, i, 3), share*shear(l))
+                deflection(l) = larger(room(l, i, 4), share*deflection(l))
+                s = room(l, i, 1)
+                d = room(l, i, 2)
+                room(l, i, 1) = larger(s, shear(l))
+                room(l, i, 2) = larger(d, deflection(l))
+            end do
+        end do
+    end subroutine find_sizes
+
+    !> Shears of the links and their rounding errors: room 5 and 6, by the better of two ways
+    pure subroutine find_shears(beam, n, held, spring, force, w, ml, mr, room)
+        type(lane_beam_type), intent(in) :: beam
+        integer, intent(in) :: n
+        real(wp), intent(in), dimension(lanes, 0:n) :: held, spring, force, w, ml, mr
+        real(wp), intent(inout) :: room(lanes, 0:n, 10)
+        real(wp) :: by_spring, change, passed, v, e, other, error
+        integer :: i, l
+
+        do i = 1, n
+            !$omp simd
+            do l = 1, lanes
+                room(l, i, 5) = (ml(l, i) - mr(l, i - 1))*beam%inverse(i)
+                room(l, i, 6) = epsilon(1.0_wp)*(abs(ml(l, i)) + abs(mr(l, i - 1)))*beam%inverse(i)
+            end do
+        end do
+        do i = 2, n
+            !$omp simd private(by_spring, change, passed, v, e, other, error)
+            do l = 1, lanes
+                by_spring = spring(l, i - 1)*w(l, i - 1)
+                change = by_spring - force(l, i - 1)
+                passed = epsilon(1.0_wp)*(abs(by_spring) + abs(force(l, i - 1)))
+                v = room(l, i, 5)
+                e = room(l, i, 6)
+                other = room(l, i - 1, 5) + change
+                ! No way past a rigid support
+                error = room(l, i - 1, 6) + passed
+                error = merge(e, error, held(l, i - 1) > 0.5_wp)
+                room(l, i, 5) = merge(other, v, error < e)
+                room(l, i, 6) = merge(error, e, error < e)
+            end do
+        end do
+        do i = n - 1, 1, -1
+            !$omp simd private(by_spring, change, passed, v, e, other, error)
+            do l = 1, lanes
+                by_spring = spring(l, i)*w(l, i)
+                change = by_spring - force(l, i)
+                passed = epsilon(1.0_wp)*(abs(by_spring) + abs(force(l, i)))
+                v = room(l, i, 5)
+                e = room(l, i, 6)
+                other = room(l, i + 1, 5) - change
+                error = room(l, i + 1, 6) + passed
+                error = merge(e, error, held(l, i) > 0.5_wp)
+                room(l, i, 5) = merge(other, v, error < e)
+                room(l, i, 6) = merge(error, e, error < e)
+            end do
+        end do
+        room(:, 0, 5:6) = 0.0_wp
+    end subroutine find_shears
+
+    !> Reactions, and whether signs and digits are certain
+    pure subroutine find_reactions(beam, n, shear, load_size, stiffness, rigid, contact, closed, w, ml, mr, room, reaction, &
+                                   doubtful)
+        type(lane_beam_type), intent(in) :: beam
+        integer, intent(in) :: n
+        real(wp), intent(in), dimension(lanes, 0:n) :: shear, load_size, stiffness, rigid, contact, closed, w, ml, mr
+        real(wp), intent(in) :: room(lanes, 0:n, 10)
+        real(wp), intent(out) :: reaction(lanes, 0:n), doubtful(lanes)
+        real(wp) :: left, right, left_error, right_error, force, error, by_spring, spring_error, r, r_error, margin, rounding, c
+        real(wp) :: side, there, changes, bad
+        real(wp), dimension(lanes) :: largest, worst
+        integer :: i, l
+
+        doubtful(:) = 0.0_wp
+        largest(:) = 0.0_wp
+        worst(:) = 0.0_wp
+        do i = 0, n
+            side = beam%side(i)
+            there = beam%there(i)
+            changes = beam%changes(i)
+            !$omp simd private(left, right, left_error, right_error, force, error, by_spring, spring_error, r, r_error, margin, &
+            !$omp   rounding, c, bad)
+            do l = 1, lanes
+                left = room(l, i, 5)
+                left_error = room(l, i, 6)
+                right = 0.0_wp
+                right_error = 0.0_wp
+                if (i < n) then
+                    right = room(l, min(i + 1, n), 5)
+                    right_error = room(l, min(i + 1, n), 6)
+                end if
+                error = epsilon(1.0_wp)*load_size(l, i) + left_error + right_error
+                force = shear(l, i) - (left - right)
+                error = larger(error, epsilon(1.0_wp)*room(l, i, 1))
+                by_spring = stiffness(l, i)*(w(l, i) - contact(l, i))
+                spring_error = epsilon(1.0_wp)*stiffness(l, i)*larger(room(l, i, 2), abs(contact(l, i)))
+                ! The spring's own where that is better; a rigid support has no other way
+                c = merge(1.0_wp, 0.0_wp, error < spring_error)
+                c = larger(c, rigid(l, i))
+                r = merge(force, by_spring, c > 0.5_wp)
+                r_error = merge(error, spring_error, c > 0.5_wp)
+                c = closed(l, i)*there
+                r = r*c
+                r_error = r_error*c
+                reaction(l, i) = r
+                largest(l) = larger(largest(l), abs(r))
+                worst(l) = larger(worst(l), r_error)
+                margin = side*(contact(l, i) - w(l, i))
+                rounding = epsilon(1.0_wp)*larger(room(l, i, 2), abs(contact(l, i)))
+                margin = merge(side*r, margin, c > 0.5_wp)
+                rounding = merge(r_error, rounding, c > 0.5_wp)
+                bad = merge(0.0_wp, changes, margin > width*rounding)
+                ! Not a number, or beyond the range
+                c = abs(w(l, i)) + abs(ml(l, i)) + abs(mr(l, i)) + abs(r)
+                bad = merge(bad, 1.0_wp, c <= huge(1.0_wp))
+                doubtful(l) = doubtful(l) + bad
+            end do
+        end do
+        do l = 1, lanes
+            if (worst(l) > worst_digits*largest(l)) doubtful(l) = doubtful(l) + 1.0_wp
+        end do
+    end subroutine find_reactions
+
+    !> The larger of two
+    elemental function larger(a, b) result(c)
+        real(wp), intent(in) :: a, b
+        real(wp) :: c
+
+        c = merge(a, b, a > b)
+    end function larger
+
+end module gapbeam_lane_reactions

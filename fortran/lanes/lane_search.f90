@@ -1,0 +1,344 @@
+!> The working schemes of eight cases, and their solutions.
+!>
+!> The search changes every wrong support at once, and where that makes no progress one in every neighbourhood. It may take
+!> signs as they come, for what it ends with is looked at as gapbeam_referee does: the final solution is refined, and where any sign
+!> is within its rounding error, or no scheme was found, the case is doubtful and goes to gapbeam_referee itself. A scheme without
+!> doubt is the only one there is, so it does not matter how it was found.
+module gapbeam_lane_search
+    use gapbeam_kinds, only: wp
+    use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type, by_both_ends, by_three_moments, by_chain
+    use gapbeam_lane_sweeps, only: sweep_both_ends, sweep_three_moments, sweep_chain
+    use gapbeam_lane_residual, only: find_rest
+    use gapbeam_lane_reactions, only: complete
+    implicit none
+    private
+    public :: search_pack, finish_pack
+
+    !> Solves before a case is given up
+    integer, parameter :: most_solves = 40
+    !> Solves without progress before fewer supports are changed at a time
+    real(wp), parameter :: patience = 4.5_wp
+
+contains
+
+    !> Find the working schemes of eight cases
+    subroutine search_pack(beam, factors, pack, solves, method)
+        !> What they have in common
+        type(lane_beam_type), intent(in) :: beam
+        !> Factor of every load, shape (lanes, nload)
+        real(wp), intent(in) :: factors(:, :)
+        !> Supports, and starts of the searches in; loads and working schemes out
+        type(pack_type), intent(inout) :: pack
+        !> Linear solves; how gapbeam_system solves the scheme, 0 where there is none
+        integer, intent(out) :: solves(lanes), method(lanes)
+        logical :: lost(lanes)
+
+        call add_loads(beam, beam%n, factors, pack%left, pack%right, pack%shear, pack%couple, pack%load_size, pack%turn_size, &
+                       pack%room, pack%force)
+        pack%with_couples = any(abs(pack%couple) > 0.0_wp)
+        call search(beam, beam%n, pack, solves, lost)
+        call choose_methods(beam%n, pack, method)
+        where (lost) method = 0
+    end subroutine search_pack
+
+    !> The loads of eight cases, as solve_case of gapbeam_cases and set_loads of gapbeam_workspace add them up
+    pure subroutine add_loads(beam, n, factors, left, right, shear, couple, load_size, turn_size, room, force)
+        type(lane_beam_type), intent(in) :: beam
+        integer, intent(in) :: n
+        real(wp), intent(in), contiguous :: factors(:, :)
+        real(wp), intent(out), dimension(lanes, 0:n) :: left, right, shear, couple, load_size, turn_size, force
+        real(wp), intent(inout) :: room(lanes, 0:n, 10)
+        integer :: i, k, l, j
+
+        left(:, :) = 0.0_wp
+        right(:, :) = 0.0_wp
+        couple(:, :) = 0.0_wp
+        turn_size(:, :) = 0.0_wp
+        force(:, :) = 0.0_wp
+        room(:, :, 1:3) = 0.0_wp
+        do j = 1, size(beam%link)
+            i = beam%link(j)
+            k = beam%link_load(j)
+            associate (s => beam%to_link(:, j))
+                !$omp simd
+                do l = 1, lanes
+                    right(l, i - 1) = right(l, i - 1) + factors(l, k)*s(1)
+                    left(l, i) = left(l, i) + factors(l, k)*s(2)
+                    room(l, i, 1) = room(l, i, 1) + factors(l, k)*s(3)
+                    room(l, i, 2) = room(l, i, 2) + factors(l, k)*s(4)
+                    room(l, i, 3) = room(l, i, 3) + abs(factors(l, k))*s(5)
+                    turn_size(l, i) = turn_size(l, i) + abs(factors(l, k))*s(6)
+                end do
+            end associate
+        end do
+        do j = 1, size(beam%node)
+            i = beam%node(j)
+            k = beam%node_load(j)
+            !$omp simd
+            do l = 1, lanes
+                force(l, i) = force(l, i) + factors(l, k)*beam%to_node(1, j)
+                couple(l, i) = couple(l, i) + factors(l, k)*beam%to_node(2, j)
+            end do
+        end do
+        shear(:, :) = force - room(:, :, 2)
+        load_size(:, :) = abs(force) + room(:, :, 3)
+        shear(:, :n - 1) = shear(:, :n - 1) + room(:, 1:, 1)
+        load_size(:, :n - 1) = load_size(:, :n - 1) + room(:, 1:, 3)
+    end subroutine add_loads
+
+    !> Change supports until none is wrong
+    subroutine search(beam, n, pack, solves, lost)
+        type(lane_beam_type), intent(in) :: beam
+        integer, intent(in) :: n
+        type(pack_type), intent(inout) :: pack
+        integer, intent(out) :: solves(lanes)
+        !> Which cases are given up
+        logical, intent(out) :: lost(lanes)
+        real(wp), dimension(lanes) :: wrong, fewest, idle, moves, alive
+        integer :: solve
+
+        fewest(:) = huge(1.0_wp)
+        idle(:) = 0.0_wp
+        alive(:) = 1.0_wp
+        solves(:) = 0
+        do solve = 1, most_solves
+            call apply_scheme(n, pack%shear, pack%stiffness, pack%rigid, pack%contact, pack%closed, pack%held, pack%known, &
+                              pack%spring, pack%force)
+            moves(:) = 0.0_wp
+            if (ends_hold(pack, n)) then
+                pack%turn(:, :) = pack%left + pack%right
+                call sweep_both_ends(beam, n, pack%turn, pack%force, pack%held, pack%known, pack%spring, pack%room, pack%w, &
+                                     pack%ml)
+                call copy_moments(n, pack%ml, pack%mr)
+            else
+                call sweep_chain(beam, n, pack%left, pack%right, pack%force, pack%couple, pack%held, pack%known, pack%spring, &
+                                 pack%room, pack%w, pack%ml, pack%mr, moves)
+            end if
+            where (alive > 0.5_wp) solves = solves + 1
+            alive(:) = alive*(1.0_wp - moves)
+            call find_wrong(beam, n, alive, pack%shear, pack%stiffness, pack%contact, pack%held, pack%closed, pack%w, pack%ml, &
+                            pack%mr, pack%turn_rest, pack%force_rest, wrong)
+            ! What has settled, or moves, stays as it is
+            where (.not. wrong > 0.5_wp) alive = 0.0_wp
+            if (.not. any(alive > 0.5_wp)) exit
+            idle(:) = merge(0.0_wp, idle + 1.0_wp, wrong < fewest)
+            fewest(:) = min(fewest, wrong)
+            if (any(alive*idle > patience)) call keep_worst(beam, n, idle, pack%closed, pack%force_rest, pack%turn_rest, pack%room)
+            pack%closed(:, :) = abs(pack%closed - pack%turn_rest)
+        end do
+        lost = alive > 0.5_wp .or. moves > 0.5_wp
+    end subroutine search
+
+    !> Nodes as the scheme sees them
+    pure subroutine apply_scheme(n, shear, stiffness, rigid, contact, closed, held, known, spring, force)
+        integer, intent(in) :: n
+        real(wp), intent(in), dimension(lanes, 0:n) :: shear, stiffness, rigid, contact, closed
+        real(wp), intent(out), dimension(lanes, 0:n) :: held, known, spring, force
+        integer :: i, l
+
+        do i = 0, n
+            !$omp simd
+            do l = 1, lanes
+                held(l, i) = closed(l, i)*rigid(l, i)
+                known(l, i) = held(l, i)*contact(l, i)
+                spring(l, i) = closed(l, i)*stiffness(l, i)
+                force(l, i) = shear(l, i) + spring(l, i)*contact(l, i)
+            end do
+        end do
+    end subroutine apply_scheme
+
+    !> Does an acting support hold each end in all cases, and is there no couple
+    pure function ends_hold(pack, n) result(hold)
+        type(pack_type), intent(in) :: pack
+        integer, intent(in) :: n
+        logical :: hold
+
+        hold = all(pack%held(:, 0) + pack%spring(:, 0) > 0.0_wp) .and. all(pack%held(:, n) + pack%spring(:, n) > 0.0_wp) &
+            .and. .not. pack%with_couples
+    end function ends_hold
+
+    !> Moments right of the nodes, where there are no couples
+    pure subroutine copy_moments(n, ml, mr)
+        integer, intent(in) :: n
+        real(wp), intent(inout) :: ml(lanes, 0:n)
+        real(wp), intent(out) :: mr(lanes, 0:n)
+
+        mr(:, :) = ml
+        ml(:, 0) = 0.0_wp
+        mr(:, n) = 0.0_wp
+    end subroutine copy_moments
+
+    !> Which supports have the wrong state, and by how much
+    pure subroutine find_wrong(beam, n, alive, shear, stiffness, contact, held, closed, w, ml, mr, wrong, badness, number)
+        type(lane_beam_type), intent(in) :: beam
+        integer, intent(in) :: n
+        !> Cases that are looked at
+        real(wp), intent(in) :: alive(lanes)
+        real(wp), intent(in), dimension(lanes, 0:n) :: shear, stiffness, contact, held, closed, w, ml, mr
+        !> 1 where wrong; force with which a closed one pulls, or penetration of an open one
+        real(wp), intent(out), dimension(lanes, 0:n) :: wrong, badness
+        !> How many are wrong
+        real(wp), intent(out) :: number(lanes)
+        real(wp) :: force, pressing, bad, side, changes, h_left, h_right
+        integer :: i, l, before, after
+
+        number(:) = 0.0_wp
+        do i = 0, n
+            side = beam%side(i)
+            changes = beam%changes(i)
+            before = max(i - 1, 0)
+            after = min(i + 1, n)
+            h_left = 0.0_wp
+            h_right = 0.0_wp
+            if (i > 0) h_left = beam%inverse(i)
+            if (i < n) h_right = beam%inverse(i + 1)
+            !$omp simd private(force, pressing, bad)
+            do l = 1, lanes
+                force = -side*(shear(l, i) - (ml(l, i) - mr(l, before))*h_left + (ml(l, after) - mr(l, i))*h_right)
+                pressing = side*(w(l, i) - contact(l, i))
+                bad = pressing - closed(l, i)*(pressing + pressing*stiffness(l, i))
+                bad = merge(force, bad, held(l, i) > 0.5_wp)*changes*alive(l)
+                badness(l, i) = bad
+                bad = merge(1.0_wp, 0.0_wp, bad > 0.0_wp)
+                wrong(l, i) = bad
+                number(l) = number(l) + bad
+            end do
+        end do
+    end subroutine find_wrong
+
+    !> Where there was no progress, one change in every neighbourhood, as keep_local_worst of gapbeam_rules: of neighbouring open
+    !> supports the most penetrated one; release only where no open stretch beside waits for a support to be put back, of
+    !> neighbouring wrong ones the one that pulls most
+    pure subroutine keep_worst(beam, n, idle, closed, badness, wrong, room)
+        type(lane_beam_type), intent(in) :: beam
+        integer, intent(in) :: n
+        !> Solves without progress
+        real(wp), intent(in) :: idle(lanes)
+        real(wp), intent(in), dimension(lanes, 0:n) :: closed, badness
+        !> 1 where wrong in, where to be changed out
+        real(wp), intent(inout) :: wrong(lanes, 0:n)
+        real(wp), intent(inout) :: room(lanes, 0:n, 10)
+        !> Of the support before: its state, the worst of its neighbourhood so far, does its open stretch wait, does one beside its
+        !> closed stretch
+        real(wp), dimension(lanes) :: state, worst, waits, beside
+        real(wp) :: there, c, same, bad, keeps, is_wrong
+        integer :: i, l, way
+
+        do way = 1, 2
+            state(:) = -1.0_wp
+            worst(:) = 0.0_wp
+            waits(:) = 0.0_wp
+            beside(:) = 0.0_wp
+            do i = merge(0, n, way == 1), merge(n, 0, way == 1), merge(1, -1, way == 1)
+                there = beam%there(i)
+                if (.not. there > 0.5_wp) cycle
+                !$omp simd private(c, same, bad, is_wrong)
+                do l = 1, lanes
+                    c = closed(l, i)
+                    is_wrong = wrong(l, i)
+                    bad = badness(l, i)*is_wrong
+                    same = merge(1.0_wp, 0.0_wp, abs(c - state(l)) < 0.5_wp)
+                    ! A closed stretch begins beside an open one
+                    beside(l) = merge(beside(l), waits(l), same > 0.5_wp)*c
+                    waits(l) = merge(1.0_wp, waits(l)*same, is_wrong > 0.5_wp)*(1.0_wp - c)
+                    worst(l) = worst(l)*same
+                    room(l, i, 2*way - 1) = worst(l)
+                    room(l, i, 2*way) = beside(l)
+                    ! Among closed ones what is right ends a neighbourhood
+                    worst(l) = merge(bad, worst(l), bad > worst(l))*merge(is_wrong, 1.0_wp, c > 0.5_wp)
+                    state(l) = c
+                end do
+            end do
+        end do
+        do i = 0, n
+            if (.not. beam%there(i) > 0.5_wp) cycle
+            !$omp simd private(bad, keeps)
+            do l = 1, lanes
+                bad = badness(l, i)
+                keeps = merge(1.0_wp, 0.0_wp, bad > room(l, i, 1))*merge(0.0_wp, 1.0_wp, bad < room(l, i, 3)) &
+                    *(1.0_wp - room(l, i, 2))*(1.0_wp - room(l, i, 4))
+                wrong(l, i) = wrong(l, i)*merge(keeps, 1.0_wp, idle(l) > patience)
+            end do
+        end do
+    end subroutine keep_worst
+
+    !> How gapbeam_system solves the scheme of every case
+    pure subroutine choose_methods(n, pack, method)
+        integer, intent(in) :: n
+        type(pack_type), intent(in) :: pack
+        integer, intent(out) :: method(lanes)
+        integer :: l
+
+        do l = 1, lanes
+            associate (held => pack%held(l, :), spring => pack%spring(l, :))
+                method(l) = by_chain
+                if (all(pack%held(l, 1:n - 1) > 0.5_wp) .and. sum(pack%held(l, :)) > 1.5_wp &
+                    .and. .not. (spring(1) > 0.0_wp .or. spring(n + 1) > 0.0_wp)) then
+                    method(l) = by_three_moments
+                else if (held(1) + spring(1) > 0.0_wp .and. held(n + 1) + spring(n + 1) > 0.0_wp) then
+                    if (.not. any(abs(pack%couple(l, :)) > 0.0_wp)) method(l) = by_both_ends
+                end if
+            end associate
+        end do
+    end subroutine choose_methods
+
+    !> Solve working schemes as gapbeam_system does, refine the solutions once, and find reactions
+    subroutine finish_pack(beam, method, pack, doubtful)
+        type(lane_beam_type), intent(in) :: beam
+        !> How all of them are to be solved, not 0
+        integer, intent(in) :: method
+        !> Loads, supports and schemes in, solutions out
+        type(pack_type), intent(inout) :: pack
+        !> In which cases a sign is wrong or within its rounding error, digits are lost, or numbers are not finite
+        logical, intent(out) :: doubtful(lanes)
+        real(wp) :: doubt(lanes)
+        integer :: n
+
+        n = beam%n
+        call apply_scheme(n, pack%shear, pack%stiffness, pack%rigid, pack%contact, pack%closed, pack%held, pack%known, &
+                          pack%spring, pack%force)
+        call solve(beam, n, method, pack%left, pack%right, pack%force, pack%couple, pack%held, pack%known, pack%spring, &
+                   pack%turn, pack%room, pack%w, pack%ml, pack%mr)
+        call find_rest(beam, n, pack%left, pack%right, pack%force, pack%held, pack%known, pack%spring, pack%w, pack%ml, pack%mr, &
+                       pack%room, pack%turn_rest, pack%force_rest, pack%known_rest)
+        pack%nothing(:, :) = 0.0_wp
+        call solve(beam, n, method, pack%nothing, pack%turn_rest, pack%force_rest, pack%nothing, pack%held, pack%known_rest, &
+                   pack%spring, pack%turn, pack%room, pack%dw, pack%dl, pack%dr)
+        call add_correction(n, pack%dw, pack%dl, pack%dr, pack%w, pack%ml, pack%mr)
+        call complete(beam, n, pack, doubt)
+        doubtful = doubt > 0.5_wp
+    end subroutine finish_pack
+
+    !> One of the three ways
+    pure subroutine solve(beam, n, method, left, right, force, couple, held, known, spring, turn, room, w, ml, mr)
+        type(lane_beam_type), intent(in) :: beam
+        integer, intent(in) :: n, method
+        real(wp), intent(in), dimension(lanes, 0:n) :: left, right, force, couple, held, known, spring
+        real(wp), intent(inout), dimension(lanes, 0:n) :: turn, w, ml, mr
+        real(wp), intent(inout) :: room(lanes, 0:n, 10)
+        real(wp) :: moves(lanes)
+
+        select case (method)
+        case (by_both_ends)
+            turn(:, :) = left + right
+            call sweep_both_ends(beam, n, turn, force, held, known, spring, room, w, ml)
+            call copy_moments(n, ml, mr)
+        case (by_three_moments)
+            call sweep_three_moments(beam, n, left, right, force, couple, held, known, room, w, ml, mr)
+        case default
+            call sweep_chain(beam, n, left, right, force, couple, held, known, spring, room, w, ml, mr, moves)
+        end select
+    end subroutine solve
+
+    !> Solutions refined
+    pure subroutine add_correction(n, dw, dl, dr, w, ml, mr)
+        integer, intent(in) :: n
+        real(wp), intent(in), dimension(lanes, 0:n) :: dw, dl, dr
+        real(wp), intent(inout), dimension(lanes, 0:n) :: w, ml, mr
+
+        w(:, :) = w + dw
+        ml(:, :) = ml + dl
+        mr(:, :) = mr + dr
+    end subroutine add_correction
+
+end module gapbeam_lane_search

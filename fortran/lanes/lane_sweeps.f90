@@ -1,0 +1,376 @@
+!> Systems of eight cases solved side by side, with the arithmetic of gapbeam_kernel, gapbeam_three_moment and gapbeam_band, number
+!> by number: the bits are theirs. Branches are masks here, and what a mask strikes out is kept finite.
+module gapbeam_lane_sweeps
+    use gapbeam_kinds, only: wp
+    use gapbeam_lane_types, only: lanes, lane_beam_type
+    implicit none
+    private
+    public :: sweep_both_ends, sweep_three_moments, sweep_chain
+
+contains
+
+    !> The system of gapbeam_kernel; each end has a support that acts, and there are no couples
+    pure subroutine sweep_both_ends(beam, n, turn, force, held, known, spring, room, w, m)
+        type(lane_beam_type), intent(in) :: beam
+        integer, intent(in) :: n
+        !> Right-hand sides, shape (lanes, 0:n)
+        real(wp), intent(in) :: turn(lanes, 0:n), force(lanes, 0:n)
+        !> Is the deflection known, which is it, stiffness
+        real(wp), intent(in) :: held(lanes, 0:n), known(lanes, 0:n), spring(lanes, 0:n)
+        real(wp), intent(inout) :: room(lanes, 0:n, 10)
+        !> Deflections and moments
+        real(wp), intent(inout) :: w(lanes, 0:n), m(lanes, 0:n)
+        real(wp), dimension(lanes, 2) :: phi, beta, delta, e, p
+        real(wp) :: a, b, c, r, v, free, reciprocal
+        integer :: l, i, middle
+
+        middle = n/2
+        call sweep_inward(beam, n, 1, 0, middle - 1, 1, turn, force, held, known, spring, room, &
+                          phi(:, 1), beta(:, 1), delta(:, 1), e(:, 1), p(:, 1))
+        call sweep_inward(beam, n, 2, n, middle + 1, -1, turn, force, held, known, spring, room, &
+                          phi(:, 2), beta(:, 2), delta(:, 2), e(:, 2), p(:, 2))
+        i = middle
+        !$omp simd private(a, b, c, r, v, free, reciprocal)
+        do l = 1, lanes
+            free = 1.0_wp - held(l, i)
+            a = phi(l, 1) + phi(l, 2)
+            b = beta(l, 1) + beta(l, 2)
+            c = free*(delta(l, 1) + delta(l, 2)) + (spring(l, i)*free + held(l, i))
+            reciprocal = 1/(a*c + free*b**2)
+            r = turn(l, i) + (e(l, 1) + e(l, 2))
+            v = (force(l, i)*free + known(l, i)) + free*(p(l, 1) + p(l, 2))
+            m(l, i) = (b*v - c*r)*reciprocal
+            w(l, i) = (free*b*r + a*v)*reciprocal
+        end do
+        do i = middle - 1, 0, -1
+            !$omp simd
+            do l = 1, lanes
+                m(l, i) = room(l, i, 1) + room(l, i, 2)*m(l, i + 1) - room(l, i, 3)*w(l, i + 1)
+                w(l, i) = room(l, i, 4) + room(l, i, 5)*m(l, i + 1) + room(l, i, 6)*w(l, i + 1)
+            end do
+        end do
+        do i = middle + 1, n
+            !$omp simd
+            do l = 1, lanes
+                m(l, i) = room(l, i, 1) + room(l, i, 2)*m(l, i - 1) - room(l, i, 3)*w(l, i - 1)
+                w(l, i) = room(l, i, 4) + room(l, i, 5)*m(l, i - 1) + room(l, i, 6)*w(l, i - 1)
+            end do
+        end do
+    end subroutine sweep_both_ends
+
+    !> Inward from an end
+    pure subroutine sweep_inward(beam, n, way, first, last, step, turn, force, held, known, spring, room, phi, beta, delta, e, p)
+        type(lane_beam_type), intent(in) :: beam
+        !> Links; 1 from the left, 2 from the right; first and last node, step
+        integer, intent(in) :: n, way, first, last, step
+        !> As for sweep_both_ends
+        real(wp), intent(in) :: turn(lanes, 0:n), force(lanes, 0:n), held(lanes, 0:n), known(lanes, 0:n), spring(lanes, 0:n)
+        real(wp), intent(inout) :: room(lanes, 0:n, 10)
+        !> What the nodes outside pass on
+        real(wp), intent(out) :: phi(lanes), beta(lanes), delta(lanes), e(lanes), p(lanes)
+        real(wp) :: h, near, far, cross, sum_near, sum_far, bending, determinant
+        real(wp) :: free, stiffness, shear, softness, deflection, a, b, c, b_free, reciprocal, right, moment, c_h, next
+        integer :: l, i, link
+
+        i = first
+        link = merge(1, n, way == 1)
+        h = beam%inverse(link)
+        far = merge(beam%fbb(link), beam%faa(link), way == 1)
+        !$omp simd private(free, stiffness, shear, softness, deflection)
+        do l = 1, lanes
+            free = 1.0_wp - held(l, i)
+            stiffness = spring(l, i)*free + held(l, i)
+            shear = force(l, i)*free + known(l, i)
+            softness = free/stiffness
+            deflection = shear/stiffness
+            room(l, i, 1) = 0.0_wp
+            room(l, i, 2) = 0.0_wp
+            room(l, i, 3) = 0.0_wp
+            room(l, i, 4) = deflection
+            room(l, i, 5) = h*softness
+            room(l, i, 6) = 0.0_wp
+            phi(l) = far + h**2*softness
+            beta(l) = h
+            delta(l) = 0.0_wp
+            e(l) = h*deflection
+            p(l) = 0.0_wp
+        end do
+        do i = first + step, last, step
+            link = merge(i + 1, i, way == 1)
+            h = beam%inverse(link)
+            near = merge(beam%faa(link), beam%fbb(link), way == 1)
+            far = merge(beam%fbb(link), beam%faa(link), way == 1)
+            cross = beam%fab(link)
+            sum_near = merge(beam%sum_a(link), beam%sum_b(link), way == 1)
+            sum_far = merge(beam%sum_b(link), beam%sum_a(link), way == 1)
+            bending = beam%bending(link)
+            determinant = beam%determinant(link)
+            !$omp simd private(free, a, b, c, b_free, reciprocal, right, shear, c_h, next, deflection, moment)
+            do l = 1, lanes
+                free = 1.0_wp - held(l, i)
+                a = phi(l) + near
+                b = beta(l) + h
+                c = free*delta(l) + (spring(l, i)*free + held(l, i))
+                b_free = free*b
+                reciprocal = 1/(a*c + b_free*b)
+                right = turn(l, i) + e(l)
+                shear = (force(l, i)*free + known(l, i)) + free*p(l)
+                c_h = c*h
+                moment = (b*shear - c*right)*reciprocal
+                deflection = (b_free*right + a*shear)*reciprocal
+                room(l, i, 1) = moment
+                room(l, i, 2) = (b_free*h - c*cross)*reciprocal
+                room(l, i, 3) = c_h*reciprocal
+                room(l, i, 4) = deflection
+                room(l, i, 5) = free*(b*cross + a*h)*reciprocal
+                room(l, i, 6) = b_free*h*reciprocal
+                next = (free*((phi(l) + bending)*(h*h) + beta(l)*(2*h*sum_far + beta(l)*far)) &
+                        + c*(phi(l)*far + determinant))*reciprocal
+                beta(l) = (c_h*(phi(l) + sum_near) + b_free*h*beta(l))*reciprocal
+                phi(l) = next
+                delta(l) = c_h*h*reciprocal
+                e(l) = h*deflection + cross*moment
+                p(l) = h*moment
+            end do
+        end do
+    end subroutine sweep_inward
+
+    !> Three-moment equations of gapbeam_three_moment: all deflections known but those of free tips
+    pure subroutine sweep_three_moments(beam, n, left, right, shear, couple, held, known, room, w, ml, mr)
+        type(lane_beam_type), intent(in) :: beam
+        integer, intent(in) :: n
+        !> Right-hand sides, shape (lanes, 0:n)
+        real(wp), intent(in) :: left(lanes, 0:n), right(lanes, 0:n), shear(lanes, 0:n), couple(lanes, 0:n)
+        !> Is the deflection known, and which is it
+        real(wp), intent(in) :: held(lanes, 0:n), known(lanes, 0:n)
+        real(wp), intent(inout) :: room(lanes, 0:n, 10)
+        !> Deflections, moments left and right of the nodes
+        real(wp), intent(inout) :: w(lanes, 0:n), ml(lanes, 0:n), mr(lanes, 0:n)
+        real(wp), dimension(lanes) :: phi, e
+        real(wp) :: chord, a, y, z, psi, tip, root, first, flexible, begin
+        integer :: l, i
+
+        w(:, :) = known
+        ! Moments that are known beforehand: pinned ends, and roots of overhangs by statics
+        !$omp simd private(root)
+        do l = 1, lanes
+            ml(l, 0) = 0.0_wp
+            ml(l, 1) = couple(l, 0) - shear(l, 0)*beam%length(1)
+            mr(l, n) = 0.0_wp
+            ml(l, n) = -couple(l, n)
+            root = ml(l, n) - shear(l, n)*beam%length(n)
+            room(l, 0, 3) = root
+            phi(l) = 0.0_wp
+            e(l) = 0.0_wp
+        end do
+        do i = 0, n - 1
+            !$omp simd private(chord, a, y, z, first, flexible, begin)
+            do l = 1, lanes
+                ! Does the row of the first support stand here: with a tip at node 1
+                first = merge(1.0_wp, 0.0_wp, i == 0)
+                if (i == 1) first = 1.0_wp - held(l, 0)
+                begin = merge(ml(l, i), 0.0_wp, i < 2)
+                chord = (known(l, i + 1) - known(l, i))*beam%inverse(i + 1)
+                a = phi(l) + beam%faa(i + 1)
+                y = (phi(l)*couple(l, i) - e(l) - chord - right(l, i))/a
+                z = beam%fab(i + 1)/a
+                flexible = (beam%fbb(i + 1)*phi(l) + beam%determinant(i + 1))/a
+                y = merge(begin + couple(l, i), y, first > 0.5_wp)
+                z = merge(0.0_wp, z, first > 0.5_wp)
+                phi(l) = merge(beam%fbb(i + 1), flexible, first > 0.5_wp)
+                room(l, i, 1) = y
+                room(l, i, 2) = z
+                e(l) = beam%fab(i + 1)*y - chord + left(l, i + 1)
+            end do
+        end do
+        do i = n - 1, 0, -1
+            !$omp simd private(y, z, tip, root)
+            do l = 1, lanes
+                y = room(l, i, 1) - room(l, i, 2)*ml(l, i + 1)
+                ! The root of a tip on the right
+                tip = merge(1.0_wp - held(l, n), 0.0_wp, i == n - 1)
+                root = room(l, 0, 3)
+                y = merge(root, y, tip > 0.5_wp)
+                mr(l, i) = y
+                ! The moments at the first support are known
+                z = y - couple(l, i)
+                tip = merge(1.0_wp, 0.0_wp, i == 0)
+                if (i == 1) tip = 1.0_wp - held(l, 0)
+                root = ml(l, min(i, 1))
+                ml(l, i) = merge(root, z, tip > 0.5_wp)
+            end do
+        end do
+        !$omp simd private(psi, tip, root, y)
+        do l = 1, lanes
+            tip = 1.0_wp - held(l, 0)
+            root = mr(l, 0)
+            y = couple(l, 0)
+            mr(l, 0) = merge(y, root, tip > 0.5_wp)
+            psi = (w(l, 2) - w(l, 1))/beam%length(2) + beam%faa(2)*mr(l, 1) + beam%fab(2)*ml(l, 2) + right(l, 1)
+            root = w(l, 0)
+            y = w(l, 1) - beam%length(1)*(psi + left(l, 1) + beam%fab(1)*mr(l, 0) + beam%fbb(1)*ml(l, 1))
+            w(l, 0) = merge(y, root, tip > 0.5_wp)
+        end do
+        !$omp simd private(psi, tip, root, y)
+        do l = 1, lanes
+            tip = 1.0_wp - held(l, n)
+            psi = (w(l, n - 1) - w(l, n - 2))/beam%length(n - 1) - beam%fab(n - 1)*mr(l, n - 2) &
+                - beam%fbb(n - 1)*ml(l, n - 1) - left(l, n - 1)
+            root = w(l, n)
+            y = w(l, n - 1) + beam%length(n)*(psi - right(l, n - 1) - beam%faa(n)*mr(l, n - 1) - beam%fab(n)*ml(l, n))
+            w(l, n) = merge(y, root, tip > 0.5_wp)
+        end do
+    end subroutine sweep_three_moments
+
+    !> The chain of gapbeam_band with plain nodes, from the left
+    pure subroutine sweep_chain(beam, n, left, right, shear, couple, held, known, spring, room, w, ml, mr, moves)
+        type(lane_beam_type), intent(in) :: beam
+        integer, intent(in) :: n
+        !> Right-hand sides, shape (lanes, 0:n)
+        real(wp), intent(in) :: left(lanes, 0:n), right(lanes, 0:n), shear(lanes, 0:n), couple(lanes, 0:n)
+        !> Is the deflection known, which is it, stiffness
+        real(wp), intent(in) :: held(lanes, 0:n), known(lanes, 0:n), spring(lanes, 0:n)
+        real(wp), intent(inout) :: room(lanes, 0:n, 10)
+        !> Deflections, moments left and right of the nodes
+        real(wp), intent(inout) :: w(lanes, 0:n), ml(lanes, 0:n), mr(lanes, 0:n)
+        !> 1 for mechanisms, whose numbers mean nothing
+        real(wp), intent(out) :: moves(lanes)
+        real(wp), dimension(lanes) :: phi, beta, delta, e, p, m, floating, psi
+        real(wp) :: h, faa, fab, fbb, length
+        real(wp) :: a, b, c, d, r, g, k, rigid, starts, rests, denominator, reciprocal, m_star, w_star, new_e, new_p, new_phi, &
+            new_beta, new_delta, moment, deflection, next_m, next_w, y
+        integer :: l, i
+
+        phi(:) = 0.0_wp
+        beta(:) = 0.0_wp
+        delta(:) = 0.0_wp
+        e(:) = 0.0_wp
+        p(:) = 0.0_wp
+        m(:) = 0.0_wp
+        floating(:) = 1.0_wp
+        do i = 0, n - 1
+            h = beam%inverse(i + 1)
+            faa = beam%faa(i + 1)
+            fab = beam%fab(i + 1)
+            fbb = beam%fbb(i + 1)
+            length = beam%length(i + 1)
+            !$omp simd private(a, b, c, d, r, g, k, rigid, starts, rests, denominator, reciprocal, m_star, w_star, new_e, new_p, &
+            !$omp   new_phi, new_beta, new_delta, moment, deflection)
+            do l = 1, lanes
+                k = couple(l, i)
+                r = right(l, i)
+                g = shear(l, i) + p(l)
+                d = known(l, i)
+                rigid = held(l, i)
+                room(l, i, 7) = floating(l)
+                ! Across the node
+                ml(l, i) = m(l)
+                new_e = (e(l) + left(l, i)) - phi(l)*k
+                new_p = beta(l)*k
+                g = merge(g, shear(l, i) + (p(l) + new_p), floating(l) > 0.5_wp)
+                r = merge(r, r + new_e, floating(l) > 0.5_wp)
+                moment = m(l) + k
+                a = phi(l) + faa
+                b = beta(l) + h
+                c = delta(l) + spring(l, i)
+                rests = merge(1.0_wp, rigid, c > 0.0_wp)
+                starts = floating(l)*rests
+                ! By which the node is eliminated: held, floating or neither
+                denominator = merge(c, a*c + b**2, floating(l) > 0.5_wp)
+                denominator = merge(a, denominator, rigid*(1.0_wp - floating(l)) > 0.5_wp)
+                denominator = merge(denominator, 1.0_wp, denominator > 0.0_wp)
+                reciprocal = 1/denominator
+                ! Neither
+                m_star = (b*g - c*r)*reciprocal
+                w_star = (b*r + a*g)*reciprocal
+                new_delta = c*h**2*reciprocal
+                new_beta = h*(c*(phi(l) + beam%sum_a(i + 1)) + b*beta(l))*reciprocal
+                new_phi = ((phi(l) + beam%bending(i + 1))*h**2 + beta(l)*(2*h*beam%sum_b(i + 1) + beta(l)*fbb) &
+                           + c*(phi(l)*fbb + beam%determinant(i + 1)))*reciprocal
+                ! Held
+                m_star = merge((b*d - r)*reciprocal, m_star, rigid > 0.5_wp)
+                w_star = merge(d, w_star, rigid > 0.5_wp)
+                new_delta = merge(h**2*reciprocal, new_delta, rigid > 0.5_wp)
+                new_beta = merge(h*(phi(l) + beam%sum_a(i + 1))*reciprocal, new_beta, rigid > 0.5_wp)
+                new_phi = merge((fbb*phi(l) + beam%determinant(i + 1))*reciprocal, new_phi, rigid > 0.5_wp)
+                new_e = h*w_star + fab*m_star
+                new_p = h*m_star
+                ! Floating
+                deflection = merge(fab*moment + h*d, fab*moment + h*(g - h*moment)*reciprocal, rigid > 0.5_wp)
+                new_e = merge(deflection, new_e, floating(l) > 0.5_wp)
+                new_p = merge(h*moment, new_p, floating(l) > 0.5_wp)
+                deflection = merge(fbb, fbb + h**2*reciprocal, rigid > 0.5_wp)
+                new_phi = merge(deflection, new_phi, floating(l) > 0.5_wp)
+                new_beta = merge(h, new_beta, floating(l) > 0.5_wp)
+                new_delta = merge(0.0_wp, new_delta, floating(l) > 0.5_wp)
+                ! And nothing carries yet
+                rests = floating(l) - starts
+                m(l) = moment - g*length
+                p(l) = merge(g, new_p, rests > 0.5_wp)
+                e(l) = merge(e(l), new_e, rests > 0.5_wp)
+                phi(l) = merge(0.0_wp, new_phi, rests > 0.5_wp)
+                beta(l) = merge(0.0_wp, new_beta, rests > 0.5_wp)
+                delta(l) = new_delta
+                room(l, i, 1) = a
+                room(l, i, 2) = b
+                room(l, i, 3) = c
+                room(l, i, 4) = reciprocal
+                room(l, i, 5) = r
+                room(l, i, 6) = g
+                room(l, i, 8) = rests
+                room(l, i, 9) = moment
+                floating(l) = rests
+            end do
+        end do
+        !$omp simd private(k, g, c, rests, deflection, denominator, d)
+        do l = 1, lanes
+            k = couple(l, n)
+            d = known(l, n)
+            g = shear(l, n) + (p(l) + beta(l)*k)
+            c = delta(l) + spring(l, n)
+            rests = merge(1.0_wp, held(l, n), c > 0.0_wp)
+            moves(l) = 1.0_wp - rests*(1.0_wp - floating(l))
+            denominator = merge(c, 1.0_wp, c > 0.0_wp)
+            deflection = g*(1/denominator)
+            w(l, n) = merge(d, deflection, held(l, n) > 0.5_wp)
+            ml(l, n) = 0.0_wp - k
+            mr(l, n) = 0.0_wp
+            psi(l) = 0.0_wp
+        end do
+        do i = n - 1, 0, -1
+            h = beam%inverse(i + 1)
+            faa = beam%faa(i + 1)
+            fab = beam%fab(i + 1)
+            fbb = beam%fbb(i + 1)
+            length = beam%length(i + 1)
+            !$omp simd private(a, b, c, d, r, g, reciprocal, rigid, moment, deflection, next_m, next_w, y, k)
+            do l = 1, lanes
+                a = room(l, i, 1)
+                b = room(l, i, 2)
+                c = room(l, i, 3)
+                reciprocal = room(l, i, 4)
+                r = room(l, i, 5)
+                g = room(l, i, 6)
+                d = known(l, i)
+                rigid = held(l, i)
+                next_m = ml(l, i + 1)
+                next_w = w(l, i + 1)
+                y = ml(l, i)
+                moment = (b*g - c*r + (b*h - c*fab)*next_m - c*h*next_w)*reciprocal
+                deflection = (b*r + a*g + (b*fab + a*h)*next_m + b*h*next_w)*reciprocal
+                moment = merge((b*d - r - fab*next_m - h*next_w)*reciprocal, moment, rigid > 0.5_wp)
+                k = room(l, i, 9)
+                moment = merge(k, moment, room(l, i, 7) > 0.5_wp)
+                deflection = merge((g + h*(next_m - moment))*reciprocal, deflection, room(l, i, 7) > 0.5_wp)
+                deflection = merge(next_w - length*(fab*moment + fbb*next_m + psi(l)), deflection, room(l, i, 8) > 0.5_wp)
+                deflection = merge(d, deflection, rigid > 0.5_wp)
+                psi(l) = h*(next_w - deflection) + faa*moment + fab*next_m
+                psi(l) = psi(l) + right(l, i) + left(l, i)
+                ml(l, i) = merge(y, moment - couple(l, i), room(l, i, 7) > 0.5_wp)
+                mr(l, i) = moment
+                w(l, i) = deflection
+            end do
+        end do
+    end subroutine sweep_chain
+
+end module gapbeam_lane_sweeps

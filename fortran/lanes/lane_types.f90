@@ -1,0 +1,80 @@
+!> Many cases of one beam side by side: the lanes of every array here are cases, lane index first, so that the processor does in one
+!> instruction what is the same for all of them (docs/method.md). Masks are reals, 1 or 0, which multiply.
+module gapbeam_lane_types
+    use gapbeam_kinds, only: wp
+    implicit none
+    private
+    public :: lanes, lane_beam_type, pack_type, new_pack
+    public :: by_both_ends, by_three_moments, by_chain
+
+    !> Cases side by side, whatever the processor's registers hold, so that results do not depend on it
+    integer, parameter :: lanes = 8
+    !> How gapbeam_system solves a scheme
+    integer, parameter :: by_both_ends = 1, by_three_moments = 2, by_chain = 3
+
+    !> What cases have in common: links, shape (n), and supports, shape (0:n)
+    type :: lane_beam_type
+        integer :: n = 0
+        !> As in link_type
+        real(wp), allocatable, dimension(:) :: length, inverse, faa, fab, fbb, sum_a, sum_b, bending, determinant
+        !> As in workspace_type
+        real(wp), allocatable :: fixity(:)
+        !> Deflection that a moment of 1 makes (find_own_sizes of gapbeam_reactions)
+        real(wp), allocatable :: reach(:)
+        !> 1 below, -1 above, 0 both or none
+        real(wp), allocatable :: side(:)
+        !> Is there a support, may it change
+        real(wp), allocatable :: there(:), changes(:)
+        !> What loads with factor 1 do to links: which load, which link; rotations and shears of the simple bar at both ends, sums
+        !> of absolute values of loads and rotations (share_type of gapbeam_cases), shape (6, :)
+        integer, allocatable :: link_load(:), link(:)
+        real(wp), allocatable :: to_link(:, :)
+        !> And to nodes: force and couple, shape (2, :)
+        integer, allocatable :: node_load(:), node(:)
+        real(wp), allocatable :: to_node(:, :)
+    end type lane_beam_type
+
+    !> Eight cases; all arrays have shape (lanes, 0:n), those of links no entry at 0
+    type :: pack_type
+        !> Loads: rotations left and right of the node, shear, couple; sizes (workspace_type)
+        real(wp), allocatable, dimension(:, :) :: left, right, shear, couple, load_size, turn_size
+        !> Supports: stiffness, 0 of rigid ones; 1 where rigid; contact level
+        real(wp), allocatable, dimension(:, :) :: stiffness, rigid, contact
+        !> Scheme: 1 closed
+        real(wp), allocatable, dimension(:, :) :: closed
+        !> What the scheme makes of it: deflection known (1) and which, stiffness of the node, its shear
+        real(wp), allocatable, dimension(:, :) :: held, known, spring, force
+        !> Solution: deflection, moments, reaction
+        real(wp), allocatable, dimension(:, :) :: w, ml, mr, reaction
+        !> Residuals or, after elimination, corrections
+        real(wp), allocatable, dimension(:, :) :: turn_rest, force_rest, known_rest, dw, dl, dr, nothing
+        !> Right-hand side of compatibility at plain nodes
+        real(wp), allocatable :: turn(:, :)
+        !> Has any case a couple at a node
+        logical :: with_couples = .true.
+        !> Room for elimination and for sizes
+        real(wp), allocatable :: room(:, :, :)
+    end type pack_type
+
+contains
+
+    !> Room for eight cases
+    subroutine new_pack(n, pack, made)
+        !> Links
+        integer, intent(in) :: n
+        type(pack_type), intent(out) :: pack
+        !> False where memory ends
+        logical, intent(out) :: made
+        integer :: stat
+
+        allocate (pack%left(lanes, 0:n), pack%right(lanes, 0:n), pack%shear(lanes, 0:n), pack%couple(lanes, 0:n), &
+                  pack%load_size(lanes, 0:n), pack%turn_size(lanes, 0:n), pack%stiffness(lanes, 0:n), pack%rigid(lanes, 0:n), &
+                  pack%contact(lanes, 0:n), pack%closed(lanes, 0:n), pack%held(lanes, 0:n), pack%known(lanes, 0:n), &
+                  pack%spring(lanes, 0:n), pack%force(lanes, 0:n), pack%w(lanes, 0:n), pack%ml(lanes, 0:n), &
+                  pack%mr(lanes, 0:n), pack%reaction(lanes, 0:n), pack%turn_rest(lanes, 0:n), pack%force_rest(lanes, 0:n), &
+                  pack%known_rest(lanes, 0:n), pack%dw(lanes, 0:n), pack%dl(lanes, 0:n), pack%dr(lanes, 0:n), &
+                  pack%turn(lanes, 0:n), pack%nothing(lanes, 0:n), pack%room(lanes, 0:n, 10), stat=stat)
+        made = stat == 0
+    end subroutine new_pack
+
+end module gapbeam_lane_types

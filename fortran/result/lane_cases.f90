@@ -1,0 +1,318 @@
+!> Many cases of a beam, eight side by side (fortran/lanes), where the beam is one that lanes hold. What comes out has the digits of
+!> solve_case of gapbeam_cases, which takes the other beams, and the cases that are doubtful here
+module gapbeam_lane_cases
+    use gapbeam_kinds, only: wp
+    use gapbeam_band, only: plain
+    use gapbeam_law, only: both, is_rigid, has_laws, may_change
+    use gapbeam_range, only: is_lost
+    use gapbeam_units, only: moment_unit, stiffness_unit
+    use gapbeam_lowered, only: lowered_type
+    use gapbeam_cases, only: case_loads_type
+    use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type, new_pack
+    use gapbeam_lane_levels, only: search_pack_at, finish_pack_at, best_level
+    implicit none
+    private
+    public :: fits_lanes, solve_in_lanes
+
+    !> Links from which on gapbeam_search keeps a solution up to date, whose last digits are others then
+    integer, parameter :: long_beam = 300
+    !> Exponents of units up to which a power of two is a double
+    integer, parameter :: most_power = 1000
+    !> Ways in which schemes are solved
+    integer, parameter :: ways = 3
+
+    !> Cases that wait until eight are to be solved in the same way
+    type :: queue_type
+        type(pack_type) :: pack
+        integer :: waiting = 0, case_of(lanes) = 0
+    end type queue_type
+
+contains
+
+    !> Do lanes hold a beam: several links that bend, no ground, hinges, restraints and laws, one support at a node
+    pure function fits_lanes(lowered) result(fits)
+        type(lowered_type), intent(in) :: lowered
+        logical :: fits
+        integer :: n
+
+        associate (beam => lowered%beam, units => lowered%units)
+            n = size(beam%links)
+            fits = n > 1 .and. n < long_beam .and. .not. allocated(beam%ground)
+            if (.not. fits) return
+            fits = all(beam%kind == plain) .and. all(beam%links%faa > 0.0_wp .and. beam%links%fbb > 0.0_wp) &
+                .and. all(beam%first(1:n + 1) - beam%first(0:n) <= 1) .and. .not. has_laws(beam%supports) &
+                .and. max(abs(units%deflection), abs(units%force), abs(moment_unit(units))) < most_power
+        end associate
+    end function fits_lanes
+
+    !> Solve cases of a beam that fits
+    subroutine solve_in_lanes(lowered, loads, factors, values, closed, w, ml, mr, reaction, solves, done, level)
+        type(lowered_type), intent(in) :: lowered
+        !> By split_loads, and the factor of every load, shape (nload, ncase)
+        type(case_loads_type), intent(in) :: loads
+        real(wp), intent(in) :: factors(:, :)
+        !> Settlement, gap and stiffness of every support of the scene, shape (3, nsupport, ncase); nsupport 0: their own
+        real(wp), intent(in) :: values(:, :, :)
+        !> Starts in, working schemes out, where a case is done; 1 closed, shape (at least size(beam%supports), ncase)
+        integer, intent(inout) :: closed(:, :)
+        !> In the scene's units: deflections, moments left and right of the nodes, shape (n + 1, ncase); reactions
+        real(wp), intent(inout) :: w(:, :), ml(:, :), mr(:, :), reaction(:, :)
+        integer, intent(inout) :: solves(:)
+        !> Which cases are done; the others are as they were
+        logical, intent(out) :: done(:)
+        !> Instructions (gapbeam_lane_levels); default the best that there are
+        integer, intent(in), optional :: level
+        type(lane_beam_type) :: beam
+        type(pack_type) :: pack
+        type(queue_type) :: queues(ways)
+        real(wp), allocatable :: factors_of(:, :)
+        integer :: first, l, kind, solves_of(lanes), method(lanes), case_of(lanes), stat, at_level
+        logical :: lost, made
+
+        done(:) = .false.
+        at_level = best_level()
+        if (present(level)) at_level = level
+        call prepare_lanes(lowered, loads, beam, made)
+        if (made) call new_pack(beam%n, pack, made)
+        do kind = 1, ways
+            if (made) call new_pack(beam%n, queues(kind)%pack, made)
+        end do
+        if (.not. made) return
+        allocate (factors_of(lanes, size(factors, 1)), stat=stat)
+        if (stat /= 0) return
+        call take_supports(lowered, pack)
+        do first = 1, size(done), lanes
+            ! The last lanes repeat the last case
+            case_of = [(min(first + l, size(done)), l=0, lanes - 1)]
+            lost = .false.
+            do l = 1, lanes
+                factors_of(l, :) = factors(:, case_of(l))
+                if (size(values, 2) > 0 .and. .not. lost) call take_values(lowered, values(:, :, case_of(l)), l, pack, lost)
+                call take_start(lowered, closed(:, case_of(l)), l, pack)
+            end do
+            if (lost) cycle
+            call search_pack_at(at_level, beam, factors_of, pack, solves_of, method)
+            solves(case_of) = solves_of
+            kind = method(1)
+            if (kind > 0 .and. all(method == kind)) then
+                call finish(kind, case_of, pack)
+            else
+                do l = 1, min(lanes, size(done) - first + 1)
+                    if (method(l) == 0) cycle
+                    associate (queue => queues(method(l)))
+                        queue%waiting = queue%waiting + 1
+                        queue%case_of(queue%waiting) = case_of(l)
+                        call take_lane(pack, l, queue%pack, queue%waiting)
+                        if (queue%waiting < lanes) cycle
+                        queue%waiting = 0
+                        call finish(method(l), queue%case_of, queue%pack)
+                    end associate
+                end do
+            end if
+        end do
+        do kind = 1, ways
+            associate (queue => queues(kind))
+                if (queue%waiting == 0) cycle
+                ! The last lanes repeat the first case
+                do l = 1, lanes
+                    first = merge(l, 1, l <= queue%waiting)
+                    case_of(l) = queue%case_of(first)
+                    call take_lane(queue%pack, first, pack, l)
+                end do
+                call finish(kind, case_of, pack)
+            end associate
+        end do
+
+    contains
+
+        !> Solve eight schemes that are solved in the same way
+        subroutine finish(way, numbers, schemes)
+            integer, intent(in) :: way, numbers(lanes)
+            type(pack_type), intent(inout) :: schemes
+            logical :: doubtful(lanes)
+            integer :: k
+
+            call finish_pack_at(at_level, beam, way, schemes, doubtful)
+            do k = 1, lanes
+                if (doubtful(k)) cycle
+                associate (i => numbers(k))
+                    call give_case(lowered, schemes, k, closed(:, i), w(:, i), ml(:, i), mr(:, i), reaction(:, i), done(i))
+                end associate
+            end do
+        end subroutine finish
+
+    end subroutine solve_in_lanes
+
+    !> Put a case into a lane of another pack
+    pure subroutine take_lane(from, l, to, m)
+        type(pack_type), intent(in) :: from
+        type(pack_type), intent(inout) :: to
+        integer, intent(in) :: l, m
+
+        to%left(m, :) = from%left(l, :)
+        to%right(m, :) = from%right(l, :)
+        to%shear(m, :) = from%shear(l, :)
+        to%couple(m, :) = from%couple(l, :)
+        to%load_size(m, :) = from%load_size(l, :)
+        to%turn_size(m, :) = from%turn_size(l, :)
+        to%stiffness(m, :) = from%stiffness(l, :)
+        to%rigid(m, :) = from%rigid(l, :)
+        to%contact(m, :) = from%contact(l, :)
+        to%closed(m, :) = from%closed(l, :)
+    end subroutine take_lane
+
+    !> What all cases have in common
+    subroutine prepare_lanes(lowered, loads, lane_beam, made)
+        type(lowered_type), intent(in) :: lowered
+        type(case_loads_type), intent(in) :: loads
+        type(lane_beam_type), intent(out) :: lane_beam
+        !> False where memory ends
+        logical, intent(out) :: made
+        integer :: k, n, m, stat
+
+        n = size(lowered%beam%links)
+        m = size(loads%of_links)
+        k = size(loads%of_nodes)
+        lane_beam%n = n
+        allocate (lane_beam%length(n), lane_beam%inverse(n), lane_beam%faa(n), lane_beam%fab(n), lane_beam%fbb(n), &
+                  lane_beam%sum_a(n), lane_beam%sum_b(n), lane_beam%bending(n), lane_beam%determinant(n), lane_beam%fixity(n), &
+                  lane_beam%reach(n), lane_beam%side(0:n), lane_beam%there(0:n), lane_beam%changes(0:n), lane_beam%link_load(m), &
+                  lane_beam%link(m), lane_beam%to_link(6, m), lane_beam%node_load(k), lane_beam%node(k), &
+                  lane_beam%to_node(2, k), stat=stat)
+        made = stat == 0
+        if (.not. made) return
+        associate (to => lane_beam, from => lowered%beam%links)
+            to%length(:) = from%length
+            to%inverse(:) = from%inverse
+            to%faa(:) = from%faa
+            to%fab(:) = from%fab
+            to%fbb(:) = from%fbb
+            to%sum_a(:) = from%sum_a
+            to%sum_b(:) = from%sum_b
+            to%bending(:) = from%bending
+            to%determinant(:) = from%determinant
+            to%fixity(:) = 0.0_wp
+            where (from%bending > 0.0_wp) to%fixity = 1/from%bending
+            to%reach(:) = max(from%bending, from%faa + from%fbb)*from%length
+            to%side(:) = 0.0_wp
+            to%there(:) = 0.0_wp
+            to%changes(:) = 0.0_wp
+            do k = 1, size(lowered%beam%supports)
+                associate (s => lowered%beam%supports(k))
+                    to%there(s%node) = 1.0_wp
+                    to%side(s%node) = s%side
+                    if (may_change(s)) to%changes(s%node) = 1.0_wp
+                end associate
+            end do
+            do k = 1, size(loads%of_links)
+                associate (s => loads%of_links(k))
+                    to%link_load(k) = s%load
+                    to%link(k) = s%link
+                    to%to_link(:, k) = [s%turn_a, s%turn_b, s%shear_a, s%shear_b, s%load_sum, s%turn_sum]
+                end associate
+            end do
+            do k = 1, size(loads%of_nodes)
+                to%node_load(k) = loads%of_nodes(k)%load
+                to%node(k) = loads%of_nodes(k)%node
+                to%to_node(:, k) = [loads%of_nodes(k)%force, loads%of_nodes(k)%couple]
+            end do
+        end associate
+    end subroutine prepare_lanes
+
+    !> The supports as they are in all cases
+    pure subroutine take_supports(lowered, pack)
+        type(lowered_type), intent(in) :: lowered
+        type(pack_type), intent(inout) :: pack
+        integer :: k
+
+        pack%stiffness(:, :) = 0.0_wp
+        pack%rigid(:, :) = 0.0_wp
+        pack%contact(:, :) = 0.0_wp
+        do k = 1, size(lowered%beam%supports)
+            associate (s => lowered%beam%supports(k))
+                pack%contact(:, s%node) = s%contact
+                if (is_rigid(s)) then
+                    pack%rigid(:, s%node) = 1.0_wp
+                else
+                    pack%stiffness(:, s%node) = s%stiffness
+                end if
+            end associate
+        end do
+    end subroutine take_supports
+
+    !> The supports as they are in one case, see replace_supports of gapbeam_cases
+    pure subroutine take_values(lowered, values, l, pack, lost)
+        type(lowered_type), intent(in) :: lowered
+        real(wp), intent(in) :: values(:, :)
+        integer, intent(in) :: l
+        type(pack_type), intent(inout) :: pack
+        !> Is a number out of range
+        logical, intent(out) :: lost
+        real(wp) :: stiffness
+        integer :: k
+
+        lost = .false.
+        do k = 1, size(lowered%beam%supports)
+            associate (s => lowered%beam%supports(k), given => values(:, lowered%normal(k)), i => lowered%beam%supports(k)%node)
+                pack%contact(l, i) = scale(given(1) + s%side*given(2), -lowered%units%deflection)
+                lost = lost .or. .not. abs(pack%contact(l, i)) <= huge(1.0_wp)
+                pack%rigid(l, i) = merge(1.0_wp, 0.0_wp, given(3) > huge(1.0_wp))
+                pack%stiffness(l, i) = 0.0_wp
+                if (given(3) > huge(1.0_wp)) cycle
+                stiffness = scale(given(3), -stiffness_unit(lowered%units))
+                lost = lost .or. (is_lost(stiffness) .and. given(3) > 0.0_wp)
+                pack%stiffness(l, i) = stiffness
+            end associate
+        end do
+    end subroutine take_values
+
+    !> Where the search of a case starts
+    pure subroutine take_start(lowered, closed, l, pack)
+        type(lowered_type), intent(in) :: lowered
+        integer, intent(in) :: closed(:), l
+        type(pack_type), intent(inout) :: pack
+        integer :: k
+
+        pack%closed(l, :) = 0.0_wp
+        do k = 1, size(lowered%beam%supports)
+            associate (s => lowered%beam%supports(k))
+                if (closed(k) /= 0 .or. s%side == both) pack%closed(l, s%node) = 1.0_wp
+            end associate
+        end do
+    end subroutine take_start
+
+    !> The solution of a case in the scene's units, if these hold it
+    pure subroutine give_case(lowered, pack, l, closed, w, ml, mr, reaction, done)
+        type(lowered_type), intent(in) :: lowered
+        type(pack_type), intent(in) :: pack
+        integer, intent(in) :: l
+        integer, intent(inout) :: closed(:)
+        real(wp), intent(inout) :: w(:), ml(:), mr(:), reaction(:)
+        logical, intent(out) :: done
+        real(wp) :: of_deflection, of_moment, of_force, largest
+        integer :: k
+
+        of_deflection = scale(1.0_wp, lowered%units%deflection)
+        of_moment = scale(1.0_wp, moment_unit(lowered%units))
+        of_force = scale(1.0_wp, lowered%units%force)
+        largest = 0.0_wp
+        do k = 1, size(w)
+            w(k) = pack%w(l, k - 1)*of_deflection
+            ml(k) = pack%ml(l, k - 1)*of_moment
+            mr(k) = pack%mr(l, k - 1)*of_moment
+            largest = max(largest, abs(w(k)), abs(ml(k)), abs(mr(k)))
+        end do
+        do k = 1, size(lowered%beam%supports)
+            associate (i => lowered%beam%supports(k)%node)
+                reaction(k) = pack%reaction(l, i)*of_force
+                largest = max(largest, abs(reaction(k)))
+            end associate
+        end do
+        done = largest <= huge(largest)
+        if (.not. done) return
+        do k = 1, size(lowered%beam%supports)
+            closed(k) = nint(pack%closed(l, lowered%beam%supports(k)%node))
+        end do
+    end subroutine give_case
+
+end module gapbeam_lane_cases

@@ -1,0 +1,231 @@
+!> Cases side by side: the bits of solve_case whatever the lane, the level of the processor and the company; doubtful cases are left
+program test_lanes
+    use, intrinsic :: iso_fortran_env, only: int64
+    use testing, only: check, finish
+    use gapbeam_kinds, only: wp
+    use gapbeam_error, only: error_type, gapbeam_solved
+    use gapbeam_scene, only: model_type, span_type, support_type, point_force, point_couple, uniform_load, gapbeam_both, &
+        gapbeam_infinity
+    use gapbeam_units, only: moment_unit
+    use gapbeam_lowered, only: lowered_type
+    use gapbeam_lower, only: lower_model
+    use gapbeam_model, only: beam_type
+    use gapbeam_workspace, only: workspace_type, new_workspace
+    use gapbeam_search, only: rule_block
+    use gapbeam_cases, only: case_loads_type, split_loads, solve_case, replace_supports
+    use gapbeam_lane_levels, only: least_level, best_level
+    use gapbeam_lane_cases, only: fits_lanes, solve_in_lanes
+    implicit none
+
+    !> Cases of a beam, and beams
+    integer, parameter :: cases = 20, beams = 240
+    integer :: status
+
+    !> What comes out of some cases
+    type :: found_type
+        integer, allocatable :: closed(:, :), solves(:)
+        real(wp), allocatable :: w(:, :), ml(:, :), mr(:, :), reaction(:, :)
+        logical, allocatable :: done(:)
+    end type found_type
+
+    call lanes_have_the_bits_of_single_cases()
+    call finish(status)
+    if (status /= 0) stop 1, quiet=.true.
+
+contains
+
+    !> Many beams with supports of all kinds
+    subroutine lanes_have_the_bits_of_single_cases()
+        type(lowered_type) :: lowered
+        type(case_loads_type) :: loads
+        type(error_type), allocatable :: error
+        type(found_type) :: all_cases, alone, back
+        real(wp), allocatable :: factors(:, :), values(:, :, :)
+        integer(int64) :: seed
+        integer :: b, i, level, left, other_level, other_lane, other_bits, total
+
+        seed = 2463534242_int64
+        left = 0
+        total = 0
+        other_level = 0
+        other_lane = 0
+        other_bits = 0
+        do b = 1, beams
+            call make_beam(seed, lowered)
+            call split_loads(lowered, loads, error)
+            if (.not. fits_lanes(lowered)) cycle
+            call draw_cases(seed, lowered, b, factors, values)
+            call solve(lowered, loads, factors, values, best_level(), all_cases)
+            total = total + cases
+            left = left + count(.not. all_cases%done)
+            do level = least_level, best_level() - 1
+                call solve(lowered, loads, factors, values, level, back)
+                other_level = other_level + count(.not. same(all_cases, back, [(i, i=1, cases)]))
+            end do
+            call solve(lowered, loads, factors(:, cases:1:-1), values(:, :, cases:1:-1), best_level(), back)
+            other_lane = other_lane + count(.not. same(all_cases, back, [(cases + 1 - i, i=1, cases)]))
+            i = 1 + modulo(b, cases)
+            call solve(lowered, loads, factors(:, i:i), values(:, :, i:i), best_level(), alone)
+            if (.not. all(same(alone, all_cases, [i]))) other_lane = other_lane + 1
+            other_bits = other_bits + differing(lowered, loads, factors, values, all_cases)
+        end do
+        call check(total > beams*cases/2, "most of the beams are such as lanes hold")
+        call check(other_level == 0, "every kind of processor gives the same bits")
+        call check(other_lane == 0, "every lane gives the same bits, and a case alone")
+        call check(other_bits == 0, "the bits are those of single cases")
+        call check(5*left < total, "few cases are left to others, most of them mechanisms on the way")
+        write (*, "(a, 5i6)") "# otherwise by level, lane, engine; left, of all:", other_level, other_lane, other_bits, left, total
+    end subroutine lanes_have_the_bits_of_single_cases
+
+    !> Solve cases side by side
+    subroutine solve(lowered, loads, factors, values, level, found)
+        type(lowered_type), intent(in) :: lowered
+        type(case_loads_type), intent(in) :: loads
+        real(wp), intent(in) :: factors(:, :), values(:, :, :)
+        integer, intent(in) :: level
+        type(found_type), intent(out) :: found
+        integer :: n, m, c
+
+        n = size(lowered%beam%links) + 1
+        m = size(lowered%beam%supports)
+        c = size(factors, 2)
+        allocate (found%closed(m, c), found%solves(c), found%w(n, c), found%ml(n, c), found%mr(n, c), found%reaction(m, c), &
+                  found%done(c))
+        found%closed(:, :) = 1
+        found%w(:, :) = 0.0_wp
+        found%ml(:, :) = 0.0_wp
+        found%mr(:, :) = 0.0_wp
+        found%reaction(:, :) = 0.0_wp
+        call solve_in_lanes(lowered, loads, factors, values, found%closed, found%w, found%ml, found%mr, found%reaction, &
+                            found%solves, found%done, level)
+    end subroutine solve
+
+    !> Are cases the same, to the last bit
+    pure function same(a, b, number) result(equal)
+        type(found_type), intent(in) :: a, b
+        !> Which cases of b those of a are
+        integer, intent(in) :: number(:)
+        logical :: equal(size(number))
+        integer :: i
+
+        do i = 1, size(number)
+            associate (k => number(i))
+                equal(i) = a%done(i) .eqv. b%done(k)
+                if (.not. a%done(i)) cycle
+                equal(i) = equal(i) .and. all(a%closed(:, i) == b%closed(:, k)) .and. &
+                    .not. any(abs(a%w(:, i) - b%w(:, k)) > 0.0_wp .or. abs(a%ml(:, i) - b%ml(:, k)) > 0.0_wp &
+                              .or. abs(a%mr(:, i) - b%mr(:, k)) > 0.0_wp) &
+                    .and. .not. any(abs(a%reaction(:, i) - b%reaction(:, k)) > 0.0_wp)
+            end associate
+        end do
+    end function same
+
+    !> How many cases come out otherwise one by one
+    function differing(lowered, loads, factors, values, found) result(number)
+        type(lowered_type), intent(in) :: lowered
+        type(case_loads_type), intent(in) :: loads
+        real(wp), intent(in) :: factors(:, :), values(:, :, :)
+        type(found_type), intent(in) :: found
+        integer :: number
+        type(beam_type) :: beam
+        type(workspace_type) :: work
+        logical, allocatable :: acting(:)
+        integer :: i, status
+
+        number = 0
+        beam = lowered%beam
+        call new_workspace(beam, work)
+        allocate (acting(size(beam%supports)))
+        do i = 1, cases
+            if (.not. found%done(i)) cycle
+            if (size(values, 2) > 0) call replace_supports(lowered, values(:, :, i), beam, status)
+            acting(:) = .true.
+            call solve_case(loads, factors(:, i), rule_block, beam, acting, work, status)
+            associate (units => lowered%units, a => work%answers)
+                if (status == gapbeam_solved .and. all(acting .eqv. found%closed(:, i) == 1)) then
+                    if (.not. any(abs(scale(a%deflection, units%deflection) - found%w(:, i)) > 0.0_wp &
+                                  .or. abs(scale(a%moment_left, moment_unit(units)) - found%ml(:, i)) > 0.0_wp &
+                                  .or. abs(scale(a%moment_right, moment_unit(units)) - found%mr(:, i)) > 0.0_wp) &
+                        .and. .not. any(abs(scale(work%reaction, units%force) - found%reaction(:, i)) > 0.0_wp)) cycle
+                end if
+            end associate
+            number = number + 1
+        end do
+    end function differing
+
+    !> A beam of 2 to 40 spans; at its ends and inside supports of all kinds, or none
+    subroutine make_beam(seed, lowered)
+        integer(int64), intent(inout) :: seed
+        type(lowered_type), intent(out) :: lowered
+        type(error_type), allocatable :: error
+        type(support_type), allocatable :: supports(:)
+        real(wp) :: x
+        integer :: i, m, n
+
+        n = 2 + int(39*random(seed)**3)
+        associate (model => lowered%model)
+            allocate (model%spans(n), model%hinges(0), model%sections(0), model%law(0), model%foundations(0), model%ground(0), &
+                      model%ground_law(0), supports(n + 1))
+            do i = 1, n
+                model%spans(i) = span_type(2.0_wp + 4*random(seed), EI=10.0_wp**(3 + 2*random(seed)))
+            end do
+            m = 0
+            do i = 0, n
+                x = random(seed)
+                if (x < 0.15_wp .and. i > 0) cycle
+                m = m + 1
+                supports(m) = support_type(node=i, settlement=0.01_wp*(random(seed) - 0.5_wp))
+                if (random(seed) < 0.4_wp) supports(m)%stiffness = 10.0_wp**(1 + 4*random(seed))
+                if (x < 0.4_wp) cycle
+                supports(m)%side = merge(1, -1, x < 0.85_wp)
+                if (random(seed) < 0.6_wp) supports(m)%gap = 0.01_wp*(random(seed) - 0.2_wp)
+            end do
+            allocate (model%supports(m), model%loads(4))
+            model%supports(:) = supports(:m)
+            x = sum(model%spans%length)
+            model%loads(1) = uniform_load(10.0_wp, 0.0_wp, x)
+            model%loads(2) = uniform_load(20*random(seed), 0.3_wp*x*random(seed), x*(0.5_wp + 0.5_wp*random(seed)))
+            model%loads(3) = point_force(40*random(seed), x=x*random(seed))
+            model%loads(4) = point_force(40*random(seed), node=int((n + 1)*random(seed)))
+            if (random(seed) < 0.3_wp) model%loads(4) = point_couple(20*random(seed), node=int((n + 1)*random(seed)))
+        end associate
+        call lower_model(lowered, error)
+    end subroutine make_beam
+
+    !> Factors, and for every second beam supports that differ from case to case
+    subroutine draw_cases(seed, lowered, beam, factors, values)
+        integer(int64), intent(inout) :: seed
+        type(lowered_type), intent(in) :: lowered
+        integer, intent(in) :: beam
+        real(wp), allocatable, intent(out) :: factors(:, :), values(:, :, :)
+        integer :: i, k
+
+        associate (given => lowered%model%supports)
+            allocate (factors(size(lowered%model%loads), cases))
+            allocate (values(3, merge(size(given), 0, modulo(beam, 2) == 0), cases))
+            do i = 1, cases
+                do k = 1, size(factors, 1)
+                    factors(k, i) = 3*random(seed) - 1
+                end do
+                do k = 1, size(values, 2)
+                    values(:, k, i) = [given(k)%settlement + 0.01_wp*(random(seed) - 0.5_wp), given(k)%gap, given(k)%stiffness]
+                    if (given(k)%side /= gapbeam_both) values(2, k, i) = 0.01_wp*(random(seed) - 0.2_wp)
+                    if (random(seed) < 0.2_wp) values(3, k, i) = 10.0_wp**(1 + 4*random(seed))
+                    if (random(seed) < 0.1_wp) values(3, k, i) = gapbeam_infinity
+                end do
+            end do
+        end associate
+    end subroutine draw_cases
+
+    !> From 0 to 1 (Marsaglia 2003)
+    function random(seed) result(x)
+        integer(int64), intent(inout) :: seed
+        real(wp) :: x
+
+        seed = ieor(seed, shiftl(seed, 13))
+        seed = ieor(seed, shiftr(seed, 7))
+        seed = ieor(seed, shiftl(seed, 17))
+        x = real(shiftr(seed, 11), wp)*2.0_wp**(-53)
+    end function random
+
+end program test_lanes
