@@ -42,7 +42,7 @@ contains
         type(found_type) :: all_cases, alone, back
         real(wp), allocatable :: factors(:, :), values(:, :, :)
         integer(int64) :: seed
-        integer :: b, i, level, left, other_level, other_lane, other_bits, total
+        integer :: b, i, level, left, other_level, other_lane, other_bits, total, missed
 
         seed = 2463534242_int64
         left = 0
@@ -50,6 +50,7 @@ contains
         other_level = 0
         other_lane = 0
         other_bits = 0
+        missed = 0
         do b = 1, beams
             call make_beam(seed, lowered)
             call split_loads(lowered, loads, error)
@@ -67,14 +68,15 @@ contains
             i = 1 + modulo(b, cases)
             call solve(lowered, loads, factors(:, i:i), values(:, :, i:i), best_level(), alone)
             if (.not. all(same(alone, all_cases, [i]))) other_lane = other_lane + 1
-            other_bits = other_bits + differing(lowered, loads, factors, values, all_cases)
+            call compare(lowered, loads, factors, values, all_cases, other_bits, missed)
         end do
         call check(total > beams*cases/2, "most of the beams are such as lanes hold")
         call check(other_level == 0, "every kind of processor gives the same bits")
         call check(other_lane == 0, "every lane gives the same bits, and a case alone")
         call check(other_bits == 0, "the bits are those of single cases")
-        call check(5*left < total, "few cases are left to others, most of them mechanisms on the way")
-        write (*, "(a, 5i6)") "# otherwise by level, lane, engine; left, of all:", other_level, other_lane, other_bits, left, total
+        call check(25*missed < total, "few cases that have a solution are left to others")
+        write (*, "(a, 6(1x, i0))") "# otherwise by level, lane, engine; left, of those solved, of all:", other_level, other_lane, &
+            other_bits, left, missed, total
     end subroutine lanes_have_the_bits_of_single_cases
 
     !> Solve cases side by side
@@ -120,27 +122,29 @@ contains
         end do
     end function same
 
-    !> How many cases come out otherwise one by one
-    function differing(lowered, loads, factors, values, found) result(number)
+    !> Cases that come out otherwise one by one, and those that are solved only so
+    subroutine compare(lowered, loads, factors, values, found, number, missed)
         type(lowered_type), intent(in) :: lowered
         type(case_loads_type), intent(in) :: loads
         real(wp), intent(in) :: factors(:, :), values(:, :, :)
         type(found_type), intent(in) :: found
-        integer :: number
+        integer, intent(inout) :: number, missed
         type(beam_type) :: beam
         type(workspace_type) :: work
         logical, allocatable :: acting(:)
         integer :: i, status
 
-        number = 0
         beam = lowered%beam
         call new_workspace(beam, work)
         allocate (acting(size(beam%supports)))
         do i = 1, cases
-            if (.not. found%done(i)) cycle
             if (size(values, 2) > 0) call replace_supports(lowered, values(:, :, i), beam, status)
             acting(:) = .true.
             call solve_case(loads, factors(:, i), rule_block, beam, acting, work, status)
+            if (.not. found%done(i)) then
+                if (status == gapbeam_solved) missed = missed + 1
+                cycle
+            end if
             associate (units => lowered%units, a => work%answers)
                 if (status == gapbeam_solved .and. all(acting .eqv. found%closed(:, i) == 1)) then
                     if (.not. any(abs(scale(a%deflection, units%deflection) - found%w(:, i)) > 0.0_wp &
@@ -151,7 +155,7 @@ contains
             end associate
             number = number + 1
         end do
-    end function differing
+    end subroutine compare
 
     !> A beam of 2 to 40 spans; at its ends and inside supports of all kinds, or none
     subroutine make_beam(seed, lowered)

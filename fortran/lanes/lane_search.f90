@@ -37,6 +37,9 @@ contains
                        pack%room, pack%force)
         pack%with_couples = any(abs(pack%couple) > 0.0_wp)
         call search(beam, beam%n, pack, solves, lost)
+        ! Without the weak springs
+        call apply_scheme(beam%n, pack%shear, pack%stiffness, pack%rigid, pack%contact, pack%closed, pack%held, pack%known, &
+                          pack%spring, pack%force)
         call choose_methods(beam%n, pack, method)
         where (lost) method = 0
     end subroutine search_pack
@@ -94,16 +97,18 @@ contains
         integer, intent(out) :: solves(lanes)
         !> Which cases are given up
         logical, intent(out) :: lost(lanes)
-        real(wp), dimension(lanes) :: wrong, fewest, idle, moves, alive
+        real(wp), dimension(lanes) :: wrong, fewest, idle, moves, alive, looked_at, ease
         integer :: solve
 
         fewest(:) = huge(1.0_wp)
         idle(:) = 0.0_wp
         alive(:) = 1.0_wp
+        ease(:) = 0.0_wp
         solves(:) = 0
         do solve = 1, most_solves
             call apply_scheme(n, pack%shear, pack%stiffness, pack%rigid, pack%contact, pack%closed, pack%held, pack%known, &
                               pack%spring, pack%force)
+            if (any(ease > 0.0_wp)) pack%spring(:, :) = pack%spring + spread(ease, 2, n + 1)
             moves(:) = 0.0_wp
             if (ends_hold(pack, n)) then
                 pack%turn(:, :) = pack%left + pack%right
@@ -115,18 +120,21 @@ contains
                                  pack%room, pack%w, pack%ml, pack%mr, moves)
             end if
             where (alive > 0.5_wp) solves = solves + 1
-            alive(:) = alive*(1.0_wp - moves)
-            call find_wrong(beam, n, alive, pack%shear, pack%stiffness, pack%contact, pack%held, pack%closed, pack%w, pack%ml, &
+            ! A scheme that moves is solved once more, with weak springs, as by gapbeam_scheme
+            ease(:) = ease + moves*beam%ease
+            looked_at(:) = alive*(1.0_wp - moves)
+            call find_wrong(beam, n, looked_at, pack%shear, pack%stiffness, pack%contact, pack%held, pack%closed, pack%w, pack%ml, &
                             pack%mr, pack%turn_rest, pack%force_rest, wrong)
-            ! What has settled, or moves, stays as it is
-            where (.not. wrong > 0.5_wp) alive = 0.0_wp
+            ! What has settled stays as it is
+            where (.not. wrong > 0.5_wp) alive = alive*moves
             if (.not. any(alive > 0.5_wp)) exit
+            where (moves > 0.5_wp) wrong = huge(1.0_wp)
             idle(:) = merge(0.0_wp, idle + 1.0_wp, wrong < fewest)
             fewest(:) = min(fewest, wrong)
             if (any(alive*idle > patience)) call keep_worst(beam, n, idle, pack%closed, pack%force_rest, pack%turn_rest, pack%room)
             pack%closed(:, :) = abs(pack%closed - pack%turn_rest)
         end do
-        lost = alive > 0.5_wp .or. moves > 0.5_wp
+        lost = alive > 0.5_wp
     end subroutine search
 
     !> Nodes as the scheme sees them
@@ -289,35 +297,37 @@ contains
         integer, intent(in) :: method
         !> Loads, supports and schemes in, solutions out
         type(pack_type), intent(inout) :: pack
-        !> In which cases a sign is wrong or within its rounding error, digits are lost, or numbers are not finite
+        !> In which cases the scheme moves, a sign is wrong or within its rounding error, digits are lost, or numbers are not finite
         logical, intent(out) :: doubtful(lanes)
-        real(wp) :: doubt(lanes)
+        real(wp) :: doubt(lanes), moves(lanes)
         integer :: n
 
         n = beam%n
         call apply_scheme(n, pack%shear, pack%stiffness, pack%rigid, pack%contact, pack%closed, pack%held, pack%known, &
                           pack%spring, pack%force)
         call solve(beam, n, method, pack%left, pack%right, pack%force, pack%couple, pack%held, pack%known, pack%spring, &
-                   pack%turn, pack%room, pack%w, pack%ml, pack%mr)
+                   pack%turn, pack%room, pack%w, pack%ml, pack%mr, moves)
         call find_rest(beam, n, pack%left, pack%right, pack%force, pack%held, pack%known, pack%spring, pack%w, pack%ml, pack%mr, &
                        pack%room, pack%turn_rest, pack%force_rest, pack%known_rest)
         pack%nothing(:, :) = 0.0_wp
         call solve(beam, n, method, pack%nothing, pack%turn_rest, pack%force_rest, pack%nothing, pack%held, pack%known_rest, &
-                   pack%spring, pack%turn, pack%room, pack%dw, pack%dl, pack%dr)
+                   pack%spring, pack%turn, pack%room, pack%dw, pack%dl, pack%dr, moves)
         call add_correction(n, pack%dw, pack%dl, pack%dr, pack%w, pack%ml, pack%mr)
         call complete(beam, n, pack, doubt)
-        doubtful = doubt > 0.5_wp
+        doubtful = doubt + moves > 0.5_wp
     end subroutine finish_pack
 
     !> One of the three ways
-    pure subroutine solve(beam, n, method, left, right, force, couple, held, known, spring, turn, room, w, ml, mr)
+    pure subroutine solve(beam, n, method, left, right, force, couple, held, known, spring, turn, room, w, ml, mr, moves)
         type(lane_beam_type), intent(in) :: beam
         integer, intent(in) :: n, method
         real(wp), intent(in), dimension(lanes, 0:n) :: left, right, force, couple, held, known, spring
         real(wp), intent(inout), dimension(lanes, 0:n) :: turn, w, ml, mr
         real(wp), intent(inout) :: room(lanes, 0:n, 10)
-        real(wp) :: moves(lanes)
+        !> 1 for mechanisms
+        real(wp), intent(out) :: moves(lanes)
 
+        moves(:) = 0.0_wp
         select case (method)
         case (by_both_ends)
             turn(:, :) = left + right

@@ -278,7 +278,8 @@ contains
                 ! By which the node is eliminated: held, floating or neither
                 denominator = merge(c, a*c + b**2, floating(l) > 0.5_wp)
                 denominator = merge(a, denominator, rigid*(1.0_wp - floating(l)) > 0.5_wp)
-                denominator = merge(denominator, 1.0_wp, denominator > 0.0_wp)
+                ! Not by merge, for compilers divide before they choose
+                denominator = denominator + merge(0.0_wp, 1.0_wp, denominator > 0.0_wp)
                 reciprocal = 1/denominator
                 ! Neither
                 m_star = (b*g - c*r)*reciprocal
@@ -330,7 +331,7 @@ contains
             c = delta(l) + spring(l, n)
             rests = merge(1.0_wp, held(l, n), c > 0.0_wp)
             moves(l) = 1.0_wp - rests*(1.0_wp - floating(l))
-            denominator = merge(c, 1.0_wp, c > 0.0_wp)
+            denominator = c + merge(0.0_wp, 1.0_wp, c > 0.0_wp)
             deflection = g*(1/denominator)
             w(l, n) = merge(d, deflection, held(l, n) > 0.5_wp)
             ml(l, n) = 0.0_wp - k

@@ -15,6 +15,8 @@ module gapbeam_lane_types
     !> What cases have in common: links, shape (n), and supports, shape (0:n)
     type :: lane_beam_type
         integer :: n = 0
+        !> Stiffness of the weak springs that hold a scheme which moves
+        real(wp) :: ease = 0.0_wp
         !> As in link_type
         real(wp), allocatable, dimension(:) :: length, inverse, faa, fab, fbb, sum_a, sum_b, bending, determinant
         !> As in workspace_type

@@ -3,6 +3,7 @@
 module gapbeam_lane_cases
     use gapbeam_kinds, only: wp
     use gapbeam_band, only: plain
+    use gapbeam_model, only: softest
     use gapbeam_law, only: both, is_rigid, has_laws, may_change
     use gapbeam_range, only: is_lost
     use gapbeam_units, only: moment_unit, stiffness_unit
@@ -18,6 +19,8 @@ module gapbeam_lane_cases
     integer, parameter :: long_beam = 300
     !> Exponents of units up to which a power of two is a double
     integer, parameter :: most_power = 1000
+    !> Weak springs relative to the softest stiffness present, as in gapbeam_scheme
+    real(wp), parameter :: ease_ratio = 1e-5_wp
     !> Ways in which schemes are solved
     integer, parameter :: ways = 3
 
@@ -174,6 +177,7 @@ contains
         m = size(loads%of_links)
         k = size(loads%of_nodes)
         lane_beam%n = n
+        lane_beam%ease = ease_ratio*softest(lowered%beam)
         allocate (lane_beam%length(n), lane_beam%inverse(n), lane_beam%faa(n), lane_beam%fab(n), lane_beam%fbb(n), &
                   lane_beam%sum_a(n), lane_beam%sum_b(n), lane_beam%bending(n), lane_beam%determinant(n), lane_beam%fixity(n), &
                   lane_beam%reach(n), lane_beam%side(0:n), lane_beam%there(0:n), lane_beam%changes(0:n), lane_beam%link_load(m), &
