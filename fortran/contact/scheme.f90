@@ -76,7 +76,7 @@ contains
         type(error_type), allocatable, intent(out) :: error
         type(motion_type), allocatable :: motions(:)
         logical, allocatable :: start(:)
-        logical :: settled
+        logical :: settled, refined
 
         if (checked) call require(size(closed) == size(beam%supports), "find_scheme: closed")
         closed = closed .or. always_closed(beam%supports)
@@ -87,16 +87,18 @@ contains
         call free_motions(beam, always_closed(beam%supports), motions)
         allocate (start(size(closed)))
         start = closed
+        refined = .false.
         call settle(beam, rule, size(motions) > 0, closed, work, settled, error)
         if (allocated(error)) return
         if (.not. settled) then
             closed = start
-            call iterate_floating(beam, factor, rule, closed, work, outcome, error)
+            call iterate_floating(beam, factor, rule, closed, work, outcome, refined, error)
             if (allocated(error)) call look_for_motion(beam, factor, rule, start, outcome, error)
         end if
         if (allocated(error) .or. outcome%status /= gapbeam_solved) return
         if (checked) call require(all(closed .or. .not. always_closed(beam%supports)), "find_scheme: opened what holds both ways")
-        call refine_scheme(beam, closed, work)
+        ! Once, so that the last digits are those of the scheme, whatever way led to it
+        if (.not. refined) call refine_scheme(beam, closed, work)
         if (.not. all(abs(work%answers%deflection) <= huge(1.0_wp)) .or. &
             .not. all(abs(work%answers%moment_left) <= huge(1.0_wp))) then
             call fatal_error(error, gapbeam_not_finite, "numbers left the range of double precision: choose units " &
@@ -119,6 +121,7 @@ contains
         type(error_type), allocatable :: another
         logical, allocatable :: closed(:)
         real(wp) :: stiffness
+        logical :: refined
 
         if (error%code /= gapbeam_indeterminate) return
         allocate (closed(size(start)))
@@ -128,18 +131,20 @@ contains
         call limit_stiffness(soft%supports, stiffness)
         call new_workspace(soft, work)
         call set_loads(soft, factor, work)
-        call iterate_floating(soft, factor, rule, closed, work, outcome, another)
+        call iterate_floating(soft, factor, rule, closed, work, outcome, refined, another)
         if (outcome%status == gapbeam_no_equilibrium .and. .not. allocated(another)) deallocate (error)
     end subroutine look_for_motion
 
     !> The same for a beam that can float: weak springs, and a reference position that follows
-    subroutine iterate_floating(beam, factor, rule, closed, work, outcome, error)
+    subroutine iterate_floating(beam, factor, rule, closed, work, outcome, refined, error)
         type(beam_type), intent(in) :: beam
         real(wp), intent(in) :: factor
         integer, intent(in) :: rule
         logical, intent(inout) :: closed(:)
         type(workspace_type), intent(inout) :: work
         type(outcome_type), intent(inout) :: outcome
+        !> Has the solution been refined
+        logical, intent(out) :: refined
         type(error_type), allocatable, intent(out) :: error
         logical, allocatable :: wrong(:)
         type(runaway_type), allocatable :: runaways(:)
@@ -152,6 +157,7 @@ contains
         ease = ease_ratio*softest(beam)
         work%reference = 0.0_wp
         moved_before = huge(moved_before)
+        refined = .false.
         do move = 1, most_moves
             work%ease = ease
             call settle(beam, rule, .false., closed, work, settled, error)
@@ -166,7 +172,8 @@ contains
                 if (allocated(error)) return
                 if (state == band_ok) then
                     call find_wrong(beam, closed, first_width, work, wrong)
-                    if (.not. any(wrong)) return
+                    refined = .not. any(wrong)
+                    if (refined) return
                 end if
             else if (size(runaways) == 0) then
                 ! Free to move, but no load does work: the springs carry nothing once the reference has come to rest, but for
