@@ -1,12 +1,14 @@
 """Envelopes of what foundations carry and of free spans, and envelopes as columns of tables."""
 
+import csv
+import io
 import json
 import pickle
 
 import gapbeam
 import numpy as np
 import pytest
-from gapbeam.report.text import report_text
+from gapbeam.report.text import report_text, to_csv
 from scenes import at, force, scene, uniform
 
 
@@ -107,3 +109,30 @@ def test_tables_while_trains_pass():
     assert table["reaction pier_max"].tolist() == [pytest.approx(22.5), pytest.approx(7.5)]
     assert table["moment_max"][0] == result.combinations["with"].envelope().extremes["moment"]["max"].value
     assert (rows["reaction_max_combination"][1], rows["reaction_max"][1]) == ("with", table["reaction pier_max"][0])
+
+
+def test_curves_say_where_they_come_from():
+    result = gapbeam.solve(footing())
+    envelope = result.envelope(points=4)
+    columns, curves = envelope.columns(), envelope.fields
+    assert columns["moment_max_combination"] == [result.names[k] for k in curves.largest_of["moment"]]
+    header, *rows = csv.reader(io.StringIO(to_csv(result, points=4)))
+    assert [name.partition(" ")[0] for name in header] == list(columns)
+    assert [float(row[header.index("moment_min")]) for row in rows] == curves.smallest["moment"].tolist()
+    assert [row[-1] for row in rows] == columns["pressure_min_combination"]
+
+
+def test_curves_while_trains_pass_have_positions():
+    made = scene([6.0], [at(0), at(1)], [uniform(1.0, case="dead")], EI=1e4)
+    made["units"] = {"force": "kN", "length": "m"}
+    made["trains"] = [{"name": "crane", "axles": [[0.0, 10.0]], "both_directions": True}]
+    result = gapbeam.solve(made)
+    columns = result.envelope(x=[1.5, 3.0]).columns()
+    assert columns["moment_max_position"].tolist() == [1.5, 3.0]
+    assert columns["moment_max_train"] == ["crane", "crane"]
+    assert columns["moment_max_direction"] == ["right", "right"]
+    header, *rows = csv.reader(io.StringIO(to_csv(result, points=2)))
+    assert header[:3] == ["x [m]", "deflection_max [m]", "deflection_min [m]"]
+    assert {len(row) for row in rows} == {len(header)}
+    assert rows[1][header.index("moment_max_position [m]")] == "3.0"
+    assert rows[1][header.index("moment_max_train")] == "crane"

@@ -208,12 +208,18 @@ def csv_parts(result: "Result", points: int = 20) -> Iterator[str]:
     str
     """
     governs = result.combinations or result.scene.trains
-    fields = result.envelope(points).fields if governs else result.fields(points=points)
-    columns = fields.columns()
-    headings = [fmt.with_unit(result.scene, name.removesuffix("_max").removesuffix("_min"), name) for name in columns]
-    yield _csv([headings])
+    columns = (result.envelope(points) if governs else result.fields(points=points)).columns()
+    yield _csv([[_heading(result, name) for name in columns]])
     for part in parts(len(columns["x"])):
-        yield _csv(zip(*(column[part].tolist() for column in columns.values()), strict=True))
+        values = (column[part] for column in columns.values())
+        yield _csv(zip(*(some.tolist() if isinstance(some, np.ndarray) else some for some in values), strict=True))
+
+
+def _heading(result: "Result", name: str) -> str:
+    """Put the unit behind the name of a column; names of combinations and trains have none."""
+    if name.endswith(("_combination", "_train", "_direction")):
+        return name
+    return fmt.with_unit(result.scene, "x" if name.endswith("_position") else name.removesuffix("_max").removesuffix("_min"), name)
 
 
 def _csv(rows: Iterable[Sequence]) -> str:

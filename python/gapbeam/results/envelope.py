@@ -13,7 +13,7 @@ from ..base.records import Record
 from ..engine.beam import FIELDS
 from ..scene.names import names_of
 from ..scene.structs import Scene
-from .tables import support_places
+from .tables import curves_with_sources, support_places
 
 if TYPE_CHECKING:
     from .ground_envelope import GroundExtreme
@@ -312,6 +312,17 @@ class Envelope:
         names = self._fields.items()
         tables = [{name: table[row][:, column].copy() for name, column in names} for table in (best, of) for row in (0, 1)]
         return Curves(x, *tables)
+
+    def columns(self) -> dict[str, Any]:
+        """The curves as columns of a table, for example for pandas.
+
+        Returns
+        -------
+        dict
+            ``x``, of every field its largest and smallest values (``moment_max``), and in a scene with combinations the one that
+            gives them (``moment_max_combination``).
+        """
+        return curves_with_sources(self.fields, self.sources, ["combination"] if self.scene.combinations else [])
 
     def to_dict(self) -> dict[str, Any]:
         """Everything as plain data, in the form of the JSON output.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,6 +12,7 @@ from ..scene.names import labels
 if TYPE_CHECKING:
     from ..scene.structs import Scene
     from .combined import Combinations
+    from .envelope import Curves
 
 KINDS = ("max", "min")
 SOURCES = ("combination", "train", "position", "direction")
@@ -65,6 +67,31 @@ def support_places(scene: Scene) -> dict[str, Any]:
         ``support`` (name or number) and ``x``.
     """
     return {"support": labels(scene.supports), "x": np.array(scene.positions(scene.supports))}
+
+
+def curves_with_sources(curves: Curves, sources: Sequence[Any], keys: Sequence[str]) -> dict[str, Any]:
+    """Give curves as columns, and then where their values come from.
+
+    Parameters
+    ----------
+    curves : Curves
+        The curves.
+    sources : sequence
+        What they number.
+    keys : sequence of str
+        Attributes of these that are wanted.
+
+    Returns
+    -------
+    dict
+        As `Curves.columns`; lists such as ``moment_max_combination``, in which None stands where there is no value.
+    """
+    found: dict[str, Any] = curves.columns()
+    for kind, values, numbers in (("max", curves.largest, curves.largest_of), ("min", curves.smallest, curves.smallest_of)):
+        for name in values:
+            of = np.where(np.isnan(values[name]), -1, numbers[name]).tolist()
+            found |= {f"{name}_{kind}_{key}": [None if k < 0 else getattr(sources[k], key) for k in of] for key in keys}
+    return found
 
 
 def extremes_while_trains_pass(combinations: Combinations) -> dict[str, np.ndarray]:

@@ -15,7 +15,7 @@ from ..engine.trains import SIDES, Extremes
 from ..scene.names import names_of
 from .arguments import numbers
 from .envelope import AT_SUPPORTS, Curves
-from .tables import KINDS, SupportRows
+from .tables import KINDS, SupportRows, curves_with_sources
 
 if TYPE_CHECKING:
     from .result import Result
@@ -340,6 +340,21 @@ class TrainEnvelope:
         values[np.isinf(values)] = np.nan
         tables = (values, members, positions)
         return TrainCurves(x, *(dict(zip(FIELDS, table[i], strict=True)) for table in tables for i in (0, 1)))
+
+    def columns(self) -> dict[str, Any]:
+        """The curves as columns of a table, for example for pandas.
+
+        Returns
+        -------
+        dict
+            ``x``, of every field its largest and smallest values (``moment_max``), the position of the train that gives them
+            (``moment_max_position``), its name and direction and, in a scene with combinations, their names.
+        """
+        curves = self.fields
+        keys = ["combination", "train", "direction"] if self._result.scene.combinations else ["train", "direction"]
+        positions = {f"{name}_max_position": curves.largest_at[name] for name in FIELDS}
+        positions |= {f"{name}_min_position": curves.smallest_at[name] for name in FIELDS}
+        return curves_with_sources(curves, self.members, keys) | positions
 
     def to_dict(self) -> dict[str, Any]:
         """Everything as plain data, in the form of the JSON output.
