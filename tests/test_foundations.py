@@ -1,5 +1,6 @@
 """Beams on the ground: against a reference solution in 25 digits, and against themselves."""
 
+import math
 import pickle
 from itertools import pairwise
 
@@ -285,3 +286,26 @@ def test_free_spans_and_their_sag():
     assert 5.99 < span.to < 6.0
     assert span.from_ + span.to == pytest.approx(10.0, abs=1e-11)
     assert span.sag == pytest.approx(0.4 - result.at(5.0).deflection, rel=1e-12)
+
+
+@pytest.mark.parametrize("EI", [math.inf, 1e5])
+@pytest.mark.parametrize(
+    ("limit", "load", "pivot", "most"),
+    [
+        ([100.0, 100.0], {"type": "force", "F": 600.0}, 5.0 * math.sqrt(2.0), 1000.0 * (math.sqrt(2.0) - 1.0) / 600.0),
+        ([0.0, 300.0], {"type": "force", "F": 900.0}, 10.0 * 0.5 ** (1 / 3), 3000.0 * (0.25 ** (1 / 3) - 0.5) / 900.0),
+        ([100.0, 100.0], {"type": "moment", "M": 3000.0}, 5.0, 2500.0 / 3000.0),
+    ],
+)
+def test_limit_loads_of_piles(EI, limit, load, pivot, most):
+    """The pile turns about a place below which the soil resists the other way (Broms)."""
+    law = {"type": "plastic", "stiffness": [100.0 * p for p in limit], "limit": limit}
+    made = {"beam": {"spans": [10.0], "EI": EI}, "foundation": [{"law": law}], "loads": [{**load, "x": 0.0}]}
+    path = gapbeam.solve({**made, "analysis": {"follow": "events"}})
+    assert path.status == "limit-load"
+    assert f"beyond load factor {most:.12g};" in path.reason
+    assert f"about x = {pivot:.6g}:" in path.reason
+    for change, status in ((-1e-12, "solved"), (1e-12, "no-equilibrium")):
+        (size,) = (key for key in load if key != "type")
+        made["loads"] = [{**load, "x": 0.0, size: load[size] * most * (1.0 + change)}]
+        assert gapbeam.solve(made).status == status

@@ -3,7 +3,7 @@ module gapbeam_layers
     use gapbeam_kinds, only: wp
     implicit none
     private
-    public :: layer_type, law_piece_type, pieces_of_law, branches_of_law, law_piece, is_curve, has_curves
+    public :: layer_type, law_piece_type, pieces_of_law, branches_of_law, law_piece, is_curve, has_curves, has_limit
     public :: law_by_points, law_plastic, law_hardening, law_hyperbolic, law_tanh, law_cubic, parameters_of_law
 
     !> Laws: by points, or none; elastic up to a force (stiffness, limit), of another slope beyond (and slope); curves that tend to
@@ -71,6 +71,17 @@ contains
 
         has = layer%law >= law_hardening
     end function has_curves
+
+    !> Is there a force that a layer never exceeds
+    pure function has_limit(layer, laws) result(has)
+        type(layer_type), intent(in) :: layer
+        !> Pieces of all laws
+        type(law_piece_type), intent(in) :: laws(:)
+        logical :: has
+
+        has = any(layer%law == [law_plastic, law_hyperbolic, law_tanh])
+        if (layer%law == law_by_points .and. layer%law_last >= layer%law_first) has = .not. laws(layer%law_last)%slope > 0.0_wp
+    end function has_limit
 
     !> A piece of the law of a layer; of a linear one the only piece, without its slope
     pure function law_piece(layer, laws, number) result(piece)

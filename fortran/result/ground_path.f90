@@ -8,6 +8,7 @@ module gapbeam_ground_path
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved, gapbeam_not_converged, gapbeam_not_finite
     use gapbeam_words, only: shown
     use gapbeam_polyline, only: last_kink
+    use gapbeam_layers, only: has_limit
     use gapbeam_lowered, only: lowered_type, point_x
     use gapbeam_pieces, only: acting_type, acting_piece, what_happens, nothing
     use gapbeam_solution, only: state_type
@@ -331,11 +332,9 @@ contains
         integer :: k
 
         capped = .false.
-        associate (law => lowered%model%ground_law)
-            do k = 2, size(law)
-                capped = capped .or. (law(k)%foundation == law(k - 1)%foundation .and. .not. law(k)%force > law(k - 1)%force)
-            end do
-        end associate
+        do k = 1, size(lowered%layers)
+            capped = capped .or. has_limit(lowered%layers(k), lowered%law_pieces)
+        end do
     end function yields
 
 end module gapbeam_ground_path

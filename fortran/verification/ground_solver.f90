@@ -1,7 +1,8 @@
 !> A beam on the ground solved: the zones found in double precision, and then all of it in quadruple precision, rounded once.
 !>
 !> So ends, fields and reactions have all digits that doubles hold, and what doubles found is nothing but a start. Whether there is
-!> an equilibrium at all, and where zones are if Newton's method does not find them, springs tell (gapbeam_springs).
+!> an equilibrium at all, and where zones are if Newton's method does not find them, springs tell (gapbeam_springs); that loads
+!> are more than the ground can bear is proved by limit analysis (gapbeam_ground_limit).
 module gapbeam_ground_solver
     use gapbeam_kinds, only: wp, qp
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_not_converged, &
@@ -32,6 +33,7 @@ module gapbeam_ground_solver
     use gapbeam_scheme_quad, only: fine_outcome_type => outcome_type
     use gapbeam_law_quad, only: find_margins, is_watched_in
     use gapbeam_ground_ties, only: stands_on_edge, may_move
+    use gapbeam_ground_limit, only: find_collapse
     implicit none
     private
     public :: ground_solution_type, solve_on_ground
@@ -44,8 +46,8 @@ module gapbeam_ground_solver
     !> The same of ends that are taken where laws are curves: the fields there are those at the ends of the round before. Elsewhere
     !> fields are moved with their ends, which leaves the square of the way
     real(qp), parameter :: finest = 1e-17_qp, movable = 1e-11_qp
-    !> Springs tried, none first
-    integer, parameter :: spring_numbers(0:4) = [0, 64, 512, 4096, 32768]
+    !> Springs tried, none first; not all of them where no springs can tell
+    integer, parameter :: spring_numbers(0:4) = [0, 64, 512, 4096, 32768], last_if_tied = 3
     !> Springs that are pressed at most where the beam stands on edges
     integer, parameter :: edge_parts = 4
     !> Part of the largest displacement of a motion that is none
@@ -111,10 +113,10 @@ contains
         type(workspace_type) :: work
         type(fine_ground_type) :: fine
         logical, allocatable :: start(:)
-        logical :: settled, known, on_edge
+        logical :: settled, known, on_edge, collapses, tied
         real(wp) :: moved
         real(wp), allocatable :: motion(:)
-        integer :: try, solves
+        integer :: try, last, solves
 
         call reserve_memory(for_ground, size(ground%pieces), size(closed), 0, error)
         if (allocated(error)) return
@@ -123,7 +125,20 @@ contains
         call refine_ground(ground, detail, fine)
         call full_contact(ground, zones)
         on_edge = .false.
+        last = ubound(spring_numbers, 1)
         do try = 0, ubound(spring_numbers, 1)
+            if (try > last) exit
+            if (try == 1) then
+                call find_collapse(fine, real(factor, qp), collapses, tied, motion)
+                if (collapses) then
+                    if (allocated(error)) deallocate (error)
+                    outcome = outcome_type(status=gapbeam_no_equilibrium)
+                    call move_alloc(motion, outcome%motion)
+                    return
+                end if
+                ! What the last digits of the data decide no finer springs do
+                if (tied) last = last_if_tied
+            end if
             if (try > 0) then
                 closed(:) = start
                 if (allocated(error)) deallocate (error)
@@ -134,7 +149,7 @@ contains
                 solution%solves = solution%solves + solves
                 if (allocated(error)) then
                     ! Other springs may tell
-                    if (error%code == gapbeam_no_memory .or. try == ubound(spring_numbers, 1)) return
+                    if (error%code == gapbeam_no_memory .or. try == last) return
                     cycle
                 end if
                 if (outcome%status /= gapbeam_solved) return

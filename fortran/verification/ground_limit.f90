@@ -1,0 +1,220 @@
+!> Loads that no ground can bear: limit analysis of a beam without hinges.
+!>
+!> A beam that moves as a rigid body is resisted by nothing but supports and ground. If along some motion the loads do more work
+!> than all that resists it ever can, ground at its limit force, there is no equilibrium: that motion is the proof, however
+!> stiff or weak the beam is (the upper bound theorem: Drucker, Prager, Greenberg 1952). Next to the limit load, where neither
+!> zones nor springs tell, this does.
+module gapbeam_ground_limit
+    use gapbeam_kinds, only: wp, qp
+    use gapbeam_nodes, only: plain
+    use gapbeam_ground_quad, only: ground_type
+    use gapbeam_layers_quad, only: layer_type, has_limit, law_by_points
+    use gapbeam_kinematics_quad, only: work_of_loads
+    implicit none
+    private
+    public :: find_collapse
+
+    !> Work, relative to its parts, that counts as none: places and loads are rounded to doubles. Ground at its limit is weighed to
+    !> the last digit, so that all load factors but one are on one side
+    real(qp), parameter :: no_work = 8*epsilon(1.0_wp), least_excess = 2.0_qp**(-90)
+    !> Displacements, relative to the largest, that are nothing but rounding
+    real(qp), parameter :: no_way = 2.0_qp**(-90)
+    !> Steps of the search for a motion at most, and how near to it they come: the work is wrong by the square of that
+    integer, parameter :: most_steps = 60
+    real(qp), parameter :: near = 2.0_qp**(-52)
+    !> Displacements of the two ends of the beam: all motions are a positive number times one of start + t way, -1 <= t <= 1
+    real(qp), parameter :: start(2, 4) = reshape([1, 0, -1, 0, 0, 1, 0, -1], [2, 4]), &
+        way(2, 4) = reshape([0, 1, 0, 1, 1, 0, 1, 0], [2, 4])
+
+contains
+
+    !> Look for a motion of the whole beam along which the loads do more work than is resisted
+    pure subroutine find_collapse(ground, factor, found, tied, motion)
+        !> The beam and its ground, and the load factor
+        type(ground_type), intent(in) :: ground
+        real(qp), intent(in) :: factor
+        !> Is there one; or is there one along which both are the same to rounding. Never of a beam with hinges or rotational
+        !> restraints
+        logical, intent(out) :: found, tied
+        !> Downward displacements of the nodes of the beam without ground, largest 1, shape (0:n)
+        real(wp), allocatable, intent(out) :: motion(:)
+        real(qp) :: share(0:size(ground%pieces)), work(2), parts(2), y(2), best(2), excess, most, resisted, least, low, high
+        integer :: k
+
+        found = .false.
+        tied = .false.
+        if (any(ground%beam%kind /= plain)) return
+        share(0) = 0.0_qp
+        do k = 1, size(ground%pieces)
+            share(k) = share(k - 1) + ground%pieces(k)%length
+        end do
+        share = share/share(size(ground%pieces))
+        call work_of_loads(ground%beam, factor, 1 - share, [0, size(ground%pieces)], work(1), parts(1))
+        call work_of_loads(ground%beam, factor, share, [0, size(ground%pieces)], work(2), parts(2))
+        most = 0.0_qp
+        best = 0.0_qp
+        do k = 1, size(start, 2)
+            call find_allowed(ground, share, start(:, k), way(:, k), low, high)
+            if (low > high) cycle
+            y = start(:, k) + way(:, k)*most_work(ground, share, work, start(:, k), way(:, k), low, high)
+            resisted = dot_product(y, resistance(ground, share, y))
+            excess = dot_product(y, work) - resisted
+            least = merge(least_excess, no_work, resisted > 0.0_qp)*(sum(parts) + resisted)
+            tied = tied .or. abs(excess) <= least
+            if (excess <= max(most, least)) cycle
+            most = excess
+            best = y
+        end do
+        found = most > 0.0_qp
+        if (.not. found) return
+        share = best(1) + share*(best(2) - best(1))
+        where (abs(share) <= no_way) share = 0.0_qp
+        allocate (motion(0:size(ground%pieces)))
+        motion(:) = real(share/maxval(abs(share)), wp)
+    end subroutine find_collapse
+
+    !> Between which t no support is pressed, nor ground whose force has no limit
+    pure subroutine find_allowed(ground, share, start, way, low, high)
+        type(ground_type), intent(in) :: ground
+        !> Places of the nodes in parts of the length of the beam, shape (0:n)
+        real(qp), intent(in) :: share(0:)
+        real(qp), intent(in) :: start(2), way(2)
+        !> None if low > high
+        real(qp), intent(out) :: low, high
+        integer :: j, k
+
+        low = -1.0_qp
+        high = 1.0_qp
+        do k = 1, size(ground%beam%supports)
+            associate (s => ground%beam%supports(k))
+                if (s%stiffness > 0.0_qp) call keep_off(start, way, share(s%node), s%side, low, high)
+            end associate
+        end do
+        do j = 1, size(ground%pieces)
+            do k = ground%first(j), ground%first(j + 1) - 1
+                if (has_limit(ground%layers(k), ground%laws)) cycle
+                call keep_off(start, way, share(j - 1), ground%layers(k)%side, low, high)
+                call keep_off(start, way, share(j), ground%layers(k)%side, low, high)
+            end do
+        end do
+    end subroutine find_allowed
+
+    !> No motion at a place towards a side, 0: no motion
+    pure subroutine keep_off(start, way, at, side, low, high)
+        real(qp), intent(in) :: start(2), way(2), at
+        integer, intent(in) :: side
+        real(qp), intent(inout) :: low, high
+        real(qp) :: here, change
+        integer :: sense
+
+        here = start(1) + at*(start(2) - start(1))
+        change = way(1) + at*(way(2) - way(1))
+        do sense = -1, 1, 2
+            if (side == -sense) cycle
+            if (sense*change > 0.0_qp) then
+                high = min(high, -here/change)
+            else if (sense*change < 0.0_qp) then
+                low = max(low, -here/change)
+            else if (sense*here > 0.0_qp) then
+                high = -huge(high)
+            end if
+        end do
+    end subroutine keep_off
+
+    !> Where between two t the work of the loads is greatest beside what is resisted: a concave function, whose slope is continuous,
+    !> so its zero is searched for (regula falsi, with the weights of Illinois)
+    pure function most_work(ground, share, work, start, way, low, high) result(t)
+        type(ground_type), intent(in) :: ground
+        real(qp), intent(in) :: share(0:)
+        !> Work of the loads as the left, and the right end goes down
+        real(qp), intent(in) :: work(2)
+        real(qp), intent(in) :: start(2), way(2), low, high
+        real(qp) :: t, ends(2), slopes(2), slope
+        integer :: step, last, side
+
+        ends = [low, high]
+        slopes = [slope_at(low), slope_at(high)]
+        t = low
+        if (slopes(1) <= 0.0_qp) return
+        t = high
+        if (slopes(2) >= 0.0_qp) return
+        last = 0
+        do step = 1, most_steps
+            t = (ends(2)*slopes(1) - ends(1)*slopes(2))/(slopes(1) - slopes(2))
+            slope = slope_at(t)
+            side = merge(1, 2, slope > 0.0_qp)
+            if (abs(t - ends(side)) <= near .or. .not. abs(slope) > 0.0_qp) exit
+            ends(side) = t
+            slopes(side) = slope
+            if (side == last) slopes(3 - side) = slopes(3 - side)/2
+            last = side
+        end do
+
+    contains
+
+        pure function slope_at(t) result(slope)
+            real(qp), intent(in) :: t
+            real(qp) :: slope
+
+            slope = dot_product(way, work - resistance(ground, share, start + t*way))
+        end function slope_at
+
+    end function most_work
+
+    !> What ground at its limit resists a motion with, as work per displacement of the left and the right end of the beam
+    pure function resistance(ground, share, y) result(force)
+        type(ground_type), intent(in) :: ground
+        real(qp), intent(in) :: share(0:)
+        !> Displacements of the two ends
+        real(qp), intent(in) :: y(2)
+        real(qp) :: force(2)
+        real(qp) :: moves(2), limits(2)
+        integer :: j, k, sense
+
+        force = 0.0_qp
+        do j = 1, size(ground%pieces)
+            moves = y(1) + share(j - 1:j)*(y(2) - y(1))
+            do k = ground%first(j), ground%first(j + 1) - 1
+                if (.not. has_limit(ground%layers(k), ground%laws)) cycle
+                limits = limits_of(ground, ground%layers(k))
+                do sense = -1, 1, 2
+                    if (ground%layers(k)%side /= -sense) force = force + pressed(sense*moves)
+                end do
+            end do
+        end do
+
+    contains
+
+        !> What resists on the part of a piece that goes the way of a force
+        pure function pressed(toward) result(added)
+            real(qp), intent(in) :: toward(2)
+            real(qp) :: added(2), ends(2), at(3), limit(3)
+
+            added = 0.0_qp
+            if (.not. any(toward > 0.0_qp)) return
+            ends = [0.0_qp, 1.0_qp]
+            if (toward(1) < 0.0_qp) ends(1) = toward(1)/(toward(1) - toward(2))
+            if (toward(2) < 0.0_qp) ends(2) = toward(1)/(toward(1) - toward(2))
+            at = [ends(1), sum(ends)/2, ends(2)]
+            ! Simpson's rule is exact
+            limit = (limits(1) + at*(limits(2) - limits(1)))*[1, 4, 1]/6*(ends(2) - ends(1))*ground%pieces(j)%length*sense
+            at = share(j - 1) + at*(share(j) - share(j - 1))
+            added = [sum(limit*(1 - at)), sum(limit*at)]
+        end function pressed
+
+    end function resistance
+
+    !> That force at the two ends of its piece, linear in between
+    pure function limits_of(ground, layer) result(limits)
+        type(ground_type), intent(in) :: ground
+        type(layer_type), intent(in) :: layer
+        real(qp) :: limits(2)
+
+        if (layer%law == law_by_points) then
+            limits = ground%laws(layer%law_last)%force
+        else
+            limits = [layer%parameter_a(2), layer%parameter_b(2)]
+        end if
+    end function limits_of
+
+end module gapbeam_ground_limit
