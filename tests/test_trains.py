@@ -63,6 +63,8 @@ def random_scene(rng):
     train = {"axles": [[d, float(rng.uniform(1, 10))] for d in distances], "both_directions": bool(rng.random() < 0.3)}
     if rng.random() < 0.4:
         train |= {"q": float(rng.uniform(0.5, 4)), "factor": 1.25}
+    if rng.random() < 0.3:
+        train["q"] = [[0.0, 1.0, float(rng.uniform(0.5, 4))], [float(rng.choice([0.5, 1.0, 1.7])), 3.0, float(rng.uniform(-1, 4))]]
     return {**made, "trains": [train]}
 
 
@@ -112,6 +114,18 @@ def test_largest_moments_of_simple_beams():
     # Influence lines: of the place 2 with ordinates 1.6 and 1.2
     assert curves.largest["moment"] == pytest.approx([28.0, 40.0], rel=1e-14)
     assert curves.smallest["moment"] == pytest.approx([0.0, 0.0], abs=1e-14)
+
+
+def test_uniform_loads_between_distances():
+    """Influence lines of a simple beam: of a reaction 1 - x/L, of the moment in the middle a triangle of L/4."""
+    train = gapbeam.solve(simple(8.0, (1.5, 0.0), q=[[0.0, 1.0, 6.0], [2.0, 4.0, 3.0]])).trains["train 1"]
+    envelope = train.envelope([4.0])
+    reaction = envelope.supports[0]["reaction"]["max"]
+    assert (reaction.value, reaction.position) == pytest.approx(((6.0 * 4.5 + 6.0 * 7.0) / 8, 4.0), rel=1e-12)
+    curves = envelope.fields
+    assert (curves.largest["moment"][0], curves.largest_at["moment"][0]) == pytest.approx((16.5, 6.0), rel=1e-12)
+    assert train.at(4.0).reaction[0] == pytest.approx(8.625, rel=1e-14)
+    assert (train.ways[0].passage.ends[0, 0], train.ways[0].passage.ends[-1, 1]) == (0.0, 12.0)
 
 
 def test_a_plank_tips(tmp_path, capsys):
