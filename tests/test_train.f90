@@ -65,7 +65,7 @@ contains
         real(wp) :: value(2, 4, 1), position(2, 4, 1), line(5, 2)
 
         call make([1.0_wp, 1.0_wp], [0.0_wp, 1.0_wp, 2.0_wp], 1.0_wp, lowered, track)
-        train = train_type([0.0_wp], [8.0_wp], [uniform_type ::])
+        train = axles([0.0_wp], [8.0_wp])
         call pass_train(lowered, track, train, 0.0_wp, 1.0_wp, passage, error)
         call check(.not. allocated(error), "D1")
         call find_events(lowered, passage, .false., events, error)
@@ -88,6 +88,16 @@ contains
         call check_close(line(5, :), [0.25_wp*(3 - 0.0625_wp)/2, 0.5_wp*(3 - 0.25_wp)/2], "influence on a reaction")
     end subroutine an_end_lifts
 
+    !> A train without uniform loads
+    function axles(offset, force) result(train)
+        real(wp), intent(in) :: offset(:), force(:)
+        type(train_type) :: train
+
+        allocate (train%offset(size(offset)), train%force(size(force)), train%uniform(0))
+        train%offset(:) = offset
+        train%force(:) = force
+    end function axles
+
     !> The weight cannot hold the train on the overhang
     subroutine a_plank_tips()
         type(lowered_type) :: lowered
@@ -96,7 +106,7 @@ contains
         type(error_type), allocatable :: error
 
         call make([2.0_wp, 1.0_wp], [0.0_wp, 2.0_wp], 1.0_wp, lowered, track)
-        call pass_train(lowered, track, train_type([0.0_wp], [5.0_wp], [uniform_type ::]), 0.0_wp, 3.0_wp, passage, error)
+        call pass_train(lowered, track, axles([0.0_wp], [5.0_wp]), 0.0_wp, 3.0_wp, passage, error)
         call check(.not. allocated(error), "a plank")
         associate (n => passage%number)
             call check(all(passage%status(:n) == [gapbeam_solved, gapbeam_solved, gapbeam_no_equilibrium]), "tips at the end")
@@ -135,7 +145,7 @@ contains
         type(error_type), allocatable :: error
 
         call make([4.0_wp], [1.0_wp, 3.0_wp], 4.0_wp, lowered, track)
-        train = train_type([0.0_wp, -4.0_wp], [1.0_wp, 1.0_wp], [uniform_type ::])
+        train = axles([0.0_wp, -4.0_wp], [1.0_wp, 1.0_wp])
         call pass_train(lowered, track, train, 0.0_wp, 8.0_wp, passage, error)
         call check(.not. allocated(error), "a long train")
         call find_envelope(lowered, track, train, passage, envelope, error)

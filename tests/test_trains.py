@@ -277,7 +277,7 @@ def test_outputs():
         ({"together": [["b", -1.0]]}, r"trains\[0\]\.together\[0\]\[1\]: expected a distance .* got -1"),
         ({"together": [["b", 1.0]], "q": 2.0}, r"trains\[0\]\.q: a train made of others has the uniform loads"),
         ({"axles": [[0.0, 1.0]], "q": [[2.0, 1.0, 5.0]]}, r"trains\[0\]\.q\[0\]: the distances from 2 to 1 are no stretch"),
-        ({"axles": [[0.0, 1.0]], "q": "5"}, r'trains\[0\]\.q: expected a number or a list of threes of numbers, got "5"'),
+        ({"axles": [[0.0, 1.0]], "q": "5"}, r'trains\[0\]\.q: expected a number or a list of lists of three numbers, got "5"'),
         ({"axles": [[0.0, 1.0]], "unfavourable": True}, r"trains\[0\]\.unfavourable: axles only where"),
     ],
 )

@@ -255,8 +255,9 @@ def _described(kind: inspect.Type, plural: bool = False) -> str:
         case inspect.TupleType(item_types=items) if not all(isinstance(_core(item), inspect.FloatType) for item in items):
             return f"{'pairs' if plural else 'a pair'} of {choice(map(_described, items), 'and')}"
         case inspect.TupleType(item_types=items):
-            few = {2: "pairs" if plural else "a pair", 3: "threes" if plural else "three"}[len(items)]
-            return f"{few} of numbers"
+            if len(items) == 3:
+                return f"{'lists' if plural else 'a list'} of three numbers"
+            return f"{'pairs' if plural else 'a pair'} of numbers"
         case inspect.ListType(item_type=item):
             return f"a list of {_described(item, plural=True)}"
         case inspect.StructType():
