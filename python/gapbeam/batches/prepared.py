@@ -74,11 +74,17 @@ class PreparedRoad:
 
     def __init__(self, scene: dict[str, Any], paths: Sequence[KeyPath]):
         values = [0.0 if path.parts[0] == "supports" and path.parts[2] != "stiffness" else 1.0 for path in paths]
-        self._beam = prepare(with_values(scene, paths, values))
+        scene = with_values(scene, paths, values)
+        self._beam = prepare(scene)
         self._paths = paths
         self._cases = np.array([load["case"] for load in scene["loads"]], dtype=object)
         self._sides = [SIDES[support["side"]] for support in scene["supports"]]
-        self._axial = len(self._beam.supports) < len(scene["supports"])
+        held = scene["supports"]
+        self._levels = [one["settlement"] + side * one["gap"] for one, side in zip(held, self._sides, strict=True)]
+        x = self._beam.scene.positions(self._beam.scene.supports)
+        self._nodes = np.abs(self._beam.node_x - x[:, None]).argmin(axis=1)
+        # Reactions and openings then follow from what is known of the nodes
+        self._is_simple = all(one["law"] is None and one["direction"] == "normal" and one["stiffness"] > 0.0 for one in held)
 
     def solve(
         self, values: np.ndarray, want: Sequence[str], numbers: dict[str, np.ndarray], supports: Sequence[str]
@@ -113,20 +119,25 @@ class PreparedRoad:
             stiffness={k: np.where(fine, row, 1.0) for k, row in stiffness.items()} or None,
         )
         solved = fine & (found.status == Status.SOLVED)
-        if tuple(want) == ("reaction",) and not self._axial:
+        rest = [name for name in want if name != "input"]
+        if self._is_simple:
+            rest = [name for name in rest if name not in ("reaction", "opening")]
             for k, one in enumerate(supports):
-                numbers[f"reaction.{one}"][solved] = found.reaction[solved, k]
-            return solved
-        states = found.states()
-        for name in want:
+                if "reaction" in want:
+                    numbers[f"reaction.{one}"][solved] = found.reaction[solved, k]
+                if "opening" in want:
+                    away = self._sides[k] * (self._levels[k] + moves.get(k, 0.0) - found.deflection[:, self._nodes[k]])
+                    numbers[f"opening.{one}"][solved] = np.where(found.closed[:, k], 0.0, np.maximum(away, 0.0) + 0.0)[solved]
+        states = found.states() if rest else None
+        for name in rest:
             if name in ROWS:
                 for k, one in enumerate(supports):
                     numbers[f"{name}.{one}"][solved] = states.at_supports[solved, ROWS[name], k]
-            elif name != "input":
-                column = ENGINE_FIELDS.index(name)
-                for row, kind in enumerate(("max", "min")):
-                    numbers[f"{name}.{kind}"][solved] = states.extremes[solved, column, row]
-                    numbers[f"{name}.{kind}_x"][solved] = states.places[solved, column, row]
+                continue
+            column = ENGINE_FIELDS.index(name)
+            for row, kind in enumerate(("max", "min")):
+                numbers[f"{name}.{kind}"][solved] = states.extremes[solved, column, row]
+                numbers[f"{name}.{kind}_x"][solved] = states.places[solved, column, row]
         return solved
 
     def _numbers(self, values: np.ndarray) -> tuple[np.ndarray, dict[int, np.ndarray], dict[int, np.ndarray]]:
