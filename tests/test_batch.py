@@ -85,7 +85,7 @@ def test_prepared_beams_give_what_scenes_give():
         values[0, 3] = np.nan
         found = made.solve(Arrays(dict(zip(columns, values, strict=True))).rows(0, 4), 0)
         alone = job(scene, columns)
-        alone.__dict__["is_prepared"] = False
+        alone.__dict__["prepared"] = None
         for name, column in alone.solve(Arrays(dict(zip(columns, values, strict=True))).rows(0, 4), 0).items():
             tolerance = 1e-9 * max(np.nanmax(np.abs(column), initial=0.0), 1e-3) if column.dtype == float else 0.0
             same = np.allclose(found[name], column, 1e-9, tolerance, equal_nan=True) if tolerance else (found[name] == column).all()

@@ -196,6 +196,14 @@ def test_pipe_rack_gaps_script(capsys, tmp_path):
     assert [float(one) for one in printed] == pytest.approx([float(one) for one in shown], rel=0.01)
 
 
+def test_shaft_offsets_script(capsys):
+    script = runpy.run_path(str(EXAMPLES / "shaft_offsets.py"))
+    script["main"]()
+    before, after = map(float, re.search(r"bearing: (\S+) kN in line, (\S+) kN with", capsys.readouterr().out).groups())
+    assert before == 0.0
+    assert after > 8.0
+
+
 def test_paper_beam_script(capsys, tmp_path):
     script = runpy.run_path(str(EXAMPLES / "paper_beam.py"))
     script["main"](tmp_path / "new" / "folder")

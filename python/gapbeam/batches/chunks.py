@@ -82,9 +82,10 @@ def encode(columns: Mapping[str, np.ndarray], kind: str) -> bytes:
 def _texts(column: np.ndarray, may_be_none: bool) -> object:
     """Texts for pyarrow; no text where none is needed."""
     import pyarrow
+    from pyarrow import compute
 
     whole = pyarrow.array(column, type=pyarrow.binary()).cast(pyarrow.string())
-    return pyarrow.compute.replace_with_mask(whole, column == b"", pyarrow.scalar(None, pyarrow.string())) if may_be_none else whole
+    return compute.replace_with_mask(whole, column == b"", pyarrow.scalar(None, pyarrow.string())) if may_be_none else whole
 
 
 def read_columns(path: Path, names: Sequence[str]) -> dict[str, np.ndarray]:

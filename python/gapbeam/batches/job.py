@@ -17,7 +17,7 @@ from ..base.errors import EngineError, SceneError
 from ..results.result import Result
 from ..results.stepping import solve
 from .paths import KeyPath, with_values
-from .prepared import PreparedRoad, can_be_prepared
+from .prepared import PreparedRoad, prepared_road
 from .tables import Rows, SceneFiles
 
 SOLVED, FAILED = "solved", "failed"
@@ -59,10 +59,10 @@ class Job:
     want: tuple[str, ...]
     supports: tuple[str, ...]
 
-    @cached_property
+    @property
     def is_prepared(self) -> bool:
         """Whether cases are solved on a prepared beam, or each as a scene of its own."""
-        return self.scene is not None and can_be_prepared(self.scene, self.paths)
+        return self.prepared is not None
 
     @property
     def has_envelopes(self) -> bool:
@@ -88,8 +88,9 @@ class Job:
         return tuple(found)
 
     @cached_property
-    def _prepared(self) -> PreparedRoad:
-        return PreparedRoad(self.scene, self.paths)
+    def prepared(self) -> PreparedRoad | None:
+        """The prepared beam, where there can be one."""
+        return None if self.scene is None else prepared_road(self.scene, self.paths)
 
     def __getstate__(self) -> dict[str, Any]:
         """Pickle without what is made on the way."""
@@ -126,7 +127,7 @@ class Job:
         rest: Sequence[int] = range(count)
         if self.is_prepared:
             with suppress(MemoryError):  # one by one they may fit
-                rest = np.flatnonzero(~self._prepared.solve(values, self.want, numbers, self.supports)).tolist()
+                rest = np.flatnonzero(~self.prepared.solve(values, self.want, numbers, self.supports)).tolist()
         for row in rest:
             if stop is not None and stop.is_set():
                 raise StoppedError

@@ -18,8 +18,8 @@ ROWS = {"reaction": 0, "opening": 2, "couple": 3}
 """Values at supports, as `Cases.states` has them."""
 
 
-def can_be_prepared(scene: dict[str, Any], paths: Sequence[KeyPath]) -> bool:
-    """Tell whether the cases of a table can be solved on a prepared beam.
+def prepared_road(scene: dict[str, Any], paths: Sequence[KeyPath]) -> PreparedRoad | None:
+    """Prepare a scene for the cases of a table, where they can be solved on a prepared beam.
 
     Parameters
     ----------
@@ -30,18 +30,17 @@ def can_be_prepared(scene: dict[str, Any], paths: Sequence[KeyPath]) -> bool:
 
     Returns
     -------
-    bool
-        Else each is solved as a scene of its own.
+    PreparedRoad or None
+        None where each case has to be solved as a scene of its own.
     """
     if any(scene[key] for key in ("foundation", "combinations", "trains")) or scene["analysis"]["history"] != [1.0]:
-        return False
+        return None
     if not all(_varies(scene, path) for path in paths):
-        return False
+        return None
     try:
-        PreparedRoad(scene, paths)
+        return PreparedRoad(scene, paths)
     except GapbeamError:
-        return False
-    return True
+        return None
 
 
 def _varies(scene: dict[str, Any], path: KeyPath) -> bool:
@@ -85,6 +84,10 @@ class PreparedRoad:
         self._nodes = np.abs(self._beam.node_x - x[:, None]).argmin(axis=1)
         # Reactions and openings then follow from what is known of the nodes
         self._is_simple = all(one["law"] is None and one["direction"] == "normal" and one["stiffness"] > 0.0 for one in held)
+
+    def knows(self, want: Sequence[str]) -> bool:
+        """Whether what is wanted follows from the nodes, without fields between them."""
+        return self._is_simple and set(want) <= {"input", "reaction", "opening"}
 
     def solve(
         self, values: np.ndarray, want: Sequence[str], numbers: dict[str, np.ndarray], supports: Sequence[str]

@@ -116,16 +116,17 @@ def _progress(wanted: bool) -> Iterator[Callable[[int, int], None] | None]:
         yield None
         return
     from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+    from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
-    columns = (BarColumn(), MofNCompleteColumn(), TextColumn("cases  {task.fields[rate]}"), TimeRemainingColumn())
+    columns = (BarColumn(), TextColumn("{task.fields[count]}  {task.fields[rate]}"), TimeRemainingColumn())
     with Progress(*columns, console=Console(stderr=True)) as bar:
-        task = bar.add_task("", total=None, rate="")
+        task = bar.add_task("", total=1, count="", rate="")
         clock = _Clock()
 
         def progress(done: int, total: int) -> None:
             clock(done, total)
-            bar.update(task, completed=done, total=total, rate=f"{clock.rate:,.0f} a second" if clock.cases else "")
+            rate = f"{clock.rate:,.0f} a second" if clock.cases else ""
+            bar.update(task, completed=done, total=total, count=f"{done:,} of {total:,} cases", rate=rate)
 
         yield progress
 
