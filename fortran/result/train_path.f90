@@ -464,10 +464,12 @@ contains
         logical :: tied(size(closed))
         integer :: k, state, place
 
+        tied(:) = closed
         associate (s => beam%supports)
             do k = 1, size(closed)
-                tied(k) = closed(k) .or. (at_zero(k) .and. s(k)%kink == 0 .and. is_rigid(s(k)))
-                if (tied(k) .neqv. closed(k)) tied(k) = .not. any(closed .and. is_rigid(s) .and. s%node == s(k)%node)
+                if (closed(k) .or. .not. at_zero(k) .or. s(k)%kink > 0 .or. .not. is_rigid(s(k))) cycle
+                ! Of two at one node, as from below and from above, one acts
+                tied(k) = .not. any(tied .and. is_rigid(s) .and. s%node == s(k)%node)
             end do
         end associate
         so = any(tied .neqv. closed)
