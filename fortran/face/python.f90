@@ -877,14 +877,15 @@ subroutine gbcase(beam, nl, ns, nd, nv, nc, factor, supp, rule, closed, w, ml, m
     ! Schemes: start in, working scheme out; of a case that is not solved all open, and its results are not numbers
     integer, intent(inout) :: closed(ns + 1, nc)
     ! In the scene's units: deflections and moments left and right of the nodes, reactions
-    double precision, intent(out) :: w(0:nl, nc), ml(0:nl, nc), mr(0:nl, nc), react(ns + 1, nc)
+    double precision, intent(inout) :: w(0:nl, nc), ml(0:nl, nc), mr(0:nl, nc), react(ns + 1, nc)
     ! Where memory ends all STATUS say so
-    integer, intent(out) :: solves(nc), status(nc)
+    integer, intent(inout) :: solves(nc), status(nc)
     !f2py threadsafe
     !f2py integer, intent(hide), depend(closed) :: ns = shape(closed, 0) - 1
     !f2py integer, intent(hide), depend(factor) :: nd = shape(factor, 0)
     !f2py integer, intent(hide), depend(factor) :: nc = shape(factor, 1)
     !f2py integer, intent(hide), depend(supp) :: nv = shape(supp, 1)
+    !f2py integer, intent(hide), depend(w) :: nl = shape(w, 0) - 1
     type(handle_type), pointer :: handle
     type(beam_type) :: loaded
     type(workspace_type) :: work
@@ -901,8 +902,6 @@ subroutine gbcase(beam, nl, ns, nd, nv, nc, factor, supp, rule, closed, w, ml, m
     if (rule == rule_block .and. fits_lanes(handle%lowered)) then
         call solve_in_lanes(handle%lowered, handle%cases, factor, supp(:, :nv - 1, :), closed, w, ml, mr, react, solves, done)
         where (done) status = gapbeam_solved
-        react(ns + 1, :) = 0.0d0
-        closed(ns + 1, :) = 0
         if (all(done)) return
     end if
     loaded = handle%lowered%beam

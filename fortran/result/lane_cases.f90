@@ -77,9 +77,6 @@ contains
         if (present(level)) at_level = level
         call prepare_lanes(lowered, loads, beam, made)
         if (made) call new_pack(beam%n, pack, made)
-        do kind = 1, ways
-            if (made) call new_pack(beam%n, queues(kind)%pack, made)
-        end do
         if (.not. made) return
         allocate (factors_of(lanes, size(factors, 1)), stat=stat)
         if (stat /= 0) return
@@ -103,6 +100,10 @@ contains
                 do l = 1, min(lanes, size(done) - first + 1)
                     if (method(l) == 0) cycle
                     associate (queue => queues(method(l)))
+                        if (.not. allocated(queue%pack%left)) then
+                            call new_pack(beam%n, queue%pack, made)
+                            if (.not. made) return
+                        end if
                         queue%waiting = queue%waiting + 1
                         queue%case_of(queue%waiting) = case_of(l)
                         call take_lane(pack, l, queue%pack, queue%waiting)
@@ -137,7 +138,7 @@ contains
 
             call finish_pack_at(at_level, beam, way, schemes, doubtful)
             do k = 1, lanes
-                if (doubtful(k)) cycle
+                if (doubtful(k) .or. (k > 1 .and. numbers(k) == numbers(max(k - 1, 1)))) cycle
                 associate (i => numbers(k))
                     call give_case(lowered, schemes, k, closed(:, i), w(:, i), ml(:, i), mr(:, i), reaction(:, i), done(i))
                 end associate

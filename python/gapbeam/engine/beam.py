@@ -600,19 +600,21 @@ class Beam:
         """
         if self.ground_layers:
             return self._solve_cases_on_ground(factors, rule, closed)
-        cases, m = len(factors), self.supports
-        shares = np.zeros((max(cases, 1), factors.shape[1] + 1))
-        shares[:cases, :-1] = factors
-        schemes = np.zeros((len(shares), m + 1), dtype=np.int32)
+        cases, m, n = len(factors), self.supports, self.links + 1
+        shares = np.zeros((cases, factors.shape[1] + 1))
+        shares[:, :-1] = factors
+        schemes = np.zeros((cases, m + 1), dtype=np.int32)
         schemes[:, :m] = closed
-        own = np.zeros((len(shares), 1, 3)) if supports is None else supports
-        w, left, right, reaction, solves, status = _engine.gbcase(
-            self.handle, self.links, shares.T, own.T, RULES[rule], schemes.T
-        )
-        check_status(status[0] if status[0] == Status.NO_MEMORY else SOLVED)  # then all are
-        found = w.T, left.T, right.T, reaction.T[:, :m], schemes[:, :m]
-        return (*(values[:cases] for values in found), solves[:cases], status[:cases])
-
+        own = np.zeros((cases, 1, 3)) if supports is None else supports
+        w, left, right, reaction = (np.empty((cases, width)) for width in (n, n, n, m + 1))
+        solves, status = np.zeros(cases, np.int32), np.zeros(cases, np.int32)
+        if cases:
+            _engine.gbcase(
+                self.handle, shares.T, own.T, RULES[rule], schemes.T, w.T, left.T, right.T, reaction.T, solves, status
+            )
+            if status[0] == Status.NO_MEMORY:  # then all are
+                check_status(Status.NO_MEMORY)
+        return w, left, right, reaction[:, :m], schemes[:, :m], solves, status
 
     def _solve_cases_on_ground(self, factors: np.ndarray, rule: str, closed: np.ndarray) -> tuple[np.ndarray, ...]:
         """Solve load cases one by one: each has zones of its own."""

@@ -204,36 +204,22 @@ gbtinf = interruptible(_engine.gbtinf)
 _long_cases = interruptible(_engine.gbcase)
 
 
-def gbcase(*arguments: Any) -> tuple[np.ndarray, ...]:
+def gbcase(beam: Handle, factors: np.ndarray, supports: np.ndarray, rule: int, *results: np.ndarray) -> None:
     """Solve load cases, so many at a time that each call is a short one.
 
     Parameters
     ----------
-    *arguments
-        Those of GBCASE; the last four are factors (loads by cases), numbers of supports (3 by supports by cases), rule, and
-        schemes (supports by cases).
-
-    Returns
-    -------
-    tuple of numpy.ndarray
-        What GBCASE returns, cases along the last axis.
+    beam, factors, supports, rule, *results
+        As for GBCASE, cases along the last axes; results, from the schemes on, are changed in place.
     """
-    *beam, factors, supports, rule, closed = arguments
-    cases, nodes = factors.shape[1], beam[1] + 1
+    cases, nodes = factors.shape[1], results[1].shape[0]
     if cases * nodes < FEW_NODES:
-        return _engine.gbcase(*arguments)
-    some = max(NODES_AT_A_TIME // nodes, 1)
-    if cases <= some:
-        return _long_cases(*arguments)
-    results: tuple[np.ndarray, ...] = ()
-    first = 0
+        _engine.gbcase(beam, factors, supports, rule, *results)
+        return
+    some, first = max(NODES_AT_A_TIME // nodes, 1), 0
     while first < cases:
-        part = slice(first, first + some)
+        part = slice(first, min(first + some, cases))
         begin = perf_counter()
-        found = _long_cases(*beam, factors[:, part], supports[..., part], rule, closed[:, part])
+        _long_cases(beam, factors[:, part], supports[..., part], rule, *(values[..., part] for values in results))
         some = max(int(some * min(max(SECONDS / (perf_counter() - begin), 0.25), 4.0)), 1)
-        results = results or tuple(np.empty((*row.shape[:-1], cases), row.dtype, order="F") for row in found)
-        for row, values in zip(results, found, strict=True):
-            row[..., part] = values
         first = part.stop
-    return results

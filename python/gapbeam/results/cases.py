@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 from math import isfinite
 from typing import Any
@@ -42,8 +42,8 @@ class Asked(Record):
         The prepared beam.
     rule : str
         How working schemes are found.
-    factors, settlements : numpy.ndarray
-        Cases by loads, cases by supports of the scene.
+    factors : numpy.ndarray
+        Cases by loads.
     closed : numpy.ndarray of int
         Working schemes that were found, or where the searches start: cases by supports of the engine.
     supports : numpy.ndarray or None
@@ -53,7 +53,6 @@ class Asked(Record):
     beam: Beam
     rule: str
     factors: np.ndarray
-    settlements: np.ndarray
     closed: np.ndarray
     supports: np.ndarray | None = None
 
@@ -72,8 +71,9 @@ class Asked(Record):
         Combined
         """
         where = () if x is None else find_places(self.beam, x, side)
+        moves = np.zeros((len(self.factors), self.beam.scene_supports))
         return all_combinations(
-            self.beam, self.factors, self.settlements, self.rule, self.closed, *(where or (None, None)), self.supports
+            self.beam, self.factors, moves, self.rule, self.closed, *(where or (None, None)), self.supports
         )
 
 
@@ -251,36 +251,49 @@ class Prepared(Pickled):
                [2.   , 0.   , 2.   ]])
         """
         factors = self._checked(factors)
-        given = {"settlement": settlement, "gap": gap, "stiffness": stiffness}
+        varied = not (settlements is None is settlement and gap is None is stiffness)
+        given = {"settlement": settlement, "gap": gap, "stiffness": stiffness} if varied else {}
         count = len(factors) if factors.ndim == 2 else cases_in(given)
-        many = (factors if factors.ndim == 2 else np.broadcast_to(factors, (count or 1, len(factors)))).copy()
+        # What is asked later is about these
+        many = np.array(factors, ndmin=2) if count is None else np.array(np.broadcast_to(factors, (count, factors.shape[-1])))
         if start is None:
-            closed = starting_scheme(self._beam)
+            closed = self._start
         else:
             closed = scheme(start, len(self.supports), "support across the beam")
             closed = closed if self._carries is None else closed[self._carries]
-        moves = self._movements(settlements, len(many))
-        supports = vary_supports(self.scene, self._beam.columns, given, len(many))
-        asked = Asked(self._beam, self._rule, many, moves, np.broadcast_to(closed, (len(many), self._beam.supports)))
-        if moves.any() or supports is not None:
-            if supports is None:
-                supports = np.broadcast_to(base_values(self._beam.columns), (len(many), moves.shape[1] + 1, 3)).copy()
-            supports[:, :-1, 0] += moves
-            asked = replace(asked, settlements=np.zeros_like(moves), supports=supports)
+        supports = self._vary(settlements, given, len(many)) if varied else None
         if supports is None or self._is_simple:
             found = self._beam.solve_cases(many, self._rule, closed, supports)
         else:
-            found = self._solve_again(asked)
+            found = self._solve_again(Asked(self._beam, self._rule, many, closed, supports))
         w, left, right, reaction, closed, solves, status = found
-        asked = replace(asked, closed=closed)
+        asked = Asked(self._beam, self._rule, many, closed, supports)
         if self._carries is not None:
             closed = self._by_supports(closed, self._carries, np.zeros(len(many), dtype=np.int32))
             if reaction.shape[1] != len(self.supports):
                 reaction = self._by_supports(reaction, self._carries, np.where(status == Status.SOLVED, 0.0, np.nan))
             for k in self._beam.laws if self._beam.has_laws else ():
                 closed[:, np.searchsorted(self.supports, k)] = self._acts(k, closed[:, np.searchsorted(self.supports, k)])
-        values = status, closed, reaction, w, left, right, solves
-        return Cases(*(values if count is not None else (value[0] for value in values)), asked)
+        if count is None:
+            return Cases(status[0], closed[0], reaction[0], w[0], left[0], right[0], solves[0], asked)
+        return Cases(status, closed, reaction, w, left, right, solves, asked)
+
+    def _vary(
+        self, settlements: Mapping[str | int, ArrayLike] | None, given: dict[str, Given], count: int
+    ) -> np.ndarray | None:
+        """Settlement, gap and stiffness of all supports in all cases; None if they are those of the scene."""
+        supports = vary_supports(self.scene, self._beam.columns, given, count)
+        moves = self._movements(settlements, count)
+        if moves.any():
+            if supports is None:
+                supports = np.broadcast_to(base_values(self._beam.columns), (count, moves.shape[1] + 1, 3)).copy()
+            supports[:, :-1, 0] += moves
+        return supports
+
+    @cached_property
+    def _start(self) -> np.ndarray:
+        """Where searches start if nothing else is said."""
+        return read_only(starting_scheme(self._beam))
 
     @cached_property
     def _is_simple(self) -> bool:
@@ -306,7 +319,8 @@ class Prepared(Pickled):
         sides = [find_places(beam, self.node_x, side) for side in ("left", "right")]
         piece, distance = (np.concatenate(parts) for parts in zip(*sides, strict=True))
         found = all_combinations(
-            beam, asked.factors, asked.settlements, self._rule, asked.closed, piece, distance, asked.supports
+            beam, asked.factors, np.zeros((len(asked.factors), beam.scene_supports)), self._rule, asked.closed, piece, distance,
+            asked.supports,
         )
         w, left, right = found.fields[:, nodes:, 0], found.fields[:, :nodes, 2].copy(), found.fields[:, nodes:, 2].copy()
         solved = found.status == Status.SOLVED
@@ -331,8 +345,8 @@ class Prepared(Pickled):
         factors = np.ones(count) if factors is None else numbers("factors", factors)
         if factors.ndim not in (1, 2) or factors.shape[-1] != count:
             raise ValueError(f"factors: expected {count} numbers a case, one for each load, got shape {factors.shape}")
-        # Squares leave the range before the factors do, and cost less than asking each
-        if not isfinite(np.vdot(factors, factors)) and not np.isfinite(factors).all():
+        # A sum leaves the range before the factors do, and costs less than asking each
+        if not isfinite(np.add.reduce(factors, None)) and not np.isfinite(factors).all():
             at = np.argwhere(~np.isfinite(factors))[0]
             raise ValueError(f"factors: the factor of load {at[-1]} is {factors[tuple(at)]}; give a finite number")
         return factors
@@ -368,13 +382,10 @@ class Prepared(Pickled):
         given = {"settlement": settlement, "gap": gap, "stiffness": stiffness}
         if factors.ndim != 1 or cases_in(given) is not None:
             raise ValueError(f"{'factors' if factors.ndim != 1 else 'supports'}: expected one case")
-        moves = self._movements(settlements, 1)
-        base, scene, columns = self._beam, self.scene, self._beam.columns
-        supports = vary_supports(scene, columns, given, 1)
-        if moves.any() or supports is not None:
-            values = base_values(columns) if supports is None else supports[0]
-            values[:-1, 0] += moves[0]
-            scene, columns = replace_supports(scene, columns, values)
+        base, scene = self._beam, self.scene
+        supports = self._vary(settlements, given, 1)
+        if supports is not None:
+            scene, columns = replace_supports(scene, base.columns, supports[0])
             try:
                 base = Beam(columns)
             except RefusalError as refused:
