@@ -69,6 +69,7 @@ contains
         type(pack_type) :: pack
         type(queue_type) :: queues(ways)
         real(wp), allocatable :: factors_of(:, :)
+        real(wp) :: units(3)
         integer :: first, l, kind, solves_of(lanes), method(lanes), case_of(lanes), stat, at_level
         logical :: lost, made
 
@@ -81,6 +82,7 @@ contains
         allocate (factors_of(lanes, size(factors, 1)), stat=stat)
         if (stat /= 0) return
         call take_supports(lowered, pack)
+        units = scale(1.0_wp, [lowered%units%deflection, moment_unit(lowered%units), lowered%units%force])
         do first = 1, size(done), lanes
             ! The last lanes repeat the last case
             case_of = [(min(first + l, size(done)), l=0, lanes - 1)]
@@ -140,7 +142,7 @@ contains
             do k = 1, lanes
                 if (doubtful(k) .or. (k > 1 .and. numbers(k) == numbers(max(k - 1, 1)))) cycle
                 associate (i => numbers(k))
-                    call give_case(lowered, schemes, k, closed(:, i), w(:, i), ml(:, i), mr(:, i), reaction(:, i), done(i))
+                    call give_case(lowered, units, schemes, k, closed(:, i), w(:, i), ml(:, i), mr(:, i), reaction(:, i), done(i))
                 end associate
             end do
         end subroutine finish
@@ -287,36 +289,33 @@ contains
     end subroutine take_start
 
     !> The solution of a case in the scene's units, if these hold it
-    pure subroutine give_case(lowered, pack, l, closed, w, ml, mr, reaction, done)
+    pure subroutine give_case(lowered, units, pack, l, closed, w, ml, mr, reaction, done)
         type(lowered_type), intent(in) :: lowered
+        !> Of deflections, moments and forces, as numbers
+        real(wp), intent(in) :: units(3)
         type(pack_type), intent(in) :: pack
         integer, intent(in) :: l
         integer, intent(inout) :: closed(:)
         real(wp), intent(inout) :: w(:), ml(:), mr(:), reaction(:)
         logical, intent(out) :: done
-        real(wp) :: of_deflection, of_moment, of_force, largest
+        real(wp) :: total
         integer :: k
 
-        of_deflection = scale(1.0_wp, lowered%units%deflection)
-        of_moment = scale(1.0_wp, moment_unit(lowered%units))
-        of_force = scale(1.0_wp, lowered%units%force)
-        largest = 0.0_wp
+        total = 0.0_wp
         do k = 1, size(w)
-            w(k) = pack%w(l, k - 1)*of_deflection
-            ml(k) = pack%ml(l, k - 1)*of_moment
-            mr(k) = pack%mr(l, k - 1)*of_moment
-            largest = max(largest, abs(w(k)), abs(ml(k)), abs(mr(k)))
+            w(k) = pack%w(l, k - 1)*units(1)
+            ml(k) = pack%ml(l, k - 1)*units(2)
+            mr(k) = pack%mr(l, k - 1)*units(2)
+            total = total + (abs(w(k)) + abs(ml(k)) + abs(mr(k)))
         end do
         do k = 1, size(lowered%beam%supports)
-            associate (i => lowered%beam%supports(k)%node)
-                reaction(k) = pack%reaction(l, i)*of_force
-                largest = max(largest, abs(reaction(k)))
-            end associate
+            reaction(k) = pack%reaction(l, lowered%beam%supports(k)%node)*units(3)
+            total = total + abs(reaction(k))
         end do
-        done = largest <= huge(largest)
+        done = total <= huge(total)
         if (.not. done) return
         do k = 1, size(lowered%beam%supports)
-            closed(k) = nint(pack%closed(l, lowered%beam%supports(k)%node))
+            closed(k) = merge(1, 0, pack%closed(l, lowered%beam%supports(k)%node) > 0.5_wp)
         end do
     end subroutine give_case
 
