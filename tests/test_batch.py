@@ -14,6 +14,7 @@ from multiprocessing import get_context
 import gapbeam
 import numpy as np
 import pytest
+from gapbeam.base.characters import visible
 from gapbeam.batches import folder, run
 from gapbeam.batches.job import Job
 from gapbeam.batches.paths import find_paths, scene_data, with_values
@@ -154,6 +155,15 @@ def test_scenes_of_a_folder(tmp_path):
     assert found["scene"].tolist() == ["a.toml", "b.toml", "c.toml"]
     assert found["status"].tolist() == ["solved", "solved", "refused"]
     assert found["reaction.max"][1] == gapbeam.solve(tmp_path / "scenes" / "b.toml").steps[-1].reaction.max()
+
+
+def test_text_of_the_user_goes_into_files(tmp_path):
+    for k, text in enumerate(("a\ud800b", "x\x1b[31m\u200b", "{0} $x$ Träger")):
+        scene = {**SCENE, "title": text, "supports": [{**SCENE["supports"][0], "name": text}, *SCENE["supports"][1:]]}
+        done = gapbeam.batch(scene, {"supports[0].gap": [0.0], "beam.EI": [1e4]}, tmp_path / str(k))
+        assert f"reaction.{visible(text)}" in done.columns
+        assert done.scene_of(0).title in (text, visible(text))
+        assert done.summary().columns[f"reaction.{visible(text)}"].count == 1
 
 
 # Tables
