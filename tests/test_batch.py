@@ -235,6 +235,7 @@ def test_scenes_that_are_refused(tmp_path):
 @pytest.fixture
 def whole(tmp_path):
     """An undisturbed run with one thread: six files."""
+    pytest.importorskip("pyarrow")
     gapbeam.batch(SCENE, table(550), tmp_path / "whole", jobs=1, chunk=100)
     return digests(tmp_path / "whole")
 
@@ -369,6 +370,26 @@ def test_a_folder_of_something_else_is_refused(tmp_path, whole):
     with pytest.raises(OSError, match=r"notes\.txt"):
         gapbeam.batch(SCENE, table(5), tmp_path / "other" / "notes.txt")
     assert digests(tmp_path / "whole") == whole
+
+
+def test_a_file_that_is_damaged_is_named(tmp_path, whole):
+    file = tmp_path / "whole" / "part-000002.parquet"
+    file.write_bytes(file.read_bytes()[:-100])
+    with pytest.raises(gapbeam.SceneError, match=r"part-000002.*remove it and start the batch again, which makes it anew"):
+        gapbeam.Batch(tmp_path / "whole").summary()
+    file.unlink()
+    gapbeam.batch(SCENE, table(550), tmp_path / "whole")
+    assert digests(tmp_path / "whole") == whole
+
+
+def test_a_table_that_becomes_shorter_is_told(tmp_path):
+    (tmp_path / "t.csv").write_text("factors.wind\n" + "1.0\n" * 50)
+
+    def progress(done, cases):
+        (tmp_path / "t.csv").write_text("factors.wind\n" + "1.0\n" * 10)
+
+    with pytest.raises(gapbeam.SceneError, match="has become shorter while it was read"):
+        gapbeam.batch(SCENE, tmp_path / "t.csv", tmp_path / "out", chunk=20, progress=progress)
 
 
 def test_failed_cases_are_solved_again(tmp_path, whole, monkeypatch):

@@ -14,14 +14,14 @@ from ..base.errors import SceneError
 from ..scene.reading import read_scene
 from ..scene.structs import Scene
 from ..scene.wording import shown
-from .chunks import TEXTS, read_columns
+from .chunks import TEXTS, count_statuses, read_columns
 from .folder import from_json, open_folder
 from .paths import find_paths, with_values
 
 if TYPE_CHECKING:
     from .summary import Summary
 
-FAILED = ("refused", "no-answer", "failed")
+FAILED = {"refused", "no-answer", "failed"}
 """Outcomes that are no outcome of the structure."""
 
 
@@ -130,9 +130,26 @@ class Batch:
             ``solved``, ``no-equilibrium``, ``limit-load``, ``refused``, ``no-answer``, ``failed``: those that there are.
         """
         found: Counter[str] = Counter()
-        for part in self.chunks(["status"]):
-            found.update(part["status"].tolist())
+        for chunk in self._chunks:
+            found.update(count_statuses(self._folder.file(chunk)))
         return dict(found.most_common())
+
+    def reasons(self) -> dict[str, str]:
+        """Give the reason of the first case of every outcome that has one.
+
+        Returns
+        -------
+        dict of str
+            By outcome.
+        """
+        found: dict[str, str] = {}
+        for chunk in self._chunks:
+            file = self._folder.file(chunk)
+            if count_statuses(file).keys() - found.keys() - {"solved"}:
+                part = read_columns(file, ["status", "reason"])
+                for k in np.flatnonzero(part["reason"] != "").tolist():
+                    found.setdefault(part["status"][k], part["reason"][k])
+        return found
 
     def failed_chunks(self) -> list[int]:
         """Give the files with cases that were refused, have no answer or failed, by number.
@@ -141,9 +158,7 @@ class Batch:
         -------
         list of int
         """
-        return [
-            k for k, part in zip(self._chunks, self.chunks(["status"]), strict=True) if np.isin(part["status"], FAILED).any()
-        ]
+        return [chunk for chunk in self._chunks if FAILED & count_statuses(self._folder.file(chunk)).keys()]
 
     def summary(self, names: Iterable[str] | None = None, **options: Any) -> Summary:
         """Tell how results are distributed: quantiles, histograms, how many exceed a limit.

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -108,7 +109,7 @@ def read_columns(path: Path, names: Sequence[str]) -> dict[str, np.ndarray]:
     SceneError
         It cannot be read.
     """
-    try:
+    with _readable(path):
         if path.suffix == ".npy":
             rows = np.load(path, mmap_mode="r")
             return {name: _decoded(rows[name]) if name in TEXTS else np.array(rows[name]) for name in names}
@@ -121,6 +122,39 @@ def read_columns(path: Path, names: Sequence[str]) -> dict[str, np.ndarray]:
             else table[name].to_numpy()
             for name in names
         }
+
+
+def count_statuses(path: Path) -> dict[str, int]:
+    """Count the cases of a file by their outcome.
+
+    Parameters
+    ----------
+    path : pathlib.Path
+        The file.
+
+    Returns
+    -------
+    dict of int
+
+    Raises
+    ------
+    SceneError
+        It cannot be read.
+    """
+    with _readable(path):
+        if path.suffix == ".npy":
+            found, counts = np.unique(np.load(path, mmap_mode="r")["status"], return_counts=True)
+            return dict(zip(_decoded(found).tolist(), counts.tolist(), strict=True))
+        from pyarrow import parquet
+
+        counted = parquet.read_table(path, columns=["status"], partitioning=None)["status"].value_counts().to_pylist()
+        return {one["values"]: one["counts"] for one in counted}
+
+
+@contextmanager
+def _readable(path: Path) -> Iterator[None]:
+    try:
+        yield
     except (OSError, ValueError, KeyError) as error:
         raise SceneError(str(path), f"cannot be read ({error}); remove it and start the batch again, which makes it anew") from None
 

@@ -6,6 +6,7 @@ import csv
 import hashlib
 import io
 from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
 from warnings import catch_warnings, simplefilter
 
@@ -105,9 +106,10 @@ class CsvTable:
         with open(self._path, "rb") as stream:
             stream.seek(self._places[first // EVERY])
             lines = (line for line in stream if line.strip(b"\r\n"))
-            for _ in range(first % EVERY):
-                next(lines)
-            return CsvRows(b"".join(next(lines) for _ in range(first, stop)), self.names, stop - first)
+            found = list(islice(lines, first % EVERY, first % EVERY + stop - first))
+        if len(found) < stop - first:
+            raise SceneError(str(self._path), "has become shorter while it was read; leave the table as it is until the batch ends")
+        return CsvRows(b"".join(found), self.names, stop - first)
 
     def _header(self, line: bytes) -> tuple[str, ...]:
         try:

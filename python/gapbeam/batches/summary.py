@@ -142,13 +142,7 @@ def summarize(
             raise ValueError(f"shares: expected numbers from 0 to 1, got {share:g}")
     bins = whole("bins", bins, least=1)
     counters = {name: _Counter(wanted.get(name, []), [float(share) for share in shares], bins) for name in names}
-    statuses: dict[str, int] = {}
-    reasons: dict[str, str] = {}
-    for part in batch.chunks([*names, "status", "reason"]):
-        for status in part["status"].tolist():
-            statuses[status] = statuses.get(status, 0) + 1
-        for k in np.flatnonzero(part["reason"] != "").tolist():
-            reasons.setdefault(part["status"][k], part["reason"][k])
+    for part in batch.chunks(names):
         for name, counter in counters.items():
             counter.range(part[name])
     for counter in counters.values():
@@ -159,8 +153,8 @@ def summarize(
                 counter.count_digit(part[name], digit)
         for counter in counters.values():
             counter.choose_digit()
-    statuses = dict(sorted(statuses.items(), key=lambda one: -one[1]))
-    return Summary(batch.cases, batch.done, statuses, reasons, {name: counter.found() for name, counter in counters.items()})
+    columns = {name: counter.found() for name, counter in counters.items()}
+    return Summary(batch.cases, batch.done, batch.statuses(), batch.reasons(), columns)
 
 
 class _Counter:
