@@ -127,7 +127,7 @@ class PreparedRoad:
             rest = [name for name in rest if name not in ("reaction", "opening")]
             for k, one in enumerate(supports):
                 if "reaction" in want:
-                    numbers[f"reaction.{one}"][solved] = found.reaction[solved, k]
+                    numbers[f"reaction.{one}"][solved] = found.reaction[solved, k] + 0.0  # there is one zero
                 if "opening" in want:
                     away = self._sides[k] * (self._levels[k] + moves.get(k, 0.0) - found.deflection[:, self._nodes[k]])
                     numbers[f"opening.{one}"][solved] = np.where(found.closed[:, k], 0.0, np.maximum(away, 0.0) + 0.0)[solved]

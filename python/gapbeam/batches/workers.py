@@ -13,13 +13,11 @@ from concurrent.futures import (
     CancelledError,
     Executor,
     Future,
-    ProcessPoolExecutor,
     ThreadPoolExecutor,
     wait,
 )
 from contextlib import contextmanager
 from functools import partial
-from multiprocessing import get_context, parent_process
 
 from ..base.errors import GapbeamError
 from .chunks import encode
@@ -113,6 +111,9 @@ def processes(jobs: int) -> Iterator[Executor]:
     ------
     Executor
     """
+    from concurrent.futures import ProcessPoolExecutor
+    from multiprocessing import get_context
+
     before = os.environ.get("PYTHONWARNINGS")
     # Python's own helper would complain on the terminal of semaphores that Ctrl-C leaves, and remove them
     os.environ["PYTHONWARNINGS"] = ",".join(filter(None, (before, "ignore:resource_tracker:UserWarning")))
@@ -135,6 +136,8 @@ def _begin_process() -> None:
 
 
 def _end_with_parent() -> None:
+    from multiprocessing import parent_process
+
     parent_process().join()
     os._exit(1)
 

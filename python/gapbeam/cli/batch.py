@@ -6,7 +6,6 @@ import argparse
 import os
 import sys
 from collections.abc import Callable, Iterator
-from concurrent.futures import Executor
 from contextlib import contextmanager
 from time import perf_counter
 from typing import TYPE_CHECKING
@@ -16,6 +15,8 @@ from .command import NO_SOLUTION, SOLVED
 from .outputs import Outputs, source, until_closed
 
 if TYPE_CHECKING:
+    from concurrent.futures import Executor
+
     from ..batches.batch import Batch
 
 TEXT = """\
