@@ -72,7 +72,11 @@ class Folder:
         OSError
             Names the file, and why it cannot be written; the batch can be started again.
         """
-        write_lasting(self.file(chunk), data)
+        try:
+            write_lasting(self.file(chunk), data)
+        except OSError as error:
+            remedy = "when that is mended, start the same batch again, and it goes on"
+            raise OSError(error.errno, f"{error.strerror}; {remedy}", error.filename) from None
 
     def remove(self, chunk: int) -> None:
         """Remove a chunk, so that it is made anew."""
