@@ -11,6 +11,9 @@ program test_train
     use gapbeam_train_path, only: passage_type, pass_train
     use gapbeam_train_events, only: train_event_type, find_events
     use gapbeam_train_envelope, only: envelope_type, find_envelope
+    use gapbeam_element, only: field_type
+    use gapbeam_train_samples, only: samples_type, new_samples, sample_stretch
+    use gapbeam_train_view, only: view_type, look_type, new_view, show_stretch, look_at_link
     use gapbeam_train_curves, only: find_curves, find_influence
     use gapbeam_pieces, only: gapbeam_opens, gapbeam_closes
     implicit none
@@ -20,6 +23,7 @@ program test_train
     call a_plank_tips()
     call a_train_with_a_uniform_load()
     call a_train_as_long_as_the_beam()
+    call coefficients_give_the_state()
     call finish(status)
     if (status /= 0) stop 1, quiet=.true.
 
@@ -157,5 +161,45 @@ contains
             if (size(r) == 1) call check_close(passage%reaches(r(1))%from, 4.0_wp, "where both act")
         end associate
     end subroutine a_train_as_long_as_the_beam
+
+    !> What bounds rest on: the same fields at the end of every stretch as by solving there
+    subroutine coefficients_give_the_state()
+        type(lowered_type) :: lowered
+        type(track_type) :: track
+        type(train_type) :: train
+        type(passage_type) :: passage
+        type(samples_type) :: samples
+        type(view_type) :: view
+        type(look_type) :: look
+        type(field_type) :: seen(20)
+        type(error_type), allocatable :: error
+        real(wp) :: worst
+        integer :: c, i, k, stat
+
+        call make([2.0_wp, 3.0_wp, 2.0_wp, 1.0_wp], [0.0_wp, 2.0_wp, 5.0_wp, 7.0_wp], 0.5_wp, lowered, track)
+        train = train_type([0.0_wp, -0.75_wp, -3.5_wp], [3.0_wp, 2.0_wp, 4.0_wp], &
+                           [uniform_type(0.25_wp, -3.5_wp, 0.0_wp), uniform_type(0.125_wp, -1.0_wp, 2.0_wp)])
+        call pass_train(lowered, track, train, 0.0_wp, 11.5_wp, passage, error)
+        call check(.not. allocated(error), "a train passes")
+        call new_samples(lowered, track, train, samples, error)
+        call new_view(lowered, track, train, view, stat)
+        worst = 0.0_wp
+        do k = 1, passage%number
+            if (passage%status(k) /= gapbeam_solved) cycle
+            call sample_stretch(lowered, track, train, passage, k, samples, error)
+            call show_stretch(track, train, passage, k, view)
+            do i = 1, size(track%beam%links)
+                call look_at_link(lowered, track, view, i, 1.0_wp, look, seen)
+            end do
+            do c = 1, samples%cells%number
+                associate (a => seen(c), b => samples%starts(samples%degree, c))
+                    worst = max(worst, abs(a%deflection - b%deflection), abs(a%rotation - b%rotation), &
+                                abs(a%moment - b%moment), abs(a%shear - b%shear))
+                end associate
+            end do
+        end do
+        call check(passage%number > 10, "many stretches")
+        call check_close(worst, 0.0_wp, "fields from coefficients", absolute=1.0e-12_wp)
+    end subroutine coefficients_give_the_state
 
 end program test_train

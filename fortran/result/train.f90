@@ -1,4 +1,4 @@
-!> Loads that move together: axles and a uniform load on a beam at a place of the train.
+!> Loads that move together: axles and uniform loads on a beam at a place of the train.
 !>
 !> The place of a train is that of its first axle. While no axle, and no end of a uniform load, passes a point at which a piece
 !> of the beam ends, what it does to the links is a polynomial in the place: the rotations of the simple bar under a unit
@@ -14,7 +14,8 @@ module gapbeam_train
     use gapbeam_places, only: position_tolerance
     implicit none
     private
-    public :: train_type, uniform_type, track_type, reach_type, new_track, find_reaches, place_train, degree_of, least_distance
+    public :: train_type, uniform_type, track_type, reach_type, new_track, find_reaches, enter_reach, place_train, degree_of, &
+        least_distance
 
     !> A uniform load of a train, down, from one distance from its place to another
     type :: uniform_type
@@ -46,14 +47,18 @@ module gapbeam_train
         !> Links with loads of the train, the first `loaded` of them
         integer, allocatable :: with_load(:)
         integer :: loaded = 0
+        logical, allocatable :: is_loaded(:)
     end type track_type
 
     !> Places of a train between which nothing passes a point; of no length where axles come and go at one place
     type :: reach_type
         real(wp) :: from = 0.0_wp, to = 0.0_wp
-        !> Piece of every axle, 0: not on the beam
+        !> A place within it that stands for all, and how many axles are left of the beam and right of it
+        real(wp) :: about = 0.0_wp
+        integer :: outside(2) = 0
+        !> By enter_reach: piece of every axle, 0: not on the beam
         integer, allocatable :: piece(:)
-        !> Pieces in which every uniform load begins and ends; the first is beyond the last where it is not on the beam
+        !> And in which every uniform load begins and ends; the first is beyond the last where it is not on the beam
         integer, allocatable :: first(:), last(:)
         !> Do the loads on its ends act there as in between
         logical :: holds_from = .true., holds_to = .true.
@@ -72,12 +77,13 @@ contains
 
         n = size(lowered%pieces)
         allocate (track%x(0:n), track%link(n), track%before(n), track%length(n), track%turn_a(0:3, n), track%turn_b(0:3, n), &
-                  track%with_load(size(lowered%beam%links)), stat=stat)
+                  track%with_load(size(lowered%beam%links)), track%is_loaded(size(lowered%beam%links)), stat=stat)
         if (stat /= 0) then
             call no_memory(error)
             return
         end if
         track%beam = lowered%beam
+        track%is_loaded(:) = .false.
         track%length_unit = lowered%units%length
         track%force_unit = lowered%units%force
         track%length(:) = lowered%pieces%length
@@ -253,11 +259,11 @@ contains
             keep(:) = .true.
             do j = 1, count, 2
                 if (j > 1) then
-                    found(j - 1)%holds_to = same_axles(found(j - 1), found(j))
+                    found(j - 1)%holds_to = all(found(j - 1)%outside == found(j)%outside)
                     keep(j) = .not. found(j - 1)%holds_to
                 end if
                 if (j < count) then
-                    found(j + 1)%holds_from = same_axles(found(j + 1), found(j))
+                    found(j + 1)%holds_from = all(found(j + 1)%outside == found(j)%outside)
                     keep(j) = keep(j) .and. .not. found(j + 1)%holds_from
                 end if
             end do
@@ -266,15 +272,7 @@ contains
 
     end subroutine find_reaches
 
-    !> Do the same axles act
-    pure function same_axles(a, b) result(same)
-        type(reach_type), intent(in) :: a, b
-        logical :: same
-
-        same = all((a%piece > 0) .eqv. (b%piece > 0))
-    end function same_axles
-
-    !> What is where while the train is about a place
+    !> A reach: what acts in it, as the train goes to the right, is told by how many axles are not yet, or no longer, on the beam
     pure function reach_at(track, train, from, to, about, near) result(reach)
         type(track_type), intent(in) :: track
         type(train_type), intent(in) :: train
@@ -282,28 +280,65 @@ contains
         !> What is not farther from an end of the beam is on it
         real(wp), intent(in) :: near
         type(reach_type) :: reach
-        integer :: i, n
 
-        n = ubound(track%x, 1)
         reach%from = from
         reach%to = to
-        allocate (reach%piece(size(train%offset)), reach%first(size(train%uniform)), reach%last(size(train%uniform)))
+        reach%about = about
+        reach%outside = [count(about + train%offset < -near), count(about + train%offset > track%x(ubound(track%x, 1)) + near)]
+    end function reach_at
+
+    !> Find the pieces in which axles and uniform loads are, from those of a reach nearby in a few steps
+    subroutine enter_reach(track, train, next, reach)
+        type(track_type), intent(in) :: track
+        type(train_type), intent(in) :: train
+        !> By find_reaches
+        type(reach_type), intent(in) :: next
+        !> The reach where the train was before, if any; the same as the next one then, with all pieces
+        type(reach_type), intent(inout) :: reach
+        real(wp) :: x, near
+        integer :: i, j, n
+
+        n = ubound(track%x, 1)
+        near = least_distance(track, train)
+        if (.not. allocated(reach%piece)) then
+            allocate (reach%piece(size(train%offset)), reach%first(size(train%uniform)), reach%last(size(train%uniform)))
+            reach%piece(:) = 0
+        end if
+        reach%from = next%from
+        reach%to = next%to
+        reach%about = next%about
+        reach%outside = next%outside
+        reach%holds_from = next%holds_from
+        reach%holds_to = next%holds_to
         do i = 1, size(train%offset)
-            reach%piece(i) = 0
-            associate (x => about + train%offset(i))
-                if (x >= -near .and. x <= track%x(n) + near) reach%piece(i) = piece_at(track, x)
-            end associate
+            x = reach%about + train%offset(i)
+            j = reach%piece(i)
+            if (.not. (x >= -near .and. x <= track%x(n) + near)) then
+                j = 0
+            else if (j == 0) then
+                j = piece_at(track, x)
+            else
+                do while (j < n)
+                    if (track%x(j) > x) exit
+                    j = j + 1
+                end do
+                do while (j > 1)
+                    if (track%x(j - 1) <= x) exit
+                    j = j - 1
+                end do
+            end if
+            reach%piece(i) = j
         end do
         do i = 1, size(train%uniform)
             reach%first(i) = 1
             reach%last(i) = 0
-            associate (from => about + train%uniform(i)%from, to => about + train%uniform(i)%to)
+            associate (from => reach%about + train%uniform(i)%from, to => reach%about + train%uniform(i)%to)
                 if (to <= 0.0_wp .or. from >= track%x(n)) cycle
                 reach%first(i) = piece_at(track, from)
                 reach%last(i) = piece_at(track, to)
             end associate
         end do
-    end function reach_at
+    end subroutine enter_reach
 
     !> Piece of a place, the nearest one for places beyond the ends
     pure function piece_at(track, x) result(piece)
@@ -354,7 +389,7 @@ contains
     subroutine place_train(track, train, reach, s)
         type(track_type), intent(inout) :: track
         type(train_type), intent(in) :: train
-        !> The reach, and a place in it
+        !> The reach, by enter_reach, and a place in it
         type(reach_type), intent(in) :: reach
         real(wp), intent(in) :: s
         integer :: i, j
@@ -367,6 +402,7 @@ contains
                 link%shear_b(2) = 0.0_wp
                 link%load_sum(2) = 0.0_wp
                 link%turn_sum(2) = 0.0_wp
+                track%is_loaded(track%with_load(i)) = .false.
             end associate
         end do
         track%loaded = 0
@@ -427,7 +463,8 @@ contains
         subroutine note(link)
             integer, intent(in) :: link
 
-            if (any(track%with_load(:track%loaded) == link)) return
+            if (track%is_loaded(link)) return
+            track%is_loaded(link) = .true.
             track%loaded = track%loaded + 1
             track%with_load(track%loaded) = link
         end subroutine note

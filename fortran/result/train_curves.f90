@@ -11,7 +11,8 @@ module gapbeam_train_curves
     use gapbeam_system, only: solve_and_refine
     use gapbeam_units, only: moment_unit, rotation_unit
     use gapbeam_lowered, only: lowered_type
-    use gapbeam_train, only: train_type, track_type, reach_type, place_train, find_reaches, degree_of, least_distance
+    use gapbeam_train, only: train_type, track_type, reach_type, place_train, find_reaches, enter_reach, degree_of, &
+        least_distance
     use gapbeam_train_cells, only: cells_type, new_cells, find_cells, fill_cells, recover_cells, cell_ends, cell_of_place, &
         fields_in_cell
     use gapbeam_train_path, only: passage_type
@@ -229,6 +230,7 @@ contains
         type(cells_type) :: cells
         type(lowered_type) :: empty
         type(reach_type), allocatable :: reaches(:)
+        type(reach_type) :: reach
         type(workspace_type) :: work
         type(field_type) :: at
         real(wp) :: left, right
@@ -242,6 +244,7 @@ contains
         bare%beam%force(:, :) = 0.0_wp
         bare%beam%couple(:, :) = 0.0_wp
         bare%loaded = 0
+        bare%is_loaded(:) = .false.
         do j = 1, size(bare%beam%links)
             associate (link => bare%beam%links(j))
                 link%turn_a(:) = 0.0_wp
@@ -267,14 +270,15 @@ contains
         do k = 1, size(places)
             call find_reaches(bare, unit, places(k), places(k), reaches, error)
             if (allocated(error)) return
-            call place_train(bare, unit, reaches(1), places(k))
+            call enter_reach(bare, unit, reaches(1), reach)
+            call place_train(bare, unit, reach, places(k))
             call set_loads(bare%beam, 1.0_wp, work)
             call solve_and_refine(bare%beam, closed, work, state, place)
             if (state /= band_ok) then
                 call fatal_error(error, gapbeam_not_converged, "the beam is held by so little that its state is not unique")
                 return
             end if
-            call find_cells(bare, unit, reaches(1), cells)
+            call find_cells(bare, unit, reach, cells)
             call fill_cells(empty, bare, places(k), cells)
             call recover_cells(bare, work, cells)
             c = cell_of_place(bare, cells, piece, track%x(piece - 1) + distance, places(k))

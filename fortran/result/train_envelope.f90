@@ -1,25 +1,36 @@
 !> The largest and smallest values while a train goes over a beam, exact in place and position.
 !>
-!> In a cell and on a stretch every field is a polynomial in x and in the position (gapbeam_train_samples), so what no bound of the
-!> samples and no Bernstein coefficient reaches is not there; what is left is looked into (gapbeam_bernstein).
+!> Bounds leave few stretches of the way (gapbeam_train_bounds). In a cell and on a stretch every field is a polynomial in x and in
+!> the position (gapbeam_train_samples), so what no bound of the samples and no Bernstein coefficient reaches is not there; what is
+!> left is looked into (gapbeam_bernstein).
 module gapbeam_train_envelope
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved
     use gapbeam_bernstein, only: patch_type, to_coefficients, greatest_on_patch, value_of, most_along, highest_degree
+    use gapbeam_element, only: field_type
+    use gapbeam_law, only: both
     use gapbeam_units, only: moment_unit, rotation_unit
     use gapbeam_lowered, only: lowered_type
-    use gapbeam_train, only: train_type, track_type, least_distance
+    use gapbeam_train, only: train_type, track_type, degree_of, least_distance
     use gapbeam_train_cells, only: cell_type, cell_ends, x_in_cell
     use gapbeam_train_path, only: passage_type
-    use gapbeam_train_samples, only: samples_type, new_samples, sample_stretch, along_cell, bound_fields, load_degree, lebesgue
+    use gapbeam_train_samples, only: samples_type, new_samples, sample_stretch, sample_supports, along_cell, bound_fields, &
+        load_degree, lebesgue
+    use gapbeam_train_columns, only: set_scheme
+    use gapbeam_train_view, only: look_type, show_stretch, look_at_link
+    use gapbeam_train_support_bounds, only: watch_scheme
+    use gapbeam_train_candidates, only: candidate_type, candidates_type, equal, least_of, raise, upper_bound, offer
+    use gapbeam_train_bounds, only: bounds_type, find_bounds, slack
     implicit none
     private
     public :: envelope_type, extreme_type, tie_type, find_envelope
 
-    !> Values nearer to the largest than this share of the largest absolute value are equal to it
-    real(wp), parameter :: equal = 2.0_wp**(-40)
     !> How far inside a stretch that does not hold at its first or last position, in least distances
     real(wp), parameter :: inside(0:2) = [0.0_wp, 2.0_wp, -2.0_wp]
+    !> Share of the largest value by which what bounds rest on may differ from what is refined
+    real(wp), parameter :: most_lost = 2.0_wp**(-34)
+    !> Stretches on which this is tried
+    integer, parameter :: trials = 8
     !> Equal values are listed up to so many
     integer, parameter :: most_ties = 16
 
@@ -49,21 +60,6 @@ module gapbeam_train_envelope
         type(extreme_type), allocatable :: supports(:, :, :)
     end type envelope_type
 
-    !> A part of a stretch that may hold an extreme value
-    type :: candidate_type
-        type(patch_type) :: patch
-        type(cell_type) :: cell
-        !> The stretch, and the last one on which it stays the same (of supports)
-        integer :: stretch = 0, last = 0
-    end type candidate_type
-
-    !> Candidates for one extreme
-    type :: candidates_type
-        integer :: number = 0
-        real(wp) :: known = -huge(1.0_wp), largest = 0.0_wp
-        type(candidate_type), allocatable :: list(:)
-    end type candidates_type
-
 contains
 
     !> Find the extremes of all fields and supports
@@ -77,37 +73,60 @@ contains
         type(error_type), allocatable, intent(out) :: error
         type(candidates_type), allocatable :: of_fields(:, :), of_supports(:, :, :)
         type(samples_type) :: samples
-        real(wp), allocatable :: matrix(:, :), starts(:, :, :)
-        integer :: powers(4), c, f, i, k, m, n, stat
+        type(bounds_type) :: bounds
+        real(wp), allocatable :: matrix(:, :), of_nodes(:, :), starts(:, :, :)
+        logical, allocatable :: stays(:, :), wanted(:)
+        logical :: told, renewed
+        integer :: powers(4), c, f, i, k, last, m, n, stat
 
         m = size(lowered%model%supports)
         call new_samples(lowered, track, train, samples, error)
         if (allocated(error)) return
         n = samples%degree
         allocate (of_fields(2, 4), of_supports(2, 4, m), envelope%supports(2, 4, m), matrix(0:n, 0:n), &
-                  starts(0:n, 4, size(samples%starts, 2)), stat=stat)
+                  of_nodes(0:degree_of(train), 0:degree_of(train)), starts(0:n, 4, size(samples%starts, 2)), stays(4, m), &
+                  wanted(passage%number), stat=stat)
         if (stat /= 0) then
             call no_memory(error)
             return
         end if
         matrix(:, :) = to_coefficients(n)
+        of_nodes(:, :) = to_coefficients(degree_of(train))
+        call find_bounds(lowered, track, train, passage, bounds, error)
+        if (.not. allocated(error)) call try_bounds()
+        if (allocated(error)) return
+        do k = 1, passage%number
+            wanted(k) = .not. told
+            do f = 1, 4
+                do i = 1, 2
+                    wanted(k) = wanted(k) .or. bounds%at_most(i, f, k) >= of_fields(i, f)%known - slack*bounds%size(f)
+                end do
+            end do
+        end do
+        stays(:, :) = .false.
         do k = 1, passage%number
             if (passage%status(k) /= gapbeam_solved) cycle
-            call sample_stretch(lowered, track, train, passage, k, samples, error)
+            renewed = k == 1
+            if (.not. renewed) renewed = passage%status(k - 1) /= gapbeam_solved .or. &
+                                         any(passage%closed(:, k) .neqv. passage%closed(:, k - 1))
+            if (renewed) then
+                call begin_scheme()
+                if (allocated(error)) return
+            end if
+            if (.not. told .or. bounds%of_supports(k) .or. any(bounds%supports%always)) then
+                call sample_supports(lowered, track, train, passage, k, samples, error)
+                if (allocated(error)) return
+                do i = 1, m
+                    do f = 1, 4
+                        if (.not. stays(f, i)) call add_support(i, f)
+                    end do
+                end do
+            end if
+            if (.not. wanted(k)) cycle
+            call sample_fields()
             if (allocated(error)) return
             do c = 1, samples%cells%number
-                associate (a => samples%starts(:, c))
-                    starts(:, 1, c) = a%deflection
-                    starts(:, 2, c) = a%rotation
-                    starts(:, 3, c) = a%moment
-                    starts(:, 4, c) = a%shear
-                end associate
                 call add_cell(c)
-            end do
-            do i = 1, m
-                do f = 1, 4
-                    call add_support(i, f)
-                end do
             end do
         end do
         associate (units => lowered%units)
@@ -118,20 +137,156 @@ contains
                 call find_extreme(of_fields(i, f), i, powers(f), envelope%fields(i, f))
                 do c = 1, m
                     call find_extreme(of_supports(i, f, c), i, 0, envelope%supports(i, f, c))
-                    if (f == 1) call drop_rounding(lowered%model%supports(c)%side, envelope%supports(i, f, c))
+                    if (f <= 2) call drop_rounding(f == 1, lowered%model%supports(c)%side, &
+                                                   equal*of_supports(i, f, c)%largest, envelope%supports(i, f, c))
                 end do
             end do
         end do
 
     contains
 
+        !> Sample the fields on a stretch
+        subroutine sample_fields()
+            integer :: j
+
+            call sample_stretch(lowered, track, train, passage, k, samples, error)
+            if (allocated(error)) return
+            do j = 1, samples%cells%number
+                associate (a => samples%starts(:, j))
+                    starts(:, 1, j) = a%deflection
+                    starts(:, 2, j) = a%rotation
+                    starts(:, 3, j) = a%moment
+                    starts(:, 4, j) = a%shear
+                end associate
+            end do
+        end subroutine sample_fields
+
+        !> Look first where large values are reached, so that few stretches are left, and whether bounds are to be trusted there
+        !> and on some other stretches
+        subroutine try_bounds()
+            integer :: field, way, trial
+
+            told = .true.
+            do trial = 0, trials
+                k = max(1, (trial*passage%number)/trials)
+                if (k > passage%number) return
+                if (passage%status(k) == gapbeam_solved) call try_stretch()
+                if (allocated(error) .or. .not. told) return
+            end do
+            do field = 1, 4
+                do way = 1, 2
+                    k = bounds%where_reached(way, field)
+                    if (k == 0) cycle
+                    call try_stretch()
+                    if (allocated(error) .or. .not. told) return
+                    call raise_known(field, way)
+                end do
+            end do
+        end subroutine try_bounds
+
+        !> Compare what bounds rest on with what is refined
+        subroutine try_stretch()
+            type(look_type) :: look
+            type(field_type) :: seen(size(samples%starts, 2))
+            integer :: j, link
+
+            call show_stretch(track, train, passage, k, bounds%view)
+            if (.not. bounds%view%clear) return
+            call sample_fields()
+            if (allocated(error)) return
+            do link = 1, size(track%beam%links)
+                call look_at_link(lowered, track, bounds%view, link, 1.0_wp, look, seen)
+            end do
+            do j = 1, samples%cells%number
+                told = told .and. all(abs([seen(j)%deflection, seen(j)%rotation, seen(j)%moment, seen(j)%shear] - starts(n, :, j)) &
+                                      <= most_lost*bounds%size)
+            end do
+        end subroutine try_stretch
+
+        !> The largest or smallest value of a field on the stretch that is sampled
+        subroutine raise_known(field, way)
+            integer, intent(in) :: field, way
+            type(patch_type) :: patch
+            real(wp) :: low(4), high(4), value, v, u
+            integer :: j
+
+            associate (candidates => of_fields(way, field))
+                do j = 1, samples%cells%number
+                    if (.not. any(samples%pieces(:, j)%length > 0.0_wp)) cycle
+                    candidates%known = max(candidates%known, maxval(merge(1, -1, way == 1)*starts(:, field, j)))
+                end do
+                do j = 1, samples%cells%number
+                    if (.not. any(samples%pieces(:, j)%length > 0.0_wp)) cycle
+                    call bound_fields(samples%starts(:, j), samples%pieces(:, j), samples%loads(:, j), low, high)
+                    if (max(high(field), -low(field)) < candidates%known) cycle
+                    call make_patch(j, field, patch)
+                    if (way == 2) patch%b(:, 0:n) = -patch%b(:, 0:n)
+                    call greatest_on_patch(patch, candidates%known, value, v, u)
+                    candidates%known = max(candidates%known, value)
+                end do
+            end associate
+        end subroutine raise_known
+
+        !> Supports in a scheme of which values stay as they are until it changes
+        subroutine begin_scheme()
+            type(patch_type) :: patch
+            integer :: i, f
+
+            stays(:, :) = .false.
+            if (.not. told .or. m == 0) return
+            call set_scheme(track%beam, passage%closed(:, k), bounds%view%columns)
+            if (.not. bounds%view%columns%usable) return
+            call watch_scheme(lowered, passage%closed(:, k), bounds%view%columns, bounds%supports)
+            stays(:, :) = bounds%supports%stays
+            if (.not. any(stays)) return
+            last = k
+            do while (last < passage%number)
+                if (passage%status(last + 1) /= gapbeam_solved) exit
+                if (any(passage%closed(:, last + 1) .neqv. passage%closed(:, k))) exit
+                last = last + 1
+            end do
+            call sample_supports(lowered, track, train, passage, k, samples, error)
+            if (allocated(error)) return
+            patch%along = 0
+            patch%across = degree_of(train)
+            do i = 1, m
+                do f = 1, 4
+                    if (.not. stays(f, i)) cycle
+                    associate (value => samples%supports(0, f, i))
+                        call raise(of_supports(1, f, i), value)
+                        call raise(of_supports(2, f, i), -value)
+                        patch%b(0, :) = value
+                        call offer(of_supports(1, f, i), patch, cell_type(), k, last)
+                        patch%b(0, :) = -value
+                        call offer(of_supports(2, f, i), patch, cell_type(), k, last)
+                    end associate
+                end do
+            end do
+        end subroutine begin_scheme
+
+        !> Coefficients of a field in a cell
+        subroutine make_patch(c, field, patch)
+            integer, intent(in) :: c, field
+            type(patch_type), intent(inout) :: patch
+            real(wp) :: values(0:most_along, 0:n)
+            integer :: p
+
+            ! One degree more from shear to moment to rotation; the deflection under shear has no more than that under bending
+            patch%along = 4 - field + load_degree(samples%loads(:, c))
+            patch%across = n
+            do p = 0, n
+                call along_cell(field, patch%along, samples%starts(p, c), samples%pieces(p, c), samples%loads(p, c), &
+                                values(0:patch%along, p))
+            end do
+            call convert(matrix, values(0:patch%along, :), patch%b)
+        end subroutine make_patch
+
         !> Look at the fields in a cell
         subroutine add_cell(c)
             integer, intent(in) :: c
             type(patch_type) :: patch
-            real(wp) :: values(0:most_along, 0:n)
             real(wp) :: low(4), high(4)
-            integer :: field, p, extra
+            integer :: field
 
             if (.not. any(samples%pieces(:, c)%length > 0.0_wp)) return
             do field = 1, 4
@@ -139,23 +294,12 @@ contains
                 call raise(of_fields(2, field), -minval(starts(:, field, c)))
             end do
             call bound_fields(samples%starts(:, c), samples%pieces(:, c), samples%loads(:, c), low, high)
-            extra = load_degree(samples%loads(:, c))
             do field = 1, 4
                 if (high(field) < least_of(of_fields(1, field)) .and. -low(field) < least_of(of_fields(2, field))) cycle
-                patch%along = 4 - field + extra
-                if (field == 1) patch%along = 3 + extra
-                if (field == 2) patch%along = 2 + extra
-                if (field == 3) patch%along = 1 + extra
-                if (field == 4) patch%along = extra
-                patch%across = n
-                do p = 0, n
-                    call along_cell(field, patch%along, samples%starts(p, c), samples%pieces(p, c), samples%loads(p, c), &
-                                    values(0:patch%along, p))
-                end do
-                call convert(matrix, values(0:patch%along, :), patch%b)
-                call offer(of_fields(1, field), patch, samples%cells%cells(c), k, maxval(values([0, patch%along], :)))
+                call make_patch(c, field, patch)
+                call offer(of_fields(1, field), patch, samples%cells%cells(c), k, k)
                 patch%b(:, 0:n) = -patch%b(:, 0:n)
-                call offer(of_fields(2, field), patch, samples%cells%cells(c), k, maxval(-values([0, patch%along], :)))
+                call offer(of_fields(2, field), patch, samples%cells%cells(c), k, k)
             end do
         end subroutine add_cell
 
@@ -175,11 +319,11 @@ contains
                     change - first < least_of(of_supports(2, what, i))) return
             end associate
             patch%along = 0
-            patch%across = n
-            call convert(matrix, reshape(samples%supports(:, what, i), [1, n + 1]), patch%b)
-            call offer(of_supports(1, what, i), patch, cell_type(), k, maxval(samples%supports(:, what, i)))
-            patch%b(0, 0:n) = -patch%b(0, 0:n)
-            call offer(of_supports(2, what, i), patch, cell_type(), k, maxval(-samples%supports(:, what, i)))
+            patch%across = degree_of(train)
+            patch%b(0, 0:patch%across) = matmul(of_nodes, samples%supports(:, what, i))
+            call offer(of_supports(1, what, i), patch, cell_type(), k, k)
+            patch%b(0, 0:patch%across) = -patch%b(0, 0:patch%across)
+            call offer(of_supports(2, what, i), patch, cell_type(), k, k)
         end subroutine add_support
 
         !> The largest value among candidates, and where it is
@@ -295,93 +439,20 @@ contains
         end do
     end subroutine convert
 
-    !> A support that acts one way has no reaction the other way but by rounding
-    pure subroutine drop_rounding(side, extreme)
+    !> A support that acts one way has no reaction the other way, and where it comes to zero, or its opening, but by rounding: zero
+    pure subroutine drop_rounding(of_reaction, side, rounding, extreme)
+        !> Of a reaction, not an opening
+        logical, intent(in) :: of_reaction
         !> 1 below, -1 above, 0 both
         integer, intent(in) :: side
+        real(wp), intent(in) :: rounding
         type(extreme_type), intent(inout) :: extreme
 
+        if (side == both) return
+        where (abs(extreme%ties%value) <= rounding) extreme%ties%value = 0.0_wp
+        if (.not. of_reaction) return
         where (side*extreme%ties%value < 0.0_wp) extreme%ties%value = 0.0_wp
     end subroutine drop_rounding
-
-    !> What is below this is not the largest value
-    pure function least_of(candidates) result(least)
-        type(candidates_type), intent(in) :: candidates
-        real(wp) :: least
-
-        least = candidates%known - equal*candidates%largest
-    end function least_of
-
-    !> A value is reached
-    pure subroutine raise(candidates, value)
-        type(candidates_type), intent(inout) :: candidates
-        real(wp), intent(in) :: value
-
-        candidates%known = max(candidates%known, value)
-        candidates%largest = max(candidates%largest, abs(value))
-    end subroutine raise
-
-    !> Largest coefficient
-    pure function upper_bound(patch) result(upper)
-        type(patch_type), intent(in) :: patch
-        real(wp) :: upper
-
-        upper = maxval(patch%b(0:patch%along, 0:patch%across))
-    end function upper_bound
-
-    !> Add a part of a stretch to candidates, if it may hold the largest value
-    subroutine offer(candidates, patch, cell, stretch, value)
-        type(candidates_type), intent(inout) :: candidates
-        type(patch_type), intent(in) :: patch
-        type(cell_type), intent(in) :: cell
-        integer, intent(in) :: stretch
-        !> A value that is reached in it
-        real(wp), intent(in) :: value
-        type(candidate_type), allocatable :: longer(:)
-        integer :: count, q
-
-        candidates%largest = max(candidates%largest, maxval(abs(patch%b(0:patch%along, 0:patch%across))))
-        candidates%known = max(candidates%known, value)
-        if (upper_bound(patch) < least_of(candidates)) return
-        if (.not. allocated(candidates%list)) allocate (candidates%list(8))
-        if (candidates%number == size(candidates%list)) then
-            ! Those that are no longer in question make room
-            count = 0
-            do q = 1, candidates%number
-                if (upper_bound(candidates%list(q)%patch) < candidates%known - equal*candidates%largest) cycle
-                count = count + 1
-                if (count < q) candidates%list(count) = candidates%list(q)
-            end do
-            candidates%number = count
-            if (2*count > size(candidates%list)) then
-                allocate (longer(2*size(candidates%list)))
-                longer(:count) = candidates%list(:count)
-                call move_alloc(longer, candidates%list)
-            end if
-        end if
-        if (candidates%number > 0 .and. cell%piece == 0) then
-            associate (before => candidates%list(candidates%number))
-                if (before%last == stretch - 1 .and. is_level(patch, candidates%largest) .and. &
-                    is_level(before%patch, candidates%largest) .and. &
-                    abs(patch%b(0, 0) - before%patch%b(0, 0)) <= equal*candidates%largest) then
-                    before%last = stretch
-                    return
-                end if
-            end associate
-        end if
-        candidates%number = candidates%number + 1
-        candidates%list(candidates%number) = candidate_type(patch, cell, stretch, stretch)
-    end subroutine offer
-
-    !> Does a value of a support stay the same
-    pure function is_level(patch, largest) result(level)
-        type(patch_type), intent(in) :: patch
-        !> Size of such values
-        real(wp), intent(in) :: largest
-        logical :: level
-
-        level = all(abs(patch%b(0, 0:patch%across) - patch%b(0, 0)) <= equal*largest)
-    end function is_level
 
     !> Add where an extreme is, unless it is the place before: found twice, or what stays the same from stretch to stretch
     subroutine add_tie(extreme, tie)

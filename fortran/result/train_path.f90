@@ -15,7 +15,7 @@ module gapbeam_train_path
         gapbeam_not_converged
     use gapbeam_bernstein, only: sample_points, to_coefficients, halve, first_below, crossing, highest_degree
     use gapbeam_band, only: band_ok
-    use gapbeam_law, only: find_margins, is_rigid
+    use gapbeam_law, only: find_margins, is_rigid, may_change
     use gapbeam_model, only: beam_type
     use gapbeam_kinematics, only: work_of_loads
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
@@ -28,7 +28,7 @@ module gapbeam_train_path
     use gapbeam_lowered, only: lowered_type
     use gapbeam_solution, only: state_type, new_state, close_all
     use gapbeam_state, only: solve_along_axis
-    use gapbeam_train, only: train_type, track_type, reach_type, find_reaches, place_train, degree_of, least_distance
+    use gapbeam_train, only: train_type, track_type, reach_type, find_reaches, enter_reach, place_train, degree_of, least_distance
     implicit none
     private
     public :: passage_type, pass_train, not_unique
@@ -89,8 +89,9 @@ contains
         type(workspace_type) :: work
         type(margins_type) :: margins
         type(state_type) :: along
+        type(reach_type) :: reach
         logical, allocatable :: closed(:)
-        logical :: known
+        logical :: changes, known
         integer :: m, r, stat
 
         m = size(track%beam%supports)
@@ -122,20 +123,30 @@ contains
         end if
         call new_workspace(track%beam, work)
         known = .false.
+        changes = any(may_change(track%beam%supports))
         do r = 1, size(passage%reaches)
-            call cross_reach(track, train, r, closed, known, margins, work, passage, error)
+            if (known .and. .not. changes) then
+                ! It holds everywhere, and need not be looked at
+                reach = passage%reaches(r)
+            else
+                call enter_reach(track, train, passage%reaches(r), reach)
+            end if
+            call cross_reach(track, train, r, reach, closed, changes, known, margins, work, passage, error)
             if (allocated(error)) return
         end do
     end subroutine pass_train
 
     !> Move a train through a reach
-    subroutine cross_reach(track, train, r, closed, known, margins, work, passage, error)
+    subroutine cross_reach(track, train, r, reach, closed, changes, known, margins, work, passage, error)
         type(track_type), intent(inout) :: track
         type(train_type), intent(in) :: train
-        !> Number of the reach
+        !> Number of the reach, and the reach by enter_reach, but where a scheme is known that holds everywhere
         integer, intent(in) :: r
-        !> Scheme so far, and whether it may be tried as it is
-        logical, intent(inout) :: closed(:), known
+        type(reach_type), intent(in) :: reach
+        !> Scheme so far, whether supports can change, and whether it may be tried as it is
+        logical, intent(inout) :: closed(:)
+        logical, intent(in) :: changes
+        logical, intent(inout) :: known
         type(margins_type), intent(inout) :: margins
         type(workspace_type), intent(inout) :: work
         type(passage_type), intent(inout) :: passage
@@ -143,24 +154,30 @@ contains
         logical, allocatable :: at_end(:)
         real(wp) :: now, begin, end, skipped
         logical :: solved
-        integer :: changes, searches
+        integer :: changed, searches
 
         allocate (at_end(size(closed)))
-        now = passage%reaches(r)%from
-        changes = 0
+        now = reach%from
+        changed = 0
         searches = 0
         skipped = least_share
         do
-            if (known) then
-                call sample_margins(track, train, passage%reaches(r), now, closed, margins, work, solved)
+            if (known .and. .not. changes) then
+                ! All that is asked of it is zero
+                margins%b(:, :) = 0.0_wp
+                margins%slack(:) = 0.0_wp
+                call accept(gapbeam_solved, 1.0_wp)
+                return
+            else if (known) then
+                call sample_margins(track, train, reach, now, closed, margins, work, solved)
                 passage%solves = passage%solves + degree_of(train) + 1
                 if (solved) call find_interval(margins, degree_of(train), resolution(), begin, end, at_end)
                 if (solved .and. end > 2*resolution()) then
                     call accept(gapbeam_solved, end)
-                    if (allocated(error) .or. now >= passage%reaches(r)%to) return
+                    if (allocated(error) .or. now >= reach%to) return
                     closed(:) = closed .neqv. at_end
-                    changes = changes + 1
-                    if (changes <= most_changes + most_of_each*size(closed)) cycle
+                    changed = changed + 1
+                    if (changed <= most_changes + most_of_each*size(closed)) cycle
                     call too_near(now)
                     return
                 end if
@@ -169,7 +186,7 @@ contains
             end if
             skipped = max(skipped, resolution())
             call look_further(skipped)
-            if (allocated(error) .or. now >= passage%reaches(r)%to) return
+            if (allocated(error) .or. now >= reach%to) return
             searches = searches + 1
             if (searches > most_changes + most_of_each*size(closed)) call too_near(now)
             if (allocated(error)) return
@@ -182,9 +199,7 @@ contains
             real(wp) :: share
 
             share = 0.0_wp
-            associate (reach => passage%reaches(r))
-                if (reach%to > now) share = min(0.25_wp, max(least_share, least_distance(track, train)/(reach%to - now)))
-            end associate
+            if (reach%to > now) share = min(0.25_wp, max(least_share, least_distance(track, train)/(reach%to - now)))
         end function resolution
 
         !> Give up
@@ -203,11 +218,9 @@ contains
             real(wp) :: to
             integer :: k, stat
 
-            associate (reach => passage%reaches(r))
-                to = reach%to
-                if (share < 1.0_wp) to = min(now + share*(reach%to - now), reach%to)
-                if (reach%to - to <= least_distance(track, train)) to = reach%to
-            end associate
+            to = reach%to
+            if (share < 1.0_wp) to = min(now + share*(reach%to - now), reach%to)
+            if (reach%to - to <= least_distance(track, train)) to = reach%to
             stat = 0
             if (passage%number == size(passage%from)) call lengthen(passage, size(closed), 2*passage%number, stat)
             if (stat /= 0) then
@@ -238,9 +251,7 @@ contains
 
             so = passage%number > 0
             if (so) so = passage%status(max(passage%number, 1)) == not_unique
-            associate (reach => passage%reaches(r))
-                so = so .and. now > reach%from .and. reach%to - now <= sliver*(reach%to - reach%from)
-            end associate
+            so = so .and. now > reach%from .and. reach%to - now <= sliver*(reach%to - reach%from)
         end function nearly_all_free
 
         !> Find the scheme that acts from here on
@@ -261,78 +272,76 @@ contains
                 call accept(not_unique, 1.0_wp)
                 return
             end if
-            associate (reach => passage%reaches(r))
-                share = merge(first_share, 0.0_wp, reach%to > reach%from)
-                closely = .false.
-                do
-                    place = now + share*(reach%to - now)
+            share = merge(first_share, 0.0_wp, reach%to > reach%from)
+            closely = .false.
+            do
+                place = now + share*(reach%to - now)
+                closed(:) = before
+                call place_train(track, train, reach, place)
+                if (closely) call new_workspace(track%beam, trial_work)
+                if (.not. allocated(trial_work%nodes)) call new_workspace(track%beam, trial_work)
+                call set_loads(track%beam, 1.0_wp, trial_work)
+                if (closely) then
+                    call decide_scheme(track%beam, links_only, 1.0_wp, rule_block, closed, trial_work, outcome, error)
+                else
+                    call find_scheme(track%beam, 1.0_wp, rule_block, closed, trial_work, outcome, error)
+                end if
+                passage%solves = passage%solves + trial_work%solves
+                right = .not. allocated(error)
+                if (right .and. .not. closely) right = .not. outcome%in_doubt
+                if (right .and. outcome%status == gapbeam_solved .and. .not. outcome%indifferent) then
+                    call sample_margins(track, train, reach, now, closed, margins, work, right)
+                    passage%solves = passage%solves + degree_of(train) + 1
+                    if (right) call find_interval(margins, degree_of(train), share, begin, end, at_end)
+                else if (right .and. outcome%status == gapbeam_no_equilibrium) then
+                    call sample_work(track, train, reach, now, outcome%motion, margins)
+                    call find_interval(margins, degree_of(train), share, begin, end, at_end)
+                else if (right) then
+                    begin = 0.0_wp
+                    end = so_until(track, train, reach, now, share, before, not_unique)
+                end if
+                if (right) right = end > 0.0_wp .or. .not. reach%to > reach%from
+                if (.not. right .and. .not. closely) then
+                    closely = .true.
+                    if (allocated(error)) deallocate (error)
+                    cycle
+                end if
+                if (allocated(error)) then
+                    code = error%code
+                    if (all(code /= [gapbeam_indeterminate, gapbeam_not_converged])) return
+                    deallocate (error)
                     closed(:) = before
-                    call place_train(track, train, reach, place)
-                    if (closely) call new_workspace(track%beam, trial_work)
-                    if (.not. allocated(trial_work%nodes)) call new_workspace(track%beam, trial_work)
-                    call set_loads(track%beam, 1.0_wp, trial_work)
-                    if (closely) then
-                        call decide_scheme(track%beam, links_only, 1.0_wp, rule_block, closed, trial_work, outcome, error)
-                    else
-                        call find_scheme(track%beam, 1.0_wp, rule_block, closed, trial_work, outcome, error)
-                    end if
-                    passage%solves = passage%solves + trial_work%solves
-                    right = .not. allocated(error)
-                    if (right .and. .not. closely) right = .not. outcome%in_doubt
-                    if (right .and. outcome%status == gapbeam_solved .and. .not. outcome%indifferent) then
-                        call sample_margins(track, train, reach, now, closed, margins, work, right)
-                        passage%solves = passage%solves + degree_of(train) + 1
-                        if (right) call find_interval(margins, degree_of(train), share, begin, end, at_end)
-                    else if (right .and. outcome%status == gapbeam_no_equilibrium) then
-                        call sample_work(track, train, reach, now, outcome%motion, margins)
-                        call find_interval(margins, degree_of(train), share, begin, end, at_end)
-                    else if (right) then
-                        begin = 0.0_wp
-                        end = so_until(track, train, reach, now, share, before, not_unique)
-                    end if
-                    if (right) right = end > 0.0_wp .or. .not. reach%to > reach%from
-                    if (.not. right .and. .not. closely) then
-                        closely = .true.
-                        if (allocated(error)) deallocate (error)
-                        cycle
-                    end if
-                    if (allocated(error)) then
-                        code = error%code
-                        if (all(code /= [gapbeam_indeterminate, gapbeam_not_converged])) return
-                        deallocate (error)
-                        closed(:) = before
-                        if (reach%to > reach%from) share = so_until(track, train, reach, now, share, before, code)
-                        call accept(code, max(share, 2*resolution()))
+                    if (reach%to > reach%from) share = so_until(track, train, reach, now, share, before, code)
+                    call accept(code, max(share, 2*resolution()))
+                    return
+                end if
+                if (.not. reach%to > reach%from) exit
+                if (right .and. begin <= least) exit
+                if (share <= least) then
+                    if (least > max(largest_share, 64*resolution())) then
+                        call too_near(place)
                         return
                     end if
-                    if (.not. reach%to > reach%from) exit
-                    if (right .and. begin <= least) exit
-                    if (share <= least) then
-                        if (least > max(largest_share, 64*resolution())) then
-                            call too_near(place)
-                            return
-                        end if
-                        ! Rounding decides here: leave out what it hides
-                        least = 4*least
-                        end = max(end, 2*share)
-                        exit
-                    end if
-                    share = max(min(share/2, begin/2), least)
-                end do
-                if (.not. reach%to > reach%from) end = 1.0_wp
-                end = max(end, 2*resolution())
-                if (outcome%status == gapbeam_no_equilibrium) then
-                    closed(:) = before
-                    call accept(gapbeam_no_equilibrium, end)
-                    if (.not. allocated(error)) call keep_motion(passage, outcome%motion, error)
-                else if (outcome%indifferent) then
-                    closed(:) = before
-                    call accept(not_unique, end)
-                else
-                    call accept(gapbeam_solved, end)
-                    if (now < reach%to) closed(:) = closed .neqv. at_end
+                    ! Rounding decides here: leave out what it hides
+                    least = 4*least
+                    end = max(end, 2*share)
+                    exit
                 end if
-            end associate
+                share = max(min(share/2, begin/2), least)
+            end do
+            if (.not. reach%to > reach%from) end = 1.0_wp
+            end = max(end, 2*resolution())
+            if (outcome%status == gapbeam_no_equilibrium) then
+                closed(:) = before
+                call accept(gapbeam_no_equilibrium, end)
+                if (.not. allocated(error)) call keep_motion(passage, outcome%motion, error)
+            else if (outcome%indifferent) then
+                closed(:) = before
+                call accept(not_unique, end)
+            else
+                call accept(gapbeam_solved, end)
+                if (now < reach%to) closed(:) = closed .neqv. at_end
+            end if
         end subroutine look_further
 
     end subroutine cross_reach

@@ -5,7 +5,8 @@
 !> with a uniform load.
 module gapbeam_train_samples
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_not_converged
+    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_not_converged, gapbeam_not_finite
+    use gapbeam_words, only: shown
     use gapbeam_bernstein, only: sample_points, most_along
     use gapbeam_band, only: band_ok
     use gapbeam_element, only: field_type
@@ -16,12 +17,13 @@ module gapbeam_train_samples
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_state, only: solve_along_axis
     use gapbeam_query, only: support_values
-    use gapbeam_train, only: train_type, track_type, place_train
+    use gapbeam_train, only: train_type, track_type, reach_type, enter_reach, place_train, degree_of
     use gapbeam_train_cells, only: cells_type, new_cells, find_cells, fill_cells, recover_cells, fields_in_cell
     use gapbeam_train_path, only: passage_type
     implicit none
     private
-    public :: samples_type, new_samples, sample_stretch, degree_in_position, along_cell, bound_fields, load_degree, lebesgue
+    public :: samples_type, new_samples, sample_stretch, sample_supports, degree_in_position, along_cell, bound_fields, &
+        load_degree, lebesgue
 
     !> No polynomial of these degrees leaves its samples by more than this times what they differ by (the Lebesgue constant of the
     !> sample points is 2.2 at most)
@@ -36,9 +38,11 @@ module gapbeam_train_samples
         type(field_type), allocatable :: starts(:, :)
         type(piece_type), allocatable :: pieces(:, :)
         type(piece_load_type), allocatable :: loads(:, :)
-        !> Of the supports, shape (0:degree, 4, nsupport)
+        !> Of the supports, which have the degree of the nodes, shape (0:degree_of(train), 4, nsupport)
         real(wp), allocatable :: supports(:, :, :)
         type(cells_type) :: cells
+        !> Where the train is
+        type(reach_type) :: reach
         type(workspace_type) :: work
         type(state_type) :: state
     end type samples_type
@@ -68,7 +72,8 @@ contains
         most = size(track%link) + size(train%offset) + 2*size(train%uniform)
         call new_cells(track, train, samples%cells, stat)
         if (stat == 0) allocate (samples%position(0:d), samples%starts(0:d, most), samples%pieces(0:d, most), &
-                                 samples%loads(0:d, most), samples%supports(0:d, 4, size(lowered%model%supports)), stat=stat)
+                                 samples%loads(0:d, most), samples%supports(0:degree_of(train), 4, size(lowered%model%supports)), &
+                                 stat=stat)
         if (stat /= 0) then
             call no_memory(error)
             return
@@ -81,7 +86,7 @@ contains
         call solve_along_axis(lowered, samples%state, error)
     end subroutine new_samples
 
-    !> Sample a stretch that is solved
+    !> Sample the fields on a stretch that is solved
     subroutine sample_stretch(lowered, track, train, passage, k, samples, error)
         type(lowered_type), intent(in) :: lowered
         type(track_type), intent(inout) :: track
@@ -93,38 +98,78 @@ contains
         !> The scheme has no solution
         type(error_type), allocatable, intent(out) :: error
         real(wp) :: points(0:samples%degree)
-        integer :: condition(size(lowered%model%supports))
-        integer :: p, state, place
+        integer :: p
 
         points(:) = sample_points(samples%degree)
-        associate (reach => passage%reaches(passage%reach(k)), n => samples%cells%number, work => samples%work)
-            call find_cells(track, train, reach, samples%cells)
+        call enter_reach(track, train, passage%reaches(passage%reach(k)), samples%reach)
+        call find_cells(track, train, samples%reach, samples%cells)
+        associate (n => samples%cells%number)
             do p = 0, samples%degree
                 samples%position(p) = passage%from(k) + points(p)*(passage%to(k) - passage%from(k))
-                call place_train(track, train, reach, samples%position(p))
-                call set_loads(track%beam, 1.0_wp, work)
-                call solve_and_refine(track%beam, passage%closed(:, k), work, state, place)
-                if (state /= band_ok) then
-                    call fatal_error(error, gapbeam_not_converged, "the beam is held by so little that its state is not unique")
-                    return
-                end if
+                call solve_at(track, train, passage%closed(:, k), samples%position(p), samples, error)
+                if (allocated(error)) return
                 call fill_cells(lowered, track, samples%position(p), samples%cells)
-                call recover_cells(track, work, samples%cells)
+                call recover_cells(track, samples%work, samples%cells)
                 samples%starts(p, :n) = samples%cells%starts(:n)
                 samples%pieces(p, :n) = samples%cells%pieces(:n)
                 samples%loads(p, :n) = samples%cells%loads(:n)
-                associate (s => samples%state)
-                    s%closed(:) = passage%closed(:, k)
-                    s%deflection(:) = work%answers%deflection
-                    s%moment_left(:) = work%answers%moment_left
-                    s%moment_right(:) = work%answers%moment_right
-                    s%reaction(:) = work%reaction
-                    call support_values(lowered, s, samples%supports(p, 1, :), samples%supports(p, 3, :), &
-                                        samples%supports(p, 2, :), samples%supports(p, 4, :), condition)
-                end associate
             end do
         end associate
     end subroutine sample_stretch
+
+    !> Sample the supports on a stretch that is solved
+    subroutine sample_supports(lowered, track, train, passage, k, samples, error)
+        !> As for sample_stretch
+        type(lowered_type), intent(in) :: lowered
+        type(track_type), intent(inout) :: track
+        type(train_type), intent(in) :: train
+        type(passage_type), intent(in) :: passage
+        integer, intent(in) :: k
+        type(samples_type), intent(inout) :: samples
+        type(error_type), allocatable, intent(out) :: error
+        real(wp) :: points(0:degree_of(train))
+        integer :: condition(size(lowered%model%supports))
+        integer :: p
+
+        points(:) = sample_points(degree_of(train))
+        call enter_reach(track, train, passage%reaches(passage%reach(k)), samples%reach)
+        do p = 0, degree_of(train)
+            call solve_at(track, train, passage%closed(:, k), passage%from(k) + points(p)*(passage%to(k) - passage%from(k)), &
+                          samples, error)
+            if (allocated(error)) return
+            associate (s => samples%state, work => samples%work)
+                s%closed(:) = passage%closed(:, k)
+                s%deflection(:) = work%answers%deflection
+                s%moment_left(:) = work%answers%moment_left
+                s%moment_right(:) = work%answers%moment_right
+                s%reaction(:) = work%reaction
+                call support_values(lowered, s, samples%supports(p, 1, :), samples%supports(p, 3, :), &
+                                    samples%supports(p, 2, :), samples%supports(p, 4, :), condition)
+            end associate
+        end do
+    end subroutine sample_supports
+
+    !> Solve at a position in the reach that the samples are in
+    subroutine solve_at(track, train, closed, s, samples, error)
+        type(track_type), intent(inout) :: track
+        type(train_type), intent(in) :: train
+        !> The scheme, and the position
+        logical, intent(in) :: closed(:)
+        real(wp), intent(in) :: s
+        type(samples_type), intent(inout) :: samples
+        type(error_type), allocatable, intent(out) :: error
+        integer :: state, place
+
+        call place_train(track, train, samples%reach, s)
+        call set_loads(track%beam, 1.0_wp, samples%work)
+        call solve_and_refine(track%beam, closed, samples%work, state, place)
+        if (state /= band_ok) then
+            call fatal_error(error, gapbeam_not_converged, "the beam is held by so little that its state is not unique")
+        else if (.not. all(abs(samples%work%answers%deflection) <= huge(1.0_wp))) then
+            call fatal_error(error, gapbeam_not_finite, "about position "//trim(shown(s))//" numbers left the range of "// &
+                             "double precision: choose units in which lengths, stiffnesses and loads are nearer to 1")
+        end if
+    end subroutine solve_at
 
     !> Bounds of the fields in a cell on a stretch: along the cell at its beginning, and by how much they change at the samples; no
     !> polynomial leaves its samples by more than the Lebesgue constant of the sample points allows

@@ -1,0 +1,334 @@
+!> Where the extreme values under a train may be: bounds that leave a few stretches of its way.
+!>
+!> In a cell (gapbeam_train_cells) at a fixed share of its length a field depends on the position alone. It lies between the line
+!> through its values at two positions and that line moved by h**2/8 of its second derivative. What the axles in a link add to that
+!> is known, as are the derivatives of the values at its nodes (gapbeam_train_view). So a link is looked at now and then: whenever
+!> something comes to it or leaves it, and after a share of its length. What may hold an extreme value is looked at again, stretch
+!> by stretch, and halves of these. The slopes of node values do not jump but where an axle passes a hinge, an end of the beam or,
+!> in one that gives way in shear, any point, and those of a moment where one passes its node; and where an end of a uniform load
+!> passes an end of the beam.
+module gapbeam_train_bounds
+    use gapbeam_kinds, only: wp
+    use gapbeam_error, only: error_type, no_memory, gapbeam_solved
+    use gapbeam_nodes, only: hinge
+    use gapbeam_lowered, only: lowered_type
+    use gapbeam_train, only: train_type, track_type, reach_type
+    use gapbeam_train_path, only: passage_type
+    use gapbeam_train_view, only: view_type, look_type, slopes_type, new_view, show_stretch, look_ahead, look_at_link, &
+        slopes_in_link, greatest_curvature, greater
+    use gapbeam_train_support_bounds, only: support_bounds_type, new_support_bounds, watch_scheme, look_at_supports, mark_stretches
+    implicit none
+    private
+    public :: bounds_type, find_bounds, slack
+
+    !> Values that differ by less than this share of the largest may be the same, for they are not refined
+    real(wp), parameter :: slack = 2.0_wp**(-26)
+    !> The longest way without a look, as a share of a link
+    real(wp), parameter :: longest_way = 1.0_wp/14
+    !> Where an extreme value may be, stretches are halved up to so many times
+    integer, parameter :: most_halves = 5
+
+    !> A link on stretches in a row
+    type :: part_type
+        integer :: link = 0, first = 0, last = 0
+        !> Largest (1) and negative smallest (2) deflection, rotation, moment, shear at most
+        real(wp) :: bound(2, 4) = 0.0_wp
+    end type part_type
+
+    !> What is known of extremes
+    type :: bounds_type
+        !> Largest (1) and negative smallest (2) deflection, rotation, moment, shear that are reached, in the engine's units, and
+        !> the largest absolute value
+        real(wp) :: reached(2, 4) = -huge(1.0_wp), size(4) = 0.0_wp
+        !> Stretches on which they are
+        integer :: where_reached(2, 4) = 0
+        !> The same at most on every stretch; -huge where no extreme value is, huge where nothing is known; shape (2, 4, number)
+        real(wp), allocatable :: at_most(:, :, :)
+        !> Stretches on which a support may have an extreme value
+        logical, allocatable :: of_supports(:)
+        type(support_bounds_type) :: supports
+        type(view_type) :: view
+    end type bounds_type
+
+contains
+
+    !> Find bounds of the fields on all stretches of a train's way
+    subroutine find_bounds(lowered, track, train, passage, bounds, error)
+        type(lowered_type), intent(in) :: lowered
+        type(track_type), intent(in) :: track
+        type(train_type), intent(in) :: train
+        !> By pass_train
+        type(passage_type), intent(in) :: passage
+        type(bounds_type), intent(out) :: bounds
+        !> No memory
+        type(error_type), allocatable, intent(out) :: error
+        type(part_type), allocatable :: parts(:)
+        integer, allocatable :: start(:)
+        real(wp), allocatable :: begin(:)
+        logical, allocatable :: touched(:)
+        type(look_type), allocatable :: first_look(:)
+        type(slopes_type), allocatable :: slopes(:)
+        integer :: count, i, k, n, stat
+
+        n = size(track%beam%links)
+        call new_view(lowered, track, train, bounds%view, stat)
+        if (stat == 0) call new_support_bounds(lowered, bounds%supports, stat)
+        if (stat == 0) allocate (bounds%at_most(2, 4, passage%number), bounds%of_supports(passage%number), parts(256), &
+                                 start(n), begin(n), touched(n), first_look(n), slopes(n), stat=stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        bounds%at_most(:, :, :) = -huge(1.0_wp)
+        bounds%of_supports(:) = .false.
+        count = 0
+        start(:) = 0
+        do k = 1, passage%number
+            if (passage%status(k) /= gapbeam_solved) cycle
+            call show_stretch(track, train, passage, k, bounds%view)
+            if (.not. bounds%view%clear) then
+                bounds%at_most(:, :, k) = huge(1.0_wp)
+                bounds%of_supports(k) = .true.
+                start(:) = 0
+                cycle
+            end if
+            if (bounds%view%new_scheme) call watch_scheme(lowered, passage%closed(:, k), bounds%view%columns, bounds%supports)
+            call look_at_supports(track, k, bounds%view%columns, bounds%supports, stat)
+            if (stat /= 0) then
+                call no_memory(error)
+                return
+            end if
+            call find_touched(k)
+            do i = 1, n
+                call go_on(i, k)
+                if (allocated(error)) return
+            end do
+        end do
+        call mark_stretches(bounds%supports, bounds%of_supports)
+        call drop_parts()
+        do i = 1, count
+            do k = parts(i)%first, parts(i)%last
+                call look_closely(parts(i)%link, k)
+            end do
+        end do
+
+    contains
+
+        !> To which links something comes, or which it leaves, at the end of a stretch
+        subroutine find_touched(k)
+            integer, intent(in) :: k
+            logical :: smooth
+            integer :: i
+
+            touched(:) = .true.
+            if (k == passage%number) return
+            smooth = passage%status(k + 1) == gapbeam_solved
+            if (smooth) smooth = all(passage%closed(:, k + 1) .eqv. passage%closed(:, k))
+            if (.not. smooth) return
+            if (passage%reach(k) == passage%reach(k + 1)) then
+                touched(:) = .false.
+                return
+            end if
+            if (bounds%view%shears) return
+            call look_ahead(track, train, passage, passage%reach(k + 1), bounds%view)
+            touched(:) = .false.
+            associate (before => bounds%view%reach, after => bounds%view%ahead)
+                do i = 1, size(after%piece)
+                    call touch(before%piece(i), after%piece(i), past_hinges=.false.)
+                end do
+                do i = 1, size(train%uniform)
+                    associate (load => train%uniform(i))
+                        call touch(piece_of_end(before, load%from, before%first(i)), &
+                                   piece_of_end(after, load%from, after%first(i)), past_hinges=.true.)
+                        call touch(piece_of_end(before, load%to, before%last(i)), &
+                                   piece_of_end(after, load%to, after%last(i)), past_hinges=.true.)
+                    end associate
+                end do
+            end associate
+        end subroutine find_touched
+
+        !> Something goes from a piece to another one; to the next one it is felt in their links only
+        subroutine touch(i, j, past_hinges)
+            !> The pieces; 0 and beyond the last one are not on the beam
+            integer, intent(in) :: i, j
+            !> May it pass a hinge
+            logical, intent(in) :: past_hinges
+            logical :: smooth
+
+            if (i == j) return
+            smooth = i > 0 .and. j == i + 1 .and. j <= size(track%link)
+            if (smooth .and. .not. past_hinges) then
+                smooth = track%link(i) == track%link(j) .or. track%beam%kind(track%link(i)) /= hinge
+            end if
+            if (smooth) then
+                touched(track%link(i:j)) = .true.
+            else
+                touched(:) = .true.
+            end if
+        end subroutine touch
+
+        !> Piece of an end of a uniform load, 0 left of the beam, one more than there are right of it
+        pure function piece_of_end(reach, distance, inside) result(piece)
+            type(reach_type), intent(in) :: reach
+            !> Its distance from the place of the train, and its piece on the beam
+            real(wp), intent(in) :: distance
+            integer, intent(in) :: inside
+            integer :: piece
+
+            piece = inside
+            if (reach%about + distance <= 0.0_wp) piece = 0
+            if (reach%about + distance >= track%x(size(track%link))) piece = size(track%link) + 1
+        end function piece_of_end
+
+        !> A link on the next stretch
+        subroutine go_on(i, k)
+            integer, intent(in) :: i, k
+            type(look_type) :: look
+            real(wp) :: way
+
+            associate (view => bounds%view)
+                if (start(i) == 0) then
+                    start(i) = k
+                    begin(i) = view%ends(1)
+                    slopes(i) = slopes_type()
+                    call look_at_link(lowered, track, view, i, 0.0_wp, first_look(i))
+                    call reach_values(first_look(i), k)
+                end if
+                slopes(i) = greater(slopes(i), slopes_in_link(view, i))
+                way = (view%ends(2) - begin(i))*view%columns%to_length
+                if (.not. touched(i) .and. way < longest_way*track%beam%links(i)%length) return
+                call look_at_link(lowered, track, view, i, 1.0_wp, look)
+                call reach_values(look, k)
+                call keep_part(part_type(i, start(i), k, bound_of(i, way, slopes(i), first_look(i), look)))
+                start(i) = 0
+                if (touched(i)) return
+                start(i) = k + 1
+                begin(i) = view%ends(2)
+                slopes(i) = slopes_type()
+                first_look(i) = look
+            end associate
+        end subroutine go_on
+
+        !> Bounds on a way from what is at both ends of it
+        function bound_of(i, way, slopes, first, last) result(bound)
+            integer, intent(in) :: i
+            real(wp), intent(in) :: way
+            type(slopes_type), intent(in) :: slopes
+            type(look_type), intent(in) :: first, last
+            real(wp) :: bound(2, 4)
+            real(wp) :: high(4), low(4), rise(4)
+
+            high(:) = max(first%high, last%high)
+            low(:) = min(first%low, last%low)
+            rise(:) = way**2/8*greatest_curvature(track, bounds%view, i, slopes, way, high, low)
+            bound(1, :) = high + rise
+            bound(2, :) = rise - low
+        end function bound_of
+
+        !> Values that are reached
+        subroutine reach_values(look, k)
+            type(look_type), intent(in) :: look
+            integer, intent(in) :: k
+
+            where (look%top > bounds%reached(1, :))
+                bounds%reached(1, :) = look%top
+                bounds%where_reached(1, :) = k
+            end where
+            where (-look%bottom > bounds%reached(2, :))
+                bounds%reached(2, :) = -look%bottom
+                bounds%where_reached(2, :) = k
+            end where
+            bounds%size(:) = max(bounds%size, abs(look%high), abs(look%low))
+        end subroutine reach_values
+
+        !> May a part hold an extreme value
+        pure function counts(part)
+            type(part_type), intent(in) :: part
+            logical :: counts
+            integer :: f
+
+            counts = .true.
+            do f = 1, 4
+                if (any(.not. part%bound(:, f) < bounds%reached(:, f) - slack*bounds%size(f))) return
+            end do
+            counts = .false.
+        end function counts
+
+        !> Keep a part, if it may hold an extreme value
+        subroutine keep_part(part)
+            type(part_type), intent(in) :: part
+            type(part_type), allocatable :: longer(:)
+
+            if (.not. counts(part)) return
+            if (count == size(parts)) then
+                call drop_parts()
+                if (2*count > size(parts)) then
+                    allocate (longer(2*size(parts)), stat=stat)
+                    if (stat /= 0) then
+                        call no_memory(error)
+                        return
+                    end if
+                    longer(:count) = parts(:count)
+                    call move_alloc(longer, parts)
+                end if
+            end if
+            count = count + 1
+            parts(count) = part
+        end subroutine keep_part
+
+        !> Drop those that are no longer in question
+        subroutine drop_parts()
+            integer :: q, kept
+
+            kept = 0
+            do q = 1, count
+                if (.not. counts(parts(q))) cycle
+                kept = kept + 1
+                if (kept < q) parts(kept) = parts(q)
+            end do
+            count = kept
+        end subroutine drop_parts
+
+        !> Look at a part on one stretch
+        subroutine look_closely(i, k)
+            !> The link, and the number of the stretch
+            integer, intent(in) :: i, k
+            type(look_type) :: first, last
+
+            call show_stretch(track, train, passage, k, bounds%view)
+            call look_at_link(lowered, track, bounds%view, i, 0.0_wp, first)
+            call reach_values(first, k)
+            call look_at_link(lowered, track, bounds%view, i, 1.0_wp, last)
+            call reach_values(last, k)
+            call look_between(i, k, slopes_in_link(bounds%view, i), 0.0_wp, 1.0_wp, first, last, most_halves)
+        end subroutine look_closely
+
+        !> Bounds between two positions on a stretch, halved while they are above what is reached
+        recursive subroutine look_between(i, k, slopes, from, to, first, last, halves)
+            integer, intent(in) :: i, k
+            type(slopes_type), intent(in) :: slopes
+            !> The positions as shares of the stretch, and what there is
+            real(wp), intent(in) :: from, to
+            type(look_type), intent(in) :: first, last
+            !> Halves that are left
+            integer, intent(in) :: halves
+            type(look_type) :: middle
+            real(wp) :: bound(2, 4)
+            logical :: high(2, 4)
+
+            bound(:, :) = bound_of(i, (to - from)*bounds%view%columns%length, slopes, first, last)
+            high(:, :) = .not. bound < bounds%reached - slack*spread(bounds%size, 1, 2)
+            if (.not. any(high)) return
+            if (halves > 0 .and. any(high .and. bound > bounds%reached + slack*spread(bounds%size, 1, 2))) then
+                call look_at_link(lowered, track, bounds%view, i, from + (to - from)/2, middle)
+                call reach_values(middle, k)
+                call look_between(i, k, slopes, from, from + (to - from)/2, first, middle, halves - 1)
+                call look_between(i, k, slopes, from + (to - from)/2, to, middle, last, halves - 1)
+                return
+            end if
+            where (high) bounds%at_most(:, :, k) = max(bounds%at_most(:, :, k), bound)
+        end subroutine look_between
+
+    end subroutine find_bounds
+
+end module gapbeam_train_bounds
