@@ -62,14 +62,19 @@ contains
         values(2, :) = huge(1.0_wp)
         piece = 1
         distance = 0.0_wp
+        ! Ends of all pieces first, so that little is left to look for inside
         do j = 1, size(pieces)
             q = combine_loads(dead(j), live(j), factor)
-            left = fields_here(0.0_wp)
+            left = [starts(j)%deflection, starts(j)%rotation, starts(j)%moment, starts(j)%shear]
             right = fields_here(pieces(j)%length)
             do k = 1, 4
                 call consider(j, 0.0_wp, left(k), values(:, k), piece(:, k), distance(:, k))
                 call consider(j, pieces(j)%length, right(k), values(:, k), piece(:, k), distance(:, k))
             end do
+        end do
+        do j = 1, size(pieces)
+            q = combine_loads(dead(j), live(j), factor)
+            left = [starts(j)%deflection, starts(j)%rotation, starts(j)%moment, starts(j)%shear]
             ! Derivatives of the four fields as polynomials in the distance from the left end
             associate (f => pieces(j)%flexibility, g => pieces(j)%shear_flexibility, a => starts(j))
                 slope = (q%qb - q%qa)/pieces(j)%length
@@ -134,6 +139,8 @@ contains
         ! What leaves the range of doubles has no bounds
         yes = size <= huge(size)/64
         if (.not. yes) return
+        yes = size*(1 + margin) < min(known(1), -known(2))
+        if (yes) return
         do i = 1, n
             do j = n, i, -1
                 b(j) = b(j) + b(j - 1)
