@@ -1,6 +1,6 @@
 !> The working schemes of eight cases, and their solutions.
 !>
-!> The search changes every wrong support at once, and where that makes no progress one in every neighbourhood. It may take
+!> The search changes every wrong support at once, and where that makes no progress those at every other node. It may take
 !> signs as they come, for what it ends with is looked at as gapbeam_referee does: the final solution is refined, and where any sign
 !> is within its rounding error, or no scheme was found, the case is doubtful and goes to gapbeam_referee itself. A scheme without
 !> doubt is the only one there is, so it does not matter how it was found.
@@ -15,7 +15,7 @@ module gapbeam_lane_search
     public :: search_pack, finish_pack
 
     !> Solves before a case is given up
-    integer, parameter :: most_solves = 40
+    integer, parameter :: most_solves = 80
     !> Solves without progress before fewer supports are changed at a time
     real(wp), parameter :: patience = 4.5_wp
 
@@ -131,7 +131,7 @@ contains
             where (moves > 0.5_wp) wrong = huge(1.0_wp)
             idle(:) = merge(0.0_wp, idle + 1.0_wp, wrong < fewest)
             fewest(:) = min(fewest, wrong)
-            if (any(alive*idle > patience)) call keep_worst(beam, n, idle, pack%closed, pack%force_rest, pack%turn_rest, pack%room)
+            if (any(alive*idle > patience)) call keep_every_other(n, solve, idle, pack%turn_rest)
             pack%closed(:, :) = abs(pack%closed - pack%turn_rest)
         end do
         lost = alive > 0.5_wp
@@ -214,61 +214,23 @@ contains
         end do
     end subroutine find_wrong
 
-    !> Where there was no progress, one change in every neighbourhood, as keep_local_worst of gapbeam_rules: of neighbouring open
-    !> supports the most penetrated one; release only where no open stretch beside waits for a support to be put back, of
-    !> neighbouring wrong ones the one that pulls most
-    pure subroutine keep_worst(beam, n, idle, closed, badness, wrong, room)
-        type(lane_beam_type), intent(in) :: beam
-        integer, intent(in) :: n
+    !> Where there is no progress, change only every other node, in turn
+    pure subroutine keep_every_other(n, solve, idle, wrong)
+        !> Links, and which solve it is
+        integer, intent(in) :: n, solve
         !> Solves without progress
         real(wp), intent(in) :: idle(lanes)
-        real(wp), intent(in), dimension(lanes, 0:n) :: closed, badness
         !> 1 where wrong in, where to be changed out
         real(wp), intent(inout) :: wrong(lanes, 0:n)
-        real(wp), intent(inout) :: room(lanes, 0:n, 10)
-        !> Of the support before: its state, the worst of its neighbourhood so far, does its open stretch wait, does one beside its
-        !> closed stretch
-        real(wp), dimension(lanes) :: state, worst, waits, beside
-        real(wp) :: there, c, same, bad, keeps, is_wrong
-        integer :: i, l, way
+        integer :: i, l
 
-        do way = 1, 2
-            state(:) = -1.0_wp
-            worst(:) = 0.0_wp
-            waits(:) = 0.0_wp
-            beside(:) = 0.0_wp
-            do i = merge(0, n, way == 1), merge(n, 0, way == 1), merge(1, -1, way == 1)
-                there = beam%there(i)
-                if (.not. there > 0.5_wp) cycle
-                !$omp simd private(c, same, bad, is_wrong)
-                do l = 1, lanes
-                    c = closed(l, i)
-                    is_wrong = wrong(l, i)
-                    bad = badness(l, i)*is_wrong
-                    same = merge(1.0_wp, 0.0_wp, abs(c - state(l)) < 0.5_wp)
-                    ! A closed stretch begins beside an open one
-                    beside(l) = merge(beside(l), waits(l), same > 0.5_wp)*c
-                    waits(l) = merge(1.0_wp, waits(l)*same, is_wrong > 0.5_wp)*(1.0_wp - c)
-                    worst(l) = worst(l)*same
-                    room(l, i, 2*way - 1) = worst(l)
-                    room(l, i, 2*way) = beside(l)
-                    ! Among closed ones what is right ends a neighbourhood
-                    worst(l) = merge(bad, worst(l), bad > worst(l))*merge(is_wrong, 1.0_wp, c > 0.5_wp)
-                    state(l) = c
-                end do
-            end do
-        end do
-        do i = 0, n
-            if (.not. beam%there(i) > 0.5_wp) cycle
-            !$omp simd private(bad, keeps)
+        do i = modulo(solve, 2), n, 2
+            !$omp simd
             do l = 1, lanes
-                bad = badness(l, i)
-                keeps = merge(1.0_wp, 0.0_wp, bad > room(l, i, 1))*merge(0.0_wp, 1.0_wp, bad < room(l, i, 3)) &
-                    *(1.0_wp - room(l, i, 2))*(1.0_wp - room(l, i, 4))
-                wrong(l, i) = wrong(l, i)*merge(keeps, 1.0_wp, idle(l) > patience)
+                wrong(l, i) = wrong(l, i)*merge(0.0_wp, 1.0_wp, idle(l) > patience)
             end do
         end do
-    end subroutine keep_worst
+    end subroutine keep_every_other
 
     !> How gapbeam_system solves the scheme of every case
     pure subroutine choose_methods(n, pack, method)
