@@ -157,18 +157,20 @@ contains
         end do
     end subroutine compare
 
-    !> A beam of 2 to 40 spans; at its ends and inside supports of all kinds, or none
+    !> A beam of 2 to 40 spans; at its ends and inside supports of all kinds, or none, and hinges
     subroutine make_beam(seed, lowered)
         integer(int64), intent(inout) :: seed
         type(lowered_type), intent(out) :: lowered
         type(error_type), allocatable :: error
         type(support_type), allocatable :: supports(:)
         real(wp) :: x
-        integer :: i, m, n
+        integer :: i, k, m, n
 
         n = 2 + int(39*random(seed)**3)
         associate (model => lowered%model)
-            allocate (model%spans(n), model%hinges(0), model%sections(0), model%law(0), model%foundations(0), model%ground(0), &
+            x = random(seed)
+            k = merge(1, 0, n > 3 .and. x < 0.3_wp)
+            allocate (model%spans(n), model%hinges(k), model%sections(0), model%law(0), model%foundations(0), model%ground(0), &
                       model%ground_law(0), supports(n + 1))
             do i = 1, n
                 model%spans(i) = span_type(2.0_wp + 4*random(seed), EI=10.0_wp**(3 + 2*random(seed)))
@@ -187,6 +189,7 @@ contains
             allocate (model%supports(m), model%loads(4))
             model%supports(:) = supports(:m)
             x = sum(model%spans%length)
+            if (k > 0) model%hinges(:) = x*(0.2_wp + 0.6_wp*random(seed))
             model%loads(1) = uniform_load(10.0_wp, 0.0_wp, x)
             model%loads(2) = uniform_load(20*random(seed), 0.3_wp*x*random(seed), x*(0.5_wp + 0.5_wp*random(seed)))
             model%loads(3) = point_force(40*random(seed), x=x*random(seed))

@@ -1,4 +1,5 @@
-!> What the rows of eight cases still lack, in twice the working precision: gapbeam_residual for plain nodes, number by number
+!> What the rows of eight cases still lack, in twice the working precision: gapbeam_residual for plain nodes and hinges, number
+!> by number
 module gapbeam_lane_residual
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes, lane_beam_type
@@ -23,7 +24,7 @@ contains
         real(wp), intent(inout) :: room(lanes, 0:n, 10)
         !> Compatibility, equilibrium where the deflection is not known, deflection where it is
         real(wp), intent(out) :: turn_rest(lanes, 0:n), force_rest(lanes, 0:n), known_rest(lanes, 0:n)
-        real(wp) :: length, faa, fab, fbb
+        real(wp) :: length, faa, fab, fbb, plain
         real(wp) :: high, low, turn_high, turn_low, other_high, other_low, minus_high, minus_low, free
         integer :: i, l
 
@@ -61,6 +62,7 @@ contains
             end do
         end do
         do i = 0, n
+            plain = 1.0_wp - beam%hinge(i)
             !$omp simd private(high, low, minus_high, minus_low, free)
             do l = 1, lanes
                 high = room(l, i, 5)
@@ -71,7 +73,7 @@ contains
                 call add(high, low, -minus_low)
                 call add(high, low, left(l, i))
                 call add(high, low, right(l, i))
-                turn_rest(l, i) = high + low
+                turn_rest(l, i) = (high + low)*plain
                 free = 1.0_wp - held(l, i)
                 high = room(l, i, 7)
                 low = room(l, i, 8)

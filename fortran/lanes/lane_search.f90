@@ -41,6 +41,7 @@ contains
         call apply_scheme(beam%n, pack%shear, pack%stiffness, pack%rigid, pack%contact, pack%closed, pack%held, pack%known, &
                           pack%spring, pack%force)
         call choose_methods(beam%n, pack, method)
+        if (beam%with_hinges) method(:) = by_chain
         where (lost) method = 0
     end subroutine search_pack
 
@@ -110,7 +111,7 @@ contains
                               pack%spring, pack%force)
             if (any(ease > 0.0_wp)) pack%spring(:, :) = pack%spring + spread(ease, 2, n + 1)
             moves(:) = 0.0_wp
-            if (ends_hold(pack, n)) then
+            if (ends_hold(pack, n) .and. .not. beam%with_hinges) then
                 pack%turn(:, :) = pack%left + pack%right
                 call sweep_both_ends(beam, n, pack%turn, pack%force, pack%held, pack%known, pack%spring, pack%room, pack%w, &
                                      pack%ml)

@@ -222,7 +222,7 @@ contains
         end do
     end subroutine sweep_three_moments
 
-    !> The chain of gapbeam_band with plain nodes, from the left
+    !> The chain of gapbeam_band with plain nodes and hinges, from the left
     pure subroutine sweep_chain(beam, n, left, right, shear, couple, held, known, spring, room, w, ml, mr, moves)
         type(lane_beam_type), intent(in) :: beam
         integer, intent(in) :: n
@@ -235,10 +235,10 @@ contains
         real(wp), intent(inout) :: w(lanes, 0:n), ml(lanes, 0:n), mr(lanes, 0:n)
         !> 1 for mechanisms, whose numbers mean nothing
         real(wp), intent(out) :: moves(lanes)
-        real(wp), dimension(lanes) :: phi, beta, delta, e, p, m, floating, psi
-        real(wp) :: h, faa, fab, fbb, length
-        real(wp) :: a, b, c, d, r, g, k, rigid, starts, rests, denominator, reciprocal, m_star, w_star, new_e, new_p, new_phi, &
-            new_beta, new_delta, moment, deflection, next_m, next_w, y
+        real(wp), dimension(lanes) :: phi, beta, delta, e, p, m, floating, psi, turns
+        real(wp) :: h, faa, fab, fbb, length, hinge
+        real(wp) :: a, b, c, d, r, g, k, given, rigid, starts, rests, denominator, reciprocal, m_star, w_star, new_e, new_p, &
+            new_phi, new_beta, new_delta, moment, deflection, next_m, next_w, y
         integer :: l, i
 
         phi(:) = 0.0_wp
@@ -248,14 +248,16 @@ contains
         p(:) = 0.0_wp
         m(:) = 0.0_wp
         floating(:) = 1.0_wp
+        turns(:) = 0.0_wp
         do i = 0, n - 1
+            hinge = beam%hinge(i)
             h = beam%inverse(i + 1)
             faa = beam%faa(i + 1)
             fab = beam%fab(i + 1)
             fbb = beam%fbb(i + 1)
             length = beam%length(i + 1)
             !$omp simd private(a, b, c, d, r, g, k, rigid, starts, rests, denominator, reciprocal, m_star, w_star, new_e, new_p, &
-            !$omp   new_phi, new_beta, new_delta, moment, deflection)
+            !$omp   given, new_phi, new_beta, new_delta, moment, deflection)
             do l = 1, lanes
                 k = couple(l, i)
                 r = right(l, i)
@@ -269,15 +271,18 @@ contains
                 new_p = beta(l)*k
                 g = merge(g, shear(l, i) + (p(l) + new_p), floating(l) > 0.5_wp)
                 r = merge(r, r + new_e, floating(l) > 0.5_wp)
-                moment = m(l) + k
+                moment = (m(l) + k)*(1.0_wp - hinge)
+                ! A hinge beside what nothing carries turns; else the moment is known there
+                turns(l) = turns(l) + hinge*floating(l)
+                given = merge(1.0_wp, floating(l), hinge > 0.5_wp)
                 a = phi(l) + faa
                 b = beta(l) + h
                 c = delta(l) + spring(l, i)
                 rests = merge(1.0_wp, rigid, c > 0.0_wp)
-                starts = floating(l)*rests
+                starts = given*rests
                 ! By which the node is eliminated: held, floating or neither
-                denominator = merge(c, a*c + b**2, floating(l) > 0.5_wp)
-                denominator = merge(a, denominator, rigid*(1.0_wp - floating(l)) > 0.5_wp)
+                denominator = merge(c, a*c + b**2, given > 0.5_wp)
+                denominator = merge(a, denominator, rigid*(1.0_wp - given) > 0.5_wp)
                 ! Not by merge, for compilers divide before they choose
                 denominator = denominator + merge(0.0_wp, 1.0_wp, denominator > 0.0_wp)
                 reciprocal = 1/denominator
@@ -298,14 +303,14 @@ contains
                 new_p = h*m_star
                 ! Floating
                 deflection = merge(fab*moment + h*d, fab*moment + h*(g - h*moment)*reciprocal, rigid > 0.5_wp)
-                new_e = merge(deflection, new_e, floating(l) > 0.5_wp)
-                new_p = merge(h*moment, new_p, floating(l) > 0.5_wp)
+                new_e = merge(deflection, new_e, given > 0.5_wp)
+                new_p = merge(h*moment, new_p, given > 0.5_wp)
                 deflection = merge(fbb, fbb + h**2*reciprocal, rigid > 0.5_wp)
-                new_phi = merge(deflection, new_phi, floating(l) > 0.5_wp)
-                new_beta = merge(h, new_beta, floating(l) > 0.5_wp)
-                new_delta = merge(0.0_wp, new_delta, floating(l) > 0.5_wp)
+                new_phi = merge(deflection, new_phi, given > 0.5_wp)
+                new_beta = merge(h, new_beta, given > 0.5_wp)
+                new_delta = merge(0.0_wp, new_delta, given > 0.5_wp)
                 ! And nothing carries yet
-                rests = floating(l) - starts
+                rests = given - starts
                 m(l) = moment - g*length
                 p(l) = merge(g, new_p, rests > 0.5_wp)
                 e(l) = merge(e(l), new_e, rests > 0.5_wp)
@@ -320,6 +325,7 @@ contains
                 room(l, i, 6) = g
                 room(l, i, 8) = rests
                 room(l, i, 9) = moment
+                room(l, i, 10) = given
                 floating(l) = rests
             end do
         end do
@@ -330,7 +336,7 @@ contains
             g = shear(l, n) + (p(l) + beta(l)*k)
             c = delta(l) + spring(l, n)
             rests = merge(1.0_wp, held(l, n), c > 0.0_wp)
-            moves(l) = 1.0_wp - rests*(1.0_wp - floating(l))
+            moves(l) = 1.0_wp - rests*(1.0_wp - floating(l))*merge(0.0_wp, 1.0_wp, turns(l) > 0.5_wp)
             denominator = c + merge(0.0_wp, 1.0_wp, c > 0.0_wp)
             deflection = g*(1/denominator)
             w(l, n) = merge(d, deflection, held(l, n) > 0.5_wp)
@@ -361,13 +367,13 @@ contains
                 deflection = (b*r + a*g + (b*fab + a*h)*next_m + b*h*next_w)*reciprocal
                 moment = merge((b*d - r - fab*next_m - h*next_w)*reciprocal, moment, rigid > 0.5_wp)
                 k = room(l, i, 9)
-                moment = merge(k, moment, room(l, i, 7) > 0.5_wp)
-                deflection = merge((g + h*(next_m - moment))*reciprocal, deflection, room(l, i, 7) > 0.5_wp)
+                moment = merge(k, moment, room(l, i, 10) > 0.5_wp)
+                deflection = merge((g + h*(next_m - moment))*reciprocal, deflection, room(l, i, 10) > 0.5_wp)
                 deflection = merge(next_w - length*(fab*moment + fbb*next_m + psi(l)), deflection, room(l, i, 8) > 0.5_wp)
                 deflection = merge(d, deflection, rigid > 0.5_wp)
                 psi(l) = h*(next_w - deflection) + faa*moment + fab*next_m
                 psi(l) = psi(l) + right(l, i) + left(l, i)
-                ml(l, i) = merge(y, moment - couple(l, i), room(l, i, 7) > 0.5_wp)
+                ml(l, i) = merge(y, moment - couple(l, i), room(l, i, 7) > 0.5_wp)*(1.0_wp - beam%hinge(i))
                 mr(l, i) = moment
                 w(l, i) = deflection
             end do

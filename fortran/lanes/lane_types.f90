@@ -27,6 +27,9 @@ module gapbeam_lane_types
         real(wp), allocatable :: side(:)
         !> Is there a support, may it change
         real(wp), allocatable :: there(:), changes(:)
+        !> 1 at hinges
+        real(wp), allocatable :: hinge(:)
+        logical :: with_hinges = .false.
         !> What loads with factor 1 do to links: which load, which link; rotations and shears of the simple bar at both ends, sums
         !> of absolute values of loads and rotations (share_type of gapbeam_cases), shape (6, :)
         integer, allocatable :: link_load(:), link(:)

@@ -2,7 +2,7 @@
 !> solve_case of gapbeam_cases, which takes the other beams, and the cases that are doubtful here
 module gapbeam_lane_cases
     use gapbeam_kinds, only: wp
-    use gapbeam_band, only: plain
+    use gapbeam_band, only: plain, hinge
     use gapbeam_model, only: softest
     use gapbeam_law, only: both, is_rigid, has_laws, may_change
     use gapbeam_range, only: is_lost
@@ -32,7 +32,7 @@ module gapbeam_lane_cases
 
 contains
 
-    !> Do lanes hold a beam: several links that bend, no ground, hinges, restraints and laws, one support at a node
+    !> Do lanes hold a beam: several links that bend, no ground, restraints and laws, one support at a node
     pure function fits_lanes(lowered) result(fits)
         type(lowered_type), intent(in) :: lowered
         logical :: fits
@@ -42,7 +42,8 @@ contains
             n = size(beam%links)
             fits = n > 1 .and. n < long_beam .and. .not. allocated(beam%ground)
             if (.not. fits) return
-            fits = all(beam%kind == plain) .and. all(beam%links%faa > 0.0_wp .and. beam%links%fbb > 0.0_wp) &
+            fits = all(beam%kind == plain .or. beam%kind == hinge) &
+                .and. all(beam%links%faa > 0.0_wp .and. beam%links%fbb > 0.0_wp) &
                 .and. all(beam%first(1:n + 1) - beam%first(0:n) <= 1) .and. .not. has_laws(beam%supports) &
                 .and. max(abs(units%deflection), abs(units%force), abs(moment_unit(units))) < most_power
         end associate
@@ -183,7 +184,8 @@ contains
         lane_beam%ease = ease_ratio*softest(lowered%beam)
         allocate (lane_beam%length(n), lane_beam%inverse(n), lane_beam%faa(n), lane_beam%fab(n), lane_beam%fbb(n), &
                   lane_beam%sum_a(n), lane_beam%sum_b(n), lane_beam%bending(n), lane_beam%determinant(n), lane_beam%fixity(n), &
-                  lane_beam%reach(n), lane_beam%side(0:n), lane_beam%there(0:n), lane_beam%changes(0:n), lane_beam%link_load(m), &
+                  lane_beam%reach(n), lane_beam%side(0:n), lane_beam%there(0:n), lane_beam%changes(0:n), lane_beam%hinge(0:n), &
+                  lane_beam%link_load(m), &
                   lane_beam%link(m), lane_beam%to_link(6, m), lane_beam%node_load(k), lane_beam%node(k), &
                   lane_beam%to_node(2, k), stat=stat)
         made = stat == 0
@@ -204,6 +206,8 @@ contains
             to%side(:) = 0.0_wp
             to%there(:) = 0.0_wp
             to%changes(:) = 0.0_wp
+            to%hinge(:) = merge(1.0_wp, 0.0_wp, lowered%beam%kind == hinge)
+            to%with_hinges = any(lowered%beam%kind == hinge)
             do k = 1, size(lowered%beam%supports)
                 associate (s => lowered%beam%supports(k))
                     to%there(s%node) = 1.0_wp
