@@ -19,10 +19,12 @@ module gapbeam_train_bounds
     use gapbeam_train_support_bounds, only: support_bounds_type, new_support_bounds, watch_scheme, look_at_supports, mark_stretches
     implicit none
     private
-    public :: bounds_type, find_bounds, slack
+    public :: bounds_type, find_bounds, slack, most_lost
 
     !> Values that differ by less than this share of the largest may be the same, for they are not refined
     real(wp), parameter :: slack = 2.0_wp**(-26)
+    !> Share by which they are off at most, where they are to be trusted
+    real(wp), parameter :: most_lost = 2.0_wp**(-34)
     !> The longest way without a look, as a share of a link
     real(wp), parameter :: longest_way = 1.0_wp/14
     !> Where an extreme value may be, stretches are halved up to so many times
@@ -220,7 +222,7 @@ contains
 
             high(:) = max(first%high, last%high)
             low(:) = min(first%low, last%low)
-            rise(:) = way**2/8*greatest_curvature(track, bounds%view, i, slopes, way, high, low)
+            rise(:) = way**2/8*greatest_curvature(track, bounds%view, i, slopes, 1.0_wp, way, high, low)
             bound(1, :) = high + rise
             bound(2, :) = rise - low
         end function bound_of

@@ -16,10 +16,18 @@ module gapbeam_train_curves
     use gapbeam_train_cells, only: cells_type, new_cells, find_cells, fill_cells, recover_cells, cell_ends, cell_of_place, &
         fields_in_cell
     use gapbeam_train_path, only: passage_type
+    use gapbeam_train_columns, only: at_distance
+    use gapbeam_train_view, only: view_type, look_type, new_view, show_stretch, look_at_link, slopes_in_link, greatest_curvature
+    use gapbeam_train_bounds, only: slack, most_lost
     use gapbeam_train_samples, only: samples_type, new_samples, sample_stretch, degree_in_position
     implicit none
     private
     public :: find_curves, find_influence
+
+    !> What a place is passed for: to note values that it reaches, to bound them, to look at them with all digits
+    integer, parameter :: reaching = 1, bounding = 2, looking = 3
+    !> Values that differ by less than this share of the largest on the beam need not be told apart
+    real(wp), parameter :: the_same = 2.0_wp**(-46)
 
 contains
 
@@ -41,8 +49,13 @@ contains
         real(wp), allocatable :: starts(:, :, :), matrix(:, :)
         type(piece_load_type), allocatable :: loads(:)
         real(wp) :: points(0:degree_of(train)), on_whole(0:degree_of(train), 0:degree_in_position(train))
-        real(wp) :: at_place(0:degree_of(train), 0:degree_of(train))
-        integer :: powers(4), c, d, f, k, n, round, stat, q
+        real(wp) :: at_place(0:degree_of(train), 0:degree_of(train)), sizes(4), near
+        type(view_type) :: view
+        type(field_type), allocatable :: seen(:, :)
+        real(wp), allocatable :: reached(:, :, :), curvature(:, :)
+        logical, allocatable :: wanted(:)
+        logical :: told
+        integer :: powers(4), d, f, k, n, stat, q
 
         value(1, :, :) = -huge(1.0_wp)
         value(2, :, :) = huge(1.0_wp)
@@ -50,7 +63,9 @@ contains
         call new_samples(lowered, track, train, samples, error)
         if (allocated(error)) return
         n = samples%degree
-        allocate (starts(0:n, 4, size(samples%starts, 2)), matrix(0:n, 0:n), stat=stat)
+        call new_view(lowered, track, train, view, stat)
+        if (stat == 0) allocate (starts(0:n, 4, size(samples%starts, 2)), matrix(0:n, 0:n), seen(size(samples%starts, 2), 3), &
+                                 reached(2, 4, size(piece)), curvature(4, size(track%beam%links)), wanted(size(piece)), stat=stat)
         if (stat /= 0) then
             call no_memory(error)
             return
@@ -63,23 +78,24 @@ contains
         do k = 0, d
             on_whole(k, :) = basis(n, points(k))
         end do
-        ! The first time samples alone, so that the second time there is little left to look into
-        do round = 1, 2
-            do k = 1, passage%number
-                if (passage%status(k) /= gapbeam_solved) cycle
-                call sample_stretch(lowered, track, train, passage, k, samples, error)
-                if (allocated(error)) return
-                do c = 1, samples%cells%number
-                    starts(:, 1, c) = matmul(matrix, samples%starts(:, c)%deflection)
-                    starts(:, 2, c) = matmul(matrix, samples%starts(:, c)%rotation)
-                    starts(:, 3, c) = matmul(matrix, samples%starts(:, c)%moment)
-                    starts(:, 4, c) = matmul(matrix, samples%starts(:, c)%shear)
-                end do
-                do q = 1, size(piece)
-                    call pass_place(piece(q), distance(q), value(:, :, q), position(:, :, q))
-                end do
+        ! First what is reached at the ends of stretches, so that then there is little left to look into
+        reached(:, :, :) = -huge(1.0_wp)
+        sizes(:) = 0.0_wp
+        near = least_distance(track, train)
+        told = .true.
+        do k = 1, passage%number
+            if (passage%status(k) /= gapbeam_solved) cycle
+            call show()
+            if (.not. view%clear) cycle
+            do q = 1, size(piece)
+                call pass_place(view%cells, q, reaching)
             end do
         end do
+        call search()
+        if (allocated(error)) return
+        ! Where what is seen is not to be trusted
+        if (.not. told) call search()
+        if (allocated(error)) return
         associate (units => lowered%units)
             powers(:) = [units%deflection, rotation_unit(units), moment_unit(units), units%force]
         end associate
@@ -89,16 +105,70 @@ contains
 
     contains
 
+        !> Show a stretch: the fields at the left ends of all cells, at both ends of it
+        subroutine show()
+            type(look_type) :: look
+            integer :: i
+
+            call show_stretch(track, train, passage, k, view)
+            if (.not. view%clear) return
+            do i = 1, size(track%beam%links)
+                call look_at_link(lowered, track, view, i, 0.0_wp, look, seen(:, 1))
+                sizes(:) = max(sizes, abs(look%high), abs(look%low))
+                call look_at_link(lowered, track, view, i, 1.0_wp, look, seen(:, 2))
+                sizes(:) = max(sizes, abs(look%high), abs(look%low))
+                curvature(:, i) = greatest_curvature(track, view, i, slopes_in_link(view, i), 0.0_wp, 0.0_wp, look%high, look%low)
+            end do
+        end subroutine show
+
+        !> Look into all stretches, at the places at which something larger may be
+        subroutine search()
+            integer :: c
+
+            do k = 1, passage%number
+                if (passage%status(k) /= gapbeam_solved) cycle
+                call show()
+                wanted(:) = .not. (told .and. view%clear)
+                if (told .and. view%clear) then
+                    do q = 1, size(piece)
+                        call pass_place(view%cells, q, bounding)
+                    end do
+                end if
+                if (.not. any(wanted)) cycle
+                call sample_stretch(lowered, track, train, passage, k, samples, error)
+                if (allocated(error)) return
+                if (told .and. view%clear) then
+                    do c = 1, samples%cells%number
+                        associate (a => seen(c, 2), b => samples%starts(n, c))
+                            told = told .and. all(abs([a%deflection - b%deflection, a%rotation - b%rotation, &
+                                                       a%moment - b%moment, a%shear - b%shear]) <= most_lost*sizes)
+                        end associate
+                    end do
+                    if (.not. told) return
+                end if
+                do c = 1, samples%cells%number
+                    starts(:, 1, c) = matmul(matrix, samples%starts(:, c)%deflection)
+                    starts(:, 2, c) = matmul(matrix, samples%starts(:, c)%rotation)
+                    starts(:, 3, c) = matmul(matrix, samples%starts(:, c)%moment)
+                    starts(:, 4, c) = matmul(matrix, samples%starts(:, c)%shear)
+                end do
+                do q = 1, size(piece)
+                    if (wanted(q)) call pass_place(samples%cells, q, looking)
+                end do
+            end do
+        end subroutine search
+
         !> A place during a stretch: between the positions at which something passes it
-        subroutine pass_place(j, t, largest, where_largest)
-            integer, intent(in) :: j
-            real(wp), intent(in) :: t
-            real(wp), intent(inout) :: largest(:, :), where_largest(:, :)
-            real(wp) :: at, from, near
+        subroutine pass_place(cells, q, purpose)
+            type(cells_type), intent(in) :: cells
+            !> Number of the place
+            integer, intent(in) :: q
+            !> What for: reaching, bounding or looking
+            integer, intent(in) :: purpose
+            real(wp) :: at, from
             integer :: number
 
-            near = least_distance(track, train)
-            associate (cells => samples%cells, x => track%x(j - 1) + t, to => passage%to(k))
+            associate (j => piece(q), x => track%x(piece(q) - 1) + distance(q), to => passage%to(k))
                 from = passage%from(k)
                 do number = cells%first(j + 1) - 2, cells%first(j), -1
                     ! The right end of this cell is a point that passes the place from the left
@@ -106,12 +176,82 @@ contains
                     if (at > to + near) exit
                     if (at < from - near) cycle
                     ! Both sides of it, also where it passes at an end of the stretch
-                    call look(j, t, number + 1, from, min(max(at, from), to), largest, where_largest)
+                    call visit(q, number + 1, from, min(max(at, from), to), purpose)
                     from = min(max(at, from), to)
                 end do
-                call look(j, t, number + 1, from, to, largest, where_largest)
+                call visit(q, number + 1, from, to, purpose)
             end associate
         end subroutine pass_place
+
+        !> A place between two positions
+        subroutine visit(q, cell, from, to, purpose)
+            integer, intent(in) :: q, cell, purpose
+            real(wp), intent(in) :: from, to
+
+            if (purpose == looking) then
+                call look(piece(q), distance(q), cell, from, to, value(:, :, q), position(:, :, q))
+            else
+                call glance(q, cell, from, to, purpose)
+            end if
+        end subroutine visit
+
+        !> What a place reaches at the ends of a stretch, or whether it may reach more than is known between two positions
+        subroutine glance(q, cell, from, to, purpose)
+            integer, intent(in) :: q, cell, purpose
+            real(wp), intent(in) :: from, to
+            real(wp) :: first(4), last(4), rise(4)
+
+            if (purpose == reaching) then
+                if (from <= view%ends(1)) call reach(q, fields_seen(q, cell, from))
+                if (to >= view%ends(2)) call reach(q, fields_seen(q, cell, to))
+                return
+            end if
+            if (wanted(q)) return
+            first(:) = fields_seen(q, cell, from)
+            last(:) = first
+            if (to > from) last(:) = fields_seen(q, cell, to)
+            rise(:) = ((to - from)*view%columns%to_length)**2/8*curvature(:, track%link(piece(q)))
+            wanted(q) = any(max(first, last) + rise >= reached(1, :, q) - slack*sizes .and. &
+                            max(first, last) + rise > value(1, :, q) + the_same*sizes) .or. &
+                any(rise - min(first, last) >= reached(2, :, q) - slack*sizes .and. &
+                    min(first, last) - rise < value(2, :, q) - the_same*sizes)
+        end subroutine glance
+
+        !> Values that are reached at a place
+        subroutine reach(q, found)
+            integer, intent(in) :: q
+            real(wp), intent(in) :: found(4)
+
+            reached(1, :, q) = max(reached(1, :, q), found)
+            reached(2, :, q) = max(reached(2, :, q), -found)
+        end subroutine reach
+
+        !> Fields at a place from what is seen
+        function fields_seen(q, cell, s) result(found)
+            !> Place, cell that is there, and position
+            integer, intent(in) :: q, cell
+            real(wp), intent(in) :: s
+            real(wp) :: found(4)
+            type(look_type) :: look
+            type(field_type) :: at
+            real(wp) :: t, qa, slope
+            integer :: i
+
+            i = 3
+            if (s >= view%ends(2)) i = 2
+            if (s <= view%ends(1)) i = 1
+            if (i == 3) call look_at_link(lowered, track, view, track%link(piece(q)), &
+                                          (s - view%ends(1))/(view%ends(2) - view%ends(1)), look, seen(:, 3))
+            associate (p => lowered%pieces(piece(q)), load => view%loads(piece(q)), there => view%cells%cells(cell))
+                t = 0.0_wp
+                if (there%left > 0) t = at_distance(track, view%columns, piece(q), s + view%cells%offset(there%left))
+                slope = load%qb - load%qa
+                qa = load%qa + slope*(t/p%length) + there%q
+                at = fields_at(seen(cell, i), max(0.0_wp, distance(q)*view%columns%to_length - t), p%length, p%flexibility, &
+                               p%shear_flexibility, qa, qa + slope, load%kappa)
+            end associate
+            found(:) = [at%deflection, at%rotation, at%moment, at%shear]
+        end function fields_seen
 
         !> A place between two positions
         subroutine look(j, t, cell, from, to, largest, where_largest)
@@ -160,7 +300,6 @@ contains
                         where_largest(2, field) = from + points(p)*(to - from)
                     end if
                 end do
-                if (round == 1) cycle
                 patch%b(0, 0:d) = matmul(at_place, values(:, field))
                 call raise(patch, 1.0_wp, from, to, largest(1, field), where_largest(1, field))
                 call raise(patch, -1.0_wp, from, to, largest(2, field), where_largest(2, field))

@@ -20,16 +20,14 @@ module gapbeam_train_envelope
     use gapbeam_train_view, only: look_type, show_stretch, look_at_link
     use gapbeam_train_support_bounds, only: watch_scheme
     use gapbeam_train_candidates, only: candidate_type, candidates_type, equal, least_of, raise, upper_bound, offer
-    use gapbeam_train_bounds, only: bounds_type, find_bounds, slack
+    use gapbeam_train_bounds, only: bounds_type, find_bounds, slack, most_lost
     implicit none
     private
     public :: envelope_type, extreme_type, tie_type, find_envelope
 
     !> How far inside a stretch that does not hold at its first or last position, in least distances
     real(wp), parameter :: inside(0:2) = [0.0_wp, 2.0_wp, -2.0_wp]
-    !> Share of the largest value by which what bounds rest on may differ from what is refined
-    real(wp), parameter :: most_lost = 2.0_wp**(-34)
-    !> Stretches on which this is tried
+    !> Stretches on which it is tried whether bounds are to be trusted
     integer, parameter :: trials = 8
     !> Equal values are listed up to so many
     integer, parameter :: most_ties = 16

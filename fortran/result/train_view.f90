@@ -322,17 +322,17 @@ contains
     end function greater
 
     !> Bounds of the second derivatives in the position of all fields in a link, in cells at a fixed share of their length, so on a
-    !> place that moves with a speed of 0 to 1: F_ss + 2 F_xs + F_xx at most. In the simple bar an axle at y makes the deflection
-    !> int f m_x m_y + int g m_x' m_y' at x (m_x the moment under a unit force at x); its derivatives in x and y have the bounds
-    !> used here, those of moment and shear are read off m_y
-    pure function greatest_curvature(track, view, i, slopes, h, high, low) result(k)
+    !> place that moves with a speed of 0 to 1: F_ss + 2 F_xs + F_xx at most; at a place that stays F_ss. In the simple bar an axle
+    !> at y makes the deflection int f m_x m_y + int g m_x' m_y' at x (m_x the moment under a unit force at x); its derivatives in
+    !> x and y have the bounds used here, those of moment and shear are read off m_y
+    pure function greatest_curvature(track, view, i, slopes, speed, h, high, low) result(k)
         type(track_type), intent(in) :: track
         !> On any stretch on which the same axles are in the link
         type(view_type), intent(in) :: view
         integer, intent(in) :: i
         type(slopes_type), intent(in) :: slopes
-        !> Length of the way, and bounds of all fields at both ends of it
-        real(wp), intent(in) :: h, high(4), low(4)
+        !> Greatest speed, length of the way, and bounds of all fields at both ends of it
+        real(wp), intent(in) :: speed, h, high(4), low(4)
         !> Of deflection, rotation, moment, shear
         real(wp) :: k(4)
         real(wp) :: moment, shear, moment_s, slope_s, rotation_ss, deflection_ss
@@ -341,8 +341,8 @@ contains
                    f => view%worst(i)%flexibility, g => view%worst(i)%shear_flexibility, axles => view%axles(i), &
                    q => view%uniform(i), worst => view%worst(i), m1 => slopes%moment, m2 => slopes%moment_2, &
                    w1 => slopes%deflection, w2 => slopes%deflection_2)
-            k(4) = 2*m2*n + 2*q*n + worst%slope
-            k(3) = m2 + 2*q + 2*(2*m1*n + axles*n + q) + worst%load + q
+            k(4) = 2*m2*n + 2*q*n + speed*worst%slope
+            k(3) = m2 + 2*q + speed*(2*(2*m1*n + axles*n + q) + worst%load + q)
             ! What the fields can be on the way
             shear = max(abs(high(4)), abs(low(4))) + h**2/8*k(4)
             moment = max(abs(high(3)), abs(low(3))) + h**2/8*k(3)
@@ -350,8 +350,8 @@ contains
             slope_s = 2*w1*n + (f*l/2 + 4*g*n)*m1 + axles*(f*l/3 + 2*g*n) + 2*q*(f*l**2/8 + 2*g)
             rotation_ss = 2*w2*n + (f*l/2 + 4*g*n)*m2 + f*axles + 2*q*(f*l/3 + 2*g*n) + 2*g*n*(m2 + q)
             deflection_ss = w2 + (f*l**2/8 + 2*g)*m2 + axles*f*l/4 + 2*q*(f*l**2/8 + 2*g)
-            k(2) = rotation_ss + 2*f*moment_s + f*shear
-            k(1) = deflection_ss + 2*slope_s + f*moment + worst%curvature + g*(worst%load + q)
+            k(2) = rotation_ss + speed*(2*f*moment_s + f*shear)
+            k(1) = deflection_ss + speed*(2*slope_s + f*moment + worst%curvature + g*(worst%load + q))
         end associate
     end function greatest_curvature
 
