@@ -94,8 +94,11 @@ contains
         call search()
         if (allocated(error)) return
         ! Where what is seen is not to be trusted
-        if (.not. told) call search()
-        if (allocated(error)) return
+        if (.not. told) then
+            reached(:, :, :) = -huge(1.0_wp)
+            call search()
+            if (allocated(error)) return
+        end if
         associate (units => lowered%units)
             powers(:) = [units%deflection, rotation_unit(units), moment_unit(units), units%force]
         end associate
@@ -189,7 +192,8 @@ contains
             real(wp), intent(in) :: from, to
 
             if (purpose == looking) then
-                call look(piece(q), distance(q), cell, from, to, value(:, :, q), position(:, :, q))
+                call look(piece(q), distance(q), cell, from, to, reached(:, :, q) - slack*spread(sizes, 1, 2), value(:, :, q), &
+                          position(:, :, q))
             else
                 call glance(q, cell, from, to, purpose)
             end if
@@ -254,9 +258,11 @@ contains
         end function fields_seen
 
         !> A place between two positions
-        subroutine look(j, t, cell, from, to, largest, where_largest)
+        subroutine look(j, t, cell, from, to, least, largest, where_largest)
             integer, intent(in) :: j, cell
             real(wp), intent(in) :: t, from, to
+            !> What is reached for certain: largest, negative smallest values
+            real(wp), intent(in) :: least(:, :)
             real(wp), intent(inout) :: largest(:, :), where_largest(:, :)
             type(patch_type) :: patch
             type(field_type) :: at
@@ -301,30 +307,30 @@ contains
                     end if
                 end do
                 patch%b(0, 0:d) = matmul(at_place, values(:, field))
-                call raise(patch, 1.0_wp, from, to, largest(1, field), where_largest(1, field))
-                call raise(patch, -1.0_wp, from, to, largest(2, field), where_largest(2, field))
+                call raise(patch, 1.0_wp, from, to, least(1, field), largest(1, field), where_largest(1, field))
+                call raise(patch, -1.0_wp, from, to, least(2, field), largest(2, field), where_largest(2, field))
             end do
         end subroutine look
 
     end subroutine find_curves
 
     !> Raise the largest value, or lower the smallest one
-    pure subroutine raise(patch, way, from, to, value, position)
+    pure subroutine raise(patch, way, from, to, least, value, position)
         !> A field over the positions
         type(patch_type), intent(in) :: patch
         !> 1 or -1
         real(wp), intent(in) :: way
-        !> The positions
-        real(wp), intent(in) :: from, to
+        !> The positions; what lies below this is not looked for
+        real(wp), intent(in) :: from, to, least
         !> So far
         real(wp), intent(inout) :: value, position
         type(patch_type) :: turned
         real(wp) :: best, v, u
 
-        if (.not. maxval(way*patch%b(0, 0:patch%across)) > way*value) return
+        if (.not. maxval(way*patch%b(0, 0:patch%across)) > max(way*value, least)) return
         turned = patch
         turned%b(0, 0:patch%across) = way*patch%b(0, 0:patch%across)
-        call greatest_on_patch(turned, way*value, best, v, u)
+        call greatest_on_patch(turned, max(way*value, least), best, v, u)
         if (.not. best > way*value) return
         value = way*best
         position = from + u*(to - from)
