@@ -75,7 +75,7 @@ contains
         real(wp), allocatable :: matrix(:, :), of_nodes(:, :), starts(:, :, :)
         logical, allocatable :: stays(:, :), wanted(:)
         logical :: told, renewed
-        integer :: powers(4), c, f, i, k, last, m, n, stat
+        integer :: powers(4), c, f, i, k, last, m, n, sampled, stat
 
         m = size(lowered%model%supports)
         call new_samples(lowered, track, train, samples, error)
@@ -90,6 +90,7 @@ contains
         end if
         matrix(:, :) = to_coefficients(n)
         of_nodes(:, :) = to_coefficients(degree_of(train))
+        sampled = 0
         call find_bounds(lowered, track, train, passage, bounds, error)
         if (.not. allocated(error)) call try_bounds()
         if (allocated(error)) return
@@ -147,6 +148,8 @@ contains
         subroutine sample_fields()
             integer :: j
 
+            if (sampled == k) return
+            sampled = k
             call sample_stretch(lowered, track, train, passage, k, samples, error)
             if (allocated(error)) return
             do j = 1, samples%cells%number
@@ -162,22 +165,26 @@ contains
         !> Look first where large values are reached, so that few stretches are left, and whether bounds are to be trusted there
         !> and on some other stretches
         subroutine try_bounds()
-            integer :: field, way, trial
+            logical :: known(2, 4)
+            integer :: apart, field, way
 
             told = .true.
-            do trial = 0, trials
-                k = max(1, (trial*passage%number)/trials)
-                if (k > passage%number) return
+            apart = max(passage%number/trials, 32)
+            do k = apart, passage%number, apart
                 if (passage%status(k) == gapbeam_solved) call try_stretch()
                 if (allocated(error) .or. .not. told) return
             end do
-            do field = 1, 4
-                do way = 1, 2
-                    k = bounds%where_reached(way, field)
-                    if (k == 0) cycle
-                    call try_stretch()
-                    if (allocated(error) .or. .not. told) return
-                    call raise_known(field, way)
+            known(:, :) = bounds%where_reached == 0
+            do while (.not. all(known))
+                k = maxval(bounds%where_reached, .not. known)
+                call try_stretch()
+                if (allocated(error) .or. .not. told) return
+                do field = 1, 4
+                    do way = 1, 2
+                        if (bounds%where_reached(way, field) /= k) cycle
+                        call raise_known(field, way)
+                        known(way, field) = .true.
+                    end do
                 end do
             end do
         end subroutine try_bounds
