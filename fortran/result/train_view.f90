@@ -111,7 +111,8 @@ contains
         end if
         call find_cells(track, train, view%reach, view%cells)
         call solve_columns(track, train, view%reach, passage%from(k), passage%to(k), view%columns)
-        view%clear = all(abs(view%columns%deflection) <= huge(1.0_wp)) .and. all(abs(view%columns%moment_left) <= huge(1.0_wp))
+        ! No number in a sum is an infinite one, or none
+        view%clear = all(abs(sum(view%columns%deflection, 2) + sum(view%columns%moment_left, 2)) <= huge(1.0_wp))
         view%axles(:) = 0.0_wp
         view%uniform(:) = 0.0_wp
         associate (cells => view%cells)
