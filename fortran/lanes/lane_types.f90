@@ -1,5 +1,5 @@
 !> Many cases of one beam side by side: the lanes of every array here are cases, lane index first, so that the processor does in one
-!> instruction what is the same for all of them (docs/method.md). Masks are reals, 1 or 0, which multiply.
+!> instruction what is the same for all of them. Masks are reals, 1 or 0, which multiply.
 module gapbeam_lane_types
     use gapbeam_kinds, only: wp
     implicit none
