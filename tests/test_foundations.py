@@ -309,3 +309,13 @@ def test_limit_loads_of_piles(EI, limit, load, pivot, most):
         (size,) = (key for key in load if key != "type")
         made["loads"] = [{**load, "x": 0.0, size: load[size] * most * (1.0 + change)}]
         assert gapbeam.solve(made).status == status
+
+
+@pytest.mark.parametrize("seed", [98, 107])
+def test_zones_are_born_where_the_reference_says(seed):
+    made = random_scene(seed)
+    path = gapbeam.solve({**made, "analysis": {"follow": "events"}})
+    event = [event for event in path.events if event.event == "zone appears"][-1]
+    for change, born in ((-1e-12, False), (1e-12, True)):
+        found = reference(made, factor=event.factor * (1.0 + change), digits=30).contact[event.foundation]
+        assert any(zone.end - zone.start < 1e-10 and abs(zone.start - event.x) < 1e-9 for zone in found) == born

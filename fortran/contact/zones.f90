@@ -95,8 +95,8 @@ contains
         type(error_type), allocatable, intent(out) :: error
         type(zones_type) :: found
         real(wp) :: moved
+        logical :: others
         integer :: round, solves
-        logical :: lost
 
         settled = .false.
         solves = 0
@@ -104,8 +104,9 @@ contains
             call solve_on_zones(ground, factor, rule, zones, solves, closed, grounded, work, outcome, error)
             if (allocated(error)) return
             if (outcome%status /= gapbeam_solved) return
-            call move_ends(ground, grounded, zones, factor, work, found, lost)
-            if (lost) return
+            call move_ends(ground, grounded, zones, factor, work, found, others)
+            ! Zones that no tangent leads to are for settle_zones
+            if (others) return
             call take_fields(grounded, zones, factor, work, found%start)
             moved = max(way_of_ends(zones, found), way_of_fields(ground, grounded, zones, found))
             zones = found
@@ -143,20 +144,20 @@ contains
     end subroutine solve_on_zones
 
     !> Move every end along the tangent at it
-    pure subroutine move_ends(ground, grounded, zones, factor, work, found, lost)
+    pure subroutine move_ends(ground, grounded, zones, factor, work, found, others)
         type(ground_type), intent(in) :: ground
         type(grounded_type), intent(in) :: grounded
         type(zones_type), intent(in) :: zones
         real(wp), intent(in) :: factor
         type(workspace_type), intent(in) :: work
         type(zones_type), intent(out) :: found
-        !> Does an end go beyond a stretch beside it: more is wrong than last digits
-        logical, intent(out) :: lost
+        !> Is there an end that would have to go farther than the stretches beside it are long: there are other zones
+        logical, intent(out) :: others
         real(wp) :: rotation(2), shear(2), slope, away
         integer :: i, k, law
 
         found = zones
-        lost = .false.
+        others = .false.
         do i = 1, size(zones%piece) - 1
             if (zones%piece(i) /= zones%piece(i + 1)) cycle
             k = findloc(zones%acts(:, i) /= zones%acts(:, i + 1), .true., 1)
@@ -167,8 +168,10 @@ contains
                 call fields_at_ends(grounded, factor, work, i, rotation, shear)
                 call approach_kink(ground%laws, layer, law, work%answers(i)%deflection, &
                                    rotation(2) + s%shear_flexibility*shear(2), at, length, away, slope)
-                lost = .not. abs(away) < abs(slope)*min(s%length, grounded%stretches(i + 1)%length)
-                if (lost) return
+                if (.not. abs(away) < abs(slope)*min(s%length, grounded%stretches(i + 1)%length)) then
+                    others = others .or. abs(away) > 0.0_wp
+                    cycle
+                end if
                 found%to(i) = at - away/slope
                 found%from(i + 1) = found%to(i)
             end associate
