@@ -102,6 +102,14 @@ contains
                             found%solves, found%done, level)
     end subroutine solve
 
+    !> The bits of a number: zeros of both signs are two
+    elemental function bits(number)
+        real(wp), intent(in) :: number
+        integer(int64) :: bits
+
+        bits = transfer(number, bits)
+    end function bits
+
     !> Are cases the same, to the last bit
     pure function same(a, b, number) result(equal)
         type(found_type), intent(in) :: a, b
@@ -115,9 +123,8 @@ contains
                 equal(i) = a%done(i) .eqv. b%done(k)
                 if (.not. a%done(i)) cycle
                 equal(i) = equal(i) .and. all(a%closed(:, i) == b%closed(:, k)) .and. &
-                    .not. any(abs(a%w(:, i) - b%w(:, k)) > 0.0_wp .or. abs(a%ml(:, i) - b%ml(:, k)) > 0.0_wp &
-                              .or. abs(a%mr(:, i) - b%mr(:, k)) > 0.0_wp) &
-                    .and. .not. any(abs(a%reaction(:, i) - b%reaction(:, k)) > 0.0_wp)
+                    all(bits(a%w(:, i)) == bits(b%w(:, k)) .and. bits(a%ml(:, i)) == bits(b%ml(:, k)) &
+                        .and. bits(a%mr(:, i)) == bits(b%mr(:, k))) .and. all(bits(a%reaction(:, i)) == bits(b%reaction(:, k)))
             end associate
         end do
     end function same
@@ -147,10 +154,10 @@ contains
             end if
             associate (units => lowered%units, a => work%answers)
                 if (status == gapbeam_solved .and. all(acting .eqv. found%closed(:, i) == 1)) then
-                    if (.not. any(abs(scale(a%deflection, units%deflection) - found%w(:, i)) > 0.0_wp &
-                                  .or. abs(scale(a%moment_left, moment_unit(units)) - found%ml(:, i)) > 0.0_wp &
-                                  .or. abs(scale(a%moment_right, moment_unit(units)) - found%mr(:, i)) > 0.0_wp) &
-                        .and. .not. any(abs(scale(work%reaction, units%force) - found%reaction(:, i)) > 0.0_wp)) cycle
+                    if (all(bits(scale(a%deflection, units%deflection)) == bits(found%w(:, i)) &
+                            .and. bits(scale(a%moment_left, moment_unit(units))) == bits(found%ml(:, i)) &
+                            .and. bits(scale(a%moment_right, moment_unit(units))) == bits(found%mr(:, i))) &
+                        .and. all(bits(scale(work%reaction, units%force)) == bits(found%reaction(:, i)))) cycle
                 end if
             end associate
             number = number + 1

@@ -181,7 +181,7 @@ contains
                 r = merge(force, by_spring, c > 0.5_wp)
                 r_error = merge(error, spring_error, c > 0.5_wp)
                 c = closed(l, i)*there
-                r = r*c
+                r = r*c + 0.0_wp   ! no negative zero
                 r_error = r_error*c
                 reaction(l, i) = r
                 largest(l) = larger(largest(l), abs(r))

@@ -271,7 +271,7 @@ contains
                 new_p = beta(l)*k
                 g = merge(g, shear(l, i) + (p(l) + new_p), floating(l) > 0.5_wp)
                 r = merge(r, r + new_e, floating(l) > 0.5_wp)
-                moment = (m(l) + k)*(1.0_wp - hinge)
+                moment = merge(0.0_wp, m(l) + k, hinge > 0.5_wp)
                 ! A hinge beside what nothing carries turns; else the moment is known there
                 turns(l) = turns(l) + hinge*floating(l)
                 given = merge(1.0_wp, floating(l), hinge > 0.5_wp)
@@ -373,7 +373,8 @@ contains
                 deflection = merge(d, deflection, rigid > 0.5_wp)
                 psi(l) = h*(next_w - deflection) + faa*moment + fab*next_m
                 psi(l) = psi(l) + right(l, i) + left(l, i)
-                ml(l, i) = merge(y, moment - couple(l, i), room(l, i, 7) > 0.5_wp)*(1.0_wp - beam%hinge(i))
+                ml(l, i) = merge(y, moment - couple(l, i), room(l, i, 7) > 0.5_wp)
+                ml(l, i) = merge(0.0_wp, ml(l, i), beam%hinge(i) > 0.5_wp)
                 mr(l, i) = moment
                 w(l, i) = deflection
             end do
