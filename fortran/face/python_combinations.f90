@@ -8,6 +8,8 @@ subroutine gbcomb(beam, ns, nd, nm, nc, nx, nv, factor, settle, supp, rule, clos
     use gapbeam_handle, only: handle_type, handle_of
     use gapbeam_solution, only: state_type
     use gapbeam_combinations, only: combination_type, combine, solve_combination, values_of_combination
+    use gapbeam_search, only: rule_block
+    use gapbeam_lane_cases, only: fits_lanes, find_schemes
     implicit none
     integer(8), intent(in) :: beam
     ! One more than there are: supports of the engine, loads, supports of the scene, places; combinations
@@ -39,7 +41,7 @@ subroutine gbcomb(beam, ns, nd, nm, nc, nx, nv, factor, settle, supp, rule, clos
     type(state_type) :: state
     type(error_type), allocatable :: error
     double precision :: nan
-    integer :: i
+    integer :: i, found(nc)
 
     handle => handle_of(beam)
     nan = ieee_value(nan, ieee_quiet_nan)
@@ -48,6 +50,10 @@ subroutine gbcomb(beam, ns, nd, nm, nc, nx, nv, factor, settle, supp, rule, clos
     place = nan
     field = nan
     solves = 0
+    found = 0
+    if (rule == rule_block .and. fits_lanes(handle%lowered)) then
+        call find_schemes(handle%lowered, factor(:nd - 1, :), settle(:nm - 1, :), supp(:, :nv - 1, :), closed, found)
+    end if
     do i = 1, nc
         if (nv > 1) then
             call combine(handle%lowered, factor(:nd - 1, i), settle(:nm - 1, i), combined, error, supp(:, :nv - 1, i))
@@ -59,7 +65,7 @@ subroutine gbcomb(beam, ns, nd, nm, nc, nx, nv, factor, settle, supp, rule, clos
         end if
         closed(:, i) = 0
         if (.not. allocated(error)) then
-            solves(i) = state%solves
+            solves(i) = max(found(i) - 1, 0) + state%solves   ! the last one again, for all that is asked of it
             status(i) = state%status
             if (state%status == gapbeam_solved) then
                 call values_of_combination(combined%lowered, state, piece(:nx - 1), dist(:nx - 1), value(:nm - 1, :, i), &

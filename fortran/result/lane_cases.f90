@@ -2,18 +2,19 @@
 !> solve_case of gapbeam_cases, which takes the other beams, and the cases that are doubtful here
 module gapbeam_lane_cases
     use gapbeam_kinds, only: wp
+    use gapbeam_error, only: error_type
     use gapbeam_band, only: plain, hinge
     use gapbeam_model, only: softest
     use gapbeam_law, only: both, is_rigid, has_laws, may_change
     use gapbeam_range, only: is_lost
     use gapbeam_units, only: moment_unit, stiffness_unit
     use gapbeam_lowered, only: lowered_type
-    use gapbeam_cases, only: case_loads_type
+    use gapbeam_cases, only: case_loads_type, split_loads
     use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type, new_pack
     use gapbeam_lane_levels, only: search_pack_at, finish_pack_at, best_level
     implicit none
     private
-    public :: fits_lanes, solve_in_lanes
+    public :: fits_lanes, solve_in_lanes, find_schemes
 
     !> Links from which on gapbeam_search keeps a solution up to date, whose last digits are others then
     integer, parameter :: long_beam = 300
@@ -149,6 +150,47 @@ contains
         end subroutine finish
 
     end subroutine solve_in_lanes
+
+    !> Find the working schemes of many combinations (gapbeam_combinations) of a beam that fits. Those that are doubtful are left to
+    !> their own searches, with the start that they have
+    subroutine find_schemes(lowered, factors, settlements, supports, closed, solves)
+        type(lowered_type), intent(in) :: lowered
+        !> As for combine, shape (nload, ncase), (nsupport, ncase), (3, nsupport, ncase); nsupport 0: their own
+        real(wp), intent(in) :: factors(:, :), settlements(:, :), supports(:, :, :)
+        !> Starts in, schemes out where they have been found, shape (at least size(beam%supports), ncase)
+        integer, intent(inout) :: closed(:, :)
+        !> How many systems were solved for them
+        integer, intent(out) :: solves(:)
+        type(case_loads_type) :: loads
+        type(error_type), allocatable :: error
+        real(wp), allocatable :: values(:, :, :), w(:, :), ml(:, :), mr(:, :), reaction(:, :)
+        logical, allocatable :: done(:)
+        integer :: i, n, m, stat
+
+        solves(:) = 0
+        call split_loads(lowered, loads, error)
+        if (allocated(error)) return
+        n = size(lowered%beam%links) + 1
+        m = size(solves)
+        allocate (w(n, m), ml(n, m), mr(n, m), reaction(size(lowered%beam%supports), m), done(m), stat=stat)
+        if (stat == 0) allocate (values(3, merge(size(settlements, 1), 0, size(supports, 2) > 0 &
+                                                 .or. any(abs(settlements) > 0.0_wp)), m), stat=stat)
+        if (stat /= 0) return
+        if (size(values, 2) > 0) then
+            do i = 1, m
+                if (size(supports, 2) > 0) then
+                    values(:, :, i) = supports(:, :, i)
+                else
+                    values(1, :, i) = lowered%model%supports%settlement
+                    values(2, :, i) = lowered%model%supports%gap
+                    values(3, :, i) = lowered%model%supports%stiffness
+                end if
+                values(1, :, i) = values(1, :, i) + settlements(:, i)
+            end do
+        end if
+        call solve_in_lanes(lowered, loads, factors, values, closed, w, ml, mr, reaction, solves, done)
+        where (.not. done) solves = 0
+    end subroutine find_schemes
 
     !> Put a case into a lane of another pack
     pure subroutine take_lane(from, l, to, m)
