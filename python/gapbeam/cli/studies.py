@@ -95,6 +95,14 @@ def add_studies(commands: argparse._SubParsersAction) -> None:
     _add_tables(trains)
     trains.add_argument("--plot", metavar="FILE", help="draw error against run time (.png, .pdf or .svg)")
     trains.set_defaults(command=_study_trains)
+    batch = studies.add_parser(
+        "batch", help="cases a second of a prepared scene, beside numpy, scipy and numba", formatter_class=PLAIN,
+        description="Solve up to 100,000 cases of beams on supports that open by gapbeam, by numpy over cases, and, where they\n"
+        "are installed, by loops in scipy and numba; print times, cold and warm, and true errors. Takes a minute and a half.",
+    )  # fmt: skip
+    batch.add_argument("--largest", metavar="N", type=int, default=10**5, help="most cases (default 100000)")
+    _add_tables(batch)
+    batch.set_defaults(command=_study_batch)
 
 
 def _add_tables(parser: argparse.ArgumentParser) -> None:
@@ -181,6 +189,14 @@ def _study_trains(arguments: argparse.Namespace) -> int:
     return _tell_problems(arguments, study, "trains_figure", study.trains)
 
 
+def _study_batch(arguments: argparse.Namespace) -> int:
+    from ..studies import batch as study
+
+    if arguments.largest < 1:
+        raise SceneError("--largest", f"expected at least one case, got {arguments.largest}")
+    return _tell_problems(arguments, study, "", study.batch)
+
+
 def _tell_problems(arguments: argparse.Namespace, study: ModuleType, figure: str, run: Callable[[int], Iterable]) -> int:
     """Tell a study of several problems, each with programs side by side: table, findings, picture."""
     outputs = _outputs(arguments)
@@ -216,7 +232,7 @@ def _study_schemes(arguments: argparse.Namespace) -> int:
 
 def _beside(arguments: argparse.Namespace) -> str:
     """Name of the picture as seen from the page, if there is one."""
-    return os.path.relpath(arguments.plot, Path(arguments.markdown).parent) if arguments.plot else ""
+    return os.path.relpath(arguments.plot, Path(arguments.markdown).parent) if getattr(arguments, "plot", None) else ""
 
 
 def _outputs(arguments: argparse.Namespace, scene: str | None = None) -> Outputs:
