@@ -13,7 +13,9 @@ import gapbeam
 import numpy as np
 from scenes import random_scene
 
-TEXTS = [path.read_bytes() for path in sorted((Path(__file__).parent.parent / "examples").glob("*.toml"))]
+# The forty combinations of the bridge are the runway forty times, and some numbers make each take seconds
+FILES = [path for path in sorted((Path(__file__).parent.parent / "examples").glob("*.toml")) if path.stem != "bridge_bearings"]
+TEXTS = [path.read_bytes() for path in FILES]
 EXAMPLES = [tomllib.loads(text.decode()) for text in TEXTS]
 
 
