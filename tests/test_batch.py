@@ -157,6 +157,15 @@ def test_scenes_of_a_folder(tmp_path):
     assert found["reaction.max"][1] == gapbeam.solve(tmp_path / "scenes" / "b.toml").steps[-1].reaction.max()
 
 
+def test_scenes_of_a_folder_without_supports(tmp_path):
+    (tmp_path / "scenes").mkdir()
+    rail = "beam = { spans = [6.0], EI = 1e4 }\nfoundation = [{ k = 1e3 }]\nloads = [{ type = 'uniform', q = 5.0 }]\n"
+    (tmp_path / "scenes" / "rail.toml").write_text(rail)
+    found = gapbeam.batch(tmp_path / "scenes", None, tmp_path / "out").read()
+    assert found["status"].tolist() == ["solved"]
+    assert np.isnan([found[f"{name}.{kind}"] for name in ("reaction", "opening") for kind in ("max", "min")]).all()
+
+
 def test_text_of_the_user_goes_into_files(tmp_path):
     for k, text in enumerate(("a\ud800b", "x\x1b[31m\u200b", "{0} $x$ Träger")):
         scene = {**SCENE, "title": text, "supports": [{**SCENE["supports"][0], "name": text}, *SCENE["supports"][1:]]}
@@ -188,10 +197,10 @@ def test_tables_of_all_kinds_are_one(tmp_path):
 
 
 def test_lines_that_are_no_numbers(tmp_path):
-    (tmp_path / "t.csv").write_text("supports[1].gap,factors.wind\n0.01,1\nabc,1\n0.01\n,2\n0.02,1\n")
+    (tmp_path / "t.csv").write_text("supports[1].gap,factors.wind\n,1\n0.01,1\nabc,1\n0.01\n,2\n0.02,1\n")
     found = gapbeam.batch(SCENE, tmp_path / "t.csv", tmp_path / "out").read(["status", "reason"])
-    assert found["status"].tolist() == ["solved", "refused", "refused", "refused", "solved"]
-    assert found["reason"].tolist()[1:4] == [
+    assert found["status"].tolist() == ["refused", "solved", "refused", "refused", "refused", "solved"]
+    assert found["reason"].tolist()[2:5] == [
         'supports[1].gap: expected a number, got "abc"', "the line has 1 values, and the table 2 columns",
         'supports[1].gap: expected a number, got ""',
     ]  # fmt: skip
@@ -369,6 +378,8 @@ def test_a_folder_of_something_else_is_refused(tmp_path, whole):
     assert refusal(out=tmp_path / "other") == "holds other files, and no batch; give --out a new folder"
     with pytest.raises(OSError, match=r"notes\.txt"):
         gapbeam.batch(SCENE, table(5), tmp_path / "other" / "notes.txt")
+    with pytest.raises(gapbeam.SceneError, match=r"notes\.txt: is no folder of a batch"):
+        gapbeam.Batch(tmp_path / "other" / "notes.txt")
     assert digests(tmp_path / "whole") == whole
 
 

@@ -103,7 +103,7 @@ def open_folder(path: str | os.PathLike) -> Folder:
     path = Path(path)
     try:
         manifest = json.loads((path / MANIFEST).read_text(encoding="utf-8"))
-    except FileNotFoundError:
+    except (FileNotFoundError, NotADirectoryError):
         raise SceneError(str(path), "is no folder of a batch; give the one that gapbeam batch --out has written") from None
     except (OSError, ValueError) as error:
         raise SceneError(str(path / MANIFEST), f"cannot be read ({error})") from None

@@ -194,8 +194,9 @@ class Job:
         """Keep what is wanted of a case: values at supports (or their largest and smallest ones), extremes of fields."""
         for name in self.want:
             if name in AT_SUPPORTS and self.scene is None:
-                numbers[f"{name}.max"][k] = at_supports[name][0].max(initial=-np.inf)
-                numbers[f"{name}.min"][k] = at_supports[name][-1].min(initial=np.inf)
+                if at_supports[name][0].size:  # else not-a-number: the beam is on foundations alone
+                    numbers[f"{name}.max"][k] = at_supports[name][0].max()
+                    numbers[f"{name}.min"][k] = at_supports[name][-1].min()
             elif name in AT_SUPPORTS:
                 for end, values in zip(self._ends, at_supports[name], strict=True):
                     for one, value in zip(self.supports, values, strict=True):
