@@ -219,6 +219,21 @@ def test_supports_vary_by_case():
     assert np.array_equal(beam.solve(settlement={0: 0.1}).reaction, beam.solve(settlements={0: 0.1}).reaction)
 
 
+@pytest.mark.parametrize("supports", [[at(0), at(1)], [at(0), at(0, side="above", gap=1.0), at(1)]])
+def test_no_cases(supports):
+    beam = gapbeam.prepare(scene([1.0], supports, [uniform(1.0)]))
+    for cases in (beam.solve(np.zeros((0, 1))), beam.solve(gap={0: []})):
+        assert cases.reaction.shape == (0, len(supports))
+        assert cases.at([0.2, 0.4, 0.6]).moment.shape == (0, 3)
+        assert cases.extremes()["moment"]["max"][0].shape == cases.states().status.shape == (0,)
+
+
+def test_great_factors_are_no_infinite_ones(recwarn):
+    beam = gapbeam.prepare(scene([1.0], [at(0), at(1)], [uniform(1.0), uniform(-1.0)]))
+    assert beam.solve([[1e308, 1e308]]).status == [0]
+    assert not recwarn.list
+
+
 def test_mistakes_in_supports_by_case():
     supports = [at(0), at(1, side="below", name="pier"), at(2, side="below", stiffness=0.0)]
     beam = gapbeam.prepare(scene([1.0, 1.0], supports, [uniform(1.0)]))
@@ -230,6 +245,9 @@ def test_mistakes_in_supports_by_case():
         ({"settlement": {"peer": 1.0}}, 'settlement.peer: there is no support "peer"'),
         ({"gap": np.zeros((2, 2))}, r"gap: expected 3 numbers, one for each support, or 2 rows of them, .* got shape \(2, 2\)"),
         ({"gap": {1: 0.0, "pier": 0.1}}, "gap: a support stands there twice"),
+        ({"gap": {np.int64(7): 0.0}}, "gap.7: there is no support 7; their numbers go from 0 to 2"),
+        ({"gap": {1.0: 0.0}}, 'gap."1.0": expected the name of a support, or its number from 0, got 1.0'),
+        ({"settlements": {True: 0.0}}, "settlements.True: expected the name of a support, or its number from 0, got True"),
     ):
         with pytest.raises(ValueError, match=words):
             beam.solve(**given)

@@ -129,6 +129,10 @@ def all_combinations(
     Combined
         Of all of them.
     """
+    if not len(factors):  # no rows, of the length that those of one combination have
+        shares, moves = (np.zeros((1, rows.shape[1])) for rows in (factors, settlements))
+        one = all_combinations(beam, shares, moves, rule, np.zeros(beam.supports, np.int32), piece, distance)
+        return Combined(*(getattr(one, part.name)[:0] for part in fields(Combined)))
     parts = [found for _, found in solve_combinations(beam, factors, settlements, rule, closed, piece, distance, supports)]
     if len(parts) == 1:
         return parts[0]

@@ -346,7 +346,9 @@ class Prepared(Pickled):
         if factors.ndim not in (1, 2) or factors.shape[-1] != count:
             raise ValueError(f"factors: expected {count} numbers a case, one for each load, got shape {factors.shape}")
         # A sum leaves the range before the factors do, and costs less than asking each
-        if not isfinite(np.add.reduce(factors, None)) and not np.isfinite(factors).all():
+        with np.errstate(over="ignore", invalid="ignore"):
+            total = np.add.reduce(factors, None)
+        if not isfinite(total) and not np.isfinite(factors).all():
             at = np.argwhere(~np.isfinite(factors))[0]
             raise ValueError(f"factors: the factor of load {at[-1]} is {factors[tuple(at)]}; give a finite number")
         return factors

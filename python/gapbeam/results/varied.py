@@ -107,7 +107,7 @@ def vary_supports(scene: Scene, columns: Columns, given: Mapping[str, Given], co
             if len(set(which)) < len(which):
                 raise SceneError(key, "a support stands there twice, by its name and by its number")
         else:
-            expected = f"{m} numbers, one for each support, or {count} rows of them, one a case"
+            expected = f"{m} numbers, one for each support, or {count} {'row' if count == 1 else 'rows'} of them, one a case"
             all_values[:, :m, j] = _shaped(key, values, (count, m), expected)
         with names_in_errors(scene):
             _check(columns, key, np.arange(m)[which], all_values[:, :, j])

@@ -119,7 +119,9 @@ def find(items: Sequence[Any], key: str | int, place: str, noun: str) -> int:
     names = names_of(items)
     if key in names:
         return names.index(key)
-    if isinstance(key, int) or re.fullmatch(r"\d{1,18}", key):
+    if isinstance(key, bool | np.bool_) or not isinstance(key, str | int | np.integer):
+        raise SceneError(place, f"expected the name of a {noun}, or its number from 0, got {key!r}")
+    if not isinstance(key, str) or re.fullmatch(r"\d{1,18}", key):
         if 0 <= int(key) < len(items):
             return int(key)
         there = f"their numbers go from 0 to {len(items) - 1}" if len(items) else "there are none"
