@@ -70,6 +70,13 @@ contains
         patch%b(0:4, 0:4) = -patch%b(0:4, 0:4)
         call greatest_on_patch(patch, -10.0_wp, value, v, u)
         call check_close([value, v, u], [-peak(1.0_wp, 1.0_wp), 1.0_wp, 1.0_wp], "at a corner")
+        patch%along = 2
+        patch%across = 6
+        do k = 0, 6
+            patch%b(0:2, k) = [0.0_wp, 1.0_wp, 0.0_wp] + 4*mod(k, 2)*epsilon(1.0_wp)
+        end do
+        call greatest_on_patch(patch, -1.0_wp, value, v, u)
+        call check_close([value, v], [0.5_wp, 0.5_wp], "the same in one direction but for rounding")
         patch%along = 0
         patch%across = 2
         patch%b(0, 0:2) = [0.0_wp, 1.0_wp, 0.0_wp]

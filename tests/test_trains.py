@@ -494,3 +494,19 @@ def test_tips_at_the_very_end(power):
     first = 3.0 - 2.0**power / 3.0
     gaps = gapbeam.solve(made).trains["train"].gaps
     assert (gaps[0].from_, gaps[0].to) == pytest.approx((first, 3.0), abs=1e-12) if gaps else 3.0 - first < 1e-12
+
+
+@pytest.mark.parametrize(
+    ("train", "same"),
+    [
+        ({"axles": [[0.0, 0.0], [0.5, 0.0]]}, {"axles": [[0.0, 0.0]], "from": 5.0, "to": 6.0}),
+        ({"axles": [[0.0, 1e-9]]}, {"axles": [[0.0, 0.0]]}),
+        ({"axles": [[0.0, 8.0], [0.5, 0.0]]}, {"axles": [[0.0, 8.0]]}),
+    ],
+)
+def test_what_moves_without_a_force_changes_nothing(train, same):
+    # Extreme values that stay the same while cells get longer were searched for without end
+    found, expected = (gapbeam.solve(two_spans(trains=[one])).envelope().extremes for one in (train, same))
+    for name, kinds in expected.items():
+        for kind, extreme in kinds.items():
+            assert found[name][kind].value == pytest.approx(extreme.value, rel=1e-8, abs=1e-12), (name, kind)

@@ -13,6 +13,9 @@ module gapbeam_bernstein
     real(wp), parameter :: narrowest = 2.0_wp**(-50)
     !> The same of patches; what is left to find there is less than rounding
     real(wp), parameter :: narrowest_patch = 2.0_wp**(-30)
+    !> What coefficients that should be equal differ by at most, as a share of the largest. With less, values that stay the
+    !> same in one direction are cut there without end; what is found within it is made exact by Newton's method
+    real(wp), parameter :: rounding = 2.0_wp**(-45)
     !> Patches that wait at most
     integer, parameter :: most_waiting = 120
 
@@ -189,7 +192,7 @@ contains
         value = whole%b(0, 0)
         v = 0.0_wp
         u = 0.0_wp
-        slack = 2*epsilon(1.0_wp)*maxval(abs(whole%b(0:whole%along, 0:whole%across)))
+        slack = rounding*maxval(abs(whole%b(0:whole%along, 0:whole%across)))
         count = 1
         waiting(1) = whole
         waiting(1)%v = 0.0_wp

@@ -45,23 +45,36 @@ contains
         type(cells_type), intent(out) :: cells
         !> 0, or what allocate says where memory is at an end
         integer, intent(out) :: stat
-        integer :: most, moving, axles, i, j, k
+        integer :: axle(size(train%offset) + 2*size(train%uniform)), most, moving, i, j, k
 
-        axles = size(train%offset)
-        moving = axles + 2*size(train%uniform)
+        ! An axle without a force changes nothing, and a cell that ended there would have its extreme values on a curve of
+        ! position and place, not at points
+        moving = 0
+        do i = 1, size(train%offset)
+            if (abs(train%force(i)) > 0.0_wp) call add(i)
+        end do
+        do i = 1, size(train%uniform)
+            call add(1 - 2*i)
+            call add(-2*i)
+        end do
         most = size(track%link) + moving
         allocate (cells%cells(most), cells%last(size(track%beam%links)), cells%first(size(track%link) + 1), cells%offset(moving), &
                   cells%force(moving), cells%axle(moving), cells%pieces(most), cells%loads(most), cells%nothing(most), &
                   cells%starts(most), stat=stat)
         if (stat /= 0) return
         cells%nothing(:) = piece_load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
-        cells%offset(:axles) = train%offset
-        cells%force(:axles) = scale(train%force, -track%force_unit)
-        cells%axle(:axles) = [(i, i=1, axles)]
-        cells%force(axles + 1:) = 0.0_wp
-        do i = 1, size(train%uniform)
-            cells%offset(axles + 2*i - 1:axles + 2*i) = [train%uniform(i)%from, train%uniform(i)%to]
-            cells%axle(axles + 2*i - 1:axles + 2*i) = [1 - 2*i, -2*i]
+        cells%axle(:) = axle(:moving)
+        do i = 1, moving
+            k = axle(i)
+            if (k > 0) then
+                cells%offset(i) = train%offset(k)
+                cells%force(i) = scale(train%force(k), -track%force_unit)
+            else
+                associate (load => train%uniform((1 - k)/2))
+                    cells%offset(i) = merge(load%to, load%from, mod(k, 2) == 0)
+                end associate
+                cells%force(i) = 0.0_wp
+            end if
         end do
         do i = 2, moving
             do j = i, 2, -1
@@ -73,6 +86,17 @@ contains
                 cells%force(j - 1:j) = cells%force(j:j - 1:-1)
             end do
         end do
+
+    contains
+
+        !> Add what moves
+        subroutine add(number)
+            integer, intent(in) :: number
+
+            moving = moving + 1
+            axle(moving) = number
+        end subroutine add
+
     end subroutine new_cells
 
     !> The cells of a reach
