@@ -11,6 +11,7 @@ import pytest
 from gapbeam.cli import main
 from gapbeam.plots.train_envelope import train_envelope_figure
 from gapbeam.report.text import report_text, to_csv, to_json
+from scenes import at, scene, uniform
 
 
 def two_spans(**changes):
@@ -424,6 +425,15 @@ def test_a_beam_that_slides_stands_at_no_position():
     assert (gap.from_, gap.to) == (0.0, 1.0)
     assert gap.reason == "no equilibrium: the beam slides along its axis, no axial support holds it"
     assert crane.envelope().extremes["moment"]["max"] is None
+
+
+def test_a_law_that_holds_both_ways_resists_both_ways():
+    """The motion is the one that the loads can bring about, so the gap ends where it does no work: 20 (9 - x) = 0.5 9**2/2."""
+    supports = [at(0, side="below"), at(1, side="below"), at(2, law=[(0.005, 20.0), (0.03, 60.0)])]
+    made = scene([6.0, 3.0], supports, [uniform(0.5, case="dead")]) | {"trains": [{"name": "t", "axles": [[0.0, -20.0]]}]}
+    (gap,) = gapbeam.solve(made).trains["t"].gaps
+    assert (gap.from_, gap.to) == (0.0, pytest.approx(7.9875, rel=1e-14))
+    assert "tips about the support at x = 9" in gap.reason
 
 
 def test_names():

@@ -565,6 +565,8 @@ contains
         do k = 1, size(supports)
             associate (s => supports(k), y => displacement(supports(k)%node))
                 blocked = s%stiffness > 0.0_wp .and. (s%side*y > 0.0_wp .or. (s%side == both .and. abs(y) > 0.0_wp))
+                ! A law that holds both ways begins with a piece without end
+                blocked = blocked .or. (s%kink == 1 .and. s%before > 0.0_wp .and. s%side*y < 0.0_wp)
             end associate
             if (blocked) return
         end do
