@@ -133,7 +133,7 @@ contains
         call place_stretches(ground, zones, factor, grounded)
         if (grounded%lost) then
             call fatal_error(error, gapbeam_not_converged, "the beam on ground whose law is a curve could not be settled: "// &
-                             "look for loads that are far beyond what the ground can bear")
+                             "look for loads near what the ground can bear, or far beyond it")
             return
         end if
         call new_workspace(grounded%beam, work)
