@@ -246,7 +246,7 @@ contains
         type(fine_grounded_type) :: polished_beam
         type(fine_workspace_type) :: polished_work
         logical, allocatable :: polished_closed(:)
-        real(qp) :: moved
+        real(qp) :: moved, tolerance
 
         call new_zones(size(rough_zones%piece), size(rough_zones%acts, 1), rough_zones%steps, zones)
         zones%piece(:) = rough_zones%piece
@@ -254,10 +254,10 @@ contains
         zones%to(:) = exact_ends(rough_zones, fine)
         zones%acts(:, :) = rough_zones%acts
         zones%start(:, :) = rough_zones%start
+        tolerance = merge(finest, movable, any(has_curves(fine%layers)))
         settled = .false.
         if (known) then
-            call polish_zones(fine, factor, rule, merge(finest, movable, any(has_curves(fine%layers))), zones, closed, grounded, &
-                              work, found, settled, error)
+            call polish_zones(fine, factor, rule, tolerance, zones, closed, grounded, work, found, settled, error)
             solution%solves = solution%solves + work%solves
             if (allocated(error)) return
         end if
@@ -267,7 +267,7 @@ contains
             if (allocated(error)) return
             settled = settled .or. moved <= good_enough
             if (.not. settled) return
-            if (moved > merge(finest, movable, any(has_curves(fine%layers)))) then
+            if (moved > tolerance) then
                 polished = zones
                 allocate (polished_closed(size(closed)))
                 polished_closed(:) = closed
