@@ -50,7 +50,7 @@ class Combined(Record):
 
 
 def solve_combinations(
-    beam: Beam, factors: np.ndarray, settlements: np.ndarray, rule: str, closed: np.ndarray,
+    beam: Beam, factors: np.ndarray, settlements: np.ndarray | None, rule: str, closed: np.ndarray,
     piece: np.ndarray | None = None, distance: np.ndarray | None = None, supports: np.ndarray | None = None,
 ) -> Iterator[tuple[slice, Combined]]:  # fmt: skip
     """Solve combinations, so many at a time that each call is a short one.
@@ -61,8 +61,8 @@ def solve_combinations(
         The beam.
     factors : numpy.ndarray
         Factor of every load, combinations by loads.
-    settlements : numpy.ndarray
-        Further movement of every support, combinations by supports of the scene.
+    settlements : numpy.ndarray or None
+        Further movement of every support, combinations by supports of the scene; None where nothing moves.
     rule : {"block", "single"}
         How working schemes are found.
     closed : numpy.ndarray of int
@@ -86,6 +86,7 @@ def solve_combinations(
         The system gives no more memory.
     """
     count = len(factors)
+    settlements = np.zeros((count, beam.scene_supports)) if settlements is None else settlements
     piece = np.zeros(0, np.int32) if piece is None else piece
     distance = np.zeros(0) if distance is None else distance
     about = np.append(piece, 1).astype(np.int32), np.append(distance, 0.0)
@@ -114,7 +115,7 @@ def solve_combinations(
 
 
 def all_combinations(
-    beam: Beam, factors: np.ndarray, settlements: np.ndarray, rule: str, closed: np.ndarray,
+    beam: Beam, factors: np.ndarray, settlements: np.ndarray | None, rule: str, closed: np.ndarray,
     piece: np.ndarray | None = None, distance: np.ndarray | None = None, supports: np.ndarray | None = None,
 ) -> Combined:  # fmt: skip
     """Solve combinations, and keep all results.
@@ -130,8 +131,8 @@ def all_combinations(
         Of all of them.
     """
     if not len(factors):  # no rows, of the length that those of one combination have
-        shares, moves = (np.zeros((1, rows.shape[1])) for rows in (factors, settlements))
-        one = all_combinations(beam, shares, moves, rule, np.zeros(beam.supports, np.int32), piece, distance)
+        nothing = np.zeros((1, factors.shape[1]))
+        one = all_combinations(beam, nothing, None, rule, np.zeros(beam.supports, np.int32), piece, distance)
         return Combined(*(getattr(one, part.name)[:0] for part in fields(Combined)))
     parts = [found for _, found in solve_combinations(beam, factors, settlements, rule, closed, piece, distance, supports)]
     if len(parts) == 1:

@@ -70,11 +70,8 @@ class Asked(Record):
         -------
         Combined
         """
-        where = () if x is None else find_places(self.beam, x, side)
-        moves = np.zeros((len(self.factors), self.beam.scene_supports))
-        return all_combinations(
-            self.beam, self.factors, moves, self.rule, self.closed, *(where or (None, None)), self.supports
-        )
+        where = (None, None) if x is None else find_places(self.beam, x, side)
+        return all_combinations(self.beam, self.factors, None, self.rule, self.closed, *where, self.supports)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -318,10 +315,7 @@ class Prepared(Pickled):
         beam, nodes = self._beam, len(self.node_x)
         sides = [find_places(beam, self.node_x, side) for side in ("left", "right")]
         piece, distance = (np.concatenate(parts) for parts in zip(*sides, strict=True))
-        found = all_combinations(
-            beam, asked.factors, np.zeros((len(asked.factors), beam.scene_supports)), self._rule, asked.closed, piece, distance,
-            asked.supports,
-        )
+        found = all_combinations(beam, asked.factors, None, self._rule, asked.closed, piece, distance, asked.supports)
         w, left, right = found.fields[:, nodes:, 0], found.fields[:, :nodes, 2].copy(), found.fields[:, nodes:, 2].copy()
         solved = found.status == Status.SOLVED
         left[solved, 0] = right[solved, -1] = 0.0  # beside the beam
