@@ -13,6 +13,7 @@ from gapbeam.studies import foundation as study
 from gapbeam.studies import springs
 from gapbeam.studies.diagram import GROUND_STYLES, foundation_figure
 from gapbeam.studies.ground_truth import solve_ground
+from gapbeam.studies.programs import has
 
 DIGITS_OF_F2 = ("0.21969841001", "11.8336398098", "5.3139178437", "-1.70843006517")
 
@@ -56,7 +57,7 @@ def test_springs_come_nearer_with_the_square_of_the_mesh(problem):
             assert 25.0 < a / b < 200.0
 
 
-@pytest.mark.skipif(not springs.has_opensees(), reason="OpenSees is not installed")
+@pytest.mark.skipif(not has("openseespy"), reason="OpenSees is not installed")
 def test_opensees_agrees():
     scene, _ = study.PROBLEMS["work B"]
     found, expected = springs.by_opensees(scene, 100)(), springs.by_gapbeam(scene, 100)()
@@ -87,7 +88,7 @@ def test_table(rows, capsys):
             assert max(row.ends, row.deflection, row.moment) < 1e-15
         assert row.faster == 1.0 or (row.program, row.nodes) != (study.INCREMENTAL, 1001)
     page, table = study.PAGE, study.table(rows)
-    written = list(csv.reader(io.StringIO(page.csv(study.values(rows)))))
+    written = list(csv.reader(io.StringIO(page.csv(rows))))
     assert tuple(written[0]) == study.COLUMNS
     assert {len(line) for line in (*written, *table)} == {len(study.COLUMNS)}
     text = page.markdown(table, study.findings(rows), "picture.svg")

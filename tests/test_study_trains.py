@@ -13,6 +13,7 @@ from gapbeam.studies import train_positions as positions
 from gapbeam.studies import train_programs as programs
 from gapbeam.studies import trains as study
 from gapbeam.studies.diagram import TRAIN_STYLES, trains_figure
+from gapbeam.studies.programs import has
 from gapbeam.studies.train_truth import solve_train
 
 
@@ -54,7 +55,7 @@ def test_positions_come_nearer_with_the_square_of_their_distance(problem, truths
     assert max(study._errors(positions.by_numpy(study.PROBLEMS[problem], 100, refined=True)(), truths[problem])) < 1e-11
 
 
-@pytest.mark.skipif(not programs.has("openseespy"), reason="OpenSees is not installed")
+@pytest.mark.skipif(not has("openseespy"), reason="OpenSees is not installed")
 def test_opensees_agrees():
     for scene in study.PROBLEMS.values():
         sweep = positions.Sweep(scene)
@@ -67,7 +68,7 @@ def test_opensees_agrees():
             np.testing.assert_allclose(mine, theirs, rtol=0.0, atol=1e-8 * np.abs(theirs).max())
 
 
-@pytest.mark.skipif(not programs.has("pycba"), reason="PyCBA is not installed")
+@pytest.mark.skipif(not has("pycba"), reason="PyCBA is not installed")
 def test_pycba_agrees_within_its_step(truths):
     moment, shear, most, least = study._errors(programs.by_pycba(study.PROBLEMS["both ways"], 257)(), truths["both ways"])
     assert max(moment, shear, most) < 0.02
@@ -89,8 +90,8 @@ def test_table(rows, capsys):
     assert {row.program for row in rows} == {study.OWN, study.NUMPY, study.REFINED, study.PYCBA, study.OPENSEES}
     page, table = study.PAGE, study.table(rows)
     assert table[-1][1:5] == ["PyCBA", "-", "-", "-"]
-    assert table[-1][-1] == ("cannot" if programs.has("pycba") else "not installed")
-    written = list(csv.reader(io.StringIO(page.csv(study.values(rows)))))
+    assert table[-1][-1] == ("cannot" if has("pycba") else "not installed")
+    written = list(csv.reader(io.StringIO(page.csv(rows))))
     assert tuple(written[0]) == study.COLUMNS
     assert {len(line) for line in (*written, *table)} == {len(study.COLUMNS)}
     text = page.markdown(table, study.findings(rows), "picture.svg")

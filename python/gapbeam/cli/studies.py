@@ -112,11 +112,12 @@ def _add_tables(parser: argparse.ArgumentParser) -> None:
 
 def _study_extremes(arguments: argparse.Namespace) -> int:
     outputs = _outputs(arguments)
-    from ..studies.corners import PAGE, extremes, table, values, worst
+    from ..studies.corners import COLUMNS, PAGE, extremes, table, values, worst
     from ..studies.extremes import cases
+    from ..studies.page import to_csv
 
     forms = {
-        "--csv": lambda rows: PAGE.csv(values(rows), "worst in"),
+        "--csv": lambda rows: to_csv((*COLUMNS, "worst in"), values(rows)),
         "--markdown": lambda rows: PAGE.markdown(table(rows), worst(rows)),
     }
     rows = list(extremes(cases(arguments.largest)))
@@ -168,9 +169,9 @@ def _study_accuracy(arguments: argparse.Namespace) -> int:
 
 def _study_contact(arguments: argparse.Namespace) -> int:
     outputs = _outputs(arguments)
-    from ..studies.contact import PAGE, contact, table, values
+    from ..studies.contact import PAGE, contact, table
 
-    return _tell_page(arguments, outputs, PAGE, list(contact(arguments.largest)), table, values)
+    return _tell_page(arguments, outputs, PAGE, list(contact(arguments.largest)), table)
 
 
 def _study_foundation(arguments: argparse.Namespace) -> int:
@@ -210,16 +211,16 @@ def _tell_problems(arguments: argparse.Namespace, study: ModuleType, figure: str
     def page(rows: list) -> str:
         return study.PAGE.markdown(study.table(rows), study.findings(rows), _beside(arguments))
 
-    forms = {"--csv": lambda rows: study.PAGE.csv(study.values(rows)), "--plot": drawing, "--markdown": page}
+    forms = {"--csv": study.PAGE.csv, "--plot": drawing, "--markdown": page}
     rows = list(run(arguments.largest))
     return _tell(outputs, forms, lambda rows: study.PAGE.show(study.table(rows), remark=study.findings(rows)), rows)
 
 
 def _study_kernel(arguments: argparse.Namespace) -> int:
     outputs = _outputs(arguments)
-    from ..studies.kernel import PAGE, kernels, table, values
+    from ..studies.kernel import PAGE, kernels, table
 
-    return _tell_page(arguments, outputs, PAGE, list(kernels(arguments.largest)), table, values)
+    return _tell_page(arguments, outputs, PAGE, list(kernels(arguments.largest)), table)
 
 
 def _study_schemes(arguments: argparse.Namespace) -> int:
@@ -240,13 +241,11 @@ def _outputs(arguments: argparse.Namespace, scene: str | None = None) -> Outputs
     return Outputs({f"--{name}": getattr(arguments, name, None) for name in ("csv", "markdown", "plot")}, scene)
 
 
-def _tell_page(
-    arguments: argparse.Namespace, outputs: Outputs, page: Page, rows: list, table: Callable, values: Callable
-) -> int:
+def _tell_page(arguments: argparse.Namespace, outputs: Outputs, page: Page, rows: list, table: Callable) -> int:
     """Tell a study that is one table."""
     if not rows:
         raise SceneError("--largest", f"nothing is as small as {arguments.largest}")
-    forms = {"--csv": lambda rows: page.csv(values(rows)), "--markdown": lambda rows: page.markdown(table(rows))}
+    forms = {"--csv": page.csv, "--markdown": lambda rows: page.markdown(table(rows))}
     return _tell(outputs, forms, lambda rows: page.show(table(rows)), rows)
 
 

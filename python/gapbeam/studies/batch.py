@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import astuple, dataclass, replace
+from dataclasses import dataclass, replace
 from math import inf, nan
 from time import perf_counter
 
@@ -17,6 +15,7 @@ from .batch_cases import SIZES, Batch, Found, make
 from .batch_programs import OWN, PROGRAMS, first_call, given, installed
 from .meshes import mesh
 from .page import Page
+from .programs import number_printed
 from .truth import Truth, solve_exactly
 
 COLUMNS = (
@@ -167,9 +166,7 @@ def _cold(problem: str, largest: int, names: Sequence[str]) -> dict[str, float]:
     for _ in range(PROCESSES):
         for name in names:
             code = f"from {first_call.__module__} import first_call; print(first_call({problem!r}, {name!r}, {largest}))"
-            words = [sys.executable, "-c", code]  # what it says when it is interrupted is nobody's concern
-            run = subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, check=True)
-            found[name] = min(found[name], float(run.stdout))
+            found[name] = min(found[name], number_printed(code))
     return found
 
 
@@ -231,22 +228,6 @@ def table(rows: Iterable[Row]) -> list[list[str]]:
 def _rounded(number: float) -> str:
     """Three digits, and no more than two after the point."""
     return f"{float(f'{number:.3g}'):,.{0 if number >= 99.5 else 1 if number >= 9.95 else 2}f}"
-
-
-def values(rows: Iterable[Row]) -> list[tuple]:
-    """Give the rows with all digits, times in seconds.
-
-    Parameters
-    ----------
-    rows : iterable of Row
-        From `batch`.
-
-    Returns
-    -------
-    list of tuple
-        As many columns as `COLUMNS`.
-    """
-    return [astuple(row) for row in rows]
 
 
 PAGE = Page("batch", "Many cases", WORDS, COLUMNS, 2, "batch-study")

@@ -8,13 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cache
-from importlib.util import find_spec
 from time import perf_counter
 
 import numpy as np
 
 from .active_set import NoScheme
 from .batch_cases import EI, SPAN, STIFFNESS, Batch, Found, complete, links, make, matrix_of, nodal
+from .programs import has
 
 MOST_ROUNDS, TOGETHER = 200, 20
 """Rounds before a program gives up, and those in which all wrong supports of a case are switched; later the first alone is."""
@@ -320,7 +320,7 @@ def installed(name: str) -> bool:
     -------
     bool
     """
-    return find_spec(name.partition(",")[0]) is not None
+    return has(name.partition(",")[0])
 
 
 def given(cases: Batch, name: str) -> Batch:

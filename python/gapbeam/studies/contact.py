@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import astuple, dataclass
+from dataclasses import dataclass
 from functools import partial
 from time import perf_counter
 from typing import Any
@@ -19,6 +17,7 @@ from .active_set import active_set
 from .meshes import MeshedBeam, mesh
 from .methods import CONDENSED, yardstick
 from .page import Page
+from .programs import number_printed
 from .schemes import gapped_spans, sprung_base
 from .truth import error, solve_exactly
 
@@ -150,9 +149,7 @@ def _cold(make: Callable[[int], dict[str, Any]], count: int, parts: int) -> dict
     for _ in range(PROCESSES):
         for name in READY:
             code = f"from {__name__} import first_call; print(first_call({name!r}, {make.__name__!r}, {count}, {parts}))"
-            words = [sys.executable, "-c", code]  # what it says when it is interrupted is nobody's concern
-            run = subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, check=True)
-            found[name] = min(found[name], float(run.stdout))
+            found[name] = min(found[name], number_printed(code))
     return found
 
 
@@ -267,22 +264,6 @@ def table(rows: Iterable[Row]) -> list[list[str]]:
 
 def _timed(seconds: float, faster: float) -> tuple[str, str]:
     return ("-", "-") if np.isnan(seconds) else (fmt.duration(seconds), f"{faster:.2g}")
-
-
-def values(rows: Iterable[Row]) -> list[tuple]:
-    """Give the rows with all digits, times in seconds.
-
-    Parameters
-    ----------
-    rows : iterable of Row
-        From `contact`.
-
-    Returns
-    -------
-    list of tuple
-        As many columns as `COLUMNS`.
-    """
-    return [astuple(row) for row in rows]
 
 
 PAGE = Page("contact", "Contact at scale", WORDS, COLUMNS, texts=2)

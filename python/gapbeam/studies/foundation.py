@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import astuple, dataclass
+from dataclasses import dataclass
 from decimal import Decimal
 from functools import partial
 from math import inf, isinf
@@ -22,7 +20,8 @@ from ..results.stepping import solve
 from .active_set import NoScheme
 from .ground_truth import GroundTruth, solve_ground
 from .page import Page
-from .springs import Found, by_gapbeam, by_opensees, by_scipy, has_opensees, places
+from .programs import has, number_printed
+from .springs import Found, by_gapbeam, by_opensees, by_scipy, places
 
 COLUMNS = ("problem", "program", "nodes", "cold", "faster cold", "hot", "faster hot", "ends", "deflection", "moment")
 """Headings of the table."""
@@ -148,7 +147,7 @@ def _programs(largest: int) -> list[Key]:
         found += [(name, size) for size in sizes]
     if BESIDE not in found:
         found.append(BESIDE)
-    if has_opensees():
+    if has("openseespy"):
         found += [(OPENSEES, size) for size in sizes if size <= OPENSEES_LARGEST]
     return found
 
@@ -236,9 +235,7 @@ def _cold(key: Key, problem: str) -> float:
     found = []
     for _ in range(PROCESSES):
         code = f"from {__name__} import first_call; print(first_call({key!r}, {problem!r}))"
-        words = [sys.executable, "-c", code]  # what it says when it is interrupted is nobody's concern
-        run = subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, check=True)
-        found.append(float(run.stdout))
+        found.append(number_printed(code))
     return median(found)
 
 
@@ -328,22 +325,6 @@ def _error_text(error: float, failed: bool = False) -> str:
     if failed:
         return "fails"
     return "other zones" if isinf(error) else f"{error:.0e}"
-
-
-def values(rows: Iterable[Row]) -> list[tuple]:
-    """Give the rows with all digits, times in seconds.
-
-    Parameters
-    ----------
-    rows : iterable of Row
-        From `foundation`.
-
-    Returns
-    -------
-    list of tuple
-        As many columns as `COLUMNS`.
-    """
-    return [astuple(row) for row in rows]
 
 
 CAPTION = "Error of contact ends, deflection and moment against run time, for three beams"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import astuple, dataclass
+from dataclasses import dataclass
 from math import nan
 from time import perf_counter
 
@@ -212,22 +212,6 @@ def table(rows: Iterable[Row]) -> list[list[str]]:
         ]
         for row in rows
     ]
-
-
-def values(rows: Iterable[Row]) -> list[tuple]:
-    """Give the rows with all digits, state in bytes, bandwidth in bytes a second.
-
-    Parameters
-    ----------
-    rows : iterable of Row
-        From `kernels`.
-
-    Returns
-    -------
-    list of tuple
-        As many columns as `COLUMNS`.
-    """
-    return [astuple(row) for row in rows]
 
 
 PAGE = Page("kernel", "The kernel", WORDS, COLUMNS, texts=2)

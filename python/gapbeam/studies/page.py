@@ -6,8 +6,8 @@ import csv
 import io
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from dataclasses import astuple, dataclass
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -64,21 +64,19 @@ class Page:
         table = markdown_table(self.columns, cells, self.texts)
         return "\n".join([f"# {self.title}", "", made, "", *self.words, *said, "", *table]) + "\n"
 
-    def csv(self, values: Sequence[Sequence], *more: str) -> str:
-        """Write comma-separated values.
+    def csv(self, rows: Iterable[Any]) -> str:
+        """Write comma-separated values with all digits, times in seconds.
 
         Parameters
         ----------
-        values : sequence of sequence
-            The rows, with all digits.
-        *more : str
-            Headings of further columns.
+        rows : iterable of dataclass
+            Whose attributes are the columns.
 
         Returns
         -------
         str
         """
-        return to_csv((*self.columns, *more), values)
+        return to_csv(self.columns, [astuple(row) for row in rows])
 
     def show(self, cells: list[list[str]], console: Console | None = None, remark: str = "") -> None:
         """Print the table, a part for each group of rows where the first column names one.

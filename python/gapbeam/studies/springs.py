@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import partial
-from importlib.util import find_spec
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -145,16 +144,6 @@ def by_scipy(scene: Mapping[str, Any], elements: int, incremental: bool) -> Call
         return Found(zeros(found.deflection, h), found.deflection[::step], found.moment[::step])
 
     return run
-
-
-def has_opensees() -> bool:
-    """Whether OpenSees can be had.
-
-    Returns
-    -------
-    bool
-    """
-    return find_spec("openseespy") is not None
 
 
 def by_opensees(scene: Mapping[str, Any], elements: int) -> Callable[[], Found]:

@@ -4,28 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import partial
-from importlib.util import find_spec
 from typing import Any
 
 import numpy as np
 
 from .active_set import NoScheme
 from .train_positions import Sweep, Swept, swept
-
-
-def has(program: str) -> bool:
-    """Whether a program can be had.
-
-    Parameters
-    ----------
-    program : str
-        Its package.
-
-    Returns
-    -------
-    bool
-    """
-    return find_spec(program) is not None
 
 
 def by_pycba(scene: Mapping[str, Any], positions: int) -> Callable[[], Swept]:

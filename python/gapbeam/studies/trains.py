@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import astuple, dataclass
+from dataclasses import dataclass
 from decimal import Decimal
 from functools import partial
 from math import inf, isinf
@@ -16,8 +16,9 @@ from ..results import formatting as fmt
 from ..results.stepping import solve
 from .active_set import NoScheme
 from .page import Page
+from .programs import has
 from .train_positions import Swept, by_numpy
-from .train_programs import axles_missing, by_opensees, by_pycba, has
+from .train_programs import axles_missing, by_opensees, by_pycba
 from .train_truth import TrainTruth, solve_train
 
 COLUMNS = ("problem", "program", "positions", "time", "faster", "moment", "shear", "largest reaction", "smallest reaction")
@@ -250,22 +251,6 @@ def _error_text(row: Row, error: float) -> str:
     if row.positions:
         return "fails"
     return "not installed" if not has({PYCBA: "pycba", OPENSEES: "openseespy"}[row.program]) else "cannot"
-
-
-def values(rows: Iterable[Row]) -> list[tuple]:
-    """Give the rows with all digits, times in seconds.
-
-    Parameters
-    ----------
-    rows : iterable of Row
-        From `trains`.
-
-    Returns
-    -------
-    list of tuple
-        As many columns as `COLUMNS`.
-    """
-    return [astuple(row) for row in rows]
 
 
 CAPTION = "Error of the envelope of a train against run time, for two beams"
