@@ -1,4 +1,4 @@
-! Load paths of beams on the ground for Python; all else is said in python.f90. Marshalling only.
+! Beams on the ground for Python: values and load paths, in the manner of face/python.f90, which says what the arguments are
 
 ! Follow the load from factor 0 to 1
 subroutine gbgpth(beam, nl, ns, rule, closed, sizes, ends, motion, status, message)
@@ -84,3 +84,134 @@ subroutine gbgpte(beam, ns, ne, nk, at, which, from, closed)
     end do
     deallocate (handle%ground_path)
 end subroutine gbgpte
+
+! Take a solution on the ground, which is freed with that
+subroutine gbgget(ground, ng, ny, values, bounds, resid)
+    use gapbeam_handle, only: take_ground, pack_ground
+    use gapbeam_ground_solver, only: ground_solution_type
+    implicit none
+    ! From GBSOLV; stretches, and most layers
+    integer(8), intent(in) :: ground
+    integer, intent(in) :: ng, ny
+    ! As for pack_ground, in the engine's units
+    double precision, intent(out) :: values(19 + 2*ny, ng)
+    ! Bounds of the errors of deflection, rotation, moment, shear and reactions; residuals of compatibility and equilibrium
+    double precision, intent(out) :: bounds(5), resid(2)
+    type(ground_solution_type), allocatable :: solution
+
+    call take_ground(ground, solution)
+    call pack_ground(solution, values)
+    bounds = solution%bounds
+    resid = solution%residuals
+end subroutine gbgget
+
+! Fields on the ground at distances from the left ends of pieces (from 1), in the scene's units
+subroutine gbgval(beam, ng, nr, nb, nx, ground, u, pull, piece, dist, value, status, message)
+    use gapbeam_error, only: error_type
+    use gapbeam_element, only: field_type
+    use gapbeam_handle, only: handle_type, handle_of, report, unpack_ground
+    use gapbeam_ground_solver, only: ground_solution_type
+    use gapbeam_pressure, only: pressure_in_pieces
+    use gapbeam_query, only: fields_in_pieces
+    implicit none
+    integer(8), intent(in) :: beam
+    integer, intent(in) :: ng, nr, nb, nx
+    ! From GBGGET and GBSOLV
+    double precision, intent(in) :: ground(nr, ng), u(0:nb), pull(nb + 1)
+    integer, intent(in) :: piece(nx)
+    double precision, intent(in) :: dist(nx)
+    ! Deflection, rotation, moment, shear, axial force, axial displacement, pressure of the ground (up)
+    double precision, intent(out) :: value(7, nx)
+    integer, intent(out) :: status
+    character(len=240), intent(out) :: message
+    !f2py threadsafe
+    !f2py integer, intent(hide), depend(ground) :: nr = shape(ground, 0), ng = shape(ground, 1)
+    !f2py integer, intent(hide), depend(u) :: nb = shape(u, 0) - 1
+    !f2py integer, intent(hide), depend(piece) :: nx = shape(piece, 0)
+    type(handle_type), pointer :: handle
+    type(field_type) :: none(0)
+    type(ground_solution_type) :: solution
+    type(error_type), allocatable :: error
+
+    handle => handle_of(beam)
+    value = 0.0d0
+    call unpack_ground(handle%lowered, ground, solution)
+    call fields_in_pieces(handle%lowered, 0.0d0, none, u, pull(:nb), piece, dist, value(:6, :), error, solution)
+    if (.not. allocated(error)) call pressure_in_pieces(handle%lowered, solution, piece, dist, value(7, :), error)
+    call report(error, status, message)
+end subroutine gbgval
+
+! Stretches beside each other in which a layer does the same joined: by foundation, below before above, from left to right
+subroutine gbgrun(beam, ng, nr, ground, number, about, values, status, message)
+    use gapbeam_error, only: error_type
+    use gapbeam_handle, only: handle_type, handle_of, report, unpack_ground
+    use gapbeam_ground_solver, only: ground_solution_type
+    use gapbeam_ground_zones, only: run_type, ground_runs
+    implicit none
+    integer(8), intent(in) :: beam
+    integer, intent(in) :: ng, nr
+    double precision, intent(in) :: ground(nr, ng)
+    ! How many there are
+    integer, intent(out) :: number
+    ! Foundation (from 0), side, pieces of its law (0: linear), the piece on which it acts (0: no contact), 1 if it only touches
+    integer, intent(out) :: about(5, 3*(ng*(nr - 19)/2))
+    ! Ends, force on the beam (up), largest distance between beam and ground, in the scene's units
+    double precision, intent(out) :: values(4, 3*(ng*(nr - 19)/2))
+    integer, intent(out) :: status
+    character(len=240), intent(out) :: message
+    !f2py threadsafe
+    !f2py integer, intent(hide), depend(ground) :: nr = shape(ground, 0), ng = shape(ground, 1)
+    type(handle_type), pointer :: handle
+    type(ground_solution_type) :: solution
+    type(run_type), allocatable :: runs(:)
+    type(error_type), allocatable :: error
+    integer :: i
+
+    handle => handle_of(beam)
+    number = 0
+    about = 0
+    values = 0.0d0
+    call unpack_ground(handle%lowered, ground, solution)
+    call ground_runs(handle%lowered, solution, runs, error)
+    call report(error, status, message)
+    if (allocated(error)) return
+    number = size(runs)
+    do i = 1, number
+        associate (run => runs(i))
+            about(:, i) = [run%foundation - 1, run%side, run%law_pieces, run%acts, merge(1, 0, run%touches)]
+            values(:, i) = [run%from, run%to, run%resultant, run%way]
+        end associate
+    end do
+end subroutine gbgrun
+
+! Maximum and minimum of all fields on the ground, and their places, in the scene's units; fields as for GBGVAL
+subroutine gbgext(beam, ng, nr, nb, ground, u, pull, value, x, status, message)
+    use gapbeam_error, only: error_type
+    use gapbeam_element, only: field_type
+    use gapbeam_handle, only: handle_type, handle_of, report, unpack_ground
+    use gapbeam_ground_solver, only: ground_solution_type
+    use gapbeam_pressure, only: extremes_of_pressure
+    use gapbeam_query, only: extremes_of_pieces
+    implicit none
+    integer(8), intent(in) :: beam
+    integer, intent(in) :: ng, nr, nb
+    double precision, intent(in) :: ground(nr, ng), u(0:nb), pull(nb + 1)
+    double precision, intent(out) :: value(2, 7), x(2, 7)
+    integer, intent(out) :: status
+    character(len=240), intent(out) :: message
+    !f2py threadsafe
+    !f2py integer, intent(hide), depend(ground) :: nr = shape(ground, 0), ng = shape(ground, 1)
+    !f2py integer, intent(hide), depend(u) :: nb = shape(u, 0) - 1
+    type(handle_type), pointer :: handle
+    type(field_type) :: none(0)
+    type(ground_solution_type) :: solution
+    type(error_type), allocatable :: error
+
+    handle => handle_of(beam)
+    value = 0.0d0
+    x = 0.0d0
+    call unpack_ground(handle%lowered, ground, solution)
+    call extremes_of_pieces(handle%lowered, 0.0d0, none, u, pull(:nb), value(:, :6), x(:, :6), error, solution)
+    if (.not. allocated(error)) call extremes_of_pressure(handle%lowered, solution, value(:, 7), x(:, 7), error)
+    call report(error, status, message)
+end subroutine gbgext
