@@ -16,7 +16,7 @@
 !> only, so there are finitely many events, and the path ends.
 module gapbeam_path
     use gapbeam_kinds, only: wp, qp
-    use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_not_converged
+    use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_indeterminate, gapbeam_not_converged
     use gapbeam_memory, only: for_following_closely
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
@@ -24,20 +24,17 @@ module gapbeam_path
     use gapbeam_search, only: rule_block
     use gapbeam_scheme, only: find_scheme, outcome_type
     use gapbeam_line, only: line_type, value_at, width_at, falls, stays_at_zero
-    use gapbeam_referee, only: detail_type, refine_beam, decide_scheme, reserve_for
+    use gapbeam_redundancy, only: find_redundancy
+    use gapbeam_referee, only: detail_type, refine_beam, decide_scheme, reserve_for, rule_given
     use gapbeam_scheme_quad, only: fine_outcome_type => outcome_type
     use gapbeam_line_quad, only: fine_value_at => value_at, fine_width_at => width_at
     use gapbeam_cell, only: find_cell
+    use gapbeam_path_events, only: path_type, add_event, note_changes, event_opens, event_closes, event_turns
     use gapbeam_stretch, only: stretch_type, new_stretch, start_stretch, change_supports, add_those_at_zero, next_in_queue, &
         line_in, same_factor
     implicit none
     private
     public :: follow_path, path_type, event_opens, event_closes, event_turns
-
-    !> What happens to a support
-    integer, parameter :: event_opens = 0, event_closes = 1
-    !> The beam loses its hold and turns, at constant load, until this support holds it
-    integer, parameter :: event_turns = 3
 
     !> How much further up the scheme is looked for
     real(wp), parameter :: look_ahead = 2.0_wp**(-20)
@@ -49,17 +46,6 @@ module gapbeam_path
     real(wp), parameter :: shortest = 2.0_wp**(-30)
     !> Rounding errors beyond which a value is not near zero
     real(wp), parameter :: far = 2.0_wp**16
-
-    !> Events along the path, in the order in which they happen
-    type :: path_type
-        !> How many there are in the arrays
-        integer :: count = 0
-        !> Load factor, support, and what happens to it
-        real(wp), allocatable :: factor(:)
-        integer, allocatable :: support(:), event(:)
-        !> Linear solves of the whole beam; nodes at which the solution was made anew besides
-        integer :: solves = 0, nodes = 0
-    end type path_type
 
 contains
 
@@ -175,6 +161,8 @@ contains
                 if (allocated(error) .or. outcome%status /= gapbeam_solved) exit
                 call find_next(beam, closed, factor, limit, stretch, at_zero, exactly)
             end if
+            call refuse_redundant_stretch(beam, detail, here, min(exactly, real(limit, qp)), closed, error)
+            if (allocated(error)) exit
             if (exactly - here < shortest*max(abs(factor), limit - begin)) short_stretches = short_stretches + 1
             stretch%in_doubt = stretch%in_doubt .or. short_stretches > 2*size(closed)
             if (short_stretches > 100 + 4*size(closed)) then
@@ -196,6 +184,32 @@ contains
         marginal = .false.
         marginal(at_zero) = .true.
     end subroutine follow
+
+    !> Refuse a stretch on which other reactions would do as well, as the state in its middle tells
+    subroutine refuse_redundant_stretch(beam, detail, from, to, closed, error)
+        type(beam_type), intent(in) :: beam
+        type(detail_type), intent(in) :: detail
+        real(qp), intent(in) :: from, to
+        logical, intent(in) :: closed(:)
+        type(error_type), allocatable, intent(out) :: error
+        type(workspace_type) :: work
+        type(outcome_type) :: outcome
+        logical, allocatable :: acting(:)
+        real(wp) :: middle
+        integer :: node
+
+        ! Not even if the beam touched every support that is open
+        call find_redundancy(beam, closed, .not. closed, node)
+        if (node < 0 .or. .not. to > from) return
+        middle = real(from + (to - from)/2, wp)
+        allocate (acting(size(closed)))
+        acting(:) = closed
+        call new_workspace(beam, work)
+        call set_loads(beam, middle, work)
+        call decide_scheme(beam, detail, middle, rule_given, acting, work, outcome, error)
+        if (.not. allocated(error)) return
+        if (error%code /= gapbeam_indeterminate) deallocate (error)
+    end subroutine refuse_redundant_stretch
 
     !> Change what moves through zero, if that is all there is to do
     subroutine change_in_place(beam, factor, closed, at_zero, stretch, path, done)
@@ -321,32 +335,6 @@ contains
         at_zero = [integer ::]
     end subroutine look_closely
 
-    !> Note what changes between two schemes at a factor. If something that changes was not at zero before, or is not after,
-    !> the beam has moved a finite way at constant load: it has turned
-    subroutine note_changes(factor, before, after, was_far, is_far, stretch, path)
-        real(wp), intent(in) :: factor
-        logical, intent(in) :: before(:), after(:)
-        !> Is a support far from zero before and after the change
-        logical, intent(in) :: was_far(:), is_far(:)
-        type(stretch_type), intent(inout) :: stretch
-        type(path_type), intent(inout) :: path
-        logical :: closes
-        integer :: k, pass, holds
-
-        holds = 0
-        if (any((before .neqv. after) .and. merge(was_far, is_far, after))) holds = findloc(after .and. .not. before, .true., 1)
-        do pass = 1, 2
-            closes = pass == 2
-            if (closes .and. holds > 0) call add_event(path, factor, holds, event_turns)
-            do k = 1, size(before)
-                if (before(k) .eqv. after(k)) cycle
-                if (after(k) .neqv. closes) cycle
-                stretch%last_change(k) = factor
-                call add_event(path, factor, k, merge(event_closes, event_opens, closes))
-            end do
-        end do
-    end subroutine note_changes
-
     !> The next event, and the supports at zero there
     subroutine find_next(beam, closed, factor, limit, stretch, at_zero, next)
         type(beam_type), intent(in) :: beam
@@ -381,23 +369,5 @@ contains
             at_zero = pack([(k, k=1, size(closed))], abs(fine_value_at(line, to)) <= fine_width_at(line, to))
         end associate
     end subroutine find_next
-
-    !> Note an event
-    pure subroutine add_event(path, factor, k, event)
-        type(path_type), intent(inout) :: path
-        real(wp), intent(in) :: factor
-        !> Support, and what happens to it
-        integer, intent(in) :: k, event
-
-        if (path%count == size(path%factor)) then
-            path%factor = [path%factor, path%factor]
-            path%support = [path%support, path%support]
-            path%event = [path%event, path%event]
-        end if
-        path%count = path%count + 1
-        path%factor(path%count) = factor
-        path%support(path%count) = k
-        path%event(path%count) = event
-    end subroutine add_event
 
 end module gapbeam_path

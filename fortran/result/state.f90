@@ -9,6 +9,7 @@ module gapbeam_state
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_recover, only: recover_beam
     use gapbeam_scheme, only: outcome_type
+    use gapbeam_redundancy, only: refuse_redundancy
     use gapbeam_referee, only: rule_given, decide_scheme, detail_type, reserve_for
     use gapbeam_search, only: rule_block
     use gapbeam_ground, only: ground_type
@@ -130,6 +131,9 @@ contains
             allocate (state%ground)
             call solve_on_ground(ground, detail_of(lowered), factor, merge(rule_block, rule, rule == rule_given), acting, &
                                  state%ground, outcome, error)
+            if (.not. allocated(error) .and. outcome%status == gapbeam_solved) then
+                call refuse_redundancy(ground%beam, acting, state%ground%undecided, error)
+            end if
             call name_range(lowered, error)
             if (allocated(error)) return
             state%solves = state%ground%solves

@@ -15,7 +15,7 @@ module gapbeam_train_path
         gapbeam_not_converged
     use gapbeam_bernstein, only: sample_points, to_coefficients, halve, first_below, crossing, highest_degree
     use gapbeam_band, only: band_ok
-    use gapbeam_law, only: find_margins, is_rigid, may_change
+    use gapbeam_law, only: find_margins, may_change
     use gapbeam_model, only: beam_type
     use gapbeam_kinematics, only: work_of_loads
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
@@ -23,6 +23,7 @@ module gapbeam_train_path
     use gapbeam_system, only: solve_and_refine
     use gapbeam_search, only: rule_block
     use gapbeam_scheme, only: find_scheme, outcome_type
+    use gapbeam_redundancy, only: find_redundancy
     use gapbeam_referee, only: decide_scheme, detail_type
     use gapbeam_words, only: shown
     use gapbeam_lowered, only: lowered_type
@@ -216,7 +217,7 @@ contains
             integer, intent(in) :: status
             real(wp), intent(in) :: share
             real(wp) :: to
-            integer :: k, stat
+            integer :: k, stat, node
 
             to = reach%to
             if (share < 1.0_wp) to = min(now + share*(reach%to - now), reach%to)
@@ -238,7 +239,8 @@ contains
             passage%motion_of(k) = 0
             if (status == gapbeam_solved) then
                 passage%at_zero(:, k) = are_zero(margins, degree_of(train), size(closed))
-                if (rests_on_too_many(track%beam, closed, passage%at_zero(:, k), work)) passage%status(k) = gapbeam_indeterminate
+                call find_redundancy(track%beam, closed, passage%at_zero(:, k), node)
+                if (node >= 0) passage%status(k) = gapbeam_indeterminate
             end if
             now = to
             known = status == gapbeam_solved
@@ -462,30 +464,6 @@ contains
             zero(k) = all(abs(margins%b(0:n, k)) <= margins%slack(k))
         end do
     end function are_zero
-
-    !> Does a rigid stretch rest on supports that carry nothing in this scheme, but might as well
-    function rests_on_too_many(beam, closed, at_zero, work) result(so)
-        type(beam_type), intent(in) :: beam
-        !> Scheme, and supports whose reaction or opening is zero
-        logical, intent(in) :: closed(:), at_zero(:)
-        type(workspace_type), intent(inout) :: work
-        logical :: so
-        logical :: tied(size(closed))
-        integer :: k, state, place
-
-        tied(:) = closed
-        associate (s => beam%supports)
-            do k = 1, size(closed)
-                if (closed(k) .or. .not. at_zero(k) .or. s(k)%kink > 0 .or. .not. is_rigid(s(k))) cycle
-                ! Of two at one node, as from below and from above, one acts
-                tied(k) = .not. any(tied .and. is_rigid(s) .and. s%node == s(k)%node)
-            end do
-        end associate
-        so = any(tied .neqv. closed)
-        if (.not. so) return
-        call solve_and_refine(beam, tied, work, state, place)
-        so = state /= band_ok
-    end function rests_on_too_many
 
     !> How far a beam that can move freely without work of the loads, or has no unique answer, stays so: tried at a few places up to
     !> the end of the reach, else half as far, and so on

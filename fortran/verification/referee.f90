@@ -18,11 +18,12 @@ module gapbeam_referee
     use gapbeam_system, only: solve_and_refine
     use gapbeam_band, only: band_ok
     use gapbeam_scheme, only: find_scheme, outcome_type
+    use gapbeam_redundancy, only: refuse_redundancy
     use gapbeam_link_quad, only: fine_piece_type => piece_type, fine_load_type => piece_load_type, fine_link_type => link_type, &
         condense_link
     use gapbeam_kinematics, only: held_by_ties
     use gapbeam_kinematics_quad, only: fine_held_by_ties => held_by_ties
-    use gapbeam_model_quad, only: fine_beam_type => beam_type, fine_support_type => node_support_type, new_beam
+    use gapbeam_model_quad, only: fine_beam_type => beam_type, fine_support_type => node_support_type, new_beam, softest
     use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type, new_fine_workspace => new_workspace, &
         set_fine_loads => set_loads
     use gapbeam_law_quad, only: is_watched_in, find_margins
@@ -57,12 +58,29 @@ module gapbeam_referee
 
 contains
 
-    !> Find the working scheme and its solution, whatever precision it takes
+    !> Find the working scheme and its solution, whatever precision it takes; refused where other reactions would do as well
     subroutine decide_scheme(beam, detail, factor, rule, closed, work, outcome, error)
         !> The beam, and what its links are made of
         type(beam_type), intent(in) :: beam
         type(detail_type), intent(in) :: detail
         !> As for find_scheme
+        real(wp), intent(in) :: factor
+        integer, intent(in) :: rule
+        logical, intent(inout) :: closed(:)
+        type(workspace_type), intent(inout) :: work
+        type(outcome_type), intent(out) :: outcome
+        type(error_type), allocatable, intent(out) :: error
+
+        call look_for_scheme(beam, detail, factor, rule, closed, work, outcome, error)
+        if (allocated(error) .or. outcome%status /= gapbeam_solved) return
+        call refuse_redundancy(beam, closed, outcome%undecided, error)
+    end subroutine decide_scheme
+
+    !> Find a working scheme and its solution
+    subroutine look_for_scheme(beam, detail, factor, rule, closed, work, outcome, error)
+        !> As for decide_scheme
+        type(beam_type), intent(in) :: beam
+        type(detail_type), intent(in) :: detail
         real(wp), intent(in) :: factor
         integer, intent(in) :: rule
         logical, intent(inout) :: closed(:)
@@ -101,7 +119,7 @@ contains
         end if
         if (allocated(error) .or. outcome%status /= gapbeam_solved) return
         call move_alloc(undecided, outcome%undecided)
-    end subroutine decide_scheme
+    end subroutine look_for_scheme
 
     !> Solve a scheme that is known from the path of the load. At the factor of an event, rounded to a double, a search could as
     !> well end on the other side of it
@@ -259,15 +277,18 @@ contains
         logical, intent(out) :: undecided(:)
         type(sensitivity_type) :: sensitivity
         real(qp), allocatable :: margin(:), rounding(:)
-        real(qp) :: movement
+        real(qp) :: movement, least_way
         integer :: k
 
         allocate (margin(size(closed)), rounding(size(closed)))
         call find_margins(fine%supports, closed, work%answers, work%deflection_size, work%reaction, work%reaction_error, &
                           margin, rounding)
+        ! Rounding of the loads alone moves the beam so far: what has no flexibility shows nothing of it
+        least_way = epsilon(1.0_qp)*maxval(work%shear_size)/softest(fine)
         do k = 1, size(closed)
             undecided(k) = .false.
             if (.not. is_watched_in(fine%supports, closed, k)) cycle
+            if (.not. closed(k) .and. fine%supports(k)%kink == 0) rounding(k) = max(rounding(k), least_way/fine_width)
             ! What is held stiffly beside a soft spring may move it by rounding
             if (closed(k)) rounding(k) = max(rounding(k), epsilon(1.0_qp)*work%shear_size(fine%supports(k)%node))
             undecided(k) = abs(margin(k)) <= first_width*rounding(k)*(epsilon(1.0_wp)/epsilon(1.0_qp))

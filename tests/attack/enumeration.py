@@ -16,8 +16,8 @@ from .family import Family, Verdict
 
 PROMISE = (
     "On small scenes with exact ties, loads that cancel, rigid stretches and cycles of schemes, status, states and reactions "
-    "are those of an enumeration of all contact states in rational numbers; where forces or places are not unique, the scene "
-    "may be refused"
+    "are those of an enumeration of all contact states in rational numbers; where forces are not unique, the scene is refused, "
+    "where places are not, it may be"
 )
 SHARP = 1e-11
 RULES = ("block", "single")
@@ -54,7 +54,10 @@ def judge(made, seed=0):
         except gapbeam.EngineError as error:
             wrong = "" if outcome in ("indifferent", "ambiguous") else f"refused: {error}"
         else:
-            wrong = compare(made, beam, result, exact) if outcome != "ambiguous" else ""
+            if outcome != "ambiguous":
+                wrong = compare(made, beam, result, exact)
+            else:
+                wrong = "forces that are not unique" if result.status == "solved" else ""
         if wrong:
             verdict.wrong.append(f"{rule} from {start}: {wrong}")
     return verdict

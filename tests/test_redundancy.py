@@ -1,0 +1,119 @@
+"""Rigid stretches on more one-sided rigid supports than they need: refused where other reactions would do, and only there."""
+
+import itertools
+import math
+
+import gapbeam
+import numpy as np
+import pytest
+from gapbeam import Status
+from scenes import at, force, one_sided, scene, uniform
+
+RIGID = {"EI": math.inf}
+
+
+def below(node, **keys):
+    return at(node, side="below", **keys)
+
+
+three = [below(0), below(1), below(2)]
+chain = [below(0), below(1), below(3), below(4)]
+SCENES = {
+    "load over the middle of three": (scene([1.0, 1.0], three, [force(1.0, 6.0)], **RIGID), None),
+    "load beside it": (scene([1.0, 1.0], three, [force(0.5, 6.0)], **RIGID), None),
+    "load over the first: the others carry nothing": (
+        scene([1.0, 1.0], three, [force(0.0, 6.0)], **RIGID),
+        [6.0, 0.0, 0.0],
+    ),
+    "no load": (scene([1.0, 1.0], three, [], **RIGID), [0.0, 0.0, 0.0]),
+    "the middle one is out of reach": (
+        scene([1.0, 1.0], [below(0), below(1, gap=0.1), below(2)], [force(1.0, 6.0)], **RIGID),
+        [3.0, 0.0, 3.0],
+    ),
+    "the middle one yields": (
+        scene([1.0, 1.0], [below(0), below(1, stiffness=9.0), below(2)], [force(1.0, 6.0)], **RIGID),
+        [3.0, 0.0, 3.0],
+    ),
+    "the first holds both ways": (
+        scene([1.0, 1.0], [at(0), below(1), below(2)], [force(0.0, 6.0)], **RIGID),
+        [6.0, 0.0, 0.0],
+    ),
+    "the middle one holds both ways": (
+        scene([1.0, 1.0], [below(0), at(1), below(2)], [force(1.0, 6.0)], **RIGID),
+        None,
+    ),
+    "held from above and from below": (
+        scene(
+            [1.0, 1.0],
+            [at(0), below(1), at(1, side="above"), at(2, side="above")],
+            [force(1.0, 6.0)],
+            **RIGID,
+        ),
+        None,
+    ),
+    "a hinge leaves the outer supports idle": (
+        scene([1.0] * 4, chain, [uniform(2.0)], hinges=[2.0], **RIGID),
+        [0.0, 4.0, 4.0, 0.0],
+    ),
+    "one of them pressed as well": (
+        scene([1.0] * 4, chain, [uniform(2.0), force(0.0, 1.0)], hinges=[2.0], **RIGID),
+        None,
+    ),
+    "an elastic span between two rigid ones": (
+        scene([1.0, 1.0, 1.0], [below(i) for i in range(4)], [force(1.5, 8.0)], EI=[math.inf, 1.0, math.inf]),
+        [0.0, 4.0, 4.0, 0.0],
+    ),
+    "fixed against rotation": (
+        scene([1.0, 1.0], [at(0, rotation="fixed"), below(1)], [force(1.0, 6.0)], **RIGID),
+        None,
+    ),
+    "rigid but for shear": (scene([1.0, 1.0], three, [force(1.0, 6.0)], GA=2.0, **RIGID), [0.0, 6.0, 0.0]),
+}
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_closed_forms_from_every_start(name):
+    made, reaction = SCENES[name]
+    for start in itertools.product((True, False), repeat=len(one_sided(made))):
+        if reaction is None:
+            with pytest.raises(
+                gapbeam.EngineError, match="more rigid supports than statics can tell apart"
+            ) as refused:
+                gapbeam.solve(made, start=start)
+            assert refused.value.status == Status.INDETERMINATE
+        else:
+            assert gapbeam.solve(made, start=start).steps[-1].reaction == pytest.approx(reaction, abs=1e-14)
+
+
+def test_cases_and_combinations_say_which():
+    loads = [force(1.0, 6.0, case="middle"), force(0.0, 6.0, case="end")]
+    made = scene([1.0, 1.0], three, loads, **RIGID)
+    for start in itertools.product((True, False), repeat=3):
+        cases = gapbeam.prepare(made).solve(np.array([[1.0, 0.0], [0.0, 1.0]]), start=start)
+        assert cases.status.tolist() == [Status.INDETERMINATE, Status.SOLVED]
+        assert np.isnan(cases.reaction[0]).all()
+        assert cases.reaction[1].tolist() == [6.0, 0.0, 0.0]
+    made["combinations"] = [{"name": name, "factors": {name: 1.0}} for name in ("middle", "end")]
+    assert gapbeam.solve(made).statuses == ("indeterminate", "solved")
+
+
+def test_where_the_load_path_comes_to_it():
+    """On springs at its ends the beam comes down on three supports at once: from there on nobody knows their shares."""
+    supports = [at(0, stiffness=1.0), *(below(i, gap=1.0) for i in (1, 2, 3)), at(4, stiffness=1.0)]
+    made = scene([1.0] * 4, supports, [force(2.0, 10.0)], **RIGID)
+    made["analysis"] = {"follow": "events"}
+    with pytest.raises(gapbeam.EngineError, match=r"at load factor 0\.2: a rigid stretch"):
+        gapbeam.solve(made)
+    made["loads"][0]["F"] = 2.0  # until they touch
+    assert gapbeam.solve(made).steps[-1].reaction.tolist() == [1.0, 0.0, 0.0, 0.0, 1.0]
+
+
+def test_trains_and_foundations():
+    made = scene([1.0, 1.0], three, [], **RIGID) | {"trains": [{"name": "t", "axles": [[0.0, 6.0]]}]}
+    (gap,) = gapbeam.solve(made).trains["t"].gaps
+    assert (gap.from_, gap.to) == (0.0, 2.0)
+    assert "statics can tell apart" in gap.reason
+    made = scene([1.0, 1.0], three, [force(1.0, 6.0)], **RIGID)
+    made["foundation"] = [{"k": 4.0, "side": "below"}]
+    with pytest.raises(gapbeam.EngineError, match="more rigid supports than statics can tell apart"):
+        gapbeam.solve(made)
