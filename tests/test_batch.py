@@ -115,7 +115,7 @@ def test_a_case_that_fails_is_a_row_with_its_reason(tmp_path):
     found = done.read()
     assert found["status"].tolist() == ["solved", "refused", "refused", "no-equilibrium"]
     assert found["reason"][1] == "beam.EI: expected a number above 0 (inf = rigid), got -1"
-    assert found["reason"][2] == "beam.EI: expected a number, got none"
+    assert found["reason"][2] == "beam.EI: expected a number, got nan"
     assert found["reason"][3].startswith("no equilibrium at load factor 1: ")
     assert np.isnan(found["moment.max"]).tolist() == [False, True, True, True]
     assert gapbeam.solve(done.scene_of(3)).reason == found["reason"][3]
@@ -166,6 +166,17 @@ def test_scenes_of_a_folder_without_supports(tmp_path):
     assert np.isnan([found[f"{name}.{kind}"] for name in ("reaction", "opening") for kind in ("max", "min")]).all()
 
 
+def test_reactions_of_a_folder_are_those_across_the_beam(tmp_path):
+    (tmp_path / "scenes").mkdir()
+    text = TOML.replace("{ node = 3 }]", "{ node = 3 }, { node = 0, direction = 'axial' }]")
+    text = text.replace("loads = [", "loads = [{ type = 'axial', x = 6.0, F = 900.0 }, ")
+    (tmp_path / "scenes" / "a.toml").write_text(text)
+    found = gapbeam.batch(tmp_path / "scenes", None, tmp_path / "out").read()
+    reactions = gapbeam.solve(tmp_path / "scenes" / "a.toml").steps[-1].reaction
+    assert (found["reaction.min"][0], found["reaction.max"][0]) == (reactions[:4].min(), reactions[:4].max())
+    assert found["reaction.min"][0] > reactions[4]
+
+
 def test_text_of_the_user_goes_into_files(tmp_path):
     for k, text in enumerate(("a\ud800b", "x\x1b[31m\u200b", "{0} $x$ Träger")):
         scene = {**SCENE, "title": text, "supports": [{**SCENE["supports"][0], "name": text}, *SCENE["supports"][1:]]}
@@ -206,11 +217,20 @@ def test_lines_that_are_no_numbers(tmp_path):
     ]  # fmt: skip
 
 
+def test_cells_over_two_lines_are_refused(tmp_path):
+    """They were two cases, each refused, and all later cases had other numbers."""
+    for text, line in (('factors.wind,"factors.dead"\n1,"1"\n2,"1\n"\n', 3), ('"factors\n.wind"\n1\n', 1)):
+        (tmp_path / "t.csv").write_text(text)
+        with pytest.raises(gapbeam.SceneError, match=f"line {line}: a quoted cell goes on in the next line; write"):
+            take_table(tmp_path / "t.csv")
+
+
 @pytest.mark.parametrize(
     ("columns", "message"),
     [
         ({"supports.R-1.gap": [0.0]}, 'column "supports.R-1.gap": is no key path of the scene; did you mean "supports.R-101.gap"?'),
         ({"factors.wnd": [0.0]}, 'column "factors.wnd": is no key path of the scene; did you mean "factors.wind"?'),
+        ({"supports[9].gap": [0.0]}, 'column "supports[9].gap": there is no entry 9; the scene has 4 there, 0 to 3'),
         ({"x": [0.0]}, 'column "x": is no key path of the scene; such are '),
         ({"supports[0].side": [0.0]}, 'column "supports[0].side": is "below" in the scene; only numbers can be taken from a table'),
         ({"beam.spans": [0.0]}, 'column "beam.spans": is a list of 3 numbers here; name one of them, such as "beam.spans[0]"'),
@@ -381,10 +401,10 @@ def test_a_folder_of_something_else_is_refused(tmp_path, whole):
     (tmp_path / "other").mkdir()
     (tmp_path / "other" / "notes.txt").write_text("mine")
     assert refusal(out=tmp_path / "other") == "holds other files, and no batch; give --out a new folder"
-    with pytest.raises(OSError, match=r"notes\.txt"):
-        gapbeam.batch(SCENE, table(5), tmp_path / "other" / "notes.txt")
+    file = tmp_path / "other" / "notes.txt"
+    assert refusal(out=file) == "is a file, and results go into a folder; give --out another name"
     with pytest.raises(gapbeam.SceneError, match=r"notes\.txt: is no folder of a batch"):
-        gapbeam.Batch(tmp_path / "other" / "notes.txt")
+        gapbeam.Batch(file)
     assert digests(tmp_path / "whole") == whole
 
 

@@ -1,6 +1,7 @@
 """Random numbers by case, and distributions of results."""
 
 import json
+from io import StringIO
 
 import gapbeam
 import numpy as np
@@ -8,6 +9,8 @@ import pytest
 from gapbeam import sample
 from gapbeam.batches.quantile import normal_quantile
 from gapbeam.cli import main
+from gapbeam.report.batch import print_summary
+from rich.console import Console
 from scipy.special import ndtri
 from test_batch import SCENE, digests
 
@@ -117,11 +120,24 @@ def test_summary_of_the_command(done, tmp_path, capsys):
     data = json.loads((tmp_path / "s.json").read_text())
     assert data["columns"]["reaction.R-101"]["above"] == {"15.0": above}
     assert "above 15" in (tmp_path / "s.svg").read_text()
+    assert "line: median; dashed: limit" in (tmp_path / "s.svg").read_text()
     assert main(["batch", "--summary", str(done.path), "--limit", "reaction.R-11=15"]) == 2
     assert capsys.readouterr().err.endswith('has no column "reaction.R-11"; did you mean "reaction.R-101"?\n')
     assert main(["batch", "--summary", str(tmp_path)]) == 2
     assert "is no folder of a batch" in capsys.readouterr().err
     assert main(["batch", "--plot", "s.svg", "scene.toml", "t.csv", "--out", "x"]) == 2
+
+
+def test_long_names_stay_whole(tmp_path):
+    """In a terminal of 80 characters."""
+    long = "anchor block of the riser, north"
+    scene = {**SCENE, "supports": [{**SCENE["supports"][0], "name": long}, *SCENE["supports"][1:]]}
+    done = gapbeam.batch(scene, {"factors.wind": [1.0, 1.0 / 3.0]}, tmp_path / "out")
+    console = Console(width=80, file=StringIO())
+    print_summary(done.summary(limits={f"reaction.{long}": 12.0}), console)
+    lines = console.file.getvalue().splitlines()
+    assert sum(line.startswith(f"reaction.{long} ") for line in lines) == 3
+    assert max(map(len, lines)) <= 80
 
 
 def test_nothing_done_and_nothing_solved(tmp_path):

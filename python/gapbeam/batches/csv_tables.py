@@ -77,7 +77,7 @@ class CsvTable:
     """
 
     def __init__(self, path: Path):
-        self._path = path
+        self._path, self._quoted = path, False
         digest = hashlib.sha256()
         self.cases, self._places = 0, []
         try:
@@ -88,6 +88,7 @@ class CsvTable:
                 place, rest = stream.tell(), b""
                 while block := stream.read(BLOCK):
                     digest.update(block)
+                    self._quoted = self._quoted or b'"' in block
                     place, rest = self._count(place, rest + block)
                 if rest.strip(b"\r"):
                     self._note(np.array([place]))
@@ -95,6 +96,8 @@ class CsvTable:
             problem = "there is no such file" if isinstance(error, FileNotFoundError) else f"cannot be read ({error.strerror})"
             raise SceneError(str(path), problem) from None
         self.digest = digest.hexdigest()
+        if self._quoted:
+            self._refuse_broken_cells()
         if not self.cases:
             raise SceneError(str(path), "the table has no row; give a case a line below the names of the columns")
         problems = self.rows(0, 1).columns()[1]
@@ -116,9 +119,20 @@ class CsvTable:
             cells = next(csv.reader([line.decode("utf-8-sig").strip()]), [])
         except UnicodeDecodeError:
             raise SceneError(f"{self._path}, first line", "not a text in UTF-8") from None
+        self._refuse_broken_cell(1, line)
         if not cells:
             raise SceneError(f"{self._path}, first line", "expected the names of the columns, such as supports.R-104.gap")
         return tuple(cell.strip() for cell in cells)
+
+    def _refuse_broken_cells(self) -> None:
+        """Refuse what would be taken as two cases, and give all later ones another number."""
+        with open(self._path, "rb") as stream:
+            for number, line in enumerate(stream, 1):
+                self._refuse_broken_cell(number, line)
+
+    def _refuse_broken_cell(self, number: int, line: bytes) -> None:
+        if line.count(b'"') % 2 and len(list(csv.reader([line.decode("utf-8-sig", "replace"), "next"]))) == 1:
+            raise SceneError(f"{self._path}, line {number}", "a quoted cell goes on in the next line; write each case on one line")
 
     def _count(self, place: int, block: bytes) -> tuple[int, bytes]:
         """Count whole lines that are not empty; give the place of the first line that goes on, and its beginning."""

@@ -161,11 +161,14 @@ def locked(path: Path) -> Iterator[None]:
     Raises
     ------
     SceneError
-        Another batch is at work there.
+        Another batch is at work there, or it is a file.
     OSError
         It cannot be made or written.
     """
-    path.mkdir(parents=True, exist_ok=True)
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except FileExistsError:
+        raise SceneError(str(path), "is a file, and results go into a folder; give --out another name") from None
     name = path / LOCK
     descriptor = os.open(name, os.O_RDWR | os.O_CREAT, 0o666)
     try:

@@ -16,6 +16,7 @@ from ..base.characters import visible
 from ..base.errors import EngineError, SceneError
 from ..results.result import Result
 from ..results.stepping import solve
+from ..scene.structs import Scene
 from .paths import KeyPath, with_values
 from .prepared import PreparedRoad, prepared_road
 from .tables import Rows, SceneFiles
@@ -153,7 +154,7 @@ class Job:
         try:
             wrong = next((path.text for path, value in zip(self.paths, row, strict=True) if value != value), None)
             if wrong is not None:
-                raise SceneError(wrong, "expected a number, got none")
+                raise SceneError(wrong, "expected a number, got nan")
             result = solve(with_values(self.scene, self.paths, row) if source is None else source)
             if result.status != SOLVED:
                 return result.status, result.reason or ""
@@ -162,7 +163,8 @@ class Job:
             step, extremes = result.steps[-1], {}
             if set(self.want) - {"input", *AT_SUPPORTS}:
                 extremes = result.extremes()
-            self._keep(k, numbers, {name: (getattr(step, name),) for name in AT_SUPPORTS}, extremes)
+            at_supports = {name: (self._kept(result.scene, getattr(step, name)),) for name in AT_SUPPORTS}
+            self._keep(k, numbers, at_supports, extremes)
             return SOLVED, ""
         except SceneError as error:
             return "refused", str(error)
@@ -179,13 +181,19 @@ class Job:
         for _, gap in getattr(envelope, "gaps", ()):
             return "no-equilibrium", f"with a train from x = {gap.from_:g} to {gap.to:g} the beam cannot stand: {gap.reason}"
         at_supports = {
-            name: tuple(np.array([one[name][kind].value for one in envelope.supports]) for kind in KINDS)
+            name: tuple(
+                self._kept(result.scene, np.array([one[name][kind].value for one in envelope.supports])) for kind in KINDS
+            )
             for name in AT_SUPPORTS
             if name in self.want
         }
         extremes = {name: {kind: (one[kind].value, one[kind].x) for kind in KINDS} for name, one in envelope.extremes.items()}
         self._keep(k, numbers, at_supports, extremes)
         return SOLVED, ""
+
+    def _kept(self, scene: Scene, values: np.ndarray) -> np.ndarray:
+        """Values at the supports that are kept: of a scene of a folder only those across the beam have the same direction."""
+        return values if self.scene is not None else values[[one.direction == "normal" for one in scene.supports]]
 
     def _keep(
         self, k: int, numbers: dict[str, np.ndarray], at_supports: dict[str, tuple[np.ndarray, ...]],

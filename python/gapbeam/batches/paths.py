@@ -176,6 +176,8 @@ def _resolve(scene: Scene, data: dict[str, Any], name: str) -> tuple[str | int, 
             key: str | int = piece
         elif isinstance(value, list) and (k := _entry(value, piece, len(parts) == 1 and parts[0] in NAMES)) is not None:
             key = k
+        elif isinstance(value, list) and value and re.fullmatch(r"\d+", str(piece)):
+            raise SceneError(place, f"there is no entry {piece}; the scene has {len(value)} there, 0 to {len(value) - 1}")
         else:
             raise _unknown(scene, data, place, name)
         parts.append(key)

@@ -37,6 +37,9 @@ def summary_figure(summary: "Summary") -> Figure:
     for k, name in enumerate(names):
         axes = picture.add_subplot(rows, min(ACROSS, len(names)), k + 1)
         _draw(axes, name, there[name])
+    lines = ["line: median"] if any(0.5 in one.quantiles for one in there.values()) else []
+    lines += ["dashed: limit"] if any(one.above for one in there.values()) else []
+    picture.supxlabel("; ".join(lines), fontsize=7, x=0.99, ha="right")
     return literal(picture)
 
 

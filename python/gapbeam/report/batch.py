@@ -35,7 +35,7 @@ def print_summary(summary: "Summary", console: "Console | None" = None) -> None:
         [name, *(fmt.number(value, 4) for value in (one.mean, one.least, *one.quantiles.values(), one.largest))]
         for name, one in columns.items()
     ]
-    say.table(["", "mean", "least", *(f"{100 * share:g} %" for share in shares), "largest"], rows, left=[0])
+    say.table_by_name(["", "mean", "least", *(f"{100 * share:g} %" for share in shares), "largest"], rows)
     say.line("50 %: half of the cases give no more than this.")
     above = [
         [name, fmt.number(limit), f"{count:,}", f"{count / one.count:.6g}"]
@@ -44,7 +44,7 @@ def print_summary(summary: "Summary", console: "Console | None" = None) -> None:
     ]
     if above:
         say.heading("Cases above a limit")
-        say.table(["", "limit", "cases", "share"], above, left=[0])
+        say.table_by_name(["", "limit", "cases", "share"], above)
 
 
 def _first(summary: "Summary", status: str) -> str:

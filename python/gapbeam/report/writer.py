@@ -3,12 +3,15 @@
 from collections.abc import Sequence
 
 from rich import box
+from rich.cells import cell_len
 from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
 #: Tables with more rows than this are cut
 LONGEST = 40
+#: Between two columns of a table
+GAP = 2
 
 
 class Writer:
@@ -60,6 +63,19 @@ class Writer:
             self.line(
                 f"{hidden:,} rows in the middle are left out here; all are in the output of --json.", "italic"
             )
+
+    def table_by_name(self, headings: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
+        """Write a table of numbers by name, with whole names: columns that do not fit stand below, by name again."""
+        names, *columns = ([heading, *(row[k] for row in rows)] for k, heading in enumerate(headings))
+        wide = [max(map(cell_len, texts)) + GAP for texts in (names, *columns)]
+        first = 1
+        while first < len(headings):
+            last = first + 1
+            while last < len(headings) and wide[0] + sum(wide[first : last + 1]) <= self.width:
+                last += 1
+            part = slice(first, last)
+            self.table([headings[0], *headings[part]], [[row[0], *row[part]] for row in rows], left=[0])
+            first = last
 
     def pairs(self, rows: Sequence[tuple[str, str]]) -> None:
         """Write names and what there is to say of them."""
