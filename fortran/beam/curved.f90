@@ -246,7 +246,7 @@ contains
         !> As for advance_curved; then nothing else is set
         logical, intent(out) :: lost
         type(half_type) :: a, b
-        real(wp) :: transfer(4, 5), mirrored(4, 5), values(4), back(4, 4)
+        real(wp) :: transfer(4, 5), mirrored(4, 5), values(4), back(4, 4), turn(2), shear(2)
         integer :: i
 
         turn_a = 0.0_wp
@@ -264,13 +264,13 @@ contains
             mirrored(i, :) = -mirrored(i, :)
             mirrored(:, i) = -mirrored(:, i)
         end do
-        call half_of_transfer(transfer, a)
-        call half_of_transfer(mirrored, b)
+        call half_of_transfer(transfer, a, turn(1:1), shear(1:1))
+        call half_of_transfer(mirrored, b, turn(2:2), shear(2:2))
         call link_of_halves(curved%stretch%shear_flexibility, a, b, link)
-        turn_a = a%turn
-        turn_b = b%turn
-        shear_a = a%shear
-        shear_b = b%shear
+        turn_a = turn(1)
+        turn_b = turn(2)
+        shear_a = shear(1)
+        shear_b = shear(2)
     end subroutine condense_curved
 
     !> The inverse of a transfer: by Betti's theorem w V' - V w' - psi M' + M psi' of two changes is the same everywhere

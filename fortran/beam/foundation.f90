@@ -63,14 +63,16 @@ contains
         !> Its link
         type(stretch_link_type), intent(out) :: link
 
+        real(wp) :: none(0)
+
         if (is_sloped(stretch)) then
-            call condense_sloped(stretch, link)
+            call condense_sloped(stretch, [stretch_load_type ::], link, none, none, none, none)
         else
             call condense_even(stretch, end_functions(stretch), link)
         end if
     end subroutine condense_stretch
 
-    !> The same, and what loads make at its ends, for which the functions of the ends are found once
+    !> The same, and what loads make at its ends, for which the functions of the ends, or the series, are found once
     pure subroutine condense_loaded(stretch, loads, link, turn_a, turn_b, shear_a, shear_b)
         !> The stretch and some loads
         type(stretch_type), intent(in) :: stretch
@@ -83,10 +85,7 @@ contains
         integer :: k
 
         if (is_sloped(stretch)) then
-            call condense_sloped(stretch, link)
-            do k = 1, size(loads)
-                call load_stretch(stretch, loads(k), turn_a(k), turn_b(k), shear_a(k), shear_b(k))
-            end do
+            call condense_sloped(stretch, loads, link, turn_a, turn_b, shear_a, shear_b)
         else
             h = end_functions(stretch)
             call condense_even(stretch, h, link)
@@ -134,13 +133,16 @@ contains
     end subroutine condense_even
 
     !> The same where the modulus changes along the stretch
-    pure subroutine condense_sloped(stretch, link)
+    pure subroutine condense_sloped(stretch, loads, link, turn_a, turn_b, shear_a, shear_b)
+        !> As for condense_loaded
         type(stretch_type), intent(in) :: stretch
+        type(stretch_load_type), intent(in) :: loads(:)
         type(stretch_link_type), intent(out) :: link
+        real(wp), intent(out) :: turn_a(:), turn_b(:), shear_a(:), shear_b(:)
         type(half_type) :: a, b
 
-        call half_link(stretch, stretch_load_type(), a)
-        call half_link(mirrored(stretch), stretch_load_type(), b)
+        call half_link(stretch, loads, a, turn_a, shear_a)
+        call half_link(mirrored(stretch), turned(loads), b, turn_b, shear_b)
         call link_of_halves(stretch%shear_flexibility, a, b, link)
     end subroutine condense_sloped
 
@@ -180,15 +182,16 @@ contains
         type(stretch_load_type), intent(in) :: load
         !> turn_a, -turn_b: rotations; shear_a, -shear_b: shears
         real(wp), intent(out) :: turn_a, turn_b, shear_a, shear_b
-        type(half_type) :: a, b
+        type(half_type) :: half
+        real(wp) :: turn(2), shear(2)
 
         if (is_sloped(stretch)) then
-            call half_link(stretch, load, a)
-            call half_link(mirrored(stretch), turned(load), b)
-            turn_a = a%turn
-            turn_b = b%turn
-            shear_a = a%shear
-            shear_b = b%shear
+            call half_link(stretch, [load], half, turn(1:1), shear(1:1))
+            call half_link(mirrored(stretch), [turned(load)], half, turn(2:2), shear(2:2))
+            turn_a = turn(1)
+            turn_b = turn(2)
+            shear_a = shear(1)
+            shear_b = shear(2)
         else
             call load_even(stretch, end_functions(stretch), load, turn_a, turn_b, shear_a, shear_b)
         end if
@@ -332,17 +335,17 @@ contains
         real(wp), intent(in) :: xi
         real(wp), intent(out) :: w, psi, moment, shear
         type(half_type) :: h
-        real(wp) :: y(4), v_a, v_b
+        real(wp) :: y(4), v_a, v_b, by_load(2)
 
         v_a = ends%w_a - stretch%shear_flexibility*ends%moment_a
         v_b = ends%w_b - stretch%shear_flexibility*ends%moment_b
         if (xi <= 0.5_wp) then
-            call half_link(stretch, load, h)
-            call advance(stretch, load, 0.0_wp, start_of(stretch, h, v_a, v_b, ends%moment_a, ends%moment_b), xi, y)
+            call half_link(stretch, [load], h, by_load(1:1), by_load(2:2))
+            call advance(stretch, load, 0.0_wp, start_of(stretch, h, by_load, v_a, v_b, ends%moment_a, ends%moment_b), xi, y)
         else
-            call half_link(mirrored(stretch), turned(load), h)
+            call half_link(mirrored(stretch), [turned(load)], h, by_load(1:1), by_load(2:2))
             call advance(mirrored(stretch), turned(load), 0.0_wp, &
-                         start_of(stretch, h, v_b, v_a, ends%moment_b, ends%moment_a), 1 - xi, y)
+                         start_of(stretch, h, by_load, v_b, v_a, ends%moment_b, ends%moment_a), 1 - xi, y)
             y = [y(1), -y(2), y(3), -y(4)]
         end if
         w = y(1) + stretch%shear_flexibility*y(3)
@@ -352,18 +355,20 @@ contains
     end subroutine sloped_fields
 
     !> v = w - M/GA, psi, M and V at the left end from v and M at both
-    pure function start_of(stretch, half, v_a, v_b, moment_a, moment_b) result(y)
+    pure function start_of(stretch, half, by_load, v_a, v_b, moment_a, moment_b) result(y)
         type(stretch_type), intent(in) :: stretch
         type(half_type), intent(in) :: half
+        !> Rotation and shear by the load
+        real(wp), intent(in) :: by_load(2)
         real(wp), intent(in) :: v_a, v_b, moment_a, moment_b
         real(wp) :: y(4)
 
         y(1) = v_a
-        y(2) = (half%p1*v_b - half%pa*v_a) + (half%faa*moment_a + half%fab*moment_b) + half%turn
+        y(2) = (half%p1*v_b - half%pa*v_a) + (half%faa*moment_a + half%fab*moment_b) + by_load(1)
         y(3) = moment_a
         ! The moment's factor in V_a beside p2 is pa + gaa/GA, as V knows w only
         y(4) = (half%p2*moment_b - (half%pa + stretch%shear_flexibility*half%gaa)*moment_a) &
-            - (half%gaa*v_a + half%gab*v_b) + half%shear
+            - (half%gaa*v_a + half%gab*v_b) + by_load(2)
     end function start_of
 
     !> A stretch seen from the other side
@@ -377,7 +382,7 @@ contains
     end function mirrored
 
     !> Its load seen from there
-    pure function turned(load) result(other)
+    elemental function turned(load) result(other)
         type(stretch_load_type), intent(in) :: load
         type(stretch_load_type) :: other
 

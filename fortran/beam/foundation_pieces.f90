@@ -74,7 +74,7 @@ contains
                 call fields_at(s, p, e, xi, w, y(1, 2), y(1, 3), y(1, 4))
                 y(1, 1) = w - g*y(1, 3)
                 n = terms_of(s, piece%half)
-                call expand(s, p, xi, y, piece%half, n, c)
+                call expand(s, [p], xi, y, piece%half, n, c)
             end if
             do j = 1, 4
                 scale(j) = sum(abs(c(1, j, 0:n)))

@@ -25,13 +25,12 @@ module gapbeam_foundation_taylor
     end type stretch_load_type
 
     !> What the left end feels of both, with v in place of w and signs as in stretch_link_type:
-    !> psi_a = -pa v_a + p1 v_b + faa M_a + fab M_b + turn, V_a = -.. M_a + p2 M_b - gaa v_a - gab v_b + shear
+    !> psi_a = -pa v_a + p1 v_b + faa M_a + fab M_b + turn, V_a = -.. M_a + p2 M_b - gaa v_a - gab v_b + shear, where turn and shear
+    !> are what loads make there
     type :: half_type
         real(wp) :: pa, p1, p2, faa, fab, gaa, gab
         !> Determinants of the flexibilities, of the stiffnesses and of the p, and 1/(p1 p2 + fab gab)
         real(wp) :: df, dg, dh, determinant
-        !> Rotation and shear by the loads
-        real(wp) :: turn, shear
     end type half_type
 
     !> More terms no series is given
@@ -39,15 +38,17 @@ module gapbeam_foundation_taylor
 
 contains
 
-    !> What the left end feels; for the right one give the stretch and its load mirrored
-    pure subroutine half_link(stretch, load, half)
-        !> The stretch and its load
+    !> What the left end feels; for the right one give the stretch and its loads mirrored
+    pure subroutine half_link(stretch, loads, half, turn, shear)
+        !> The stretch and some loads
         type(stretch_type), intent(in) :: stretch
-        type(stretch_load_type), intent(in) :: load
+        type(stretch_load_type), intent(in) :: loads(:)
         !> The left half of its link
         type(half_type), intent(out) :: half
-        !> v, psi, M, V at the right end from each of them at the left end, and from the load, terms by terms
-        real(wp) :: c(5, 4, 0:most_terms), start(5, 4)
+        !> Rotation and shear by each of the loads, shape (size(loads))
+        real(wp), intent(out) :: turn(:), shear(:)
+        !> v, psi, M, V at the right end from each of them at the left end, and from the loads, terms by terms
+        real(wp) :: c(4 + size(loads), 4, 0:most_terms), start(4 + size(loads), 4)
         integer :: n, i, j
 
         start = 0.0_wp
@@ -55,20 +56,21 @@ contains
             start(j, j) = 1.0_wp
         end do
         n = terms_of(stretch, 1.0_wp)
-        call expand(stretch, load, 0.0_wp, start, 1.0_wp, n, c)
+        call expand(stretch, loads, 0.0_wp, start, 1.0_wp, n, c)
         start = c(:, :, n)
         do i = n - 1, 0, -1
             start = start + c(:, :, i)
         end do
-        call half_of_transfer(transpose(start), half)
+        call half_of_transfer(transpose(start), half, turn, shear)
     end subroutine half_link
 
     !> The same from what the right end gets of the left one
-    pure subroutine half_of_transfer(t, half)
-        !> v, psi, M, V at the right end from each of them at the left end, and from the load
-        real(wp), intent(in) :: t(4, 5)
-        !> The left half of the link
+    pure subroutine half_of_transfer(t, half, turn, shear)
+        !> v, psi, M, V at the right end from each of them at the left end, and from the loads, shape (4, 4 + number of loads)
+        real(wp), intent(in) :: t(:, :)
+        !> As for half_link
         type(half_type), intent(out) :: half
+        real(wp), intent(out) :: turn(:), shear(:)
         real(wp) :: d
 
         d = t(1, 2)*t(3, 4) - t(1, 4)*t(3, 2)
@@ -84,8 +86,8 @@ contains
         half%df = (t(1, 3)*t(2, 4) - t(1, 4)*t(2, 3))/d
         half%dg = (t(3, 1)*t(4, 2) - t(3, 2)*t(4, 1))/d
         half%dh = (t(3, 4)*t(2, 1) - t(3, 1)*t(2, 4))/d
-        half%turn = -(half%p1*t(1, 5) + half%fab*t(3, 5))
-        half%shear = half%gab*t(1, 5) - half%p2*t(3, 5)
+        turn(:) = -(half%p1*t(1, 5:) + half%fab*t(3, 5:))
+        shear(:) = half%gab*t(1, 5:) - half%p2*t(3, 5:)
     end subroutine half_of_transfer
 
     !> Fields at one place from those at another
@@ -105,7 +107,7 @@ contains
         integer :: n, i
 
         n = terms_of(stretch, step)
-        call expand(stretch, load, xi, reshape(start, [1, 4]), step, n, c)
+        call expand(stretch, [load], xi, reshape(start, [1, 4]), step, n, c)
         values = c(1, :, n)
         do i = n - 1, 0, -1
             values = values + c(1, :, i)
@@ -113,13 +115,13 @@ contains
     end subroutine advance
 
     !> Fields around a place as polynomials
-    pure subroutine expand(stretch, load, xi, start, step, n, c)
-        !> The stretch, and the load of the last case
+    pure subroutine expand(stretch, loads, xi, start, step, n, c)
+        !> The stretch, and the loads of the last cases
         type(stretch_type), intent(in) :: stretch
-        type(stretch_load_type), intent(in) :: load
+        type(stretch_load_type), intent(in) :: loads(:)
         !> The place, 0..1
         real(wp), intent(in) :: xi
-        !> v = w - M/GA, psi, M, V there, shape (cases, 4); all cases but the last have no load
+        !> v = w - M/GA, psi, M, V there, shape (cases, 4); all cases but the last ones have no load
         real(wp), intent(in), contiguous :: start(:, :)
         !> Unit of the polynomials' variable, in parts of the length
         real(wp), intent(in) :: step
@@ -127,17 +129,17 @@ contains
         integer, intent(in) :: n
         !> Coefficients of v, psi, M, V, shape (cases, 4, 0:at least n)
         real(wp), intent(out), contiguous :: c(:, :, 0:)
-        real(wp) :: q(0:2), k0, k1, h, part
-        integer :: i, last
+        real(wp) :: q(size(loads), 0:2), k0, k1, h, part
+        integer :: i, first
 
-        associate (s => stretch, p => load, eta => 1 - xi)
+        associate (s => stretch, p => loads, eta => 1 - xi)
             h = s%length*step
             k0 = s%modulus_a*eta + s%modulus_b*xi
             k1 = (s%modulus_b - s%modulus_a)*step
-            q(0) = p%qa*eta + p%qb*xi + p%qc*xi*eta
-            q(1) = (p%qb - p%qa + p%qc*(eta - xi))*step
-            q(2) = -p%qc*step**2
-            last = size(start, 1)
+            q(:, 0) = p%qa*eta + p%qb*xi + p%qc*xi*eta
+            q(:, 1) = (p%qb - p%qa + p%qc*(eta - xi))*step
+            q(:, 2) = -p%qc*step**2
+            first = size(start, 1) - size(loads) + 1
             c(:, :, 0) = start
             do i = 0, n - 1
                 part = h/(i + 1)
@@ -147,8 +149,8 @@ contains
                 c(:, 4, i + 1) = part*k0*(c(:, 1, i) + s%shear_flexibility*c(:, 3, i))
                 if (i > 0) c(:, 4, i + 1) = c(:, 4, i + 1) &
                     + part*k1*(c(:, 1, i - 1) + s%shear_flexibility*c(:, 3, i - 1))
-                if (i == 0) c(last, 2, 1) = c(last, 2, 1) + part*p%kappa
-                if (i <= 2) c(last, 4, i + 1) = c(last, 4, i + 1) - part*q(i)
+                if (i == 0) c(first:, 2, 1) = c(first:, 2, 1) + part*p%kappa
+                if (i <= 2) c(first:, 4, i + 1) = c(first:, 4, i + 1) - part*q(:, i)
             end do
         end associate
     end subroutine expand

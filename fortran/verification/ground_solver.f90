@@ -19,7 +19,8 @@ module gapbeam_ground_solver
     use gapbeam_rules, only: first_width
     use gapbeam_referee, only: detail_type, refine_beam, fine_piece, fine_load
     use gapbeam_foundation_quad, only: fine_stretch_type => stretch_type, fine_stretch_load_type => stretch_load_type, &
-        fine_ends_type => stretch_ends_type, fields_at
+        fine_ends_type => stretch_ends_type
+    use gapbeam_foundation_taylor_quad, only: expand, terms_of, most_terms
     use gapbeam_layers, only: layer_type, law_piece_type
     use gapbeam_layers_quad, only: fine_layer_type => layer_type, fine_law_piece_type => law_piece_type, law_piece, &
         is_curve, has_curves
@@ -433,8 +434,7 @@ contains
             solution%ends(i) = stretch_ends_type(real(ends%w_a, wp), real(ends%w_b, wp), real(ends%moment_a, wp), &
                                                  real(ends%moment_b, wp))
             call take_curved(fine, grounded, zones, factor, work, i, curved)
-            call sum_layers(fine, zones, i, merge(from, zones%from(i), curves), stretch, load, ends, field(2, 2) - field(1, 2), &
-                            curved, forces)
+            call sum_layers(fine, zones, i, merge(from, zones%from(i), curves), stretch, load, ends, field, curved, forces)
             beside = beside_line(stretch, load, [ends%w_a, ends%w_b])
             if (allocated(curved)) beside = load
             solution%loads(i) = stretch_load_type(real(beside%qa, wp), real(beside%qb, wp), real(beside%qc, wp), &
@@ -561,7 +561,7 @@ contains
     end subroutine drop_small
 
     !> Force of every layer on a stretch: what the shear gains is the whole pressure less the load, and shared out by the moduli
-    subroutine sum_layers(fine, zones, i, from, stretch, load, ends, gain, curved, forces)
+    subroutine sum_layers(fine, zones, i, from, stretch, load, ends, field, curved, forces)
         type(fine_ground_type), intent(in) :: fine
         type(fine_zones_type), intent(in) :: zones
         !> Number of the stretch, distance of its left end from that of the piece; what it is made of, its load, what is at its ends
@@ -570,8 +570,8 @@ contains
         type(fine_stretch_type), intent(in) :: stretch
         type(fine_stretch_load_type), intent(in) :: load
         type(fine_ends_type), intent(in) :: ends
-        !> Gain of the shear along it
-        real(qp), intent(in) :: gain
+        !> Left and right, rotation and shear
+        real(qp), intent(in) :: field(2, 2)
         !> Allocated if some ground acts by curves
         type(curved_type), allocatable, intent(in) :: curved
         !> Up
@@ -584,7 +584,7 @@ contains
 
         forces(:) = 0.0_qp
         modulus = [stretch%modulus_a, stretch%modulus_b]
-        by_springs = gain + stretch%length*((load%qa + load%qb)/2 + load%qc/6)
+        by_springs = (field(2, 2) - field(1, 2)) + stretch%length*((load%qa + load%qb)/2 + load%qc/6)
         n = 0
         if (allocated(curved)) then
             allocate (by_curves(size(curved%curves)))
@@ -620,10 +620,33 @@ contains
 
     contains
 
-        !> Integral of the slope times the deflection (Gauss, 5 points on each of 16 parts: such stretches are short)
+        !> Integral of the slope times the deflection: term by term of its series, which is short as such stretches are
         function integral(slope) result(total)
             real(qp), intent(in) :: slope(2)
-            real(qp) :: total, xi, w, psi, moment, shear
+            real(qp) :: total
+            real(qp) :: c(1, 4, 0:most_terms), start(1, 4)
+            integer :: n, i
+
+            if (allocated(curved)) then
+                total = integral_on_curves(slope)
+                return
+            end if
+            n = terms_of(stretch, 1.0_qp)
+            start(1, :) = [ends%w_a - stretch%shear_flexibility*ends%moment_a, field(1, 1), ends%moment_a, field(1, 2)]
+            call expand(stretch, [load], 0.0_qp, start, 1.0_qp, n, c)
+            total = 0.0_qp
+            do i = n, 0, -1
+                total = total + (c(1, 1, i) + stretch%shear_flexibility*c(1, 3, i)) &
+                    *(slope(1)/(i + 1) + (slope(2) - slope(1))/(i + 2))
+            end do
+            total = total*stretch%length
+        end function integral
+
+        !> The same where laws are curves (Gauss, 5 points on each of 16 parts)
+        function integral_on_curves(slope) result(total)
+            real(qp), intent(in) :: slope(2)
+            real(qp) :: total
+            real(qp) :: xi, w, psi, moment, shear
             integer, parameter :: parts = 16
             real(qp), parameter :: near = sqrt(5 - 2*sqrt(10/7.0_qp))/3, far = sqrt(5 + 2*sqrt(10/7.0_qp))/3, &
                 point(5) = [-far, -near, 0.0_qp, near, far], root = sqrt(70.0_qp), &
@@ -634,16 +657,12 @@ contains
             do part = 1, parts
                 do g = 1, size(point)
                     xi = (part - 0.5_qp + point(g)/2)/parts
-                    if (allocated(curved)) then
-                        call curved_fields(curved, xi, w, psi, moment, shear)
-                    else
-                        call fields_at(stretch, load, ends, xi, w, psi, moment, shear)
-                    end if
+                    call curved_fields(curved, xi, w, psi, moment, shear)
                     total = total + weight(g)*(slope(1) + (slope(2) - slope(1))*xi)*w
                 end do
             end do
             total = total*stretch%length/parts
-        end function integral
+        end function integral_on_curves
 
     end subroutine sum_layers
 
