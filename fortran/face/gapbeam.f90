@@ -31,6 +31,11 @@
 !>     call combine_loads(beam, [1.35d0, 1.5d0], combined, error)                ! a factor for every load
 !>     call solve_beam(combined, 1d0, options_type(), result, error)
 !>
+!> Many cases go through one call, eight side by side with the widest registers that the processor has:
+!>
+!>     call prepare_cases(beam, cases, error)                                    ! once
+!>     call solve_cases(beam, cases, factors, status, error, gap=gaps, reaction=reactions)   ! a column each for every case
+!>
 !> Units: any consistent set. Signs: x to the right, deflections, settlements and loads down, reactions up, moments sagging,
 !> couples and rotations clockwise, axial forces on the beam to the right. Supports, foundations and loads count from 1,
 !> nodes from 0.
@@ -61,6 +66,7 @@ module gapbeam
     use gapbeam_api_history, only: history_type, stretch_type, limit_type, follow_history, solve_on_path, &
         gapbeam_limit_stop, gapbeam_limit_jump, gapbeam_limit_follow, &
         gapbeam_arrived, gapbeam_limit_point, gapbeam_bifurcation, gapbeam_mechanism, gapbeam_path_ended
+    use gapbeam_api_cases, only: cases_type, prepare_cases, solve_cases, get_nodes
     use gapbeam_api_combinations, only: combine_loads
     use gapbeam_api_trains, only: moving_train_type, passing_type, train_event_type, train_gap_type, train_extreme_type, &
         follow_train, get_train_extremes, get_train_curves, gapbeam_moves_freely

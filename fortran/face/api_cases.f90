@@ -1,0 +1,398 @@
+!> Many cases of one beam in one call, for Fortran; as gapbeam_api in all else
+module gapbeam_api_cases
+    use, intrinsic :: ieee_arithmetic, only: ieee_status_type, ieee_get_status, ieee_set_status, ieee_set_halting_mode, &
+        ieee_set_rounding_mode, ieee_nearest, ieee_all, ieee_value, ieee_quiet_nan
+    use gapbeam_kinds, only: wp
+    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_bad_input, gapbeam_no_memory, &
+        gapbeam_not_prepared
+    use gapbeam_words, only: shown, whole
+    use gapbeam_refusal, only: named, of_supports, of_loads
+    use gapbeam_scene, only: support_type, gapbeam_axial, gapbeam_both
+    use gapbeam_lowered, only: lowered_type
+    use gapbeam_polyline, only: last_kink
+    use gapbeam_solution, only: close_all
+    use gapbeam_pieces, only: acting_type, acting_piece, gapbeam_open, gapbeam_bilateral
+    use gapbeam_cases, only: case_loads_type, split_loads
+    use gapbeam_many_cases, only: solve_many_cases
+    use gapbeam_query, only: node_places
+    use gapbeam_api, only: prepared_type, options_type, require_beam, require_no_path, require_size, check_call
+    implicit none
+    private
+    public :: cases_type, prepare_cases, solve_cases, get_nodes
+
+    !> Cases that are solved in one go, so that what they need stays in the cache
+    integer, parameter :: most = 256
+
+    !> What solving many cases of a beam takes, kept from call to call: opaque. It belongs to one thread at a time
+    type :: cases_type
+        integer :: fingerprint = 0, nodes = 0, supports = 0
+        type(case_loads_type), allocatable :: loads
+        integer, allocatable :: start(:), closed(:, :), solves(:)
+        real(wp), allocatable :: w(:, :), ml(:, :), mr(:, :), reaction(:, :), values(:, :, :)
+    end type cases_type
+
+contains
+
+    !> Make ready for many cases of a beam: what every load does alone is worked out once
+    subroutine prepare_cases(beam, cases, error)
+        !> Prepared, on no foundation, without laws that make the state depend on the way of the load
+        type(prepared_type), intent(in) :: beam
+        !> For solve_cases; it keeps nothing of the beam, and is of no use after replace_loads
+        type(cases_type), intent(out) :: cases
+        !> gapbeam_bad_input for beams that are not taken, gapbeam_not_prepared, gapbeam_no_memory
+        type(error_type), allocatable, intent(out) :: error
+        type(ieee_status_type) :: environment
+        integer :: n, m, stat
+
+        call require_beam(beam, error)
+        if (.not. allocated(error)) call require_no_path(beam, error)
+        if (allocated(error)) return
+        associate (lowered => beam%lowered)
+            if (allocated(lowered%layers)) then
+                call fatal_error(error, gapbeam_bad_input, "the beam is on a foundation, where many cases in one call are not "// &
+                                 "available; use combine_loads and solve_beam for each")
+                return
+            end if
+            n = size(lowered%node_point)
+            m = size(lowered%beam%supports)
+            allocate (cases%start(m), cases%closed(m, most), cases%solves(most), cases%w(n, most), cases%ml(n, most), &
+                      cases%mr(n, most), cases%reaction(m, most), cases%values(3, size(lowered%model%supports), most), &
+                      cases%loads, stat=stat)
+            if (stat /= 0) then
+                call no_memory(error)
+                return
+            end if
+            call ieee_get_status(environment)
+            call ieee_set_halting_mode(ieee_all, .false.)
+            call ieee_set_rounding_mode(ieee_nearest)
+            call split_loads(lowered, cases%loads, error)
+            call start_closed(lowered, cases%start)
+            call ieee_set_status(environment)
+            if (allocated(error)) return
+            cases%fingerprint = lowered%fingerprint
+            cases%nodes = n
+            cases%supports = m
+        end associate
+    end subroutine prepare_cases
+
+    !> Solve many cases. In each all loads of the model act, dead or live, every one times a factor of its own; and supports may
+    !> have other numbers than in the model. A case that has no solution is recorded in its status, and the others go on. The
+    !> digits are those of each case alone, in Python too
+    subroutine solve_cases(beam, cases, factors, status, error, settlement, gap, stiffness, options, reaction, condition, &
+                           deflection, moment_left, moment_right, solves)
+        !> Prepared; by prepare_cases from it
+        type(prepared_type), intent(in) :: beam
+        type(cases_type), intent(inout) :: cases
+        !> Factor of every load, shape (nload, ncase)
+        real(wp), intent(in) :: factors(:, :)
+        !> gapbeam_solved, gapbeam_no_equilibrium, or the code of the error that solve_beam would give, shape (ncase)
+        integer, intent(out) :: status(:)
+        !> gapbeam_bad_input: nothing is solved; also where supports vary that have laws, or stand at one place.
+        !> gapbeam_not_prepared, gapbeam_no_memory
+        type(error_type), allocatable, intent(out) :: error
+        !> Movement (down), gap and stiffness (above 0, infinite: rigid) of every support instead of those of the model, shape
+        !> (nsupport, ncase)
+        real(wp), intent(in), optional :: settlement(:, :), gap(:, :), stiffness(:, :)
+        type(options_type), intent(in), optional :: options
+        !> Force on the beam, up, shape (nsupport, ncase); of axial supports, and of cases that are not solved, not-a-number
+        real(wp), intent(out), optional :: reaction(:, :)
+        !> As from get_supports, shape (nsupport, ncase); of cases that are not solved gapbeam_open
+        integer, intent(out), optional :: condition(:, :)
+        !> Deflection, moment left and right of every node (get_nodes), shape (count_nodes(beam), ncase); of cases that are not
+        !> solved not-a-number
+        real(wp), intent(out), optional :: deflection(:, :), moment_left(:, :), moment_right(:, :)
+        !> Linear solves that they took, shape (ncase)
+        integer, intent(out), optional :: solves(:)
+        type(ieee_status_type) :: environment
+        type(options_type) :: chosen
+        integer, allocatable :: codes(:)
+        integer :: first, last, given, n, stat
+
+        call require_beam(beam, error)
+        if (allocated(error)) return
+        call ieee_get_status(environment)
+        call ieee_set_halting_mode(ieee_all, .false.)
+        call ieee_set_rounding_mode(ieee_nearest)
+        if (present(options)) chosen = options
+        call check_call(1.0_wp, chosen, error)
+        if (.not. allocated(error)) call require_cases(beam%lowered, cases, error)
+        if (.not. allocated(error)) call check_factors(factors, size(beam%lowered%model%loads), size(status), error)
+        if (.not. allocated(error)) call check_supports(beam%lowered, size(status), settlement, gap, stiffness, error)
+        if (.not. allocated(error)) then
+            call check_results(beam%lowered, size(status), reaction, deflection, moment_left, moment_right, condition, solves, &
+                               error)
+        end if
+        given = 0
+        if (present(settlement) .or. present(gap) .or. present(stiffness)) given = size(beam%lowered%model%supports)
+        allocate (codes(min(most, size(status))), stat=stat)
+        if (stat /= 0 .and. .not. allocated(error)) call no_memory(error)
+        do first = 1, size(status), most
+            if (allocated(error)) exit
+            last = min(first + most - 1, size(status))
+            n = last - first + 1
+            if (given > 0) then
+                call take_values(beam%lowered%model%supports, first, settlement, gap, stiffness, cases%values(:, :, :n))
+            end if
+            cases%closed(:, :n) = spread(cases%start, 2, n)
+            call solve_many_cases(beam%lowered, cases%loads, factors(:, first:last), cases%values(:, :given, :n), chosen%rule, &
+                                  cases%closed(:, :n), cases%w(:, :n), cases%ml(:, :n), cases%mr(:, :n), cases%reaction(:, :n), &
+                                  cases%solves(:n), codes(:n))
+            if (codes(1) == gapbeam_no_memory) then
+                call no_memory(error)
+                exit
+            end if
+            status(first:last) = codes(:n)
+            if (present(deflection)) deflection(:, first:last) = cases%w(:, :n)
+            if (present(moment_left)) moment_left(:, first:last) = cases%ml(:, :n)
+            if (present(moment_right)) moment_right(:, first:last) = cases%mr(:, :n)
+            if (present(solves)) solves(first:last) = cases%solves(:n)
+            if (present(reaction)) call give_reactions(beam%lowered, codes(:n), cases%reaction(:, :n), reaction(:, first:last))
+            if (present(condition)) call give_conditions(beam%lowered, codes(:n), cases%closed(:, :n), condition(:, first:last))
+        end do
+        call ieee_set_status(environment)
+    end subroutine solve_cases
+
+    !> Places of the nodes, and the node of every support
+    subroutine get_nodes(beam, x, error, support_node)
+        type(prepared_type), intent(in) :: beam
+        !> Shape (count_nodes(beam))
+        real(wp), intent(out) :: x(:)
+        !> gapbeam_not_prepared, or gapbeam_bad_input for arrays of another size
+        type(error_type), allocatable, intent(out) :: error
+        !> From 1, as the arrays of nodes are read; shape (count_supports(beam))
+        integer, intent(out), optional :: support_node(:)
+
+        call require_beam(beam, error)
+        if (allocated(error)) return
+        associate (lowered => beam%lowered)
+            call require_size(size(lowered%node_point), [size(x)], error)
+            if (present(support_node) .and. .not. allocated(error)) then
+                call require_size(size(lowered%model%supports), [size(support_node)], error)
+            end if
+            if (allocated(error)) return
+            call node_places(lowered, x)
+            if (present(support_node)) support_node(:) = lowered%node_of_point(lowered%support_point) + 1
+        end associate
+    end subroutine get_nodes
+
+    !> Where the searches start
+    pure subroutine start_closed(lowered, start)
+        type(lowered_type), intent(in) :: lowered
+        integer, intent(out) :: start(:)
+        logical :: closed(size(start))
+
+        call close_all(lowered, closed)
+        start(:) = merge(1, 0, closed)
+    end subroutine start_closed
+
+    !> Refuse what prepare_cases has not made, or has made from another beam
+    subroutine require_cases(lowered, cases, error)
+        type(lowered_type), intent(in) :: lowered
+        type(cases_type), intent(in) :: cases
+        type(error_type), allocatable, intent(out) :: error
+
+        if (.not. allocated(cases%loads)) then
+            call fatal_error(error, gapbeam_not_prepared, "the cases are not prepared: call prepare_cases first")
+        else if (cases%fingerprint /= lowered%fingerprint .or. cases%nodes /= size(lowered%node_point) &
+                 .or. cases%supports /= size(lowered%beam%supports)) then
+            call fatal_error(error, gapbeam_not_prepared, "the cases belong to another beam, or to other loads: call prepare_cases")
+        end if
+    end subroutine require_cases
+
+    !> Refuse factors that are too few, or no finite numbers
+    subroutine check_factors(factors, loads, cases, error)
+        real(wp), intent(in) :: factors(:, :)
+        integer, intent(in) :: loads, cases
+        type(error_type), allocatable, intent(out) :: error
+        integer :: i, k
+
+        call require_size(loads, [size(factors, 1)], error)
+        if (.not. allocated(error)) call require_size(cases, [size(factors, 2)], error)
+        if (allocated(error)) return
+        do i = 1, cases
+            if (all(abs(factors(:, i)) <= huge(1.0_wp))) cycle
+            k = findloc(abs(factors(:, i)) <= huge(1.0_wp), .false., 1)
+            call fatal_error(error, gapbeam_bad_input, "case "//trim(whole(i))//", "//trim(named(of_loads, k, loads))// &
+                             ": factor: expected a finite number, got "//trim(shown(factors(k, i))))
+            error%entry = i
+            return
+        end do
+    end subroutine check_factors
+
+    !> Refuse numbers that a support cannot have; those of the model are always right
+    subroutine check_supports(lowered, cases, settlement, gap, stiffness, error)
+        type(lowered_type), intent(in) :: lowered
+        integer, intent(in) :: cases
+        real(wp), intent(in), optional :: settlement(:, :), gap(:, :), stiffness(:, :)
+        type(error_type), allocatable, intent(out) :: error
+        integer :: i, k
+
+        if (.not. (present(settlement) .or. present(gap) .or. present(stiffness))) return
+        k = size(lowered%model%supports)
+        call check_shape(k, cases, settlement, error)
+        if (.not. allocated(error)) call check_shape(k, cases, gap, error)
+        if (.not. allocated(error)) call check_shape(k, cases, stiffness, error)
+        if (allocated(error)) return
+        associate (n => size(lowered%beam%links), first => lowered%beam%first, supports => lowered%model%supports)
+            if (any(lowered%with_law) .or. any(first(1:n + 1) - first(0:n) > 1)) then
+                call fatal_error(error, gapbeam_bad_input, "supports cannot vary by case where one has a law, or several "// &
+                                 "stand at one place; use combine_loads, or prepare a model for each")
+                return
+            end if
+            do i = 1, cases
+                do k = 1, size(supports)
+                    if (present(settlement)) call check_number(settlement(k, i), supports(k)%settlement, "settlement", error)
+                    if (present(gap) .and. .not. allocated(error)) then
+                        call check_number(gap(k, i), supports(k)%gap, "gap", error)
+                    end if
+                    if (present(stiffness) .and. .not. allocated(error)) then
+                        call check_number(stiffness(k, i), supports(k)%stiffness, "stiffness", error)
+                    end if
+                    if (allocated(error)) return
+                end do
+            end do
+        end associate
+
+    contains
+
+        !> One number
+        subroutine check_number(value, own, key, wrong)
+            real(wp), intent(in) :: value, own
+            character(len=*), intent(in) :: key
+            type(error_type), allocatable, intent(out) :: wrong
+            character(len=:), allocatable :: expected
+
+            if (value <= own .and. value >= own) return
+            associate (s => lowered%model%supports(k))
+                if (key == "stiffness" .and. .not. value > 0.0_wp) then
+                    expected = "a number above 0 (infinite: rigid)"
+                else if (key == "stiffness" .and. s%side /= gapbeam_both .and. .not. own > 0.0_wp) then
+                    expected = "0 as in the model, whose support never acts; prepare it with another"
+                else if (key /= "stiffness" .and. .not. abs(value) <= huge(value)) then
+                    expected = "a finite number"
+                else if (key == "gap" .and. (s%side == gapbeam_both .or. s%direction == gapbeam_axial)) then
+                    expected = "0, as only a support of side below or above has a gap"
+                else
+                    return
+                end if
+                call fatal_error(wrong, gapbeam_bad_input, "case "//trim(whole(i))//", "// &
+                                 trim(named(of_supports, k, size(lowered%model%supports)))//": "//key//": expected "//expected// &
+                                 ", got "//trim(shown(value)))
+                wrong%entry = i
+            end associate
+        end subroutine check_number
+
+    end subroutine check_supports
+
+    !> Refuse an array of another shape
+    subroutine check_shape(rows, cases, values, error)
+        integer, intent(in) :: rows, cases
+        real(wp), intent(in), optional :: values(:, :)
+        type(error_type), allocatable, intent(out) :: error
+
+        if (.not. present(values)) return
+        call require_size(rows, [size(values, 1)], error)
+        if (.not. allocated(error)) call require_size(cases, [size(values, 2)], error)
+    end subroutine check_shape
+
+    !> Refuse arrays for results of another shape
+    subroutine check_results(lowered, cases, reaction, deflection, moment_left, moment_right, condition, solves, error)
+        type(lowered_type), intent(in) :: lowered
+        integer, intent(in) :: cases
+        real(wp), intent(in), optional :: reaction(:, :), deflection(:, :), moment_left(:, :), moment_right(:, :)
+        integer, intent(in), optional :: condition(:, :), solves(:)
+        type(error_type), allocatable, intent(out) :: error
+
+        associate (supports => size(lowered%model%supports), nodes => size(lowered%node_point))
+            call check_shape(supports, cases, reaction, error)
+            if (.not. allocated(error)) call check_shape(nodes, cases, deflection, error)
+            if (.not. allocated(error)) call check_shape(nodes, cases, moment_left, error)
+            if (.not. allocated(error)) call check_shape(nodes, cases, moment_right, error)
+            if (present(condition) .and. .not. allocated(error)) then
+                call require_size(supports, [size(condition, 1)], error)
+                if (.not. allocated(error)) call require_size(cases, [size(condition, 2)], error)
+            end if
+            if (present(solves) .and. .not. allocated(error)) call require_size(cases, [size(solves)], error)
+        end associate
+    end subroutine check_results
+
+    !> Settlement, gap and stiffness of the supports in some cases
+    pure subroutine take_values(supports, first, settlement, gap, stiffness, values)
+        type(support_type), intent(in) :: supports(:)
+        !> The first of the cases
+        integer, intent(in) :: first
+        real(wp), intent(in), optional :: settlement(:, :), gap(:, :), stiffness(:, :)
+        !> Shape (3, nsupport, number of cases)
+        real(wp), intent(out) :: values(:, :, :)
+        integer :: i
+
+        do i = 1, size(values, 3)
+            if (present(settlement)) then
+                values(1, :, i) = settlement(:, first + i - 1)
+            else
+                values(1, :, i) = supports%settlement
+            end if
+            if (present(gap)) then
+                values(2, :, i) = gap(:, first + i - 1)
+            else
+                values(2, :, i) = supports%gap
+            end if
+            if (present(stiffness)) then
+                values(3, :, i) = stiffness(:, first + i - 1)
+            else
+                values(3, :, i) = supports%stiffness
+            end if
+        end do
+    end subroutine take_values
+
+    !> Reactions in the order of the model; of a law the sum of those of its kinks
+    pure subroutine give_reactions(lowered, status, found, reaction)
+        type(lowered_type), intent(in) :: lowered
+        integer, intent(in) :: status(:)
+        real(wp), intent(in) :: found(:, :)
+        real(wp), intent(out) :: reaction(:, :)
+        integer :: i, j, k, last
+
+        do k = 1, size(lowered%model%supports)
+            j = lowered%beam_support(k)
+            if (j > 0) then
+                last = last_kink(lowered%beam%supports, j)
+                do i = 1, size(status)
+                    reaction(k, i) = sum(found(j:last, i))
+                end do
+            else
+                ! Across the beam one that never carries
+                reaction(k, :) = 0.0_wp
+            end if
+            where (status /= gapbeam_solved .or. lowered%model%supports(k)%direction == gapbeam_axial)
+                reaction(k, :) = ieee_value(1.0_wp, ieee_quiet_nan)
+            end where
+        end do
+    end subroutine give_reactions
+
+    !> Conditions in the order of the model, as support_values of gapbeam_query has them
+    pure subroutine give_conditions(lowered, status, closed, condition)
+        type(lowered_type), intent(in) :: lowered
+        integer, intent(in) :: status(:), closed(:, :)
+        integer, intent(out) :: condition(:, :)
+        type(acting_type) :: acting
+        integer :: i, j, k, last
+
+        do k = 1, size(lowered%model%supports)
+            associate (side => lowered%model%supports(k)%side)
+                j = lowered%beam_support(k)
+                if (j > 0) then
+                    last = last_kink(lowered%beam%supports, j)
+                    do i = 1, size(status)
+                        acting = acting_piece(lowered%beam%supports(j:last), side, closed(j:last, i) /= 0)
+                        condition(k, i) = acting%condition
+                    end do
+                else
+                    condition(k, :) = merge(gapbeam_bilateral, gapbeam_open, side == gapbeam_both)
+                end if
+            end associate
+            where (status /= gapbeam_solved) condition(k, :) = gapbeam_open
+        end do
+    end subroutine give_conditions
+
+end module gapbeam_api_cases
