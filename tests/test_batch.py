@@ -261,12 +261,16 @@ def test_scenes_that_are_refused(tmp_path):
 # Files that last
 
 
+def undisturbed(path):
+    """A run with one thread: six files."""
+    pytest.importorskip("pyarrow")
+    gapbeam.batch(SCENE, table(550), path, jobs=1, chunk=100)
+    return digests(path)
+
+
 @pytest.fixture
 def whole(tmp_path):
-    """An undisturbed run with one thread: six files."""
-    pytest.importorskip("pyarrow")
-    gapbeam.batch(SCENE, table(550), tmp_path / "whole", jobs=1, chunk=100)
-    return digests(tmp_path / "whole")
+    return undisturbed(tmp_path / "whole")
 
 
 @pytest.mark.parametrize("kind", ["parquet", "npy"])
@@ -302,35 +306,6 @@ def test_ctrl_c_ends_the_command(tmp_path):
         assert process.communicate()[1] == "gapbeam: interrupted\n"
         assert process.returncode == 130
         assert gapbeam.Batch(tmp_path / column).done < 200_000
-
-
-def test_a_lost_process_is_told(tmp_path, whole):
-    def progress(done, cases):
-        for process in list(pool._processes.values()):
-            process.kill()
-
-    with ProcessPoolExecutor(1, get_context("spawn")) as pool:
-        pool.submit(int).result()
-        with pytest.raises(gapbeam.GapbeamError, match=r"a worker is gone .* start the same batch again, and it goes on"):
-            gapbeam.batch(SCENE, table(550), tmp_path / "out", executor=pool, chunk=100, progress=progress)
-    gapbeam.batch(SCENE, table(550), tmp_path / "out")
-    assert digests(tmp_path / "out") == whole
-
-
-def test_dask_solves_what_a_lost_worker_had(tmp_path, whole):
-    distributed = pytest.importorskip("distributed")
-    killed = []
-
-    def progress(done, cases):
-        if done >= 100 and not killed:
-            killed.append(next(iter(cluster.workers.values())).pid)
-            os.kill(killed[0], signal.SIGKILL)
-
-    options = {"n_workers": 2, "threads_per_worker": 1, "processes": True, "dashboard_address": None}
-    with distributed.LocalCluster(**options) as cluster, distributed.Client(cluster) as client:
-        gapbeam.batch(SCENE, table(550), tmp_path / "out", executor=client.get_executor(), jobs=1, chunk=100, progress=progress)
-    assert killed
-    assert digests(tmp_path / "out") == whole
 
 
 def test_it_goes_on_after_kills(tmp_path):
