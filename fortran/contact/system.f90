@@ -1,8 +1,9 @@
 !> One working scheme solved: the system it needs is chosen, assembled and solved; reactions follow.
 module gapbeam_system
     use gapbeam_kinds, only: wp
-    use gapbeam_band, only: node_type, factor_chain, solve_chain, band_ok, band_mechanism, band_needs_pivoting
+    use gapbeam_band, only: node_type, rhs_type, factor_chain, solve_chain, band_ok, band_mechanism, band_needs_pivoting
     use gapbeam_foundation_chain, only: factor_foundation_chain, solve_foundation_chain
+    use gapbeam_foundation_residual, only: residual_on_ground
     use gapbeam_residual, only: residual_chain
     use gapbeam_three_moment, only: fits_three_moment, solve_three_moment
     use gapbeam_pivoting, only: solve_pivoting
@@ -14,6 +15,10 @@ module gapbeam_system
     implicit none
     private
     public :: solve_scheme, solve_and_refine, solve_deflections, complete_scheme, refine_scheme, check_scheme
+
+    !> Zones of a smaller share of the beam lose digits that are wanted back, in so many steps at most
+    real(wp), parameter :: short = 2.0_wp**(-10)
+    integer, parameter :: most_steps = 4
 
 contains
 
@@ -146,8 +151,12 @@ contains
         type(workspace_type), intent(inout) :: work
         logical :: regular
 
-        ! LAPACK's expert driver has refined already; on ground quadruple precision does (gapbeam_ground_solver)
-        if (work%method == method_pivoting .or. allocated(beam%ground)) return
+        if (allocated(beam%ground)) then
+            call refine_on_ground(beam, acting, work)
+            return
+        end if
+        ! LAPACK's expert driver has refined already
+        if (work%method == method_pivoting) return
         call residual_chain(work%nodes, beam%links, work%rhs, work%answers, work%eliminated, &
                             work%sizes, work%compatibility, work%equilibrium)
         if (fits_three_moment(work%nodes)) then
@@ -163,6 +172,48 @@ contains
         work%answers%moment_right = work%answers%moment_right + work%correction%moment_right
         call complete_scheme(beam, acting, work)
     end subroutine refine_scheme
+
+    !> The same on elastic ground, where short zones lose digits; else quadruple precision does (gapbeam_ground_solver)
+    pure subroutine refine_on_ground(beam, acting, work)
+        !> As for refine_scheme
+        type(beam_type), intent(in) :: beam
+        logical, intent(in) :: acting(:)
+        type(workspace_type), intent(inout) :: work
+        type(rhs_type), allocatable :: residual(:)
+        real(wp) :: share, before
+        integer :: step
+
+        if (.not. minval(beam%links%length) < short*sum(beam%links%length)) return
+        allocate (residual(0:size(beam%links)))
+        before = huge(before)
+        do step = 1, most_steps
+            call residual_on_ground(work%nodes, beam%ground, work%rhs, work%answers, residual)
+            call solve_foundation_chain(work%nodes, beam%ground, beam%links%length, work%pivots, residual, work%eliminated, &
+                                        work%correction)
+            share = max(share_of(work%correction%deflection, work%answers%deflection), &
+                        share_of(work%correction%moment_left, work%answers%moment_left), &
+                        share_of(work%correction%moment_right, work%answers%moment_right))
+            ! Not worth while, or beyond what this precision tells
+            if (.not. share < before/2) exit
+            work%answers%deflection = work%answers%deflection + work%correction%deflection
+            work%answers%moment_left = work%answers%moment_left + work%correction%moment_left
+            work%answers%moment_right = work%answers%moment_right + work%correction%moment_right
+            if (share <= epsilon(share)) exit
+            before = share
+        end do
+        call complete_scheme(beam, acting, work)
+
+    contains
+
+        !> Greatest part beside the greatest of all
+        pure function share_of(parts, all_of) result(share)
+            real(wp), intent(in) :: parts(:), all_of(:)
+            real(wp) :: share
+
+            share = maxval(abs(parts))/max(maxval(abs(all_of)), tiny(share))
+        end function share_of
+
+    end subroutine refine_on_ground
 
     !> Relative residuals of the last solve, into work%compatibility and work%equilibrium
     pure subroutine check_scheme(beam, work)
