@@ -8,7 +8,8 @@ program test_contact
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads, apply_scheme
     use gapbeam_system, only: solve_scheme
     use gapbeam_reactions, only: find_shears
-    use gapbeam_rules, only: find_wrong, find_doubtful, find_clearly_wrong, complementarity, keep_worst_pull, keep_local_worst, &
+    use gapbeam_signs, only: sign_type, prepare_signs, find_clearly_wrong
+    use gapbeam_rules, only: find_wrong, find_doubtful, complementarity, keep_worst_pull, keep_local_worst, &
         keep_least_index
     use gapbeam_kinematics, only: free_motions, motion_type, work_of_loads, held_by_ties
     use gapbeam_fronts, only: base_type, find_base, move_fronts
@@ -129,8 +130,9 @@ contains
     subroutine rules()
         type(beam_type) :: beam
         type(workspace_type) :: work
+        type(sign_type) :: signs
         logical :: wrong(6), doubtful
-        integer :: state
+        integer :: state, number
         logical, parameter :: t = .true., f = .false.
 
         ! A force up at node 1 of two spans: with all supports closed the right end pushes, the middle pulls
@@ -140,15 +142,32 @@ contains
         call find_wrong(beam, [t, t, t], 32.0_wp, work, wrong(:3))
         call check(all(wrong(:3) .eqv. [f, t, f]), "the middle support pulls")
         call check_close(complementarity(beam, [t, t, t], work), 1.0_wp, "as much as the others push")
-        call find_clearly_wrong(beam, [t, t, t], work, wrong(:3), doubtful)
-        call check(all(wrong(:3) .eqv. [f, t, f]) .and. .not. doubtful, "clearly so")
+        call prepare_signs(beam, signs)
+        call find_clearly_wrong(beam, signs, [t, t, t], work, wrong(:3), number, doubtful)
+        call check(all(wrong(:3) .eqv. [f, t, f]) .and. number == 1 .and. .not. doubtful, "clearly so")
         beam%force(1, :) = 0.0_wp
         call solve(beam, [t, t, t], work, state)
         call find_doubtful(beam, [t, t, t], work, wrong(:3), doubtful)
         call check(all(wrong(:3)) .and. .not. doubtful, "without loads all is exactly zero")
-        call find_clearly_wrong(beam, [t, t, t], work, wrong(:3), doubtful)
+        call find_clearly_wrong(beam, signs, [t, t, t], work, wrong(:3), number, doubtful)
         call check(doubtful, "so nothing is clear")
         call check_close(complementarity(beam, [t, t, t], work), 0.0_wp, "nor wrong")
+        beam%force(1, 0:2) = [1.0_wp, 1.0_wp, 1.0_wp]
+        beam%supports(2)%contact = 0.5_wp
+        call prepare_signs(beam, signs)
+        call solve(beam, [t, f, t], work, state)
+        work%answers%deflection = [0.0_wp, 0.5_wp + 1e-13_wp, 0.0_wp]
+        call find_clearly_wrong(beam, signs, [t, f, t], work, wrong(:3), number, doubtful)
+        call check(doubtful, "a deflection near contact is not clear")
+        work%answers%deflection = [0.0_wp, 0.5_wp + 1e-3_wp, 0.0_wp]
+        call find_clearly_wrong(beam, signs, [t, f, t], work, wrong(:3), number, doubtful)
+        call check(all(wrong(:3) .eqv. [f, t, f]) .and. .not. doubtful, "one beyond it is")
+        beam%supports(2)%node = 0
+        beam%supports(2)%side = above
+        call order_supports([beam%supports], beam)
+        call prepare_signs(beam, signs)
+        call find_clearly_wrong(beam, signs, [t, f, t], work, wrong(:3), number, doubtful)
+        call check(doubtful, "nor is the share of a rigid support that is not alone")
 
         call spans(5, 0.0_wp, at_all(5, below), beam)
         call new_workspace(beam, work)

@@ -6,7 +6,7 @@ program test_law
     use gapbeam_band, only: node_type, rhs_type, answer_type
     use gapbeam_law, only: node_support_type, below, above, both, is_support, is_rigid, may_change, always_closed, &
         separate_rigid_pairs, &
-        add_supports, share_forces, margin_of, margin_rates, find_margins, find_wrong_states, find_clearly_wrong_states, &
+        add_supports, share_forces, margin_of, margin_rates, find_margins, find_wrong_states, &
         find_doubtful_states, largest_violations, mark_held, outermost, is_blocked, leaves_all, distance_to_contact, &
         least_stiffness, stiffness_of_changing, find_pairs, find_single, hold_both_ways, limit_stiffness, drop_level
     implicit none
@@ -182,20 +182,6 @@ contains
         end associate
         call largest_violations(supports, [.true., .true., .true.], answers, [1.0_wp, 2.0_wp, 3.0_wp], pull, penetration)
         call check_close([pull, penetration], [0.0_wp, 0.0_wp], "nothing wrong")
-        associate (closed => [.true., .false., .true.])
-            call find_clearly_wrong_states(supports, [1, 2, 3], [1, 2, 3, 4], closed, [0, 2], answers, &
-                                           [-0.02_wp, 0.0_wp, 0.0_wp], 1e-3_wp, 1e-3_wp, 1e-9_wp, wrong, in_doubt)
-            call check(all(wrong .eqv. [.true., .false., .false.]) .and. .not. in_doubt, "clearly")
-            call find_clearly_wrong_states(supports, [1, 2, 3], [1, 2, 3, 4], closed, [0, 2], answers, &
-                                           [-0.02_wp, 0.0_wp, 0.0_wp], 0.1_wp, 1e-3_wp, 1e-9_wp, wrong, in_doubt)
-            call check(in_doubt, "a force near zero is not clear")
-            call find_clearly_wrong_states(supports, [1, 2, 3], [1, 2, 3, 4], closed, [1, 2], answers, &
-                                           [0.0_wp, 0.0_wp], 1e-3_wp, 0.25_wp, 1e-9_wp, wrong, in_doubt)
-            call check(in_doubt, "nor is a deflection near contact")
-            call find_clearly_wrong_states(supports([1, 1]), [1, 2], [1, 3], [.true., .false.], [0, 0], answers, [5.0_wp], &
-                                           1e-3_wp, 1e-3_wp, 1e-9_wp, wrong(:2), in_doubt)
-            call check(in_doubt, "nor the share of a rigid support that is not alone")
-        end associate
     end subroutine wrong_states
 
     !> What is in the way of a motion

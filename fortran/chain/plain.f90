@@ -11,7 +11,7 @@ module gapbeam_plain
         sweep_inward, meet, sweep_outward
     implicit none
     private
-    public :: plain_type, prepare_plain, is_plain, ends_hold, solve_plain
+    public :: plain_type, prepare_plain, is_plain, ends_hold, solve_plain, set_node, solve_rows
 
     !> A plain beam prepared for solves, and room for them
     type :: plain_type
@@ -19,6 +19,8 @@ module gapbeam_plain
         type(row_type), allocatable :: rows(:)
         type(eliminated_type), allocatable :: eliminated(:)
         real(wp), allocatable :: moment(:), deflection(:)
+        !> Are the rows those of the scheme that was solved last
+        logical :: has_rows = .false.
     end type plain_type
 
 contains
@@ -88,23 +90,50 @@ contains
         type(rhs_type), intent(in) :: rhs(0:)
         !> The solution
         type(answer_type), intent(inout) :: answers(0:)
-        type(sweep_type) :: sweep
-        type(row_type) :: row
-        integer :: n, s, i, odd, last
+        integer :: n, s, odd
 
         n = ubound(nodes, 1)
-        if (checked) then
-            call require(size(beam%moment) == n + 1, "solve_plain: prepared for another beam")
-            call require(size(rhs) == n + 1 .and. size(answers) == n + 1, "solve_plain: shapes")
-            call require(ends_hold(nodes) .and. all(nodes(1:n - 1)%kind == plain), "solve_plain: nodes")
-            call require(.not. any(abs(rhs%couple) > 0.0_wp), "solve_plain: couples")
-        end if
         odd = modulo(n, 2)
-        last = last_step(n)
-        do s = 0, last
+        do s = 0, last_step(n)
             call set_row(nodes(max(s - odd, 0)), rhs(max(s - odd, 0)), 1, beam%rows(s))
             call set_row(nodes(n - s), rhs(n - s), 2, beam%rows(s))
         end do
+        call solve_rows(beam, nodes, rhs, answers)
+    end subroutine solve_plain
+
+    !> Set the rows of one node anew
+    pure subroutine set_node(beam, i, node, rhs)
+        type(plain_type), intent(inout) :: beam
+        !> Its number, and its row
+        integer, intent(in) :: i
+        type(node_type), intent(in) :: node
+        type(rhs_type), intent(in) :: rhs
+        integer :: n
+
+        n = size(beam%moment) - 1
+        if (i < n/2) call set_row(node, rhs, 1, beam%rows(i + modulo(n, 2)))
+        if (i > n/2) call set_row(node, rhs, 2, beam%rows(n - i))
+    end subroutine set_node
+
+    !> Solve the rows that are set
+    pure subroutine solve_rows(beam, nodes, rhs, answers)
+        !> As for solve_plain
+        type(plain_type), intent(inout) :: beam
+        type(node_type), intent(in) :: nodes(0:)
+        type(rhs_type), intent(in) :: rhs(0:)
+        type(answer_type), intent(inout) :: answers(0:)
+        type(sweep_type) :: sweep
+        type(row_type) :: row
+        integer :: n, i, odd
+
+        n = ubound(nodes, 1)
+        if (checked) then
+            call require(size(beam%moment) == n + 1, "solve_rows: prepared for another beam")
+            call require(size(rhs) == n + 1 .and. size(answers) == n + 1, "solve_rows: shapes")
+            call require(ends_hold(nodes) .and. all(nodes(1:n - 1)%kind == plain), "solve_rows: nodes")
+            call require(.not. any(abs(rhs%couple) > 0.0_wp), "solve_rows: couples")
+        end if
+        odd = modulo(n, 2)
         call start_lane(2, nodes(n), beam%cells(0), beam%rows(0), sweep, beam%eliminated(0))
         if (odd == 1) call step_alone(2, beam%cells(1), beam%rows(1), sweep, beam%eliminated(1))
         call start_lane(1, nodes(0), beam%cells(odd), beam%rows(odd), sweep, beam%eliminated(odd))
@@ -118,7 +147,7 @@ contains
         end do
         answers(0)%moment_left = 0.0_wp
         answers(n)%moment_right = 0.0_wp
-    end subroutine solve_plain
+    end subroutine solve_rows
 
     !> The first node of a lane: without a moment, or with its restraint as what lies outside
     pure subroutine start_lane(lane, node, cell, row, sweep, eliminated)

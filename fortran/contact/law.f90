@@ -23,7 +23,7 @@ module gapbeam_law
     public :: node_support_type, below, above, both, nodes_at_a_time
     public :: is_support, is_rigid, may_change, always_closed, separate_rigid_pairs
     public :: add_supports, share_forces
-    public :: margin_of, margin_in_scheme, margin_rates, find_margins, find_wrong_states, find_clearly_wrong_states, &
+    public :: margin_of, margin_in_scheme, margin_rates, find_margins, find_wrong_states, &
         find_doubtful_states, largest_violations
     public :: has_laws, is_watched_in, open_beyond, go_one_piece
     public :: mark_held, find_level_forces, outermost, is_blocked, leaves_all, distance_to_contact
@@ -400,7 +400,7 @@ contains
         real(wp), intent(in) :: deflection_size(0:), reaction(:), reaction_error(:), width
         !> Shape (m)
         logical, intent(out) :: doubtful(:)
-        !> Is any of them not exactly zero
+        !> Is any of them not exactly zero, or beyond: wrong
         logical, intent(out) :: in_doubt
         real(wp) :: margin, rounding
         integer :: k
@@ -419,53 +419,9 @@ contains
                 end if
             end associate
             doubtful(k) = abs(margin) <= width*rounding
-            in_doubt = in_doubt .or. (doubtful(k) .and. rounding > 0.0_wp)
+            in_doubt = in_doubt .or. (doubtful(k) .and. rounding > 0.0_wp) .or. margin < -width*rounding
         end do
     end subroutine find_doubtful_states
-
-    !> Which states are wrong, from deflections and the forces at held nodes, as long as nothing is near zero
-    pure subroutine find_clearly_wrong_states(supports, order, first, closed, range, answers, force, least_force, &
-                                              least_deflection, near_zero, wrong, doubtful)
-        !> As for share_forces, and the scheme
-        type(node_support_type), intent(in) :: supports(:)
-        integer, intent(in) :: order(:), first(0:)
-        logical, intent(in) :: closed(:)
-        !> First and last node
-        integer, intent(in) :: range(2)
-        !> Deflections of all nodes, shape (0:n); force of the supports at those nodes of the range that a rigid one holds
-        type(answer_type), intent(in) :: answers(0:)
-        real(wp), intent(in) :: force(range(1):)
-        !> What counts as zero; for deflections this share of the contact level besides
-        real(wp), intent(in) :: least_force, least_deflection, near_zero
-        !> Set for the supports of the range; for some of them only where something is doubtful
-        logical, intent(inout) :: wrong(:)
-        !> Something counts as zero
-        logical, intent(out) :: doubtful
-        real(wp) :: pressing
-        integer :: j, k
-
-        doubtful = .false.
-        do j = first(range(1)), first(range(2) + 1) - 1
-            k = order(j)
-            wrong(k) = .false.
-            associate (s => supports(k), i => supports(k)%node)
-                if (.not. may_change(s)) cycle
-                if (s%kink > 0) then
-                    ! Which piece acts is for find_wrong_states
-                    doubtful = .true.
-                else if (closed(k) .and. is_rigid(s)) then
-                    ! Forces of several supports at one node are for share_forces
-                    doubtful = abs(force(i)) <= least_force .or. first(i + 1) - first(i) > 1
-                    wrong(k) = s%side*force(i) < 0.0_wp
-                else
-                    pressing = s%side*(answers(i)%deflection - s%contact)
-                    doubtful = abs(pressing) <= least_deflection + near_zero*abs(s%contact)
-                    wrong(k) = closed(k) .neqv. pressing > 0.0_wp
-                end if
-                if (doubtful) return
-            end associate
-        end do
-    end subroutine find_clearly_wrong_states
 
     !> The largest force with which a closed one-sided support pulls, and the largest penetration of an open one
     pure subroutine largest_violations(supports, closed, answers, reaction, pull, penetration)

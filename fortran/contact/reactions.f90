@@ -6,7 +6,7 @@ module gapbeam_reactions
     use gapbeam_workspace, only: workspace_type, reach_type
     implicit none
     private
-    public :: find_sizes, find_own_sizes, find_shears, find_reactions
+    public :: find_sizes, find_shears, find_reactions
 
 contains
 
@@ -137,7 +137,7 @@ contains
                     if (link%bending > 0.0_wp) length = min(length, flexibility*length/link%bending)
                     beside = reach_type(2*moment/length, flexibility*length*moment)
                 else
-                    beside = reach_type(2*moment*link%inverse, max(link%bending, link%faa + link%fbb)*link%length*moment)
+                    beside = reach_type(2*moment*link%inverse, work%reach(i)*moment)
                 end if
                 if (i > range(1)) work%reach_own(i - 1) = passed_on(beside, work%reach_own(i - 1), .false.)
                 if (i <= range(2)) work%reach_own(i) = passed_on(beside, work%reach_own(i), .false.)

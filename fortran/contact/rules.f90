@@ -1,20 +1,16 @@
 !> Which supports are wrong in a scheme, and which of them a rule changes
 module gapbeam_rules
     use gapbeam_kinds, only: wp
-    use gapbeam_law, only: find_margins, find_wrong_states, find_clearly_wrong_states, find_doubtful_states, &
-        largest_violations, nodes_at_a_time
+    use gapbeam_law, only: find_margins, find_wrong_states, find_doubtful_states, largest_violations
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type
-    use gapbeam_reactions, only: find_own_sizes
     implicit none
     private
-    public :: find_wrong, find_clearly_wrong, find_doubtful, complementarity
+    public :: find_wrong, find_doubtful, complementarity
     public :: keep_worst_pull, keep_local_worst, keep_least_index, first_width
 
     !> Rounding errors beyond which a sign counts
     real(wp), parameter :: first_width = 32.0_wp
-    !> Far above all rounding errors
-    real(wp), parameter :: near_zero = 2.0_wp**19*epsilon(1.0_wp)
 
 contains
 
@@ -39,7 +35,7 @@ contains
         type(workspace_type), intent(in) :: work
         !> Shape (size(closed))
         logical, intent(out) :: doubtful(:)
-        !> Is any of them not exactly zero
+        !> Is any of them not exactly zero, or is another one wrong
         logical, intent(out), optional :: in_doubt
         logical :: not_zero
 
@@ -47,40 +43,6 @@ contains
                                   work%reaction_error, first_width, doubtful, not_zero)
         if (present(in_doubt)) in_doubt = not_zero
     end subroutine find_doubtful
-
-    !> The wrong ones from deflections and moments alone, as long as nothing is near zero
-    pure subroutine find_clearly_wrong(beam, closed, work, wrong, doubtful)
-        type(beam_type), intent(in) :: beam
-        logical, intent(in) :: closed(:)
-        !> Solved by solve_deflections
-        type(workspace_type), intent(inout) :: work
-        logical, intent(inout) :: wrong(:)
-        !> Something is so near zero that only find_wrong can tell
-        logical, intent(out) :: doubtful
-        real(wp) :: force(nodes_at_a_time), least_force, least_deflection
-        integer :: i, n, from, to
-
-        n = size(beam%links)
-        call find_own_sizes(beam, [0, n], work)
-        ! No rounding error that find_wrong allows for can be larger than these times some epsilon
-        least_force = near_zero*maxval(work%reach_own%shear)
-        least_deflection = near_zero*maxval(work%reach_own%deflection)
-        doubtful = .false.
-        do from = 0, n, nodes_at_a_time
-            to = min(from + nodes_at_a_time - 1, n)
-            do i = from, to
-                if (.not. work%nodes(i)%held) cycle
-                associate (force => force(i - from + 1), a => work%answers)
-                    force = work%loads(i)%shear + work%ease(i)*(work%reference(i) - a(i)%deflection)
-                    if (i > 0) force = force - (a(i)%moment_left - a(i - 1)%moment_right)*beam%links(i)%inverse
-                    if (i < n) force = force + (a(i + 1)%moment_left - a(i)%moment_right)*beam%links(i + 1)%inverse
-                end associate
-            end do
-            call find_clearly_wrong_states(beam%supports, beam%order, beam%first, closed, [from, to], work%answers, force, &
-                                           least_force, least_deflection, near_zero, wrong, doubtful)
-            if (doubtful) return
-        end do
-    end subroutine find_clearly_wrong
 
     !> Largest wrong-signed reaction relative to the largest reaction, or penetration relative to the largest deflection
     pure function complementarity(beam, closed, work) result(violation)

@@ -16,7 +16,7 @@ module gapbeam_scheme
     use gapbeam_model, only: beam_type, softest
     use gapbeam_kinematics, only: free_motions, motion_type, work_of_loads
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
-    use gapbeam_system, only: solve_and_refine, refine_scheme
+    use gapbeam_system, only: solve_and_refine, refine_scheme, complete_scheme
     use gapbeam_rules, only: find_wrong, first_width
     use gapbeam_search, only: settle, refuse_scheme
     implicit none
@@ -162,6 +162,7 @@ contains
             work%ease = ease
             call settle(beam, rule, .false., closed, work, settled, error)
             if (allocated(error)) return
+            if (.not. work%complete) call complete_scheme(beam, closed, work)
             eased = work%answers%deflection
             ! Does the scheme hold without the springs?
             call find_runaways(beam, factor, closed, direction, runaways, stable, in_doubt)

@@ -23,8 +23,8 @@ module gapbeam_search
     use gapbeam_workspace, only: workspace_type
     use gapbeam_system, only: solve_deflections, complete_scheme, refine_scheme
     use gapbeam_update, only: keep_factor, update_scheme, find_groups
-    use gapbeam_rules, only: find_wrong, find_clearly_wrong, keep_worst_pull, keep_local_worst, keep_least_index, &
-        first_width
+    use gapbeam_signs, only: sign_type, prepare_signs, find_clearly_wrong
+    use gapbeam_rules, only: find_wrong, keep_worst_pull, keep_local_worst, keep_least_index, first_width
     use gapbeam_reactions, only: find_shears
     use gapbeam_fronts, only: base_type, find_base, move_fronts
     use gapbeam_part, only: next_stretch, cut_out, least_margin
@@ -67,8 +67,10 @@ module gapbeam_search
         logical :: with_laws = .false., by_pieces = .false.
         !> Rounding errors beyond which a sign counts
         real(wp) :: width = first_width
-        !> The scheme solved last, if its solution can be kept up to date
-        logical, allocatable :: kept(:)
+        !> The scheme solved last, if its solution can be kept up to date; that which nodes in work are those of, if they are of any
+        logical, allocatable :: kept(:), applied(:)
+        !> The supports whose signs count
+        type(sign_type) :: signs
         !> Supports by nodes, for fronts
         type(base_type) :: base
         !> Rounds of parts that are left, and the nodes that go with a part in the next one
@@ -147,18 +149,26 @@ contains
         settled = .false.
         if (allocated(search%kept)) then
             call look_around_changes(beam, closed, work, search)
+            if (allocated(search%applied)) deallocate (search%applied)
             if (allocated(search%kept)) then
                 settled = search%wrong_now == 0
                 return
             end if
         end if
-        call solve_deflections(beam, closed, work, search%state, search%place)
+        if (allocated(search%applied)) then
+            call solve_deflections(beam, closed, work, search%state, search%place, search%applied)
+        else
+            call solve_deflections(beam, closed, work, search%state, search%place)
+            allocate (search%applied(size(closed)))
+        end if
+        search%applied(:) = closed
         if (search%state /= band_ok) return
         if (.not. (reactions .or. allocated(beam%ground))) then
-            call find_clearly_wrong(beam, closed, work, search%wrong, doubtful)
-            if (.not. doubtful) then
-                search%wrong_now = count(search%wrong)
-                if (search%wrong_now > few) return
+            if (.not. allocated(search%signs%support)) call prepare_signs(beam, search%signs)
+            call find_clearly_wrong(beam, search%signs, closed, work, search%wrong, search%wrong_now, doubtful)
+            if (.not. doubtful .and. (search%wrong_now > few .or. work%from_both_ends .or. size(beam%links) < long_beam)) then
+                settled = search%wrong_now == 0
+                return
             end if
         end if
         call complete_scheme(beam, closed, work)
@@ -169,8 +179,8 @@ contains
             call refine_scheme(beam, closed, work)
             call find_wrong(beam, closed, search%width, work, search%wrong)
             search%wrong_now = count(search%wrong)
-            if (size(beam%links) >= long_beam .and. .not. allocated(beam%ground) .and. search%wrong_now > 0 &
-                .and. search%wrong_now <= few) then
+            if (size(beam%links) >= long_beam .and. .not. (allocated(beam%ground) .or. work%from_both_ends) &
+                .and. search%wrong_now > 0 .and. search%wrong_now <= few) then
                 ! And little changes any more
                 call keep_factor(beam, work, follows)
                 if (follows) then
@@ -310,6 +320,7 @@ contains
                 ! Over several pieces at once laws may go to and fro (Newton without line search)
                 search%by_pieces = search%with_laws
                 if (search%wrong_now <= few .and. .not. search%with_laws) then
+                    if (.not. work%complete) call complete_scheme(beam, closed, work)
                     call keep_local_worst(beam, closed, work, search%wrong)
                 end if
             end if
@@ -409,6 +420,7 @@ contains
         do step = 1, most_steps
             if (search%state /= band_ok) exit
             if (allocated(search%kept)) deallocate (search%kept)
+            if (allocated(search%applied)) deallocate (search%applied)
             call step_interior(beam, closed, work, iterate, guess, search%state, search%place)
             if (search%state /= band_ok) exit
             changes = count(guess .neqv. last_guess)

@@ -7,7 +7,7 @@ module gapbeam_system
     use gapbeam_residual, only: residual_chain
     use gapbeam_three_moment, only: fits_three_moment, solve_three_moment
     use gapbeam_pivoting, only: solve_pivoting
-    use gapbeam_plain, only: ends_hold, solve_plain
+    use gapbeam_plain, only: ends_hold, solve_plain, set_node, solve_rows
     use gapbeam_model, only: beam_type
     use gapbeam_kinematics, only: free_motions, motion_type
     use gapbeam_workspace, only: workspace_type, apply_scheme, method_mixed, method_three_moment, method_pivoting
@@ -56,10 +56,11 @@ contains
         call find_sizes(beam, [0, size(beam%links)], work)
         call find_shears(beam, [1, size(beam%links)], work)
         call find_reactions(beam, acting, [0, size(beam%links)], work)
+        work%complete = .true.
     end subroutine complete_scheme
 
     !> Solve a scheme for deflections and moments only
-    subroutine solve_deflections(beam, acting, work, state, place)
+    subroutine solve_deflections(beam, acting, work, state, place, applied)
         !> The beam
         type(beam_type), intent(in) :: beam
         !> Which supports act
@@ -70,17 +71,27 @@ contains
         integer, intent(out) :: state
         !> Node at which another state than band_ok was found
         integer, intent(out) :: place
+        !> The scheme that nodes and right-hand side in work are those of, if they are of these loads and any
+        logical, intent(in), optional :: applied(:)
         type(motion_type), allocatable :: motions(:)
-        logical :: regular
+        logical :: regular, has_rows
 
-        call apply_scheme(beam, acting, [0, size(beam%links)], work)
+        has_rows = .false.
+        if (present(applied)) then
+            has_rows = work%plain%has_rows
+            call apply_changes(beam, acting, applied, has_rows, work)
+        else
+            call apply_scheme(beam, acting, [0, size(beam%links)], work)
+        end if
+        work%plain%has_rows = .false.
+        work%complete = .false.
         work%solves = work%solves + 1
         place = 0
         if (allocated(beam%ground)) then
             call solve_on_ground(beam, work, state, place)
             return
         end if
-        if (softens(work%nodes)) then
+        if (work%may_soften .and. softens(work%nodes)) then
             regular = .false.
         else if (fits_three_moment(work%nodes)) then
             work%method = method_three_moment
@@ -89,7 +100,12 @@ contains
             work%method = method_mixed
             work%from_both_ends = fits_both_ends(work)
             if (work%from_both_ends) then
-                call solve_plain(work%plain, work%nodes, work%rhs, work%answers)
+                if (has_rows) then
+                    call solve_rows(work%plain, work%nodes, work%rhs, work%answers)
+                else
+                    call solve_plain(work%plain, work%nodes, work%rhs, work%answers)
+                end if
+                work%plain%has_rows = .true.
                 regular = .true.
             else
                 call factor_chain(work%nodes, beam%links, work%pivots, state, place)
@@ -112,6 +128,25 @@ contains
             if (size(motions) > 0 .and. .not. any(work%ease > 0.0_wp)) state = band_mechanism
         end if
     end subroutine solve_deflections
+
+    !> Nodes and right-hand side of another scheme, where its supports do something else
+    pure subroutine apply_changes(beam, acting, applied, has_rows, work)
+        type(beam_type), intent(in) :: beam
+        !> The scheme, and that at hand
+        logical, intent(in) :: acting(:), applied(:)
+        !> Have the rows of work%plain to follow
+        logical, intent(in) :: has_rows
+        type(workspace_type), intent(inout) :: work
+        integer :: k
+
+        do k = 1, size(acting)
+            if (acting(k) .eqv. applied(k)) cycle
+            associate (i => beam%supports(k)%node)
+                call apply_scheme(beam, acting, [i, i], work)
+                if (has_rows) call set_node(work%plain, i, work%nodes(i), work%rhs(i))
+            end associate
+        end do
+    end subroutine apply_changes
 
     !> The same on elastic ground, which has a chain of its own
     pure subroutine solve_on_ground(beam, work, state, place)
@@ -153,16 +188,21 @@ contains
 
         if (allocated(beam%ground)) then
             call refine_on_ground(beam, acting, work)
+            if (.not. work%complete) call complete_scheme(beam, acting, work)
             return
         end if
         ! LAPACK's expert driver has refined already
-        if (work%method == method_pivoting) return
+        if (work%method == method_pivoting) then
+            if (.not. work%complete) call complete_scheme(beam, acting, work)
+            return
+        end if
         call residual_chain(work%nodes, beam%links, work%rhs, work%answers, work%eliminated, &
                             work%sizes, work%compatibility, work%equilibrium)
         if (fits_three_moment(work%nodes)) then
             work%method = method_three_moment
             call solve_three_moment(work%nodes, beam%links, work%eliminated, work%moment_work, work%correction, regular)
         else if (fits_both_ends(work)) then
+            work%plain%has_rows = .false.
             call solve_plain(work%plain, work%nodes, work%eliminated, work%correction)
         else
             call solve_chain(work%nodes, beam%links, work%pivots, work%eliminated, work%correction)
@@ -198,10 +238,10 @@ contains
             work%answers%deflection = work%answers%deflection + work%correction%deflection
             work%answers%moment_left = work%answers%moment_left + work%correction%moment_left
             work%answers%moment_right = work%answers%moment_right + work%correction%moment_right
+            work%complete = .false.
             if (share <= epsilon(share)) exit
             before = share
         end do
-        call complete_scheme(beam, acting, work)
 
     contains
 

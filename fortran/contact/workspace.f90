@@ -5,7 +5,7 @@ module gapbeam_workspace
     use gapbeam_band, only: node_type, rhs_type, pivot_type, answer_type
     use gapbeam_residual, only: size_type
     use gapbeam_plain, only: plain_type, is_plain, prepare_plain
-    use gapbeam_law, only: add_supports, nodes_at_a_time
+    use gapbeam_law, only: add_supports, has_laws, nodes_at_a_time
     use gapbeam_model, only: beam_type
     implicit none
     private
@@ -34,6 +34,8 @@ module gapbeam_workspace
         !> For plain beams: can the loads and the scheme at hand be solved so
         type(plain_type) :: plain
         logical :: without_couples = .false., from_both_ends = .false.
+        !> May the force of supports fall; are reactions and sizes those of the solution
+        logical :: may_soften = .false., complete = .false.
         !> The solution, and a correction of it
         type(answer_type), allocatable :: answers(:), correction(:)
         !> Sizes of the terms of every row, by check_scheme
@@ -43,8 +45,9 @@ module gapbeam_workspace
         real(wp), allocatable :: reaction(:), reaction_error(:)
         !> Shear of every link beside that of the simple bar, (M_b - M_a)/L, and its rounding error
         real(wp), allocatable :: shear(:), shear_error(:)
-        !> Moment per rotation of every link held at both ends, 1/int 1/EI; 0 for a rigid one
-        real(wp), allocatable :: fixity(:)
+        !> Moment per rotation of every link held at both ends, 1/int 1/EI; 0 for a rigid one; deflection that a moment of 1 makes;
+        !> 1/length
+        real(wp), allocatable :: fixity(:), reach(:), inverse(:)
         !> Largest contact level of the supports that act at a node
         real(wp), allocatable :: level(:)
         !> Sizes of the shears and deflections whose rounding reaches a node: from beside it, from the left, from the
@@ -90,9 +93,12 @@ contains
         allocate (work%ease(0:n), work%reference(0:n))
         work%ease = 0.0_wp
         work%reference = 0.0_wp
-        allocate (work%fixity(n))
+        allocate (work%fixity(n), work%reach(n), work%inverse(n))
         work%fixity = 0.0_wp
         where (beam%links%bending > 0.0_wp) work%fixity = 1/beam%links%bending
+        work%inverse = beam%links%inverse
+        work%reach = max(beam%links%bending, beam%links%faa + beam%links%fbb)*beam%links%length
+        work%may_soften = has_laws(beam%supports)
         if (allocated(beam%ground)) then
             allocate (work%end_shear(2, n), work%end_shear_error(2, n))
         else if (is_plain(beam%links, beam%kind)) then
