@@ -56,6 +56,7 @@ contains
         real(wp), intent(out) :: distance(:, :)
         type(piece_load_type) :: q
         real(wp) :: c(0:highest_degree, 4), roots(highest_degree), slope, left(4), right(4)
+        logical :: near(4)
         integer :: j, k, i, number
 
         values(1, :) = -huge(1.0_wp)
@@ -68,6 +69,9 @@ contains
             left = [starts(j)%deflection, starts(j)%rotation, starts(j)%moment, starts(j)%shear]
             right = fields_here(pieces(j)%length)
             do k = 1, 4
+                ! Not of numbers that are none
+                if (left(k) < values(1, k) .and. right(k) < values(1, k) .and. left(k) > values(2, k) &
+                    .and. right(k) > values(2, k)) cycle
                 call consider(j, 0.0_wp, left(k), values(:, k), piece(:, k), distance(:, k))
                 call consider(j, pieces(j)%length, right(k), values(:, k), piece(:, k), distance(:, k))
             end do
@@ -75,6 +79,8 @@ contains
         do j = 1, size(pieces)
             q = combine_loads(dead(j), live(j), factor)
             left = [starts(j)%deflection, starts(j)%rotation, starts(j)%moment, starts(j)%shear]
+            near = .not. far_from(pieces(j), q, left, fields_here(pieces(j)%length), values)
+            if (.not. any(near)) cycle
             ! Derivatives of the four fields as polynomials in the distance from the left end
             associate (f => pieces(j)%flexibility, g => pieces(j)%shear_flexibility, a => starts(j))
                 slope = (q%qb - q%qa)/pieces(j)%length
@@ -89,6 +95,7 @@ contains
                 c(4, 1) = f*slope/24
             end associate
             do k = 1, 4
+                if (.not. near(k)) cycle
                 if (stays_between(c(0:degree(k), k), pieces(j)%length, left(k), values(:, k))) cycle
                 call roots_between(c(0:degree(k), k), pieces(j)%length, roots, number)
                 do i = 1, number
@@ -112,6 +119,34 @@ contains
         end function fields_here
 
     end subroutine find_extremes
+
+    !> Which fields are inside a piece nowhere near what is known already: they are no farther from the chord of their ends than
+    !> length**2/8 times the largest second derivative
+    pure function far_from(piece, load, left, right, known) result(far)
+        type(piece_type), intent(in) :: piece
+        type(piece_load_type), intent(in) :: load
+        !> The four fields at its ends
+        real(wp), intent(in) :: left(4), right(4)
+        !> Largest and smallest values so far, shape (2, 4)
+        real(wp), intent(in) :: known(:, :)
+        logical :: far(4)
+        real(wp) :: bend(4), share, most, slope
+        integer :: k
+
+        share = piece%length**2/8
+        most = max(abs(load%qa), abs(load%qb))
+        slope = abs(load%qb - load%qa)/piece%length
+        bend(1) = abs(load%kappa) + piece%flexibility*(max(abs(left(3)), abs(right(3))) + share*most) &
+            + piece%shear_flexibility*most
+        bend(2) = piece%flexibility*(max(abs(left(4)), abs(right(4))) + share*slope)
+        bend(3) = most
+        bend(4) = slope
+        do k = 1, 4
+            bend(k) = share*bend(k)
+            bend(k) = bend(k) + margin*(abs(left(k)) + abs(right(k)) + bend(k))
+            far(k) = max(left(k), right(k)) + bend(k) < known(1, k) .and. min(left(k), right(k)) - bend(k) > known(2, k)
+        end do
+    end function far_from
 
     !> Is a field inside a piece nowhere near what is known already: it stays between its Bernstein coefficients, here those on both
     !> halves of the piece (Lane and Riesenfeld 1981)

@@ -134,6 +134,10 @@ contains
         link%load_sum(k) = 0.0_wp
         link%turn_sum(k) = 0.0_wp
         if (.not. any_load(loads)) return
+        if (n == 1) then
+            call condense_load(pieces(1), loads(1), link, k)
+            return
+        end if
 
         call moments_about_right_end(pieces, loads, work, right_end)
         turn_a = sum_type()
@@ -187,6 +191,26 @@ contains
         link%shear_a(k) = right_end/link%length
         link%shear_b(k) = -total(left)/link%length
     end subroutine condense_loads
+
+    !> The same for a link of one piece, where nothing is to be summed; no zero is to be negative
+    pure subroutine condense_load(piece, load, link, k)
+        type(piece_type), intent(in) :: piece
+        type(piece_load_type), intent(in) :: load
+        !> With its flexibility
+        type(link_type), intent(inout) :: link
+        integer, intent(in) :: k
+        real(wp) :: left_part, right_part
+
+        associate (l => piece%length, q => load)
+            call moment_integrals(l, 0.0_wp, 0.0_wp, q%qa, q%qb, left_part, right_part)
+            link%turn_a(k) = 0.0_wp + (piece%flexibility*left_part - q%kappa*l/2)
+            link%turn_b(k) = 0.0_wp + (piece%flexibility*right_part - q%kappa*l/2)
+            link%shear_a(k) = (0.0_wp + load_moment(0.0_wp, l, q%qb, q%qa))/l
+            link%shear_b(k) = -(0.0_wp + load_moment(0.0_wp, l, q%qa, q%qb))/l
+            link%load_sum(k) = (abs(q%qa) + abs(q%qb))*l/2
+            link%turn_sum(k) = abs(q%kappa)*l + link%bending*((abs(q%qa) + abs(q%qb))*l*(l*l/l))
+        end associate
+    end subroutine condense_load
 
     !> Is there anything to do for this load case
     pure function any_load(loads) result(found)
@@ -282,6 +306,16 @@ contains
         integer :: j, n
 
         n = size(pieces)
+        if (n == 1) then
+            ! Nothing to be summed; no zero is to be negative
+            associate (q => loads(1), l => pieces(1)%length)
+                starts(1)%deflection = w_a + 0.0_wp
+                starts(1)%rotation = psi_a
+                starts(1)%moment = moment_a + 0.0_wp
+                starts(1)%shear = shear + (0.0_wp + load_moment(0.0_wp, l, q%qb, q%qa))/length
+            end associate
+            return
+        end if
         call moments_about_right_end(pieces, loads, work(:, 1), right_end)
         ! Forward: moment, shear, rotation; the turning of each piece, weighted to its ends, waits in work(:, 2:3)
         left = sum_type()

@@ -127,6 +127,7 @@ contains
         type(error_type), allocatable, intent(out) :: error
         integer :: i, j, k
 
+        if (clearly_in_range(lowered, state)) return
         associate (units => lowered%units, axial => lowered%axial)
             do i = 0, ubound(state%deflection, 1)
                 call look(state%deflection(i), units%deflection, "deflection", "length", lowered%node_point(i))
@@ -174,6 +175,24 @@ contains
         end subroutine look
 
     end subroutine check_range
+
+    !> Are all numbers far within the range of doubles, in units that are the user's
+    pure function clearly_in_range(lowered, state) result(so)
+        type(lowered_type), intent(in) :: lowered
+        type(state_type), intent(in) :: state
+        logical :: so
+        real(wp), parameter :: far_within = sqrt(huge(1.0_wp))
+
+        associate (units => lowered%units, beam => lowered%beam)
+            so = .not. allocated(lowered%axial%point) .and. all([units%length, units%force, units%deflection] == 0)
+            if (so) so = all(abs(state%deflection) <= far_within) .and. all(abs(state%moment_left) <= far_within) &
+                .and. all(abs(state%moment_right) <= far_within) .and. all(abs(state%shear) <= far_within) &
+                .and. all(abs(state%reaction) <= far_within) .and. all(abs(beam%couple) <= far_within) &
+                .and. abs(state%factor) <= 1.0_wp &
+                .and. all(abs(lowered%model%supports%gap) <= far_within) &
+                .and. all(abs(lowered%model%supports%settlement) <= far_within)
+        end associate
+    end function clearly_in_range
 
     !> Couple of the rotational restraint of a node on the beam, in the engine's units: across a node the moment grows by the
     !> applied couple and that of the supports

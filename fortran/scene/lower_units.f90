@@ -78,6 +78,7 @@ contains
     pure subroutine choose_units(lowered)
         type(lowered_type), intent(inout) :: lowered
         type(exponents_type) :: lengths, stiff(4), forces, ways
+        real(wp) :: most(4)
         integer :: length, j, k, stiffness
 
         do j = 1, size(lowered%pieces)
@@ -103,19 +104,25 @@ contains
             end do
             do j = 0, size(beam%links)
                 call stiff(4)%note(lowered%turning(j), -2*length)
-                call forces%note(maxval(abs(beam%force(:, j))), 0)
-                call forces%note(maxval(abs(beam%couple(:, j))), -length)
             end do
+            call forces%note(maxval(abs(beam%force)), 0)
+            call forces%note(maxval(abs(beam%couple)), -length)
         end associate
         call note_foundations(lowered, length, stiff(3), forces, ways)
+        ! Of loads only the largest counts
+        most(:) = 0.0_wp
         do j = 1, size(lowered%pieces)
             associate (a => lowered%dead(j), b => lowered%live(j))
-                call forces%note(max(abs(a%qa), abs(a%qb), abs(b%qa), abs(b%qb)), length)
-                call forces%note(max(abs(a%force), abs(b%force)), 0)
-                call forces%note(max(abs(a%couple), abs(b%couple)), -length)
-                call ways%note(max(abs(a%kappa), abs(b%kappa)), 2*length)
+                most(1) = max(most(1), abs(a%qa), abs(a%qb), abs(b%qa), abs(b%qb))
+                most(2) = max(most(2), abs(a%force), abs(b%force))
+                most(3) = max(most(3), abs(a%couple), abs(b%couple))
+                most(4) = max(most(4), abs(a%kappa), abs(b%kappa))
             end associate
         end do
+        call forces%note(most(1), length)
+        call forces%note(most(2), 0)
+        call forces%note(most(3), -length)
+        call ways%note(most(4), 2*length)
         stiffness = no_exponent
         do k = size(stiff), 1, -1
             if (middle(stiff(k)) /= no_exponent) stiffness = middle(stiff(k))
@@ -213,17 +220,20 @@ contains
         integer :: i, j
 
         associate (units => lowered%units, beam => lowered%beam)
-            call load_in_units(lowered%dead, units)
-            call load_in_units(lowered%live, units)
-            beam%force(:, :) = scale(beam%force, -units%force)
-            beam%couple(:, :) = scale(beam%couple, -moment_unit(units))
+            ! Mostly all of them are 1
+            if (any([units%length, units%force, units%deflection] /= 0)) then
+                call load_in_units(lowered%dead, units)
+                call load_in_units(lowered%live, units)
+                beam%force(:, :) = scale(beam%force, -units%force)
+                beam%couple(:, :) = scale(beam%couple, -moment_unit(units))
+            end if
             do j = 1, size(lowered%pieces)
                 if (is_finite(lowered%dead(j)) .and. is_finite(lowered%live(j))) cycle
                 call refuse_range(error, "the loads "//trim(from_to(lowered, j - 1, j))//too_great_loads, smaller_loads)
                 return
             end do
             do i = 0, size(beam%links)
-                if (all(abs([beam%force(:, i), beam%couple(:, i)]) <= huge(1.0_wp))) cycle
+                if (all(abs(beam%force(:, i)) <= huge(1.0_wp)) .and. all(abs(beam%couple(:, i)) <= huge(1.0_wp))) cycle
                 call refuse_range(error, "the loads at x = "//trim(shown(point_x(lowered, lowered%node_point(i))))// &
                                   too_great_loads, smaller_loads)
                 return
@@ -319,7 +329,8 @@ contains
         type(piece_load_type), intent(in) :: load
         logical :: finite
 
-        finite = all(abs([load%qa, load%qb, load%kappa, load%force, load%couple]) <= huge(1.0_wp))
+        finite = abs(load%qa) <= huge(1.0_wp) .and. abs(load%qb) <= huge(1.0_wp) .and. abs(load%kappa) <= huge(1.0_wp) &
+            .and. abs(load%force) <= huge(1.0_wp) .and. abs(load%couple) <= huge(1.0_wp)
     end function is_finite
 
     !> The load of a piece in other units

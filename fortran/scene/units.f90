@@ -23,6 +23,9 @@ module gapbeam_units
     !> Smallest and largest exponent of the finite numbers above 0 met so far
     type :: exponents_type
         integer :: low = huge(1), high = no_exponent
+        !> The last number, with its power: many are the same
+        real(wp) :: last = 0.0_wp
+        integer :: last_power = 0
     contains
         procedure :: note
     end type exponents_type
@@ -68,6 +71,9 @@ contains
         integer, intent(in) :: power
 
         if (.not. (value > 0.0_wp .and. value <= huge(value))) return
+        if (power == self%last_power .and. .not. abs(value - self%last) > 0.0_wp) return
+        self%last = value
+        self%last_power = power
         self%low = min(self%low, exponent(value) + power)
         self%high = max(self%high, exponent(value) + power)
     end subroutine note

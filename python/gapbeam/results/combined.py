@@ -379,7 +379,8 @@ class CombinedResult(Result):
                 self.combinations.failed[k] = Status(found.status[k])
                 if found.status[k] in (Status.BAD_INPUT, Status.NOT_FINITE):
                     self.combinations[k]  # says it in words where there is not even a beam
-        statuses = [Status(status).word for status in found.status.tolist()]
+        words = {status: Status(status).word for status in np.unique(found.status).tolist()}
+        statuses = [words[status] for status in found.status.tolist()]
         if alone:
             found = _changeable(found)
             for k in alone:

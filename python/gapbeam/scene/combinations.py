@@ -153,24 +153,26 @@ def plan_combinations(scene: Scene) -> Plan:
         _check(i, combination, there, {train.case for train in scene.trains})
     patterned = dict.fromkeys(case for one in scene.combinations for case, rule in one.expand.items() if rule == "spans")
     cut, spans = _cut(scene, list(patterned))
-    cases = np.array(cases_of(cut.loads), dtype=object)
-    loads_of = {case: np.flatnonzero(cases == case) for case in there}
+    column = {case: k for k, case in enumerate(there)}
+    case_of_load = np.array([column[case] for case in cases_of(cut.loads)], dtype=int)
+    loads_of = {case: np.flatnonzero(case_of_load == k) for case, k in column.items()}
     names: list[str] = []
     factors: list[np.ndarray] = []
     origin: list[int] = []
     _check_count(scene, spans)
+    of_cases = np.array([[one.factors.get(case, 0.0) for case in there] for one in scene.combinations], dtype=float)
+    of_loads = of_cases.reshape(len(scene.combinations), len(there))[:, case_of_load]
     for i, combination in enumerate(scene.combinations):
-        plain = np.zeros(len(cases))
-        for case, factor in combination.factors.items():
-            plain[loads_of[case]] = factor
-        for name, row in _patterns(combination, plain, loads_of, spans):
+        for name, row in _patterns(combination, of_loads[i], loads_of, spans):
             names.append(name)
             factors.append(row)
             origin.append(i)
     _check_expanded(scene, names, origin)
-    table = np.array(factors).reshape(len(names), len(cases))
-    shape = len(scene.combinations), len(scene.supports)
-    movements = np.array([_settlements(scene, i) for i in range(len(scene.combinations))]).reshape(shape)
+    table = np.array(factors).reshape(len(names), len(case_of_load))
+    movements = np.zeros((len(scene.combinations), len(scene.supports)))
+    for i, combination in enumerate(scene.combinations):
+        if combination.settlements:
+            movements[i] = _settlements(scene, i)
     moving = np.array(
         [[scene.combinations[i].factors.get(train.case, 0.0) for train in scene.trains] for i in origin], dtype=float
     ).reshape(len(origin), len(scene.trains))
@@ -184,6 +186,8 @@ def plan_combinations(scene: Scene) -> Plan:
 
 def _check(i: int, combination: Combination, cases: dict[str, None], moving: set[str]) -> None:
     """Refuse cases that are not there, and numbers that are none."""
+    if combination.factors.keys() <= cases.keys() and all(map(isfinite, combination.factors.values())) and not combination.expand:
+        return
     place = f"combinations[{i}]"
     for key in (*combination.factors, *combination.expand):
         if key not in cases:
