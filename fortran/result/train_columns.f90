@@ -6,7 +6,8 @@
 !> are.
 module gapbeam_train_columns
     use gapbeam_kinds, only: wp
-    use gapbeam_band, only: pivot_type, factor_chain, band_ok, hinge, restrained, full, w_known, m_known, both_known, end_of_beam
+    use gapbeam_band, only: pivot_type, factor_chain, band_ok, plain, hinge, restrained, full, w_known, m_known, &
+        both_known, end_of_beam
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads, apply_scheme
     use gapbeam_train, only: train_type, track_type, reach_type
@@ -21,6 +22,8 @@ module gapbeam_train_columns
     type :: columns_type
         !> Can the system of the scheme be solved so
         logical :: usable = .false.
+        !> Are all numbers of the solution numbers
+        logical :: finite = .false.
         !> Factors that make the engine's units of the user's lengths and forces
         real(wp) :: to_length = 1.0_wp, to_force = 1.0_wp
         !> Length of the stretch
@@ -219,6 +222,20 @@ contains
         m(:) = 0.0_wp
         do i = 0, n
             associate (node => columns%work%nodes(i), v => columns%pivots(i), base => columns%work%rhs(i))
+                if (is_plainly_held(v, node%kind)) then
+                    if (i > 0) e(:) = e + columns%turn_b(:, i)
+                    e(1) = e(1) + (base%left - v%phi*base%couple)
+                    right(:) = e + columns%turn_a(:, i + 1)
+                    right(1) = right(1) + base%right
+                    columns%right(:, i) = right
+                    m_star(:) = -right*v%reciprocal
+                    m_star(1) = m_star(1) + v%b*base%deflection*v%reciprocal
+                    h = beam%links(i + 1)%inverse
+                    e(:) = beam%links(i + 1)%fab*m_star
+                    e(1) = e(1) + h*base%deflection
+                    p(:) = h*m_star
+                    cycle
+                end if
                 left(:) = 0.0_wp
                 right(:) = 0.0_wp
                 g(:) = p
@@ -296,7 +313,7 @@ contains
     pure subroutine substitute(beam, columns)
         type(beam_type), intent(in) :: beam
         type(columns_type), intent(inout) :: columns
-        real(wp), dimension(most_columns) :: m, w, m_next, w_next, psi_right
+        real(wp), dimension(most_columns) :: m, w, m_next, w_next, psi_right, sums
         real(wp) :: h
         integer :: i, n
 
@@ -304,9 +321,28 @@ contains
         m_next(:) = 0.0_wp
         w_next(:) = 0.0_wp
         psi_right(:) = 0.0_wp
+        sums(:) = 0.0_wp
         do i = n, 0, -1
             associate (node => columns%work%nodes(i), v => columns%pivots(i), base => columns%work%rhs(i), &
                        left => columns%left(:, i), right => columns%right(:, i), shear => columns%shear(:, i))
+                if (is_plainly_held(v, node%kind)) then
+                    associate (link => beam%links(i + 1))
+                        h = link%inverse
+                        w(:) = 0.0_wp
+                        w(1) = base%deflection
+                        m(:) = -(right + link%fab*m_next + h*w_next)*v%reciprocal
+                        m(1) = m(1) + v%b*base%deflection*v%reciprocal
+                        if (is_wanted(i - 1)) psi_right(:) = h*(w_next - w) + link%faa*m + link%fab*m_next
+                    end associate
+                    m_next(:) = m
+                    m_next(1) = m_next(1) - base%couple
+                    columns%moment_left(:, i) = m_next
+                    columns%deflection(:, i) = w
+                    columns%moment_right(:, i) = m
+                    w_next(:) = w
+                    sums(:) = sums + (w + m_next)
+                    cycle
+                end if
                 if (v%kind == end_of_beam) then
                     m(:) = 0.0_wp
                     w(:) = 0.0_wp
@@ -364,8 +400,32 @@ contains
                 columns%deflection(:, i) = w
                 columns%moment_right(:, i) = m
                 w_next(:) = w
+                sums(:) = sums + (w + m_next)
             end associate
         end do
+        ! No number in a sum is an infinite one, or none
+        columns%finite = all(abs(sums) <= huge(1.0_wp))
+
+    contains
+
+        !> Does the node to the left ask for the rotation here
+        pure function is_wanted(k) result(yes)
+            integer, intent(in) :: k
+            logical :: yes
+
+            yes = k >= 0
+            if (yes) yes = .not. is_plainly_held(columns%pivots(k), columns%work%nodes(k)%kind)
+        end function is_wanted
+
     end subroutine substitute
+
+    !> Is a node held, with no hinge or restraint: its equilibrium is for its support
+    pure function is_plainly_held(pivot, kind) result(so)
+        type(pivot_type), intent(in) :: pivot
+        integer, intent(in) :: kind
+        logical :: so
+
+        so = pivot%kind == w_known .and. kind == plain .and. .not. pivot%floating
+    end function is_plainly_held
 
 end module gapbeam_train_columns

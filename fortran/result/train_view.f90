@@ -111,8 +111,7 @@ contains
         end if
         call find_cells(track, train, view%reach, view%cells)
         call solve_columns(track, train, view%reach, passage%from(k), passage%to(k), view%columns)
-        ! No number in a sum is an infinite one, or none
-        view%clear = all(abs(sum(view%columns%deflection, 2) + sum(view%columns%moment_left, 2)) <= huge(1.0_wp))
+        view%clear = view%columns%finite
         view%axles(:) = 0.0_wp
         view%uniform(:) = 0.0_wp
         associate (cells => view%cells)
