@@ -27,6 +27,8 @@ module gapbeam_train_bounds
     real(wp), parameter :: most_lost = 2.0_wp**(-34)
     !> The longest way without a look, as a share of a link
     real(wp), parameter :: longest_way = 1.0_wp/14
+    !> Values below this share of the largest are not looked at closely
+    real(wp), parameter :: far_below = 0.5_wp
     !> Where an extreme value may be, stretches are halved up to so many times
     integer, parameter :: most_halves = 5
 
@@ -241,6 +243,7 @@ contains
                 bounds%where_reached(2, :) = k
             end where
             bounds%size(:) = max(bounds%size, abs(look%high), abs(look%low))
+            where (bounds%reached(:, :2) > 0.0_wp) bounds%view%enough(:, :) = far_below*bounds%reached(:, :2)
         end subroutine reach_values
 
         !> May a part hold an extreme value

@@ -28,8 +28,9 @@ module gapbeam_train_columns
         real(wp) :: to_length = 1.0_wp, to_force = 1.0_wp
         !> Length of the stretch
         real(wp) :: length = 0.0_wp
-        !> What the train does to the links, shape (most_columns, n)
+        !> What the train does to the links, shape (most_columns, n), and to which it does something
         real(wp), allocatable :: turn_a(:, :), turn_b(:, :), shear_a(:, :), shear_b(:, :)
+        logical, allocatable, private :: loaded(:)
         !> The solution at the nodes, shape (most_columns, 0:n)
         real(wp), allocatable :: deflection(:, :), moment_left(:, :), moment_right(:, :)
         !> Nodes and loads that stay, as the scheme has them; the factor; right-hand sides on the way
@@ -50,10 +51,11 @@ contains
 
         n = size(track%beam%links)
         allocate (columns%turn_a(most_columns, n), columns%turn_b(most_columns, n), columns%shear_a(most_columns, n), &
-                  columns%shear_b(most_columns, n), columns%deflection(most_columns, 0:n), &
+                  columns%shear_b(most_columns, n), columns%loaded(n), columns%deflection(most_columns, 0:n), &
                   columns%moment_left(most_columns, 0:n), columns%moment_right(most_columns, 0:n), columns%pivots(0:n), &
                   columns%left(most_columns, 0:n), columns%right(most_columns, 0:n), columns%shear(most_columns, 0:n), stat=stat)
         if (stat /= 0) return
+        columns%loaded(:) = .true.
         call new_workspace(track%beam, columns%work)
         columns%to_length = scale(1.0_wp, -track%length_unit)
         columns%to_force = scale(1.0_wp, -track%force_unit)
@@ -124,14 +126,19 @@ contains
         real(wp) :: t, f, distance
         integer :: i, j, l
 
-        columns%turn_a(:, :) = 0.0_wp
-        columns%turn_b(:, :) = 0.0_wp
-        columns%shear_a(:, :) = 0.0_wp
-        columns%shear_b(:, :) = 0.0_wp
+        do l = 1, size(columns%loaded)
+            if (.not. columns%loaded(l)) cycle
+            columns%turn_a(:, l) = 0.0_wp
+            columns%turn_b(:, l) = 0.0_wp
+            columns%shear_a(:, l) = 0.0_wp
+            columns%shear_b(:, l) = 0.0_wp
+            columns%loaded(l) = .false.
+        end do
         do i = 1, size(train%offset)
             j = reach%piece(i)
             if (j == 0) cycle
             l = track%link(j)
+            columns%loaded(l) = .true.
             f = train%force(i)*columns%to_force
             t = at_distance(track, columns, j, from + train%offset(i))
             distance = track%before(j) + t
@@ -147,6 +154,7 @@ contains
                 f = load%q*columns%to_force/columns%to_length
                 do j = first, last
                     l = track%link(j)
+                    columns%loaded(l) = .true.
                     call add_uniform(1.0_wp, min(from + load%to, track%x(j)), &
                                      j == last .and. reach%about + load%to < track%x(j))
                     call add_uniform(-1.0_wp, max(from + load%from, track%x(j - 1)), &

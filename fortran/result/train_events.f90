@@ -47,6 +47,7 @@ contains
             if (passage%status(i) /= gapbeam_solved) cycle
             if (first == 0) now(:) = passage%closed(:, i)
             first = i
+            if (all(passage%closed(:, i) .eqv. now)) cycle
             k = 1
             do while (k <= size(now))
                 last = last_kink(lowered%beam%supports, k)

@@ -164,9 +164,6 @@ contains
         skipped = least_share
         do
             if (known .and. .not. changes) then
-                ! All that is asked of it is zero
-                margins%b(:, :) = 0.0_wp
-                margins%slack(:) = 0.0_wp
                 call accept(gapbeam_solved, 1.0_wp)
                 return
             else if (known) then
@@ -235,9 +232,10 @@ contains
             passage%status(k) = status
             passage%reach(k) = r
             passage%closed(:, k) = closed
-            passage%at_zero(:, k) = .false.
+            ! All that is asked of supports that cannot change is zero
+            passage%at_zero(:, k) = status == gapbeam_solved .and. .not. changes
             passage%motion_of(k) = 0
-            if (status == gapbeam_solved) then
+            if (status == gapbeam_solved .and. changes) then
                 passage%at_zero(:, k) = are_zero(margins, degree_of(train), size(closed))
                 call find_redundancy(track%beam, closed, passage%at_zero(:, k), node)
                 if (node >= 0) passage%status(k) = gapbeam_indeterminate

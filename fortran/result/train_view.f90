@@ -41,6 +41,8 @@ module gapbeam_train_view
         logical :: clear = .false., new_scheme = .false.
         !> Positions of the train at its ends
         real(wp) :: ends(2) = 0.0_wp
+        !> Largest and negative smallest deflections and rotations that need not be known closely, if they are not above these
+        real(wp) :: enough(2, 2) = -huge(1.0_wp)
         !> Loads that stay, shape (npiece)
         type(piece_load_type), allocatable :: loads(:)
         !> Shape (n)
@@ -207,11 +209,13 @@ contains
                     d = l*(r + g*v)/3
                     d1 = l*(r1 + g*v1)/3
                     rest = f*most*l**4/384
-                    call bound_cubic([w, w + d, w1 - d1, w1], rest, look%high(1), look%low(1), look%top(1), look%bottom(1))
+                    call bound_cubic([w, w + d, w1 - d1, w1], rest, view%enough(:, 1), &
+                                     look%high(1), look%low(1), look%top(1), look%bottom(1))
                     d = l*(kappa - f*m)/3
                     d1 = l*(kappa - f*m1)/3
                     rest = f*abs(slope)*l**4/384
-                    call bound_cubic([r, r + d, r1 - d1, r1], rest, look%high(2), look%low(2), look%top(2), look%bottom(2))
+                    call bound_cubic([r, r + d, r1 - d1, r1], rest, view%enough(:, 2), &
+                                     look%high(2), look%low(2), look%top(2), look%bottom(2))
                 end associate
                 rest = 0.0_wp
                 if (changes(v, v1) .or. changes(qa, qa + l*slope)) rest = most*l**2/8
@@ -238,15 +242,20 @@ contains
     contains
 
         !> Bounds of what is nearly a cubic, and what it reaches
-        pure subroutine bound_cubic(b, rest, high, low, top, bottom)
-            !> Its Bernstein coefficients, and how far from it the values may be
-            real(wp), intent(in) :: b(0:3), rest
+        pure subroutine bound_cubic(b, rest, enough, high, low, top, bottom)
+            !> Its Bernstein coefficients, how far from it the values may be, and up to where they need not be known closely
+            real(wp), intent(in) :: b(0:3), rest, enough(2)
             real(wp), intent(inout) :: high, low, top, bottom
             real(wp) :: most, least, root, t(2), value
             integer :: k
 
             most = max(b(0), b(3))
             least = min(b(0), b(3))
+            if (max(most, b(1), b(2)) < enough(1) .and. -min(least, b(1), b(2)) < enough(2)) then
+                high = max(high, most + rest, b(1) + rest, b(2) + rest)
+                low = min(low, least - rest, b(1) - rest, b(2) - rest)
+                return
+            end if
             if (max(b(1), b(2)) > most .or. min(b(1), b(2)) < least) then
                 associate (d0 => b(1) - b(0), d1 => b(2) - b(1), d2 => b(3) - b(2))
                     ! Where the slope is zero: t/(1 - t) is a root of d0 + 2 d1 x + d2 x**2
@@ -293,8 +302,9 @@ contains
 
         associate (columns => view%columns, h => view%columns%length)
             slopes%moment_2 = max(second(columns%moment_right(:, i - 1)), second(columns%moment_left(:, i)))
-            slopes%deflection_2 = max(second(columns%deflection(:, i - 1)), second(columns%deflection(:, i)))
             slopes%moment = max(abs(columns%moment_right(2, i - 1)), abs(columns%moment_left(2, i))) + h*slopes%moment_2
+            if (columns%work%nodes(i - 1)%held .and. columns%work%nodes(i)%held) return
+            slopes%deflection_2 = max(second(columns%deflection(:, i - 1)), second(columns%deflection(:, i)))
             slopes%deflection = max(abs(columns%deflection(2, i - 1)), abs(columns%deflection(2, i))) + h*slopes%deflection_2
         end associate
 
