@@ -135,3 +135,18 @@ def test_refusals_name_the_parameter(law, place, problem):
 def test_powers_are_refused_with_the_reason():
     with pytest.raises(SceneError, match="infinitely stiff at first"):
         gapbeam.solve({"beam": BEAM, "foundation": [{"law": {"type": "power", "d0": 0.01, "limit": 5.0, "n": 0.33}}]})
+
+
+@pytest.mark.parametrize(("turn", "digits"), [(0.6, 1e-11), (10.0, 1e-8), (300.0, 1e-4)])
+def test_a_rigid_pile_as_near_to_its_limit_load_as_one_likes(turn, digits):
+    """With p = 400 x/L tanh(22.5 turn (a - x)) and e = pi^2/(12 (22.5 turn)^2): F L/400 = a^2 - L^2/2 + e, a^3 + 3 a e = L^3/2."""
+    length, e = 6.0, np.pi**2 / (12.0 * (22.5 * turn) ** 2)
+    pivot = max(np.roots([1.0, 0.0, 3.0 * e, -(length**3) / 2.0]).real)
+    F = 400.0 / length * (pivot**2 - length**2 / 2.0 + e)
+    law = {"type": "tanh", "stiffness": [0.0, 9e3], "limit": [0.0, 400.0]}
+    pile = {"beam": {"spans": [length], "EI": np.inf}, "foundation": [{"law": law}], "loads": [{"type": "force", "x": 0.0, "F": F}]}
+    fields = gapbeam.solve(pile).at([0.0, pivot, length])
+    assert np.abs(fields.rotation + turn).max() <= digits * turn
+    assert abs(fields.deflection[1]) <= digits * fields.deflection[0]
+    # Nor are piles that bend lost there
+    assert gapbeam.solve({**pile, "beam": {"spans": [length], "EI": 2e5}}).at(0.0).deflection > fields.deflection[0]

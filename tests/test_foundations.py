@@ -218,6 +218,8 @@ def test_steps_and_events_end_in_the_same_state(made):
     [
         (10054, []),  # at first the load is nothing beside the gaps
         (10132, [0.3497043154, 0.3497043154, 0.6559202896, 0.6603196871]),  # a tip goes from one side to the other
+        (10694, [0.0160900765855, 0.0505876444925, 0.8306545490421, 0.9208138247134]),  # a hinged part comes down on a peak
+        (12079, [0.0268999587376, 0.1504553797692]),  # and on the end of the ground
     ],
 )
 def test_paths_along_which_next_to_nothing_holds_for_a_while(seed, factors):

@@ -27,6 +27,8 @@ module gapbeam_curved
     !> More steps a stretch is not given, and beyond this size no fields
     integer, parameter :: most_steps = 512
     real(wp), parameter :: largest = sqrt(sqrt(huge(1.0_wp)))
+    !> Slopes of a law, relative to its steepest, that are none: elimination would lose its range to them
+    real(wp), parameter :: no_slope = 2.0_wp**(-100)
     !> Part of the length that the last terms allow
     real(wp), parameter :: cautious = 0.9_wp
 
@@ -76,7 +78,6 @@ contains
                         one%u(n) = curve%side*one%u(n)
                         call next_term(one, n)
                         pressure = pressure + curve%side*one%r(n)
-                        modulus(n) = modulus(n) + one%k(n)
                     end associate
                 end do
                 if (n == order) exit
@@ -90,6 +91,7 @@ contains
             end do
             step = step_of(c(4, :), sum(abs(c(4, 0:3))))
             do i = 1, size(series)
+                if (sum(abs(series(i)%k(0:3))) > no_slope*slope_scale(series(i))) modulus(0:order) = modulus(0:order) + series(i)%k
                 forces(0:order, i) = series(i)%r
                 step = min(step, step_of(series(i)%r, force_scale(series(i))), step_of(series(i)%k, slope_scale(series(i))), &
                            longest_step(series(i)))

@@ -13,6 +13,8 @@ module gapbeam_law_series
     integer, parameter :: order = ceiling(digits(1.0_wp)*0.35_wp) + 3
     !> Parameters keep a ratio if they do to this share: they are rounded to doubles
     real(wp), parameter :: alike = 2.0_wp**(-47)
+    !> From here on a tanh is 1 to rounding
+    real(wp), parameter :: level = 0.35_wp*digits(1.0_wp) + 0.7_wp
 
     !> A layer of ground under a stretch, on a piece of its law that is a curve
     type :: curve_type
@@ -213,16 +215,21 @@ contains
         if (.not. u > 0.0_wp) u = sum(abs(s%u))
     end function size_of_way
 
-    !> How far the series go, as a part of the way, for what is divided by
+    !> How far the series go, as a part of the way: for what is divided by, and for a tanh that is 1 to rounding, whose terms do not
+    !> tell where it will be less
     pure function longest_step(s) result(step)
         type(law_series_type), intent(in) :: s
-        real(wp) :: step
+        real(wp) :: step, way
         integer :: divisor
 
         step = 1.0_wp
+        if (s%law == law_tanh) then
+            way = sum(abs(s%z(1:3)))
+            if (abs(s%z(0)) > level .and. way > abs(s%z(0)) - level) step = max(1.0_wp, abs(s%z(0)) - level)/max(1.0_wp, way)
+        end if
         if (s%keeps_ratio .or. s%law == law_cubic) return
         divisor = merge(1, 2, s%law == law_hardening)
-        if (abs(s%p(divisor, 1)) > 2*s%p(divisor, 0)) step = s%p(divisor, 0)/(2*abs(s%p(divisor, 1)))
+        if (abs(s%p(divisor, 1)) > 2*s%p(divisor, 0)) step = min(step, s%p(divisor, 0)/(2*abs(s%p(divisor, 1))))
     end function longest_step
 
     !> Term of a product of two series

@@ -16,7 +16,8 @@ module gapbeam_system
     private
     public :: solve_scheme, solve_and_refine, solve_deflections, complete_scheme, refine_scheme, check_scheme
 
-    !> Zones of a smaller share of the beam lose digits that are wanted back, in so many steps at most
+    !> Zones of a smaller share of the beam, or of what the ground holds elsewhere, lose digits that are wanted back, in so many
+    !> steps at most
     real(wp), parameter :: short = 2.0_wp**(-10)
     integer, parameter :: most_steps = 4
 
@@ -213,7 +214,7 @@ contains
         call complete_scheme(beam, acting, work)
     end subroutine refine_scheme
 
-    !> The same on elastic ground, where short zones lose digits; else quadruple precision does (gapbeam_ground_solver)
+    !> The same on elastic ground where digits are lost; elsewhere quadruple precision refines (gapbeam_ground_solver)
     pure subroutine refine_on_ground(beam, acting, work)
         !> As for refine_scheme
         type(beam_type), intent(in) :: beam
@@ -223,7 +224,7 @@ contains
         real(wp) :: share, before
         integer :: step
 
-        if (.not. minval(beam%links%length) < short*sum(beam%links%length)) return
+        if (.not. loses_digits(beam)) return
         allocate (residual(0:size(beam%links)))
         before = huge(before)
         do step = 1, most_steps
@@ -254,6 +255,16 @@ contains
         end function share_of
 
     end subroutine refine_on_ground
+
+    !> Are there zones that are short, or that next to nothing holds beside others
+    pure function loses_digits(beam) result(loses)
+        type(beam_type), intent(in) :: beam
+        logical :: loses
+
+        associate (g => beam%ground%gaa)
+            loses = minval(beam%links%length) < short*sum(beam%links%length) .or. minval(g, g > 0.0_wp) < short*maxval(g)
+        end associate
+    end function loses_digits
 
     !> Relative residuals of the last solve, into work%compatibility and work%equilibrium
     pure subroutine check_scheme(beam, work)
