@@ -290,11 +290,8 @@ def test_refusals(train, message):
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"foundation": [{"k": 1.0}]}, "trains: trains on a foundation are not available"),
         ({"supports": [{"node": 0}, {"node": 1, "side": "below", "law": {"type": "plastic", "stiffness": 1.0, "limit": 1.0}}]},
          "supports: laws whose state depends on the way of the load cannot stand beside trains"),
-        ({"supports": [{"node": 0}, {"node": 1, "law": {"type": "tanh", "stiffness": 1.0, "limit": 1.0}}]},
-         "supports: laws that are curves cannot stand beside trains"),
     ],
 )  # fmt: skip
 def test_what_trains_cannot_go_over(change, message):

@@ -215,3 +215,57 @@ subroutine gbgext(beam, ng, nr, nb, ground, u, pull, value, x, status, message)
     if (.not. allocated(error)) call extremes_of_pressure(handle%lowered, solution, value(:, 7), x(:, 7), error)
     call report(error, status, message)
 end subroutine gbgext
+
+! How the zones of contact of a state become those of another one of the same ground under other loads
+subroutine gbgdif(most, beam, ng, nr, ground, other, ng2, nr2, other_ground, same, number, which, x, status, message)
+    use gapbeam_error, only: error_type
+    use gapbeam_handle, only: handle_type, handle_of, report, unpack_ground
+    use gapbeam_ground_solver, only: ground_solution_type
+    use gapbeam_ground_changes, only: zone_type, zone_change_type, find_zones, same_zones, compare_zones
+    implicit none
+    ! Changes that there is room for, one more
+    integer, intent(in) :: most
+    ! The states: beams, and what is in their stretches
+    integer(8), intent(in) :: beam, other
+    integer, intent(in) :: ng, nr, ng2, nr2
+    double precision, intent(in) :: ground(nr, ng), other_ground(nr2, ng2)
+    ! 1 if there are the same zones, but for where they are
+    integer, intent(out) :: same
+    ! Changes, all of them, also those for which there is no room
+    integer, intent(out) :: number
+    ! Of every change: foundation (from 1), branch, what happens (gapbeam_pieces); its place in the scene's units
+    integer, intent(out) :: which(3, most)
+    double precision, intent(out) :: x(most)
+    integer, intent(out) :: status
+    character(len=240), intent(out) :: message
+    !f2py threadsafe
+    !f2py integer, intent(hide), depend(ground) :: nr = shape(ground, 0), ng = shape(ground, 1)
+    !f2py integer, intent(hide), depend(other_ground) :: nr2 = shape(other_ground, 0), ng2 = shape(other_ground, 1)
+    type(handle_type), pointer :: handle
+    type(ground_solution_type) :: solution
+    type(zone_type), allocatable :: before(:), after(:)
+    type(zone_change_type), allocatable :: changes(:)
+    type(error_type), allocatable :: error
+    integer :: k
+
+    same = 0
+    number = 0
+    which = 0
+    x = 0.0d0
+    handle => handle_of(beam)
+    call unpack_ground(handle%lowered, ground, solution)
+    call find_zones(handle%lowered, solution, before, error)
+    if (.not. allocated(error)) then
+        handle => handle_of(other)
+        call unpack_ground(handle%lowered, other_ground, solution)
+        call find_zones(handle%lowered, solution, after, error)
+    end if
+    call report(error, status, message)
+    if (allocated(error)) return
+    same = merge(1, 0, same_zones(before, after))
+    call compare_zones(before, after, changes, number)
+    do k = 1, min(number, most)
+        which(:, k) = [changes(k)%foundation, changes(k)%branch, changes(k)%change]
+        x(k) = changes(k)%x
+    end do
+end subroutine gbgdif

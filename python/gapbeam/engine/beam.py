@@ -569,6 +569,41 @@ class Beam:
         check_status(status, message)
         return about.T[:number], values.T[:number]
 
+    def zone_changes(self, ground: Ground, other: Beam, after: Ground) -> tuple[bool, np.ndarray, np.ndarray]:
+        """Tell how zones of contact become those of another state, on the same ground.
+
+        Parameters
+        ----------
+        ground : Ground
+            A solution.
+        other : Beam
+            The same under other loads.
+        after : Ground
+            A solution of that.
+
+        Returns
+        -------
+        same : bool
+            Whether there are the same zones, but for where they are.
+        about : numpy.ndarray of int
+            Foundation, branch of its law, what happens (gapbeam_pieces), changes by 3.
+        x : numpy.ndarray
+            Their places.
+
+        Raises
+        ------
+        EngineError
+            There is no memory.
+        """
+        room, number = 0, 8
+        while number > room:
+            room = number
+            same, number, which, x, status, message = _engine.gbgdif(room, self.handle, ground.values, other.handle, after.values)
+            check_status(status, message)
+        about = which.T[:number].copy()
+        about[:, 0] -= 1
+        return bool(same), about, x[:number]
+
     def split_loads(self) -> None:
         """Condense the loads one by one, for `solve_cases`."""
         if self.ground_layers:

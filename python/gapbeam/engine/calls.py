@@ -192,6 +192,7 @@ gbvalu = interruptible(_engine.gbvalu, lambda beam, factor, starts, u, tension, 
 gbgval = interruptible(_engine.gbgval, lambda beam, ground, u, tension, piece, *_: len(piece) + ground.shape[1])
 gbgext = interruptible(_engine.gbgext, lambda beam, ground, *_: ground.shape[1])
 gbgrun = interruptible(_engine.gbgrun, lambda beam, ground: ground.shape[1])
+gbgdif = interruptible(_engine.gbgdif, lambda most, beam, ground, *_: ground.shape[1])
 gbextr = interruptible(_engine.gbextr, lambda beam, factor, starts, *_: starts.shape[1])
 gblarg = interruptible(_engine.gblarg, lambda beam, factor, starts, *_: starts.shape[1])
 gbcomb = interruptible(_engine.gbcomb)

@@ -9,15 +9,17 @@ from matplotlib.figure import Figure
 from ..base.characters import visible
 from ..results import formatting as fmt
 from .beam import SupportLanes, draw_beam
+from .ground import GroundLanes, draw_ground, points_a_span
 from .result import LEFT, PANEL, PANELS, RIGHT, SPACE, WIDTH, cut_text, frame_panel, panel_axes
 from .save import literal
 
 if TYPE_CHECKING:
     from ..results.result import Result
-    from ..results.train_envelope import TrainCurves, TrainExtreme
+    from ..results.train_envelope import TrainCurves
+    from ..results.train_members import TrainExtreme
 
-POINTS = 40
-"""Divisions of a span at which the curves are drawn."""
+POINTS, MOST_POINTS = 40, 100
+"""Divisions of a span at which the curves are drawn; on foundations more where the beam bends within short lengths."""
 
 
 def train_envelope_figure(result: "Result") -> Figure:
@@ -35,10 +37,11 @@ def train_envelope_figure(result: "Result") -> Figure:
         position of the train.
     """
     scene = result.scene
-    envelope = result.envelope(POINTS)
+    envelope = result.envelope(int(min(max(POINTS, points_a_span(scene, result.beam)), MOST_POINTS)))
     states = tuple("bilateral" if support.side == "both" else "one-sided" for support in scene.supports)
     width = (WIDTH - LEFT - RIGHT) * 72
-    supports = SupportLanes(scene, states, width, (0.0, 0.0))
+    ground = GroundLanes(scene, width)
+    supports = SupportLanes(scene, states, width, (ground.below, ground.above))
     beam = (supports.top - supports.bottom) / 72
     panels = [panel for panel in PANELS if panel[0] in envelope.extremes]
     heading = 0.6
@@ -53,6 +56,7 @@ def train_envelope_figure(result: "Result") -> Figure:
     axes = panel_axes(picture, scene, height - heading - beam, beam)
     axes.set_axis_off()
     axes.set_ylim(supports.bottom, supports.top)
+    draw_ground(axes, ground, ())
     draw_beam(axes, scene, states, supports)
     bottom = height - heading - beam - SPACE
     for quantity, words, downward in panels:

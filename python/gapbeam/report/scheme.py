@@ -12,6 +12,7 @@ from ..scene.names import label
 if TYPE_CHECKING:
     from ..results.ground_path import GroundEvent
     from ..results.path import Event
+    from ..results.train_ways import TrainEvent
     from ..scene.structs import Scene
 
 #: State -> character; the second where the terminal knows only ASCII
@@ -126,16 +127,47 @@ def event_table(
     left : tuple of int
     """
     mixed = bool(scene.foundation)
-    rows = []
-    for event in events:
-        if event.support is None:
-            what = f"foundation {label(scene.foundation, event.foundation)}"
-        else:
-            what = f"{'support ' * mixed}{label(scene.supports, event.support)}"
-        branch = getattr(event, "branch", 1)
-        happens = event.event + (f" (branch {branch})" if branch > 1 else "")
-        rows.append([number(event.factor, 10), what, number(event.x), happens])
+    rows = [
+        [number(event.factor, 10), changed_item(scene, event, mixed), number(event.x), words_of_event(event)] for event in events
+    ]
     return ["load factor", "at" if mixed else "support", with_unit(scene, "x"), "event"], rows, (1, 3) if mixed else (3,)
+
+
+def changed_item(scene: Scene, event: Event | GroundEvent | TrainEvent, mixed: bool) -> str:
+    """Name the support or foundation that changes.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    event : Event, GroundEvent or TrainEvent
+        What happens.
+    mixed : bool
+        Whether to say that a support is one.
+
+    Returns
+    -------
+    str
+    """
+    if event.support is None:
+        return f"foundation {label(scene.foundation, event.foundation)}"
+    return f"{'support ' * mixed}{label(scene.supports, event.support)}"
+
+
+def words_of_event(event: Event | GroundEvent | TrainEvent) -> str:
+    """Say what happens, and to which branch of a law beyond the first.
+
+    Parameters
+    ----------
+    event : Event, GroundEvent or TrainEvent
+        What happens.
+
+    Returns
+    -------
+    str
+    """
+    branch = getattr(event, "branch", 1)
+    return event.event + (f" (branch {branch})" if branch > 1 else "")
 
 
 def _span(first: float, last: float) -> str:

@@ -6,11 +6,13 @@ from ..base.characters import visible
 from ..results import formatting as fmt
 from ..results.train_data import passing_trains
 from ..scene.trains import LEFT
+from .scheme import changed_item, words_of_event
 from .writer import Writer
 
 if TYPE_CHECKING:
     from ..results.result import Result
-    from ..results.train_envelope import TrainEnvelope, TrainExtreme
+    from ..results.train_envelope import TrainEnvelope
+    from ..results.train_members import TrainExtreme
 
 MOST_EVENTS = 24
 """Events that are listed; of more some in the middle are left out."""
@@ -35,6 +37,7 @@ def write_trains(say: Writer, result: "Result") -> None:
     _gaps(say, envelope)
     _fields(say, result, envelope)
     _supports(say, result, envelope)
+    _foundations(say, result, envelope)
     _events(say, result)
 
 
@@ -86,22 +89,51 @@ def _supports(say: Writer, result: "Result", envelope: "TrainEnvelope") -> None:
     say.line("Reactions upward positive; openings" + (f" in {length}" if length else "") + " where there are any.", "dim")
 
 
-def _events(say: Writer, result: "Result") -> None:
-    """Changes of the working scheme."""
+def _foundations(say: Writer, result: "Result", envelope: "TrainEnvelope") -> None:
+    """What the foundations carry at most and at least, and where the beam hangs free."""
     scene = result.scene
-    names = fmt.numbered(scene.supports)
+    if not scene.foundation:
+        return
+    rows, spans = [], []
+    for name, row in zip(fmt.numbered(scene.foundation), envelope.foundations, strict=True):
+        for kind, words in PLACES:
+            one = row["resultant"][kind]
+            if one is not None:
+                rows.append([name if kind == "max" else "", words, fmt.number(one.value), *_source(result, one)])
+        for kind, one in row["free_span"].items():
+            if one is not None:
+                ends = one.span.from_, one.span.to, one.span.to - one.span.from_, one.span.sag
+                numbers = [fmt.number(value, 4) for value in ends]
+                spans.append([name if kind == "longest" else "", kind, *numbers, *_source(result, one)])
+    say.heading("Foundations while trains pass")
+    say.table(["", "", fmt.stacked(scene, "resultant"), *_headings(result)], rows, (0, 1, 3, 4))
+    say.line("Resultants upward positive." + ("" if spans else " The beam hangs free nowhere."), "dim")
+    if spans:
+        say.heading("Free spans while trains pass")
+        quantities = (("x", "from"), ("x", "to"), ("length", "length"), ("sag", "sag"))
+        headings = [fmt.stacked(scene, quantity, words) for quantity, words in quantities]
+        say.table(["", "", *headings, *_headings(result)], spans, (0, 1, 6, 7))
+        say.line("Sag: largest distance between beam and ground.", "dim")
+
+
+def _events(say: Writer, result: "Result") -> None:
+    """Changes of what holds the beam."""
+    scene = result.scene
+    mixed, names = bool(scene.foundation), fmt.numbered(scene.supports)
     rows = [
         [*([visible(combination)] if combination is not None else []), visible(train.name), event.direction,
-         fmt.number(event.position, 9), names[event.support], fmt.number(event.x), event.event]
+         fmt.number(event.position, 9), changed_item(scene, event, mixed) if mixed else names[event.support],
+         fmt.number(event.x), words_of_event(event)]
         for combination, train in passing_trains(result)
         for event in train.events
     ]  # fmt: skip
     if not rows:
         return
-    say.heading("Supports that change on the way")
+    say.heading(f"{'Supports and zones of contact' if mixed else 'Supports'} that change on the way")
     first = ["combination"] if result.combinations else []
     n = len(first)
-    headings = [*first, "train", "goes", fmt.stacked(scene, "x", "position"), "support", fmt.stacked(scene, "x"), "event"]
+    places = [fmt.stacked(scene, "x", "position"), "at" if mixed else "support", fmt.stacked(scene, "x")]
+    headings = [*first, "train", "goes", *places, "event"]
     say.table(headings, rows, (*range(n + 2), n + 3, n + 5), MOST_EVENTS)
 
 

@@ -25,7 +25,8 @@ from .envelope import Envelope, Source, at_full_load, fields_on_sides
 from .following import follow_load, starting_scheme
 from .result import Result
 from .tables import KINDS, extremes_while_trains_pass
-from .train_envelope import Member, Standing, TrainEnvelope, places_given
+from .train_envelope import TrainEnvelope, places_given
+from .train_members import Member, Standing
 
 if TYPE_CHECKING:
     from .hints import Hint

@@ -156,6 +156,26 @@ def find_free_spans(runs: Sequence[Run]) -> tuple[FreeSpan, ...]:
     )
 
 
+def size_of(span: FreeSpan | None, quantity: str) -> float:
+    """Give the size of a free span.
+
+    Parameters
+    ----------
+    span : FreeSpan or None
+        The span; there may be none.
+    quantity : {"length", "sag"}
+        Which size.
+
+    Returns
+    -------
+    float
+        0 if there is none.
+    """
+    if span is None:
+        return 0.0
+    return span.to - span.from_ if quantity == "length" else span.sag
+
+
 def joined(contacts: Sequence[Contact]) -> list[Contact]:
     """Join what lies beside each other: zones without the branches of a law in them, and without places that only touch.
 

@@ -33,7 +33,8 @@ if TYPE_CHECKING:
     from .ground_path import GroundEvent, GroundPath
     from .hints import Hint
     from .path import Event, Path, Segment
-    from .train_envelope import Member, TrainEnvelope
+    from .train_envelope import TrainEnvelope
+    from .train_members import Member
     from .trains import Trains
 
 BYTES_PER_PLACE = 120

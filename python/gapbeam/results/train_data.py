@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from ..scene.names import names_of
 from .result import Result
+from .train_ways import TrainEvent
 from .trains import TrainResult
 
 
@@ -48,24 +48,27 @@ def trains_data(result: Result) -> dict[str, Any]:
     """
     if not result.scene.trains:
         return {}
-    names = names_of(result.scene.supports)
     return {
         "trains": [
             {
                 "name": train.name,
                 **({} if combination is None else {"combination": combination}),
                 "case": train.train.case,
-                "events": [
-                    {
-                        "position": e.position, "support": e.support,
-                        **({} if names[e.support] is None else {"name": names[e.support]}),
-                        "x": e.x, "event": e.event, "direction": e.direction,
-                    }
-                    for e in train.events
-                ],
+                "events": [_event(event, result) for event in train.events],
                 "gaps": [{"from": g.from_, "to": g.to, "reason": g.reason, "direction": g.direction} for g in train.gaps],
                 "solves": train.solves,
             }
             for combination, train in passing_trains(result)
         ]
+    }
+
+
+def _event(event: TrainEvent, result: Result) -> dict[str, Any]:
+    """Give an event as plain data."""
+    of_support = event.support is not None
+    what, number = ("support", event.support) if of_support else ("foundation", event.foundation)
+    name = (result.scene.supports if of_support else result.scene.foundation)[number].name
+    return {
+        "position": event.position, what: number, **({} if name is None else {"name": name}),
+        "x": event.x, "event": event.event, **({} if event.branch == 1 else {"branch": event.branch}), "direction": event.direction,
     }  # fmt: skip

@@ -1,7 +1,8 @@
 """Trains: loads that move over the beam, followed from event to event, and what they make at most.
 
 Positions are those of the first axle. The loads of the scene stay, dead and live ones in full. A state is that of supports that
-act one way, so superposition does not hold: at every position the right supports act.
+act one way, so superposition does not hold: at every position the right supports act. The engine follows them by polynomials in
+the position (`TrainWay`), but on foundations and with smooth laws, where there are none, `SearchedWay` does.
 
 >>> import gapbeam
 >>> result = gapbeam.solve({
@@ -24,77 +25,23 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from msgspec.structs import replace
 
-from ..base.errors import EngineError, SceneError, Status
+from ..base.errors import EngineError, SceneError
 from ..base.records import Record
 from ..engine.beam import Beam
-from ..engine.trains import NOT_UNIQUE, Extremes, Passage
-from ..scene.columns import columns
+from ..scene.columns import columns, curves
 from ..scene.structs import ForceLoad, Scene, UniformLoad
-from ..scene.trains import LEFT, RIGHT, Course, courses, joined, nearest, train_name
+from ..scene.trains import LEFT, RIGHT, courses, joined, nearest, train_name
 from ..scene.wording import choice, shown
 from .arguments import finite
-from .kinks import EVENTS
-from .motion import SLIDES, describe_motion
 from .step import Step
 from .steps import LoadSteps
-from .train_envelope import FIELDS, Passing, TrainEnvelope, places_along, places_given
+from .train_envelope import TrainEnvelope, places_along, places_given
+from .train_members import Member, fields_of
+from .train_ways import Gap, TrainEvent, TrainWay
 
 if TYPE_CHECKING:
     from .result import Fields, Result
-
-INFLUENCES = (*FIELDS, "reaction")
-"""What has influence lines."""
-WITHOUT_ANSWER = {
-    NOT_UNIQUE: "the beam can move freely, without work of the loads: its position is not unique",
-    Status.INDETERMINATE: "no unique answer: a rigid stretch rests on more rigid supports than statics can tell apart",
-    Status.NOT_CONVERGED: "no unique answer: the working scheme could not be settled in the precision at hand",
-}
-"""Why positions are not solved where the beam does not move along a line."""
-
-
-@dataclass(frozen=True, slots=True)
-class TrainEvent:
-    """A change of the working scheme.
-
-    Attributes
-    ----------
-    position : float
-        Position of the train.
-    support : int
-        Number of the support in the scene.
-    x : float
-        Its place.
-    event : str
-        ``opens`` or ``closes``; with a law also ``yields``, ``hardens``, ``unloads``.
-    direction : {"right", "left"}
-        Which way the train goes.
-    """
-
-    position: float
-    support: int
-    x: float
-    event: str
-    direction: str
-
-
-@dataclass(frozen=True, slots=True)
-class Gap:
-    """Positions at which the beam cannot stand, is not held in one place, or has no unique answer.
-
-    Attributes
-    ----------
-    from_, to : float
-        First and last position.
-    reason : str
-        How the beam moves, or why there is no answer.
-    direction : {"right", "left"}
-        Which way the train goes.
-    """
-
-    from_: float
-    to: float
-    reason: str
-    direction: str
+    from .train_search import SearchedWay
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -157,52 +104,6 @@ class TrainState(Step):
         return self.result.extremes()
 
 
-class TrainWay:
-    """A train that has gone over the beam in one direction.
-
-    Attributes
-    ----------
-    course : Course
-        What it is.
-    passage : Passage
-        How it went.
-    near : float
-        Distance below which an axle is at the end of the beam.
-    """
-
-    def __init__(self, beam: Beam, course: Course, near: float, supports: np.ndarray):
-        self.course, self.near = course, near
-        self.passage = Passage(beam, course.offset, course.force, course.uniform, course.from_, course.to, course.direction == LEFT)
-        p = self.passage
-        self.events = [
-            TrainEvent(position, support, float(supports[support]), EVENTS[change], course.direction)
-            for position, (support, _, change) in zip(p.positions.tolist(), p.events.tolist(), strict=True)
-        ]
-
-    @cached_property
-    def extremes(self) -> tuple[Extremes, list[Extremes]]:
-        """Largest and smallest fields, and the same of every support."""
-        return self.passage.extremes()
-
-    @cached_property
-    def gaps(self) -> list[Gap]:
-        """Positions that are not solved."""
-        p, found = self.passage, []
-        reasons: list[Any] = []
-        for (start, end), status, motion in zip(p.ends.tolist(), p.status.tolist(), p.motion_of.tolist(), strict=True):
-            if status == Status.SOLVED:
-                continue
-            if found and found[-1].to == start and reasons[-1] == (status, motion):
-                found[-1] = Gap(found[-1].from_, end, found[-1].reason, self.course.direction)
-                continue
-            reason = WITHOUT_ANSWER.get(status)
-            if status == Status.NO_EQUILIBRIUM:
-                reason = f"no equilibrium: {describe_motion(p.beam, p.motions[motion - 1]) if motion else SLIDES}"
-            reasons.append((status, motion))
-            found.append(Gap(start, end, reason, self.course.direction))
-        return found[::-1] if self.course.direction == LEFT else found
-
-
 class TrainResult:
     """A train on its way over the beam.
 
@@ -219,13 +120,17 @@ class TrainResult:
         self._result, self._joined = result, joined(result.scene, i)
 
     @cached_property
-    def ways(self) -> list[TrainWay]:
+    def ways(self) -> list[TrainWay] | list[SearchedWay]:
         """The train in every direction in which it goes."""
         result = self._result
         end = result.beam.places.end
         supports = result.scene.positions(result.scene.supports)
         near = nearest(self._joined, end)
         try:
+            if is_searched(result.beam):
+                from .train_search import SearchedWay
+
+                return [SearchedWay(result, course, near, self.name) for course in courses(self._joined, end)]
             return [TrainWay(result.beam, course, near, supports) for course in courses(self._joined, end)]
         except EngineError as error:
             raise EngineError(f"train {self.name}: {error}", error.status) from None
@@ -243,7 +148,7 @@ class TrainResult:
     @property
     def solves(self) -> int:
         """Linear solves."""
-        return sum(way.passage.solves for way in self.ways)
+        return sum(way.solves for way in self.ways)
 
     def envelope(self, x: Any = None) -> TrainEnvelope:
         """Largest and smallest values over all positions.
@@ -264,7 +169,7 @@ class TrainResult:
         """
         return TrainEnvelope(self._result, self.members(), places_given(self._result.beam, x))
 
-    def members(self, combination: str | None = None) -> list[Passing]:
+    def members(self, combination: str | None = None) -> list[Member]:
         """What an envelope is made of: the train in every direction.
 
         Parameters
@@ -274,9 +179,9 @@ class TrainResult:
 
         Returns
         -------
-        list of Passing
+        list of Member
         """
-        return [Passing(self, way, combination) for way in self.ways]
+        return [way.member(self, combination) for way in self.ways]
 
     def at(self, position: float, direction: str = RIGHT) -> TrainState:
         """The state at a position of the train.
@@ -301,10 +206,12 @@ class TrainResult:
         position = finite("position", position)
         way = self._way(direction)
         scene = self._loaded(way, position)
+        from .following import starting_scheme
         from .result import Result
 
-        result = Result(scene, Beam(columns(scene)), self._result.rule)
-        result.steps = LoadSteps(result.beam, result.rule, np.ones(result.beam.supports, dtype=np.int32), 1)
+        taken = columns(scene)
+        result = Result(scene, Beam(taken, curves(scene, taken)), self._result.rule)
+        result.steps = LoadSteps(result.beam, result.rule, starting_scheme(result.beam), 1)
         fallen = result.steps.solve_all()
         if fallen is not None:
             result.refuse(f"at position {position:g} of train {self.name}", fallen[1])
@@ -318,8 +225,8 @@ class TrainResult:
 
         Parameters
         ----------
-        what : {"reaction", "moment", "shear", "rotation", "deflection"}
-            What it is of.
+        what : {"reaction", "moment", "shear", "rotation", "deflection", "pressure"}
+            What it is of; pressure on foundations only.
         x : float
             Place on the beam; for a reaction that of the support.
         position, direction
@@ -337,11 +244,11 @@ class TrainResult:
         Raises
         ------
         ValueError
-            A place outside the beam, no support there, or no equilibrium at that position.
+            A place outside the beam, no support there, no equilibrium at that position, or ground whose law is a curve.
         """
-        if what not in INFLUENCES:
-            raise ValueError(f"what: expected {choice(shown(name) for name in INFLUENCES)}, got {shown(what)}")
         beam, way = self._result.beam, self._way(direction)
+        if what not in (has_lines := (*fields_of(beam), "reaction")):
+            raise ValueError(f"what: expected {choice(shown(name) for name in has_lines)}, got {shown(what)}")
         state = self.at(position, direction)
         x = finite("x", x)
         places_given(beam, [x], "x")
@@ -350,6 +257,10 @@ class TrainResult:
         chosen = (np.abs(at - x) <= way.near) & beam.across
         if what == "reaction" and not chosen.any():
             raise ValueError(f"x: there is no support at x = {x:g}")
+        if is_searched(beam):
+            from .train_influence import influence_line
+
+            return Influence(places, influence_line(state, what, x, chosen, places, side))
         piece, distance = beam.find(np.array([x]), side == "left")
         values = way.passage.influence(state.solution.closed, chosen, int(piece[0]), float(distance[0]), places)
         return Influence(places, values[("deflection", "rotation", "moment", "shear", "reaction").index(what)])
@@ -400,7 +311,7 @@ class Trains(Mapping[str, TrainResult]):
         for train in self._by_name.values():
             train.ways  # noqa: B018
 
-    def members(self, combination: str | None = None) -> list[Passing]:
+    def members(self, combination: str | None = None) -> list[Member]:
         """What an envelope is made of: every train in every direction.
 
         Parameters
@@ -410,7 +321,7 @@ class Trains(Mapping[str, TrainResult]):
 
         Returns
         -------
-        list of Passing
+        list of Member
         """
         return [member for train in self.values() for member in train.members(combination)]
 
@@ -428,13 +339,13 @@ def refuse_trains(scene: Scene, beam: Beam) -> None:
     Raises
     ------
     SceneError
-        A foundation, or a law that is a curve or whose state depends on the way of the load.
+        A law whose state depends on the way of the load.
     """
-    if not scene.trains:
-        return
-    if beam.ground_layers:
-        raise SceneError("trains", "trains on a foundation are not available in this version; give positions as loads, or springs "
-                                   "as supports")  # fmt: skip
-    if beam.depends_on_path or beam.curves:
-        what = "whose state depends on the way of the load" if beam.depends_on_path else "that are curves"
-        raise SceneError("supports", f"laws {what} cannot stand beside trains in this version; use polylines that rise")
+    if scene.trains and beam.depends_on_path:
+        what = "laws whose state depends on the way of the load cannot stand beside trains"
+        raise SceneError("supports", f"{what} in this version; use polylines that rise")
+
+
+def is_searched(beam: Beam) -> bool:
+    """Whether no formula says how states depend on the position of a train: on foundations and with smooth laws."""
+    return beam.ground_layers > 0 or bool(beam.curves)

@@ -1,0 +1,186 @@
+"""Largest and smallest fields at places of the beam over all positions of a train, from states at some of them.
+
+At a place values are smooth in the position but where an axle comes to it, and where something changes. Polynomials through the
+states nearest to an extreme value tell its position so well that one more state there gives the value.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .train_peaks import vertex
+from .train_states import SHEAR, Placed
+
+if TYPE_CHECKING:
+    from .train_search import SearchedWay
+
+NEAREST = 7
+"""States through which a polynomial goes at most."""
+MOST_STEPS = 5
+"""Polynomials after which the best state is taken; one or two do."""
+ALIKE = 1e-9
+"""Share of the largest value by which a polynomial may be wrong at its top: the value there is better by half of the digits."""
+
+
+class Lines:
+    """Fields at places of the beam, in all states of a train.
+
+    Parameters
+    ----------
+    way : SearchedWay
+        The states.
+    x : numpy.ndarray
+        The places.
+    left : numpy.ndarray of bool
+        Where the value left of a place is meant.
+    rows : sequence of int
+        Fields of the engine.
+    """
+
+    def __init__(self, way: SearchedWay, x: np.ndarray, left: np.ndarray, rows: list[int]):
+        self._way, self._x, self._left, self._rows = way, x, left, rows
+        shape = 2, len(rows), len(x)
+        self.best, self.at = np.full(shape, -np.inf), np.full(shape, np.nan)
+        self._tables = [np.array([self._values(state) for state in run.states]) for run in way.runs]
+        sizes = [np.abs(table).max(axis=(0, 2)) for table in self._tables]
+        self._scale = np.max(sizes, axis=0) if sizes else np.ones(len(rows))
+        self._passed: dict[float, Placed] = {}
+        self._take_limits()
+        for run, table in zip(way.runs, self._tables, strict=True):
+            at = np.array([state.position for state in run.states])
+            self._take_all(at, table)
+            self._climb(run.states, at, table)
+        self.best[1] *= -1.0
+
+    def _values(self, state: Placed) -> np.ndarray:
+        """Fields at the places, fields by places."""
+        return state.values(self._x, self._left)[self._rows]
+
+    def _take_all(self, at: np.ndarray, table: np.ndarray) -> None:
+        """Consider states."""
+        for i, sign in enumerate((1.0, -1.0)):
+            which = (sign * table).argmax(axis=0)
+            values = sign * np.take_along_axis(table, which[None], axis=0)[0]
+            better = values > self.best[i]
+            self.best[i][better] = values[better]
+            self.at[i][better] = at[which][better]
+
+    def _take(self, i: int, row: int, k: int, value: float, position: float) -> None:
+        """Consider one value."""
+        if value > self.best[i, row, k]:
+            self.best[i, row, k], self.at[i, row, k] = value, position
+
+    def _take_limits(self) -> None:
+        """Consider shears between an axle and the support or force to which it comes."""
+        row = self._rows.index(SHEAR)
+        for limit in self._way.limits:
+            here = np.flatnonzero((np.abs(self._x - limit.x) <= self._way.near) & (self._left == (limit.side == "left")))
+            for k in here.tolist():
+                for i, sign in enumerate((1.0, -1.0)):
+                    self._take(i, row, k, sign * limit.value, limit.position)
+
+    def _climb(self, states: list[Placed], at: np.ndarray, table: np.ndarray) -> None:
+        """Find what is greater between the states of a run."""
+        course, low, high = self._way.course, at[0], at[-1]
+        beside = 4 * self._way.near
+        on_jump = np.isin(self._x, self._way.jumps)
+        for k, x in enumerate(self._x.tolist()):
+            met = np.unique(x - course.offset[states[0].acts])
+            passed = {}
+            for position in met[(met >= low - beside) & (met <= high + beside)].tolist():
+                at_end = states[0] if position <= low + beside else states[-1] if position >= high - beside else None
+                state = self._state(position, states[0]) if at_end is None else at_end
+                if state.status != states[0].status:
+                    continue
+                both = state.values(self._x[[k, k]], np.array([False, True]))[self._rows].T
+                if at_end is None:
+                    passed[position] = both
+                elif on_jump[k]:
+                    continue
+                for i, sign in enumerate((1.0, -1.0)):
+                    for row, value in enumerate((sign * both).max(axis=0).tolist()):
+                        self._take(i, row, k, value, state.position)
+            cuts = [low, *passed, high]
+            for row in range(len(self._rows)):
+                for start, stop in pairwise(cuts):
+                    inside = (at > start) & (at < stop) if passed else slice(None)
+                    where, values = at[inside], table[inside, row, k]
+                    if passed:
+                        # On which side of a passing axle the field goes on, its neighbour tells
+                        where, values = self._with_ends(where, values, start, stop, passed, row, (at, table[:, row, k]))
+                    self._climb_line(row, k, where, values, states[0])
+
+    @staticmethod
+    def _with_ends(where, values, start, stop, passed, row, run):
+        """Put the values at both ends of a part to those inside."""
+        ends = []
+        for position, inner in ((start, 0), (stop, -1)):
+            if position in passed:
+                both = [one[row] for one in passed[position]]
+                near = values[inner] if len(values) else both[0]
+                ends.append(min(both, key=lambda value: abs(value - near)))
+            else:
+                ends.append(run[1][inner])
+        return np.concatenate(([start], where, [stop])), np.concatenate((ends[:1], values, ends[1:]))
+
+    def _state(self, position: float, like: Placed) -> Placed:
+        if position not in self._passed:
+            self._passed[position] = self._way.loads.state(position, like.acts)
+        return self._passed[position]
+
+    def _climb_line(self, row: int, k: int, at: np.ndarray, values: np.ndarray, like: Placed) -> None:
+        """Find what is greater between positions where the values at one place are known."""
+        n = len(at)
+        if n < 3:
+            return
+        rise = np.diff(values)
+        bend = np.abs(np.diff(rise / np.diff(at))) * np.maximum(np.diff(at)[1:], np.diff(at)[:-1])
+        gain = np.concatenate((bend[:1], bend, bend[-1:]))
+        for i, sign in enumerate((1.0, -1.0)):
+            up = np.concatenate(([0.0], sign * rise))
+            down = np.concatenate((-sign * rise, [0.0]))
+            hills = (up >= 0.0) & (down >= 0.0) & (gain > 2.0**-48 * self._scale[row])
+            hills[0] &= down[0] <= gain[0]
+            hills[-1] &= up[-1] <= gain[-1]
+            hills &= sign * values + gain > self.best[i, row, k]
+            for j in np.flatnonzero(hills).tolist():
+                self._climb_hill(i, row, k, at, values, j, like)
+
+    def _climb_hill(self, i: int, row: int, k: int, at: np.ndarray, values: np.ndarray, j: int, like: Placed) -> None:
+        """Go to the top near a state by polynomials through its neighbours."""
+        sign = 1.0 - 2.0 * i
+        first = min(max(j - NEAREST // 2, 0), max(len(at) - NEAREST, 0))
+        near = slice(first, first + NEAREST)
+        states = dict(zip(at[near].tolist(), (sign * values[near]).tolist(), strict=True))
+        left, right, best = float(at[max(j - 1, 0)]), float(at[min(j + 1, len(at) - 1)]), float(at[j])
+        place, height = _top(at[near], sign * values[near], left, right)
+        for _ in range(MOST_STEPS):
+            if place is None or place in states:
+                return
+            state = self._way.loads.state(place, like.acts)
+            if state.status != like.status:
+                return
+            value = sign * float(state.values(self._x[[k]], self._left[[k]])[self._rows[row], 0])
+            self._take(i, row, k, value, place)
+            if height is not None and abs(value - height) <= ALIKE * self._scale[row]:
+                return
+            states[place] = value
+            best = max(best, place, key=states.get)
+            place, height = vertex(best, states, left, right)
+
+
+def _top(at: np.ndarray, heights: np.ndarray, left: float, right: float) -> tuple[float | None, float]:
+    """Highest point between bounds of the polynomial through points, if it is a stationary one."""
+    middle, half = (left + right) / 2, (right - left) / 2
+    lowest = heights.min()
+    factors = np.linalg.solve(np.vander((at - middle) / half), heights - lowest)
+    roots = np.roots(np.polyder(factors))
+    places = roots[(np.abs(roots.imag) <= 1e-9) & (np.abs(roots.real) <= 1.0)].real
+    if not len(places):
+        return None, 0.0
+    found = np.polyval(factors, places)
+    best = int(found.argmax())
+    return float(middle + half * places[best]), float(found[best] + lowest)

@@ -1,0 +1,200 @@
+"""Largest and smallest values over all positions of a train, from states at some of them.
+
+Between two changes values are smooth in the position, so around every state that may be near an extreme value parabolas through
+three states lead to it: an error d of the position makes one of d**2 of the value.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from .train_states import Placed
+
+if TYPE_CHECKING:
+    from .train_search import Limit, Run, SearchedWay
+
+EQUAL = 2.0**-40
+"""Share of a value by which ties differ at most."""
+MOST_TIES = 16
+"""As many are listed."""
+MOST_STEPS = 60
+"""Parabolas after which the best state is taken; five or so do."""
+SETTLED = 2.0**-20
+"""Share of the distance of two states by which the last parabola moves the place at most."""
+GOLDEN = (3.0 - 5.0**0.5) / 2.0
+"""Share of the longer part that is tried where a parabola leads nowhere."""
+
+
+class Peak(NamedTuple):
+    """An extreme value, and the state in which it is.
+
+    Attributes
+    ----------
+    value : float
+        The value.
+    state : Placed
+        Where it is.
+    limit : Limit or None
+        Where the value is only next to the state.
+    """
+
+    value: float
+    state: Placed
+    limit: Limit | None = None
+
+
+def find_peaks(way: SearchedWay, value: Callable[[Placed], float], further: Sequence[Peak] = ()) -> list[Peak]:
+    """Find the largest value over all positions.
+
+    Parameters
+    ----------
+    way : SearchedWay
+        The states.
+    value : callable
+        A value of a state, smooth in the position between two changes.
+    further : sequence of Peak
+        Values besides.
+
+    Returns
+    -------
+    list of Peak
+        All that tie, in ascending order of the position; none where no position is solved.
+    """
+    tables = [np.array([value(state) for state in run.states]) for run in way.runs]
+    known = [one.value for one in further] + [float(np.nanmax(table)) for table in tables if not np.isnan(table).all()]
+    if not known:
+        return []
+    best = max(known)
+    scale = max(abs(float(np.nanmax(np.abs(table)))) for table in tables if not np.isnan(table).all())
+    found = list(further)
+    promising = []
+    for run, table in zip(way.runs, tables, strict=True):
+        if np.isnan(table).any():
+            continue
+        found += _tops(run, table, best - EQUAL * max(abs(best), scale))
+        promising += [(float(table[k]) + gain, run, table, k) for k, gain in _hills(run, table) if gain > 2.0**-50 * scale]
+    for most, run, table, k in sorted(promising, key=lambda one: -one[0]):
+        if most < best:
+            break
+        top = _climb(way, run, table, k, value)
+        found.append(top)
+        best = max(best, top.value)
+    slack = EQUAL * max(abs(best), scale)
+    ties = sorted((one for one in found if one.value >= best - slack), key=lambda one: one.state.position)
+    return _apart(ties, way)[:MOST_TIES]
+
+
+def _tops(run: Run, table: np.ndarray, least: float) -> list[Peak]:
+    """The states with values from `least` on, of those side by side the greatest."""
+    found: list[Peak] = []
+    before = -2
+    for k in np.flatnonzero(table >= least).tolist():
+        one = Peak(float(table[k]), run.states[k])
+        if k == before + 1:
+            found[-1] = max(found[-1], one, key=lambda top: top.value)
+        else:
+            found.append(one)
+        before = k
+    return found
+
+
+def _hills(run: Run, table: np.ndarray) -> list[tuple[int, float]]:
+    """States around which values may be greater than there, and by how much at most, about."""
+    n = len(table)
+    if n < 3:
+        return [(k, abs(float(table[-1] - table[0]))) for k in range(n) if n == 2 and table[k] == table.max()]
+    at = np.array([state.position for state in run.states])
+    rise = np.diff(table)
+    widths = np.diff(at)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        bend = np.abs(np.diff(rise / widths)) * np.maximum(widths[1:], widths[:-1])
+    bend = np.nan_to_num(bend, nan=0.0, posinf=0.0)
+    found = [(k, float(bend[k - 1])) for k in range(1, n - 1) if table[k] >= table[k - 1] and table[k] >= table[k + 1]]
+    # At an end only where the way down from it does not begin at once
+    for k, inward, curve in ((0, -rise[0], bend[0]), (n - 1, rise[-1], bend[-1])):
+        if 0.0 <= inward <= curve:
+            found.append((k, float(curve)))
+    return found
+
+
+def _climb(way: SearchedWay, run: Run, table: np.ndarray, k: int, value: Callable[[Placed], float]) -> Peak:
+    """Go to the top near a state by parabolas, or by golden sections where they lead nowhere."""
+    low, high = max(k - 1, 0), min(k + 1, len(table) - 1)
+    near = range(max(low - 1, 0), min(high + 2, len(table)))
+    heights = {run.states[i].position: float(table[i]) for i in near}
+    states = {run.states[i].position: run.states[i] for i in near}
+    left, right = run.states[low].position, run.states[high].position
+    width, best, last = right - left, run.states[k].position, np.inf
+    acts = run.states[k].acts
+    for _ in range(MOST_STEPS):
+        place, _ = vertex(best, heights, left, right)
+        if place is None or abs(place - best) > last / 2:
+            place = best + GOLDEN * ((right - best) if right - best > best - left else (left - best))
+        last = abs(place - best)
+        if place in states or last <= SETTLED**2 * width:
+            break
+        state = way.loads.state(place, acts)
+        if state.status != run.states[k].status:
+            break
+        heights[place], states[place] = value(state), state
+        if heights[place] >= heights[best]:
+            left, right = (best, right) if place > best else (left, best)
+            best = place
+        else:
+            left, right = (left, place) if place > best else (place, right)
+        if last <= SETTLED * width:
+            break
+    return Peak(heights[best], states[best])
+
+
+def vertex(best: float, heights: Mapping[float, float], left: float, right: float) -> tuple[float | None, float]:
+    """Find the top of the parabola through the highest point and the two nearest to it.
+
+    Parameters
+    ----------
+    best : float
+        Place of the highest point.
+    heights : mapping of float to float
+        Of all points, by their places.
+    left, right : float
+        Bounds.
+
+    Returns
+    -------
+    place, height : float
+        None, 0 where there is no top between the bounds.
+
+    Examples
+    --------
+    >>> vertex(2.0, {0.0: 0.0, 2.0: 8.0, 3.0: 6.0}, 0.0, 3.0)
+    (1.75, 8.125)
+    """
+    if len(heights) < 3:
+        return None, 0.0
+    a, b = sorted((at for at in heights if at != best), key=lambda at: abs(at - best))[:2]
+    f = heights[best]
+    da, db = a - best, b - best
+    slope_a, slope_b = (heights[a] - f) / da, (heights[b] - f) / db
+    bend = (slope_a - slope_b) / (da - db)
+    if not bend < 0.0:
+        return None, 0.0
+    slope = slope_a - bend * da
+    place = best - slope / (2.0 * bend)
+    return (place, f - slope**2 / (4.0 * bend)) if left < place < right else (None, 0.0)
+
+
+def _apart(ties: Sequence[Peak], way: SearchedWay) -> list[Peak]:
+    """Of ties at neighbouring states the one with the greatest value."""
+    step = max((b.position - a.position for run in way.runs for a, b in zip(run.states, run.states[1:], strict=False)), default=0.0)
+    found: list[Peak] = []
+    for one in ties:
+        last = found[-1] if found else None
+        if last is not None and last.limit is one.limit is None and one.state.position - last.state.position <= step:
+            if one.value > last.value:
+                found[-1] = one
+            continue
+        found.append(one)
+    return found
