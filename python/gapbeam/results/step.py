@@ -203,18 +203,19 @@ class Step(Pickled):
         return tuple(dict.fromkeys(self._beam.numbers[self.solution.undecided == 1].tolist()))
 
     @cached_property
-    def _runs(self) -> tuple[Run, ...]:
+    def runs(self) -> tuple[Run, ...]:
+        """What every layer of ground does along the beam."""
         return find_runs(self._beam, self.solution.ground)
 
     @cached_property
     def contact(self) -> tuple[Contact, ...]:
         """The zones in which the ground acts, foundation by foundation from left to right."""
-        return find_contact(self._runs)
+        return find_contact(self.runs)
 
     @cached_property
     def free_spans(self) -> tuple[FreeSpan, ...]:
         """The stretches in which the beam has no contact with ground that is there."""
-        return find_free_spans(self._runs)
+        return find_free_spans(self.runs)
 
     @cached_property
     def starts(self) -> np.ndarray:

@@ -3,7 +3,7 @@
 With zones of contact and curves no formula says how a state depends on the position. Where an axle comes to an end of the beam,
 to a support, a hinge, a force, another section or an end of a foundation is known beforehand; between such places the beam is
 solved on a grid, finer than the length in which it bends (4 EI/k)^(1/4) and than its spans, and where neighbours differ the
-change between them is found by bisection. Changes that undo each other between two neighbours are not seen.
+change between them is found (`train_changes`). Changes that undo each other between two neighbours are not seen.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from ..engine.beam import SOLVED, Beam
 from ..scene.structs import ForceLoad, Scene
 from ..scene.trains import LEFT, Course
 from .kinks import EVENTS, what_happens
+from .train_changes import neighbours
 from .train_searched import Searched
 from .train_states import SHEAR, Placed, TrainLoads
 from .train_ways import Gap, TrainEvent
@@ -33,7 +34,7 @@ LEAST = 4
 """Parts into which the way from one place to the next is cut at least."""
 MOST_STATES = 50_000
 """States beyond which a train is refused: minutes, and gigabytes."""
-NEIGHBOURS = 2.0**-48
+NEIGHBOURS = 2.0**-45
 """Share of the beam between positions that are neighbours."""
 NEXT_TO = 2.0**-32
 """Next to a change a state may not be settled, since a zone has next to no length there: positions on both sides of it that are as
@@ -217,7 +218,7 @@ class SearchedWay:
             if here[-1].is_like(then):
                 here.append(then)
                 return
-            below, above = self._between(here[-1], then)
+            below, above = neighbours(self.loads, here[-1], then, self._neighbours)
             if below is not here[-1]:
                 here.append(below)
             here.append(above)
@@ -225,20 +226,6 @@ class SearchedWay:
                 return
         where = f"changes near position {then.position:.12g} of train {self._name}"
         raise EngineError(f"{where} are too many to be told apart", Status.NOT_CONVERGED)
-
-    def _between(self, below: Placed, above: Placed) -> tuple[Placed, Placed]:
-        """Neighbours around the first change between two states."""
-        while above.position - below.position > self._neighbours:
-            middle = below.position + (above.position - below.position) / 2
-            if not below.position < middle < above.position:
-                break
-            state = self.loads.state(middle, below.acts)
-            state.take_undecided(below)
-            if below.is_like(state):
-                below = state
-            else:
-                above = state
-        return below, above
 
     def _read(self, cells: list[list[Placed]]) -> None:
         """Runs, events and gaps from all states."""
