@@ -14,7 +14,7 @@ TOP = Path(__file__).resolve().parent.parent
 PAGES = ["laws", "examples", "foundation", "cases", "trains", "batch"]
 PATHS = ["snap_through", "rubber_stops", "pile_head", "shaft_jack_up"]
 BEAMS = ["rail_lift_off", "strip_footing", "slab_on_mound", "seabed_pipe", "laterally_loaded_pile", "pipe_rack_states",
-         "crane_runway_bays", "bridge_bearings"]  # fmt: skip
+         "crane_runway_bays", "bridge_bearings", "rail_bogie_passes"]  # fmt: skip
 
 
 def page(name):

@@ -32,8 +32,8 @@ PER_LENGTH = 16
 """States in a length in which the beam bends, and in a mean span."""
 LEAST = 4
 """Parts into which the way from one place to the next is cut at least."""
-MOST_STATES = 50_000
-"""States beyond which a train is refused: minutes, and gigabytes."""
+MOST_STATES = 20_000
+"""States beyond which a train is refused: they would take minutes."""
 NEIGHBOURS = 2.0**-45
 """Share of the beam between positions that are neighbours."""
 NEXT_TO = 2.0**-32
