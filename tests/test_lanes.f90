@@ -3,7 +3,7 @@ program test_lanes
     use, intrinsic :: iso_fortran_env, only: int64
     use testing, only: check, finish
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, gapbeam_solved
+    use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_not_finite
     use gapbeam_scene, only: model_type, span_type, support_type, point_force, point_couple, uniform_load, gapbeam_both, &
         gapbeam_infinity
     use gapbeam_units, only: moment_unit
@@ -15,6 +15,7 @@ program test_lanes
     use gapbeam_cases, only: case_loads_type, split_loads, solve_case, replace_supports
     use gapbeam_lane_levels, only: least_level, best_level
     use gapbeam_lane_cases, only: fits_lanes, solve_in_lanes
+    use gapbeam_case_extremes, only: extremes_of_cases
     implicit none
 
     !> Cases of a beam, and beams
@@ -26,6 +27,8 @@ program test_lanes
         integer, allocatable :: closed(:, :), solves(:)
         real(wp), allocatable :: w(:, :), ml(:, :), mr(:, :), reaction(:, :)
         logical, allocatable :: done(:)
+        !> Extremes of the fields, and their places
+        real(wp), allocatable :: extremes(:, :, :), places(:, :, :)
     end type found_type
 
     call lanes_have_the_bits_of_single_cases()
@@ -86,6 +89,7 @@ contains
         real(wp), intent(in) :: factors(:, :), values(:, :, :)
         integer, intent(in) :: level
         type(found_type), intent(out) :: found
+        integer, allocatable :: status(:)
         integer :: n, m, c
 
         n = size(lowered%beam%links) + 1
@@ -100,6 +104,13 @@ contains
         found%reaction(:, :) = 0.0_wp
         call solve_in_lanes(lowered, loads, factors, values, found%closed, found%w, found%ml, found%mr, found%reaction, &
                             found%solves, found%done, level)
+        allocate (found%extremes(2, 4, c), found%places(2, 4, c))
+        found%extremes(:, :, :) = 0.0_wp
+        found%places(:, :, :) = 0.0_wp
+        status = merge(gapbeam_solved, gapbeam_not_finite, found%done)
+        call extremes_of_cases(lowered, loads, factors, values, rule_block, found%closed, found%w, found%ml, found%mr, &
+                               [.true., .true., .true., .true.], found%extremes, found%places, status, level)
+        found%done = found%done .and. status == gapbeam_solved
     end subroutine solve
 
     !> The bits of a number: zeros of both signs are two
@@ -124,7 +135,9 @@ contains
                 if (.not. a%done(i)) cycle
                 equal(i) = equal(i) .and. all(a%closed(:, i) == b%closed(:, k)) .and. &
                     all(bits(a%w(:, i)) == bits(b%w(:, k)) .and. bits(a%ml(:, i)) == bits(b%ml(:, k)) &
-                        .and. bits(a%mr(:, i)) == bits(b%mr(:, k))) .and. all(bits(a%reaction(:, i)) == bits(b%reaction(:, k)))
+                        .and. bits(a%mr(:, i)) == bits(b%mr(:, k))) .and. all(bits(a%reaction(:, i)) == bits(b%reaction(:, k))) &
+                    .and. all(bits(a%extremes(:, :, i)) == bits(b%extremes(:, :, k)) &
+                              .and. bits(a%places(:, :, i)) == bits(b%places(:, :, k)))
             end associate
         end do
     end function same

@@ -152,6 +152,16 @@ def test_fields_and_extremes_of_cases_are_those_of_their_results():
                 assert fields.moment[k] == pytest.approx(one.at(x, side="left").moment, rel=1e-10, abs=scale)
                 largest = one.extremes()["shear"]["max"][0]
                 assert extremes["shear"]["max"][0][k] == pytest.approx(largest, rel=1e-11, abs=scale)
+                for name, field in one.extremes().items():
+                    if name in ("deflection", "rotation") and one.steps[-1].indifferent:
+                        continue
+                    size = 1e-11 * max(abs(extreme) for extreme, _ in field.values())
+                    for kind, (extreme, place) in field.items():
+                        value, at = (numbers[k] for numbers in extremes[name][kind])
+                        assert value == pytest.approx(extreme, rel=0, abs=max(size, scale * (name in ("moment", "shear")), 1e-15))
+                        # Where it is said to be it is, on one side or the other
+                        there = [getattr(one.at(at, side=side), name) for side in ("left", "right")]
+                        assert min(abs(x - value) for x in there) <= max(1e3 * size, scale, 1e-14), (seed, name, place)
                 if not one.steps[-1].indifferent:
                     nodes = one.at(beam.node_x)
                     assert cases.deflection[k] == pytest.approx(nodes.deflection, rel=1e-9, abs=1e-12)
@@ -159,6 +169,19 @@ def test_fields_and_extremes_of_cases_are_those_of_their_results():
                     left = one.at(beam.node_x, side="left").moment[1:]
                     assert cases.moment_left[k, 1:] == pytest.approx(left, rel=1e-10, abs=scale)
                     assert cases.moment_left[k, 0] == cases.moment_right[k, -1] == 0.0
+
+
+@pytest.mark.parametrize(("short", "factor"), [(1e-9, 1.0), (1e-6, -2.0), (1.0, 1e-150), (1.0, 1e150), (1.0, 0.0)])
+def test_extremes_where_digits_or_range_are_short(short, factor):
+    """Then the whole case is solved once more."""
+    made = scene([5.0, short, 5.0], [at(0), at(1, side="below"), at(2, side="below"), at(3)], [uniform(1.0), force(2.0, 7.0)])
+    cases = gapbeam.prepare(made).solve([[factor, 0.5 * factor], [1.0, 1.0]])
+    extremes, states = cases.extremes(), cases.states()
+    for column, (name, field) in enumerate(extremes.items()):
+        for row, kind in enumerate(("max", "min")):
+            values = states.extremes[:, column]
+            assert field[kind][0] == pytest.approx(values[:, row], rel=1e-12, abs=0.0), name
+            assert np.abs(field[kind][0] - values[:, row]).max() <= 1e-12 * np.abs(values).max(), name
 
 
 def test_movements_of_cases_are_checked():

@@ -3,15 +3,18 @@
 module gapbeam_lane_levels
     use, intrinsic :: iso_c_binding, only: c_int
     use gapbeam_kinds, only: wp
-    use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type
+    use gapbeam_lane_types, only: lanes, lane_beam_type, lane_pieces_type, pack_type, piece_pack_type
     use gapbeam_lane_search, only: search_pack, finish_pack
+    use gapbeam_lane_extremes, only: extremes_of_pack
 #ifdef GAPBEAM_LEVELS
     use gapbeam_lane_search_v3, only: search_pack_v3 => search_pack, finish_pack_v3 => finish_pack
     use gapbeam_lane_search_v4, only: search_pack_v4 => search_pack, finish_pack_v4 => finish_pack
+    use gapbeam_lane_extremes_v3, only: extremes_of_pack_v3 => extremes_of_pack
+    use gapbeam_lane_extremes_v4, only: extremes_of_pack_v4 => extremes_of_pack
 #endif
     implicit none
     private
-    public :: best_level, least_level, search_pack_at, finish_pack_at
+    public :: best_level, least_level, search_pack_at, finish_pack_at, extremes_of_pack_at
 
     !> Level of what every processor has
     integer, parameter :: least_level = 2
@@ -45,7 +48,7 @@ contains
         integer, intent(in) :: level
         !> As for search_pack
         type(lane_beam_type), intent(in) :: beam
-        real(wp), intent(in) :: factors(:, :)
+        real(wp), intent(in), contiguous :: factors(:, :)
         type(pack_type), intent(inout) :: pack
         integer, intent(out) :: solves(lanes), method(lanes)
 
@@ -81,5 +84,30 @@ contains
             call finish_pack(beam, method, pack, doubtful)
         end select
     end subroutine finish_pack_at
+
+    !> extremes_of_pack likewise
+    subroutine extremes_of_pack_at(level, beam, pieces, wanted, factors, pack, fields, extremes, poor)
+        integer, intent(in) :: level
+        !> As for extremes_of_pack
+        type(lane_beam_type), intent(in) :: beam
+        type(lane_pieces_type), intent(in) :: pieces
+        logical, intent(in) :: wanted(4)
+        real(wp), intent(in), contiguous :: factors(:, :)
+        type(pack_type), intent(inout) :: pack
+        type(piece_pack_type), intent(inout) :: fields
+        real(wp), intent(inout) :: extremes(lanes, 6, 4)
+        real(wp), intent(out) :: poor(lanes)
+
+        select case (level)
+#ifdef GAPBEAM_LEVELS
+        case (4)
+            call extremes_of_pack_v4(beam, pieces, wanted, factors, pack, fields, extremes, poor)
+        case (3)
+            call extremes_of_pack_v3(beam, pieces, wanted, factors, pack, fields, extremes, poor)
+#endif
+        case default
+            call extremes_of_pack(beam, pieces, wanted, factors, pack, fields, extremes, poor)
+        end select
+    end subroutine extremes_of_pack_at
 
 end module gapbeam_lane_levels

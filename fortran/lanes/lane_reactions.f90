@@ -5,7 +5,7 @@ module gapbeam_lane_reactions
     use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type
     implicit none
     private
-    public :: complete
+    public :: complete, find_shears
 
     !> As first_width of gapbeam_rules and worst_digits of gapbeam_referee
     real(wp), parameter :: width = 32.0_wp, worst_digits = 1e-8_wp

@@ -12,7 +12,7 @@ module gapbeam_lane_search
     use gapbeam_lane_reactions, only: complete
     implicit none
     private
-    public :: search_pack, finish_pack
+    public :: search_pack, finish_pack, add_loads, apply_scheme
 
     !> Solves before a case is given up
     integer, parameter :: most_solves = 80
@@ -26,7 +26,7 @@ contains
         !> What they have in common
         type(lane_beam_type), intent(in) :: beam
         !> Factor of every load, shape (lanes, nload)
-        real(wp), intent(in) :: factors(:, :)
+        real(wp), intent(in), contiguous :: factors(:, :)
         !> Supports, and starts of the searches in; loads and working schemes out
         type(pack_type), intent(inout) :: pack
         !> Linear solves; how gapbeam_system solves the scheme, 0 where there is none

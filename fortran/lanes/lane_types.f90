@@ -4,7 +4,7 @@ module gapbeam_lane_types
     use gapbeam_kinds, only: wp
     implicit none
     private
-    public :: lanes, lane_beam_type, pack_type, new_pack
+    public :: lanes, lane_beam_type, pack_type, new_pack, lane_pieces_type, piece_pack_type, new_piece_pack
     public :: by_both_ends, by_three_moments, by_chain
 
     !> Cases side by side, whatever the processor's registers hold, so that results do not depend on it
@@ -61,7 +61,42 @@ module gapbeam_lane_types
         real(wp), allocatable :: room(:, :, :)
     end type pack_type
 
+    !> What the links of all cases are made of, pieces from left to right
+    type :: lane_pieces_type
+        !> Last piece of every link, 0 before the first, shape (0:n)
+        integer, allocatable :: last(:)
+        !> As in piece_type; distance of the left end from that of the link, of the right end from its right end, shape (npiece)
+        real(wp), allocatable, dimension(:) :: length, flexibility, shear_flexibility, before, behind
+        !> What loads with factor 1 put on pieces: which load, which piece; load per length at both ends, imposed curvature, force
+        !> and couple at the right end (piece_load_type), shape (5, :)
+        integer, allocatable :: load(:), piece(:)
+        real(wp), allocatable :: to_piece(:, :)
+    end type lane_pieces_type
+
+    !> Pieces of eight cases
+    type :: piece_pack_type
+        !> Loads, as in to_piece, shape (lanes, npiece, 5)
+        real(wp), allocatable :: loads(:, :, :)
+        !> Deflection, rotation, moment, shear at the left ends, shape (lanes, npiece, 4)
+        real(wp), allocatable :: starts(:, :, :)
+        !> Room for them, shape (lanes, npiece, 3)
+        real(wp), allocatable :: room(:, :, :)
+    end type piece_pack_type
+
 contains
+
+    !> Room for the pieces of eight cases
+    subroutine new_piece_pack(pieces, pack, made)
+        !> Pieces
+        integer, intent(in) :: pieces
+        type(piece_pack_type), intent(out) :: pack
+        !> False where memory ends
+        logical, intent(out) :: made
+        integer :: stat
+
+        allocate (pack%loads(lanes, pieces, 5), pack%starts(lanes, pieces, 4), pack%room(lanes, pieces, 3), stat=stat)
+        made = stat == 0
+    end subroutine new_piece_pack
 
     !> Room for eight cases
     subroutine new_pack(n, pack, made)

@@ -15,6 +15,7 @@ module gapbeam_lane_cases
     implicit none
     private
     public :: fits_lanes, solve_in_lanes, find_schemes
+    public :: prepare_lanes, take_supports, take_values, take_start
 
     !> Links from which on gapbeam_search keeps a solution up to date, whose last digits are others then
     integer, parameter :: long_beam = 300

@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 
 from ..base.errors import GapbeamError, Status
-from ..engine.beam import FIELDS as ENGINE_FIELDS
 from ..results.cases import prepare
 from ..scene.columns import SIDES
 from ..scene.combinations import VALUES
@@ -86,8 +85,8 @@ class PreparedRoad:
         self._is_simple = all(one["law"] is None and one["direction"] == "normal" and one["stiffness"] > 0.0 for one in held)
 
     def knows(self, want: Sequence[str]) -> bool:
-        """Whether what is wanted follows from the nodes, without fields between them."""
-        return self._is_simple and set(want) <= {"input", "reaction", "opening"}
+        """Whether what is wanted follows from the solutions at the nodes, which are not found again for it."""
+        return self._is_simple and set(want) <= {"input", "reaction", "opening", "deflection", "rotation", "moment", "shear"}
 
     def solve(
         self, values: np.ndarray, want: Sequence[str], numbers: dict[str, np.ndarray], supports: Sequence[str]
@@ -131,16 +130,15 @@ class PreparedRoad:
                 if "opening" in want:
                     away = self._sides[k] * (self._levels[k] + moves.get(k, 0.0) - found.deflection[:, self._nodes[k]])
                     numbers[f"opening.{one}"][solved] = np.where(found.closed[:, k], 0.0, np.maximum(away, 0.0) + 0.0)[solved]
-        states = found.states() if rest else None
-        for name in rest:
-            if name in ROWS:
+        if any(name in ROWS for name in rest):
+            states = found.states()
+            for name in (name for name in rest if name in ROWS):
                 for k, one in enumerate(supports):
                     numbers[f"{name}.{one}"][solved] = states.at_supports[solved, ROWS[name], k]
-                continue
-            column = ENGINE_FIELDS.index(name)
-            for row, kind in enumerate(("max", "min")):
-                numbers[f"{name}.{kind}"][solved] = states.extremes[solved, column, row]
-                numbers[f"{name}.{kind}_x"][solved] = states.places[solved, column, row]
+        for name, extremes in found.extremes_of([name for name in rest if name not in ROWS]).items():
+            for kind, (extreme, place) in extremes.items():
+                numbers[f"{name}.{kind}"][solved] = extreme[solved]
+                numbers[f"{name}.{kind}_x"][solved] = place[solved]
         return solved
 
     def _numbers(self, values: np.ndarray) -> tuple[np.ndarray, dict[int, np.ndarray], dict[int, np.ndarray]]:

@@ -24,6 +24,8 @@ SHORT = 700
 """Calls for fewer nodes, or places, take some milliseconds at most."""
 FEW_NODES = 1_000
 """Cases with fewer nodes together take some milliseconds at most."""
+FEW_CASES = 50
+"""So many cases, each solved once more, take some milliseconds."""
 NODES_AT_A_TIME = 20_000
 """Nodes of all cases in the first call for many cases; later calls take about `SECONDS`, by what the one before took."""
 SECONDS = 0.1
@@ -196,6 +198,7 @@ gbgdif = interruptible(_engine.gbgdif, lambda most, beam, ground, *_: ground.sha
 gbextr = interruptible(_engine.gbextr, lambda beam, factor, starts, *_: starts.shape[1])
 gblarg = interruptible(_engine.gblarg, lambda beam, factor, starts, *_: starts.shape[1])
 gbcomb = interruptible(_engine.gbcomb)
+gbcext = interruptible(_engine.gbcext, lambda beam, factors, *_: SHORT * (factors.shape[1] > FEW_CASES))
 gbshar = interruptible(lambda beam, _: _engine.gbshar(beam), lambda beam, count: count)
 gbtmak = interruptible(_engine.gbtmak)
 gbtget = _engine.gbtget

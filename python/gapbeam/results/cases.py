@@ -7,7 +7,7 @@ beam, so a case is one call of the engine, and a million cases are one call as w
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import isfinite
@@ -18,7 +18,8 @@ from numpy.typing import ArrayLike
 
 from ..base.errors import SceneError, Status
 from ..base.records import Pickled, Record, read_only
-from ..engine.beam import Beam, RefusalError
+from ..engine.beam import FIELDS, Beam, RefusalError
+from ..engine.case_extremes import case_extremes
 from ..engine.combinations import Combined, all_combinations
 from ..scene.names import find
 from ..scene.reading import read_beam
@@ -159,14 +160,32 @@ class Cases(Record):
         dict
             ``{"moment": {"max": (values, x), "min": (values, x)}, ...}``, arrays with an entry for every case.
         """
-        found = self._asked.solve()
-        shape = self.status.shape
+        return self.extremes_of(self._asked.beam.fields)
+
+    def extremes_of(self, names: Collection[str]) -> dict[str, dict[str, tuple[np.ndarray, np.ndarray]]]:
+        """Find those of some fields, each of which takes time of its own.
+
+        Parameters
+        ----------
+        names : collection of str
+            Of the fields.
+
+        Returns
+        -------
+        dict
+            As of `extremes`.
+        """
+        asked, shape = self._asked, self.status.shape
+        nodes = tuple(np.atleast_2d(one) for one in (self.deflection, self.moment_left, self.moment_right))
+        there = case_extremes(
+            asked.beam, asked.rule, asked.factors, asked.supports, asked.closed, np.atleast_1d(self.status), nodes, names
+        )  # fmt: skip
+        if there is None:
+            states = self.states()
+            there = {name: (states.extremes[:, FIELDS.index(name)], states.places[:, FIELDS.index(name)]) for name in names}
         return {
-            name: {
-                kind: (found.extremes[:, column, row].reshape(shape), found.places[:, column, row].reshape(shape))
-                for row, kind in enumerate(("max", "min"))
-            }
-            for name, column in self._asked.beam.fields.items()
+            name: {kind: (values[:, row].reshape(shape), x[:, row].reshape(shape)) for row, kind in enumerate(("max", "min"))}
+            for name, (values, x) in there.items()
         }
 
 

@@ -1,0 +1,40 @@
+! Extremes of cases for Python, in the manner of face/python.f90, which says what the arguments BEAM, NL, NS, ND, NV and NC are
+
+! Find the extremes of the fields of NC cases that GBCASE has solved
+subroutine gbcext(beam, nl, ns, nd, nv, nc, factor, supp, rule, closed, w, ml, mr, want, extr, place, status, there)
+    use gapbeam_handle, only: handle_type, handle_of
+    use gapbeam_case_extremes, only: has_lane_extremes, extremes_of_cases
+    implicit none
+    integer(8), intent(in) :: beam
+    integer, intent(in) :: nl, ns, nd, nv, nc
+    ! As for GBCASE
+    double precision, intent(in) :: factor(nd, nc), supp(3, nv, nc)
+    integer, intent(in) :: rule
+    ! By GBCASE
+    integer, intent(in) :: closed(ns + 1, nc)
+    double precision, intent(in) :: w(0:nl, nc), ml(0:nl, nc), mr(0:nl, nc)
+    ! 1 for those of deflection, rotation, moment and shear that are asked for
+    integer, intent(in) :: want(4)
+    ! Maximum and minimum of those, and where they are, in the scene's units; the others as they were, as are all of a case that is
+    ! not solved
+    double precision, intent(inout) :: extr(2, 4, nc), place(2, 4, nc)
+    ! By GBCASE in; out otherwise where a case has no extremes. Where memory ends some say so
+    integer, intent(inout) :: status(nc)
+    ! 0: not for such a beam, and nothing is done
+    integer, intent(out) :: there
+    !f2py threadsafe
+    !f2py integer, intent(hide), depend(closed) :: ns = shape(closed, 0) - 1
+    !f2py integer, intent(hide), depend(factor) :: nd = shape(factor, 0)
+    !f2py integer, intent(hide), depend(factor) :: nc = shape(factor, 1)
+    !f2py integer, intent(hide), depend(supp) :: nv = shape(supp, 1)
+    !f2py integer, intent(hide), depend(w) :: nl = shape(w, 0) - 1
+    type(handle_type), pointer :: handle
+
+    handle => handle_of(beam)
+    there = merge(1, 0, allocated(handle%cases))
+    if (there == 0) return
+    if (.not. has_lane_extremes(handle%lowered)) there = 0
+    if (there == 0 .or. nc == 0) return
+    call extremes_of_cases(handle%lowered, handle%cases, factor(:nd - 1, :), supp(:, :nv - 1, :), rule, closed, w, ml, mr, &
+                           want /= 0, extr, place, status)
+end subroutine gbcext

@@ -1,0 +1,399 @@
+!> Largest and smallest values of the fields of eight cases, and where they are: at the ends of the pieces, and inside them where
+!> the derivative changes sign. Shear and moment by the roots of a line and a parabola; rotation and deflection in those pieces
+!> only in which there may be more than is known, eight such pieces at a time.
+module gapbeam_lane_extremes
+    use gapbeam_kinds, only: wp
+    use gapbeam_lane_types, only: lanes, lane_beam_type, lane_pieces_type, pack_type, piece_pack_type
+    use gapbeam_lane_fields, only: recover_pack
+    use gapbeam_lane_roots, only: find_open, count_turns, find_only_root, find_roots
+    implicit none
+    private
+    public :: extremes_of_pack
+
+    !> A load below this leaves too little room for products
+    real(wp), parameter :: least_load = 1e-150_wp
+    !> Queues of pieces with one root at most, and with several
+    integer, parameter :: one_root = 1, some_roots = 2
+    !> Fields as gapbeam_query counts them
+    integer, parameter :: deflection = 1, rotation = 2, moment = 3, shear = 4
+
+    !> Pieces of eight cases that wait for their roots to be found
+    type :: queue_type
+        integer :: waiting = 0, lane(lanes) = 1, piece(lanes) = 1
+    end type queue_type
+
+contains
+
+    !> Extremes of eight solved cases
+    subroutine extremes_of_pack(beam, pieces, wanted, factors, pack, fields, extremes, poor)
+        !> What the cases have in common
+        type(lane_beam_type), intent(in) :: beam
+        type(lane_pieces_type), intent(in) :: pieces
+        !> Which of deflection, rotation, moment, shear are asked for
+        logical, intent(in) :: wanted(4)
+        !> Factor of every load, shape (lanes, nload)
+        real(wp), intent(in), contiguous :: factors(:, :)
+        !> Supports, working schemes and solutions
+        type(pack_type), intent(inout) :: pack
+        type(piece_pack_type), intent(inout) :: fields
+        !> Maximum, its piece and the distance from that one's left end; the same of the minimum, shape (lanes, 6, 4)
+        real(wp), intent(inout) :: extremes(lanes, 6, 4)
+        !> 1 for cases to be solved otherwise: a shear of few digits, or numbers far from 1
+        real(wp), intent(out) :: poor(lanes)
+        integer :: k, n
+
+        n = size(pieces%length)
+        call recover_pack(beam, pieces, factors, pack, fields, poor)
+        do k = deflection, shear
+            if (.not. wanted(k)) cycle
+            call look_at_ends(pieces, n, k, fields%loads, fields%starts, extremes(:, :, k), fields%room)
+            select case (k)
+            case (shear)
+                call look_at_shear(pieces, n, fields%loads, fields%starts, extremes(:, :, k))
+            case (moment)
+                call look_at_moment(pieces, n, fields%loads, fields%starts, extremes(:, :, k), poor)
+            case default
+                call look_inside(pieces, n, k, fields%loads, fields%starts, fields%room, extremes(:, :, k))
+            end select
+        end do
+    end subroutine extremes_of_pack
+
+    !> Ends of all pieces. Room 1 is what is known of the inside, the field in the middle, and room 2 is that at the right end
+    pure subroutine look_at_ends(pieces, n, k, loads, starts, best, room)
+        type(lane_pieces_type), intent(in) :: pieces
+        !> Pieces, and the field
+        integer, intent(in) :: n, k
+        real(wp), intent(in) :: loads(lanes, n, 5), starts(lanes, n, 4)
+        real(wp), intent(out) :: best(lanes, 6)
+        real(wp), intent(inout) :: room(lanes, n, 3)
+        real(wp) :: x, length
+        integer :: j, l
+
+        if (k <= rotation) call find_values(pieces, n, k, 0.5_wp, loads, starts, room(:, :, 1))
+        call find_values(pieces, n, k, 1.0_wp, loads, starts, room(:, :, 2))
+        best(:, 1) = starts(:, 1, k)
+        best(:, 2) = 1.0_wp
+        best(:, 3) = 0.0_wp
+        best(:, 4:6) = best(:, 1:3)
+        do j = 1, n
+            length = pieces%length(j)
+            !$omp simd private(x)
+            do l = 1, lanes
+                x = starts(l, j, k)
+                call consider(x, real(j, wp), 0.0_wp, best(l, 1), best(l, 2), best(l, 3), best(l, 4), best(l, 5), best(l, 6))
+                x = room(l, j, 2)
+                call consider(x, real(j, wp), length, best(l, 1), best(l, 2), best(l, 3), best(l, 4), best(l, 5), best(l, 6))
+            end do
+        end do
+    end subroutine look_at_ends
+
+    !> A field at the same share of the length of every piece
+    pure subroutine find_values(pieces, n, k, part, loads, starts, values)
+        type(lane_pieces_type), intent(in) :: pieces
+        integer, intent(in) :: n, k
+        real(wp), intent(in) :: part, loads(lanes, n, 5), starts(lanes, n, 4)
+        real(wp), intent(out) :: values(lanes, n)
+        real(wp) :: s, length, f, g
+        integer :: j, l
+
+        do j = 1, n
+            length = pieces%length(j)
+            s = part*length
+            f = pieces%flexibility(j)
+            g = pieces%shear_flexibility(j)
+            select case (k)
+            case (deflection)
+                !$omp simd
+                do l = 1, lanes
+                    values(l, j) = deflection_at(s, length, f, g, loads(l, j, 1), loads(l, j, 2), loads(l, j, 3), &
+                                                 starts(l, j, 1), starts(l, j, 2), starts(l, j, 3), starts(l, j, 4))
+                end do
+            case (rotation)
+                !$omp simd
+                do l = 1, lanes
+                    values(l, j) = rotation_at(s, length, f, loads(l, j, 1), loads(l, j, 2), loads(l, j, 3), starts(l, j, 2), &
+                                               starts(l, j, 3), starts(l, j, 4))
+                end do
+            case (moment)
+                !$omp simd
+                do l = 1, lanes
+                    values(l, j) = moment_at(s, length, loads(l, j, 1), loads(l, j, 2), starts(l, j, 3), starts(l, j, 4))
+                end do
+            case default
+                !$omp simd
+                do l = 1, lanes
+                    values(l, j) = starts(l, j, 4) - s*(loads(l, j, 1) + s*((loads(l, j, 2) - loads(l, j, 1))/length)/2)
+                end do
+            end select
+        end do
+    end subroutine find_values
+
+    !> Shear inside pieces: where a linear load changes sign
+    pure subroutine look_at_shear(pieces, n, loads, starts, best)
+        type(lane_pieces_type), intent(in) :: pieces
+        integer, intent(in) :: n
+        real(wp), intent(in) :: loads(lanes, n, 5), starts(lanes, n, 4)
+        real(wp), intent(inout) :: best(lanes, 6)
+        real(wp) :: x, s, qa, qb, change, length
+        integer :: j, l
+
+        do j = 1, n
+            length = pieces%length(j)
+            !$omp simd private(x, s, qa, qb, change)
+            do l = 1, lanes
+                qa = loads(l, j, 1)
+                qb = loads(l, j, 2)
+                change = qa - qb
+                ! Of one sign they are no farther apart
+                s = merge(1.0_wp, 0.0_wp, abs(change) > larger(abs(qa), abs(qb)))
+                ! Not by merge, for compilers divide before they choose
+                x = length*(qa/(change + merge(0.0_wp, 1.0_wp, abs(change) > 0.0_wp)))
+                s = merge(x, 0.0_wp, s > 0.5_wp)
+                x = starts(l, j, 4) - s*(qa - 0.5_wp*(s*(change/length)))
+                call consider(x, real(j, wp), s, best(l, 1), best(l, 2), best(l, 3), best(l, 4), best(l, 5), best(l, 6))
+            end do
+        end do
+    end subroutine look_at_shear
+
+    !> Moment inside pieces: where the shear, a parabola, is zero
+    pure subroutine look_at_moment(pieces, n, loads, starts, best, poor)
+        type(lane_pieces_type), intent(in) :: pieces
+        integer, intent(in) :: n
+        real(wp), intent(in) :: loads(lanes, n, 5), starts(lanes, n, 4)
+        real(wp), intent(inout) :: best(lanes, 6), poor(lanes)
+        real(wp) :: x, s, qa, qb, v, size, slope, root, length, first, second, there
+        integer :: j, l
+
+        do j = 1, n
+            length = pieces%length(j)
+            !$omp simd private(x, s, qa, qb, v, size, slope, root, first, second, there)
+            do l = 1, lanes
+                qa = loads(l, j, 1)
+                qb = loads(l, j, 2)
+                v = starts(l, j, 4)
+                size = larger(abs(qa), abs(qb))
+                there = size + merge(0.0_wp, 1.0_wp, size > 0.0_wp)
+                poor(l) = poor(l) + merge(1.0_wp, 0.0_wp, there < least_load)
+                size = size + merge(0.0_wp, 1.0_wp, size > least_load)
+                ! v - qa s - slope s**2/2 over the size of the load, by the root that does not cancel
+                qa = qa/size
+                qb = qb/size
+                v = v/size
+                slope = (qb - qa)/length
+                root = qa**2 + 2*slope*v
+                there = merge(1.0_wp, 0.0_wp, root >= 0.0_wp)
+                root = qa + sign(sqrt(root*there), qa)
+                there = there*merge(1.0_wp, 0.0_wp, abs(root) > 0.0_wp)
+                root = root + (1.0_wp - there)
+                first = there*(2*v/root)
+                second = there*merge(-root, 0.0_wp, abs(slope) > 0.0_wp)
+                slope = slope + merge(0.0_wp, 1.0_wp, abs(slope) > 0.0_wp)
+                second = second/slope
+                s = merge(first, 0.0_wp, first > 0.0_wp)
+                s = merge(s, 0.0_wp, s < length)
+                x = moment_at(s, length, loads(l, j, 1), loads(l, j, 2), starts(l, j, 3), starts(l, j, 4))
+                call consider(x, real(j, wp), s, best(l, 1), best(l, 2), best(l, 3), best(l, 4), best(l, 5), best(l, 6))
+                s = merge(second, 0.0_wp, second > 0.0_wp)
+                s = merge(s, 0.0_wp, s < length)
+                x = moment_at(s, length, loads(l, j, 1), loads(l, j, 2), starts(l, j, 3), starts(l, j, 4))
+                call consider(x, real(j, wp), s, best(l, 1), best(l, 2), best(l, 3), best(l, 4), best(l, 5), best(l, 6))
+            end do
+        end do
+    end subroutine look_at_moment
+
+    !> Deflection or rotation inside pieces
+    subroutine look_inside(pieces, n, k, loads, starts, room, best)
+        type(lane_pieces_type), intent(in) :: pieces
+        integer, intent(in) :: n, k
+        real(wp), intent(in) :: loads(lanes, n, 5), starts(lanes, n, 4), room(lanes, n, 3)
+        real(wp), intent(inout) :: best(lanes, 6)
+        type(queue_type) :: queues(2)
+        real(wp), dimension(lanes) :: most, least, open, turns
+        real(wp) :: c(lanes, 0:4), x, length, f, g
+        integer :: j, l, m
+
+        most(:) = best(:, 1)
+        least(:) = best(:, 4)
+        do j = 1, n
+            !$omp simd private(x)
+            do l = 1, lanes
+                x = room(l, j, 1)
+                most(l) = merge(x, most(l), x > most(l))
+                least(l) = merge(x, least(l), x < least(l))
+            end do
+        end do
+        do j = 1, n
+            if (k == rotation .and. .not. (pieces%flexibility(j) > 0.0_wp .or. any(abs(loads(:, j, 3)) > 0.0_wp))) cycle
+            length = pieces%length(j)
+            f = pieces%flexibility(j)
+            g = pieces%shear_flexibility(j)
+            if (k == rotation) then
+                !$omp simd
+                do l = 1, lanes
+                    call derive_rotation(length, f, loads(l, j, 1), loads(l, j, 2), loads(l, j, 3), starts(l, j, 3), &
+                                         starts(l, j, 4), c(l, 0), c(l, 1), c(l, 2), c(l, 3), c(l, 4))
+                end do
+            else
+                !$omp simd
+                do l = 1, lanes
+                    call derive_deflection(length, f, g, loads(l, j, 1), loads(l, j, 2), loads(l, j, 3), starts(l, j, 2), &
+                                           starts(l, j, 3), starts(l, j, 4), c(l, 0), c(l, 1), c(l, 2), c(l, 3), c(l, 4))
+                end do
+            end if
+            call find_open(length, starts(:, j, k), c, most, least, open)
+            if (.not. any(open > 0.5_wp)) cycle
+            call count_turns(length, c, turns)
+            do l = 1, lanes
+                if (open(l) < 0.5_wp .or. turns(l) < 0.5_wp) cycle
+                associate (queue => queues(merge(one_root, some_roots, turns(l) < 1.5_wp)))
+                    queue%waiting = queue%waiting + 1
+                    queue%lane(queue%waiting) = l
+                    queue%piece(queue%waiting) = j
+                end associate
+                do m = one_root, some_roots
+                    if (queues(m)%waiting == lanes) call look_at_roots(pieces, n, k, m, loads, starts, queues(m), best)
+                end do
+            end do
+        end do
+        do m = one_root, some_roots
+            if (queues(m)%waiting > 0) call look_at_roots(pieces, n, k, m, loads, starts, queues(m), best)
+        end do
+    end subroutine look_inside
+
+    !> The field where its derivative changes sign, in the pieces of a queue, which is empty then
+    subroutine look_at_roots(pieces, n, k, kind, loads, starts, queue, best)
+        type(lane_pieces_type), intent(in) :: pieces
+        !> Pieces, the field, and which queue it is
+        integer, intent(in) :: n, k, kind
+        real(wp), intent(in) :: loads(lanes, n, 5), starts(lanes, n, 4)
+        type(queue_type), intent(inout) :: queue
+        real(wp), intent(inout) :: best(lanes, 6)
+        real(wp) :: c(lanes, 0:4), length(lanes), roots(lanes, 4), there(lanes, 4), x
+        integer :: i, l, m
+
+        do i = 1, lanes
+            ! The last ones repeat the first
+            m = merge(i, 1, i <= queue%waiting)
+            associate (j => queue%piece(m), l => queue%lane(m))
+                length(i) = pieces%length(j)
+                if (k == rotation) then
+                    call derive_rotation(length(i), pieces%flexibility(j), loads(l, j, 1), loads(l, j, 2), loads(l, j, 3), &
+                                         starts(l, j, 3), starts(l, j, 4), c(i, 0), c(i, 1), c(i, 2), c(i, 3), c(i, 4))
+                else
+                    call derive_deflection(length(i), pieces%flexibility(j), pieces%shear_flexibility(j), loads(l, j, 1), &
+                                           loads(l, j, 2), loads(l, j, 3), starts(l, j, 2), starts(l, j, 3), starts(l, j, 4), &
+                                           c(i, 0), c(i, 1), c(i, 2), c(i, 3), c(i, 4))
+                end if
+            end associate
+        end do
+        if (kind == one_root) then
+            call find_only_root(c, length, roots(:, 1), there(:, 1))
+        else
+            call find_roots(c, length, roots, there)
+        end if
+        do i = 1, queue%waiting
+            l = queue%lane(i)
+            do m = 1, merge(1, 4, kind == one_root)
+                if (there(i, m) < 0.5_wp) cycle
+                associate (j => queue%piece(i), s => roots(i, m))
+                    if (k == rotation) then
+                        x = rotation_at(s, length(i), pieces%flexibility(j), loads(l, j, 1), loads(l, j, 2), loads(l, j, 3), &
+                                        starts(l, j, 2), starts(l, j, 3), starts(l, j, 4))
+                    else
+                        x = deflection_at(s, length(i), pieces%flexibility(j), pieces%shear_flexibility(j), loads(l, j, 1), &
+                                          loads(l, j, 2), loads(l, j, 3), starts(l, j, 1), starts(l, j, 2), starts(l, j, 3), &
+                                          starts(l, j, 4))
+                    end if
+                    call consider(x, real(j, wp), s, best(l, 1), best(l, 2), best(l, 3), best(l, 4), best(l, 5), best(l, 6))
+                end associate
+            end do
+        end do
+        queue%waiting = 0
+    end subroutine look_at_roots
+
+    !> Coefficients of the derivative of the rotation along a piece
+    elemental subroutine derive_rotation(length, f, qa, qb, kappa, m, v, c0, c1, c2, c3, c4)
+        !> Length, 1/EI; loads, moment and shear at the left end
+        real(wp), intent(in) :: length, f, qa, qb, kappa, m, v
+        real(wp), intent(out) :: c0, c1, c2, c3, c4
+
+        c0 = kappa - f*m
+        c1 = -f*v
+        c2 = f*qa/2
+        c3 = f*((qb - qa)/length)/6
+        c4 = 0.0_wp
+    end subroutine derive_rotation
+
+    !> The same of the deflection
+    elemental subroutine derive_deflection(length, f, g, qa, qb, kappa, turn, m, v, c0, c1, c2, c3, c4)
+        !> Length, 1/EI, 1/GA; loads, rotation, moment and shear at the left end
+        real(wp), intent(in) :: length, f, g, qa, qb, kappa, turn, m, v
+        real(wp), intent(out) :: c0, c1, c2, c3, c4
+        real(wp) :: slope
+
+        slope = (qb - qa)/length
+        c0 = turn + g*v
+        c1 = kappa - f*m - g*qa
+        c2 = -f*v/2 - g*slope/2
+        c3 = f*qa/6
+        c4 = f*slope/24
+    end subroutine derive_deflection
+
+    !> The deflection at a distance from the left end of a piece: fields_at of gapbeam_element
+    elemental function deflection_at(s, length, f, g, qa, qb, kappa, w, turn, m, v) result(x)
+        !> The distance; length, 1/EI, 1/GA; loads, and fields at the left end
+        real(wp), intent(in) :: s, length, f, g, qa, qb, kappa, w, turn, m, v
+        real(wp) :: x
+        real(wp) :: slope
+
+        slope = (qb - qa)/length
+        x = w + s*(turn + s*(kappa/2 - f*(m/2 + s*(v/6 - s*(qa/24 + s*slope/120))))) + g*(s*(v - s*(qa/2 + s*slope/6)))
+    end function deflection_at
+
+    !> The rotation likewise
+    elemental function rotation_at(s, length, f, qa, qb, kappa, turn, m, v) result(x)
+        real(wp), intent(in) :: s, length, f, qa, qb, kappa, turn, m, v
+        real(wp) :: x
+
+        x = turn + s*(kappa - f*(m + s*(v/2 - s*(qa/6 + s*((qb - qa)/length)/24))))
+    end function rotation_at
+
+    !> The moment likewise
+    elemental function moment_at(s, length, qa, qb, m, v) result(x)
+        real(wp), intent(in) :: s, length, qa, qb, m, v
+        real(wp) :: x
+
+        x = m + s*(v - s*(qa/2 + s*((qb - qa)/length)/6))
+    end function moment_at
+
+    !> Compare a value with the extremes so far
+    elemental subroutine consider(x, piece, s, most, most_piece, most_at, least, least_piece, least_at)
+        !> The value, its piece, and the distance from its left end
+        real(wp), intent(in) :: x, piece, s
+        !> Maximum and minimum so far and their places
+        real(wp), intent(inout) :: most, most_piece, most_at, least, least_piece, least_at
+        real(wp) :: a, b, c
+
+        a = most
+        b = most_piece
+        c = most_at
+        most = merge(x, a, x > a)
+        most_piece = merge(piece, b, x > a)
+        most_at = merge(s, c, x > a)
+        a = least
+        b = least_piece
+        c = least_at
+        least = merge(x, a, x < a)
+        least_piece = merge(piece, b, x < a)
+        least_at = merge(s, c, x < a)
+    end subroutine consider
+
+    !> The larger of two
+    elemental function larger(a, b) result(c)
+        real(wp), intent(in) :: a, b
+        real(wp) :: c
+
+        c = merge(a, b, a > b)
+    end function larger
+
+end module gapbeam_lane_extremes

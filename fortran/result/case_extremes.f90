@@ -1,0 +1,284 @@
+!> Largest and smallest values of the fields of many solved cases of a beam, eight side by side (fortran/lanes), from the solutions
+!> at the nodes: whatever solved them, and whatever the company of a case, its digits are the same
+module gapbeam_case_extremes
+    use gapbeam_kinds, only: wp
+    use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_memory
+    use gapbeam_element, only: sum_type, add, total
+    use gapbeam_link, only: piece_load_type
+    use gapbeam_law, only: has_laws
+    use gapbeam_scene, only: gapbeam_force, gapbeam_couple, gapbeam_axial_force
+    use gapbeam_units, only: moment_unit, rotation_unit
+    use gapbeam_lowered, only: lowered_type, is_stretch, point_x
+    use gapbeam_lower_loads, only: spread_load
+    use gapbeam_lower_units, only: load_in_units
+    use gapbeam_solution, only: state_type
+    use gapbeam_query, only: extremes_of_fields, field_count
+    use gapbeam_cases, only: case_loads_type
+    use gapbeam_combinations, only: combination_type, combine, solve_combination
+    use gapbeam_lane_types, only: lanes, lane_beam_type, lane_pieces_type, pack_type, piece_pack_type, new_pack, new_piece_pack
+    use gapbeam_lane_levels, only: extremes_of_pack_at, best_level
+    use gapbeam_lane_cases, only: prepare_lanes, take_supports, take_values, take_start
+    implicit none
+    private
+    public :: has_lane_extremes, extremes_of_cases
+
+    !> Exponents of units up to which a power of two is a double
+    integer, parameter :: most_power = 1000
+    !> No load on a piece
+    type(piece_load_type), parameter :: nothing = piece_load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
+
+contains
+
+    !> Are the extremes of the cases of a beam found here: no ground, laws, axial system, and several supports at a node
+    pure function has_lane_extremes(lowered) result(yes)
+        type(lowered_type), intent(in) :: lowered
+        logical :: yes
+        integer :: n
+
+        associate (beam => lowered%beam, units => lowered%units)
+            n = size(beam%links)
+            yes = .not. (allocated(beam%ground) .or. has_laws(beam%supports) .or. allocated(lowered%axial%point)) &
+                .and. all(beam%first(1:n + 1) - beam%first(0:n) <= 1) &
+                .and. max(abs(units%deflection), abs(units%force), abs(units%length), abs(moment_unit(units)), &
+                          abs(rotation_unit(units))) < most_power
+        end associate
+    end function has_lane_extremes
+
+    !> Find the extremes of solved cases of such a beam
+    subroutine extremes_of_cases(lowered, loads, factors, values, rule, closed, w, ml, mr, wanted, extremes, places, status, level)
+        type(lowered_type), intent(in) :: lowered
+        !> As for solve_in_lanes
+        type(case_loads_type), intent(in) :: loads
+        real(wp), intent(in) :: factors(:, :), values(:, :, :)
+        !> rule_block or rule_single of gapbeam_search
+        integer, intent(in) :: rule
+        !> Solutions: working schemes, deflections and moments as solve_in_lanes gives them
+        integer, intent(in) :: closed(:, :)
+        real(wp), intent(in) :: w(:, :), ml(:, :), mr(:, :)
+        !> Which of deflection, rotation, moment and shear are asked for
+        logical, intent(in) :: wanted(4)
+        !> Maximum and minimum of those and their places, in the scene's units, shape (2, 4, ncase)
+        real(wp), intent(inout) :: extremes(:, :, :), places(:, :, :)
+        !> gapbeam_solved in where a case is solved; out an error where one is found, its extremes as they were
+        integer, intent(inout) :: status(:)
+        !> As for solve_in_lanes
+        integer, intent(in), optional :: level
+        type(lane_beam_type) :: beam
+        type(lane_pieces_type) :: pieces
+        type(pack_type) :: pack
+        type(piece_pack_type) :: fields
+        type(combination_type) :: combined
+        integer, allocatable :: solved(:)
+        real(wp), allocatable :: factors_of(:, :)
+        real(wp) :: found(lanes, 6, 4), poor(lanes)
+        integer :: first, i, k, l, number, stat, at_level, case_of(lanes)
+        logical :: lost, made, fits
+
+        at_level = best_level()
+        if (present(level)) at_level = level
+        call prepare_lanes(lowered, loads, beam, made)
+        if (made) call prepare_pieces(lowered, pieces, made)
+        if (made) call new_pack(beam%n, pack, made)
+        if (made) call new_piece_pack(size(pieces%length), fields, made)
+        stat = 0
+        if (made) allocate (solved(count(status == gapbeam_solved)), factors_of(lanes, size(factors, 1)), stat=stat)
+        if (.not. made .or. stat /= 0) then
+            status(:) = gapbeam_no_memory
+            return
+        end if
+        number = 0
+        do i = 1, size(status)
+            if (status(i) /= gapbeam_solved) cycle
+            number = number + 1
+            solved(number) = i
+        end do
+        call take_supports(lowered, pack)
+        found(:, :, :) = 0.0_wp
+        do first = 1, number, lanes
+            ! The last lanes repeat the last case
+            case_of = [(solved(min(first + l, number)), l=0, lanes - 1)]
+            lost = .false.
+            do l = 1, lanes
+                i = case_of(l)
+                factors_of(l, :) = factors(:, i)
+                if (size(values, 2) > 0 .and. .not. lost) call take_values(lowered, values(:, :, i), l, pack, lost)
+                call take_start(lowered, closed(:, i), l, pack)
+                do k = 1, beam%n + 1
+                    pack%w(l, k - 1) = w(k, i)
+                    pack%ml(l, k - 1) = ml(k, i)
+                    pack%mr(l, k - 1) = mr(k, i)
+                end do
+            end do
+            pack%w(:, :) = scale(1.0_wp, -lowered%units%deflection)*pack%w
+            pack%ml(:, :) = scale(1.0_wp, -moment_unit(lowered%units))*pack%ml
+            pack%mr(:, :) = scale(1.0_wp, -moment_unit(lowered%units))*pack%mr
+            poor(:) = 1.0_wp
+            if (.not. lost) call extremes_of_pack_at(at_level, beam, pieces, wanted, factors_of, pack, fields, found, poor)
+            do l = 1, min(lanes, number - first + 1)
+                i = case_of(l)
+                fits = poor(l) < 0.5_wp
+                if (fits) call give_extremes(lowered, wanted, found, l, extremes(:, :, i), places(:, :, i), fits)
+                if (.not. fits) call solve_alone(i)
+            end do
+        end do
+
+    contains
+
+        !> Solve a case once more, whose fields are not to be had from its solution
+        subroutine solve_alone(i)
+            integer, intent(in) :: i
+            type(state_type) :: state
+            type(error_type), allocatable :: error
+            real(wp) :: value(2, field_count), x(2, field_count)
+
+            associate (still => 0*lowered%model%supports%settlement, m => size(lowered%beam%supports))
+                if (size(values, 2) > 0) then
+                    call combine(lowered, factors(:size(lowered%model%loads), i), still, combined, error, values(:, :, i))
+                else
+                    call combine(lowered, factors(:size(lowered%model%loads), i), still, combined, error)
+                end if
+                if (.not. allocated(error)) then
+                    call solve_combination(combined%lowered, rule, closed(:m, i) /= 0, state, error)
+                end if
+            end associate
+            if (allocated(error)) then
+                status(i) = error%code
+                return
+            end if
+            status(i) = state%status
+            if (state%status /= gapbeam_solved) return
+            call extremes_of_fields(combined%lowered, state, value, x, error)
+            if (allocated(error)) then
+                status(i) = error%code
+                return
+            end if
+            do k = 1, 4
+                if (.not. wanted(k)) cycle
+                extremes(:, k, i) = value(:, k)
+                places(:, k, i) = x(:, k)
+            end do
+        end subroutine solve_alone
+
+    end subroutine extremes_of_cases
+
+    !> Pieces of the links, and what the loads with factor 1 put on them
+    subroutine prepare_pieces(lowered, pieces, made)
+        type(lowered_type), intent(in) :: lowered
+        type(lane_pieces_type), intent(out) :: pieces
+        !> False where memory ends
+        logical, intent(out) :: made
+        type(piece_load_type), allocatable :: on_pieces(:)
+        integer :: j, k, n, shares, stat
+
+        n = size(lowered%pieces)
+        shares = 0
+        do k = 1, size(lowered%model%loads)
+            if (is_stretch(lowered%model%loads(k))) then
+                shares = shares + lowered%load_to(k) - lowered%load_from(k)
+            else if (is_inside(k)) then
+                shares = shares + 1
+            end if
+        end do
+        allocate (pieces%last(0:size(lowered%beam%links)), pieces%length(n), pieces%flexibility(n), pieces%shear_flexibility(n), &
+                  pieces%before(n), pieces%behind(n), pieces%load(shares), pieces%piece(shares), pieces%to_piece(5, shares), &
+                  on_pieces(n), stat=stat)
+        made = stat == 0
+        if (.not. made) return
+        pieces%last(:) = lowered%node_point
+        pieces%length(:) = lowered%pieces%length
+        pieces%flexibility(:) = lowered%pieces%flexibility
+        pieces%shear_flexibility(:) = lowered%pieces%shear_flexibility
+        do k = 1, ubound(pieces%last, 1)
+            call find_distances(pieces%last(k - 1) + 1, pieces%last(k))
+        end do
+        on_pieces(:) = nothing
+        shares = 0
+        do k = 1, size(lowered%model%loads)
+            associate (load => lowered%model%loads(k), a => lowered%load_from(k), b => lowered%load_to(k))
+                if (is_stretch(load)) then
+                    call spread_load(lowered, load, a, b, on_pieces)
+                    do j = a + 1, b
+                        call take(j)
+                    end do
+                else if (is_inside(k)) then
+                    if (load%kind == gapbeam_force) on_pieces(a)%force = load%value
+                    if (load%kind == gapbeam_couple) on_pieces(a)%couple = load%value
+                    call take(a)
+                end if
+            end associate
+        end do
+
+    contains
+
+        !> Does a load act at a point that is no node
+        pure function is_inside(load) result(yes)
+            integer, intent(in) :: load
+            logical :: yes
+
+            yes = .not. is_stretch(lowered%model%loads(load)) .and. lowered%model%loads(load)%kind /= gapbeam_axial_force
+            if (yes) yes = lowered%node_of_point(lowered%load_from(load)) < 0
+        end function is_inside
+
+        !> Distances of the pieces of a link from its ends
+        subroutine find_distances(first, last)
+            integer, intent(in) :: first, last
+            type(sum_type) :: sum
+            integer :: i
+
+            sum = sum_type()
+            do i = first, last
+                pieces%before(i) = total(sum)
+                call add(sum, pieces%length(i))
+            end do
+            sum = sum_type()
+            do i = last, first, -1
+                pieces%behind(i) = total(sum)
+                call add(sum, pieces%length(i))
+            end do
+        end subroutine find_distances
+
+        !> Keep what the load at hand puts on a piece
+        subroutine take(piece)
+            integer, intent(in) :: piece
+
+            call load_in_units(on_pieces(piece), lowered%units)
+            shares = shares + 1
+            pieces%load(shares) = k
+            pieces%piece(shares) = piece
+            associate (q => on_pieces(piece))
+                pieces%to_piece(:, shares) = [q%qa, q%qb, q%kappa, q%force, q%couple]
+            end associate
+            on_pieces(piece) = nothing
+        end subroutine take
+
+    end subroutine prepare_pieces
+
+    !> The extremes of a case in the scene's units, if these hold them
+    pure subroutine give_extremes(lowered, wanted, found, l, extremes, places, made)
+        type(lowered_type), intent(in) :: lowered
+        logical, intent(in) :: wanted(4)
+        !> By extremes_of_pack, and the lane
+        real(wp), intent(in) :: found(lanes, 6, 4)
+        integer, intent(in) :: l
+        real(wp), intent(inout) :: extremes(:, :), places(:, :)
+        logical, intent(out) :: made
+        real(wp) :: value
+        integer :: powers(4), i, k, piece
+
+        associate (units => lowered%units)
+            powers = [units%deflection, rotation_unit(units), moment_unit(units), units%force]
+        end associate
+        made = .true.
+        do k = 1, 4
+            if (.not. wanted(k)) cycle
+            do i = 1, 2
+                value = scale(found(l, 3*i - 2, k), powers(k))
+                made = made .and. abs(value) <= huge(value)
+                piece = int(found(l, 3*i - 1, k))
+                extremes(i, k) = value
+                places(i, k) = point_x(lowered, piece - 1) + scale(found(l, 3*i, k), lowered%units%length)
+            end do
+        end do
+    end subroutine give_extremes
+
+end module gapbeam_case_extremes
