@@ -13,7 +13,7 @@ module gapbeam_lane_residual
 contains
 
     !> Residuals of all rows
-    pure subroutine find_rest(beam, n, left, right, force, held, known, spring, w, ml, mr, room, turn_rest, force_rest, known_rest)
+    pure subroutine find_rest(beam, n, left, right, force, held, known, spring, w, ml, mr, turn_rest, force_rest, known_rest)
         type(lane_beam_type), intent(in) :: beam
         integer, intent(in) :: n
         !> Right-hand sides and scheme, shape (lanes, 0:n)
@@ -21,69 +21,61 @@ contains
         real(wp), intent(in) :: held(lanes, 0:n), known(lanes, 0:n), spring(lanes, 0:n)
         !> Solution
         real(wp), intent(in) :: w(lanes, 0:n), ml(lanes, 0:n), mr(lanes, 0:n)
-        real(wp), intent(inout) :: room(lanes, 0:n, 10)
         !> Compatibility, equilibrium where the deflection is not known, deflection where it is
         real(wp), intent(out) :: turn_rest(lanes, 0:n), force_rest(lanes, 0:n), known_rest(lanes, 0:n)
-        real(wp) :: length, faa, fab, fbb, plain
-        real(wp) :: high, low, turn_high, turn_low, other_high, other_low, minus_high, minus_low, free
-        integer :: i, l
+        ! Of the link left of the node: rotation of its right end and shear
+        real(wp), dimension(lanes) :: turned_high, turned_low, passed_high, passed_low
+        real(wp) :: length, faa, fab, fbb, plain, inside
+        real(wp) :: start_high, start_low, high, low, other_high, other_low, turned, turned_rest, passed, passed_rest
+        integer :: i, k, l
 
-        room(:, 0, 1:4) = 0.0_wp
-        room(:, n, 5:8) = 0.0_wp
-        do i = 1, n
-            length = beam%length(i)
-            faa = beam%faa(i)
-            fab = beam%fab(i)
-            fbb = beam%fbb(i)
-            !$omp simd private(high, low, turn_high, turn_low, other_high, other_low)
-            do l = 1, lanes
-                high = w(l, i)
-                low = 0.0_wp
-                call add(high, low, -w(l, i - 1))
-                call divide(high, low, length)
-                turn_high = high
-                turn_low = low
-                call add_product(turn_high, turn_low, faa, mr(l, i - 1))
-                call add_product(turn_high, turn_low, fab, ml(l, i))
-                room(l, i - 1, 5) = turn_high
-                room(l, i - 1, 6) = turn_low
-                call add_product(high, low, -fab, mr(l, i - 1))
-                call add_product(high, low, -fbb, ml(l, i))
-                room(l, i, 1) = high
-                room(l, i, 2) = low
-                other_high = ml(l, i)
-                other_low = 0.0_wp
-                call add(other_high, other_low, -mr(l, i - 1))
-                call divide(other_high, other_low, length)
-                room(l, i, 3) = other_high
-                room(l, i, 4) = other_low
-                room(l, i - 1, 7) = other_high
-                room(l, i - 1, 8) = other_low
-            end do
-        end do
+        turned_high(:) = 0.0_wp
+        turned_low(:) = 0.0_wp
+        passed_high(:) = 0.0_wp
+        passed_low(:) = 0.0_wp
         do i = 0, n
+            ! The link right of the last node is none
+            k = min(i + 1, n)
+            length = beam%length(k)
+            faa = beam%faa(k)
+            fab = beam%fab(k)
+            fbb = beam%fbb(k)
             plain = 1.0_wp - beam%hinge(i)
-            !$omp simd private(high, low, minus_high, minus_low, free)
+            inside = merge(1.0_wp, 0.0_wp, i < n)
+            !$omp simd private(start_high, start_low, high, low, other_high, other_low, turned, turned_rest, passed, passed_rest)
             do l = 1, lanes
-                high = room(l, i, 5)
-                low = room(l, i, 6)
-                minus_high = room(l, i, 1)
-                minus_low = room(l, i, 2)
-                call add(high, low, -minus_high)
-                call add(high, low, -minus_low)
+                turned = turned_high(l)
+                turned_rest = turned_low(l)
+                passed = passed_high(l)
+                passed_rest = passed_low(l)
+                start_high = w(l, k)
+                start_low = 0.0_wp
+                call add(start_high, start_low, -w(l, i))
+                call divide(start_high, start_low, length)
+                high = start_high
+                low = start_low
+                call add_product(high, low, faa, mr(l, i))
+                call add_product(high, low, fab, ml(l, k))
+                call add(high, low, -turned)
+                call add(high, low, -turned_rest)
                 call add(high, low, left(l, i))
                 call add(high, low, right(l, i))
                 turn_rest(l, i) = (high + low)*plain
-                free = 1.0_wp - held(l, i)
-                high = room(l, i, 7)
-                low = room(l, i, 8)
-                minus_high = room(l, i, 3)
-                minus_low = room(l, i, 4)
-                call add(high, low, -minus_high)
-                call add(high, low, -minus_low)
-                call add(high, low, force(l, i))
-                call add_product(high, low, -spring(l, i), w(l, i))
-                force_rest(l, i) = (high + low)*free
+                call add_product(start_high, start_low, -fab, mr(l, i))
+                call add_product(start_high, start_low, -fbb, ml(l, k))
+                turned_high(l) = start_high
+                turned_low(l) = start_low
+                other_high = inside*ml(l, k)
+                other_low = 0.0_wp
+                call add(other_high, other_low, -(inside*mr(l, i)))
+                call divide(other_high, other_low, length)
+                passed_high(l) = other_high
+                passed_low(l) = other_low
+                call add(other_high, other_low, -passed)
+                call add(other_high, other_low, -passed_rest)
+                call add(other_high, other_low, force(l, i))
+                call add_product(other_high, other_low, -spring(l, i), w(l, i))
+                force_rest(l, i) = (other_high + other_low)*(1.0_wp - held(l, i))
                 known_rest(l, i) = (known(l, i) - w(l, i))*held(l, i)
             end do
         end do

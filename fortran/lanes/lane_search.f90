@@ -8,6 +8,7 @@ module gapbeam_lane_search
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type, by_both_ends, by_three_moments, by_chain
     use gapbeam_lane_sweeps, only: sweep_both_ends, sweep_three_moments, sweep_chain
+    use gapbeam_lane_passes, only: pass_both_ends, find_wrong_between, correct_both_ends
     use gapbeam_lane_residual, only: find_rest
     use gapbeam_lane_reactions, only: complete
     implicit none
@@ -43,6 +44,7 @@ contains
         call choose_methods(beam%n, pack, method)
         if (beam%with_hinges) method(:) = by_chain
         where (lost) method = 0
+        pack%is_solved = pack%is_solved .and. all(method == by_both_ends)
     end subroutine search_pack
 
     !> The loads of eight cases, as solve_case of gapbeam_cases and set_loads of gapbeam_workspace add them up
@@ -100,32 +102,39 @@ contains
         logical, intent(out) :: lost(lanes)
         real(wp), dimension(lanes) :: wrong, fewest, idle, moves, alive, looked_at, ease
         integer :: solve
+        logical :: is_easy
 
+        is_easy = .not. (beam%with_hinges .or. pack%with_couples)
+        pack%turn_rest(:, :) = 0.0_wp
+        if (is_easy) pack%turn(:, :) = pack%left + pack%right
         fewest(:) = huge(1.0_wp)
         idle(:) = 0.0_wp
         alive(:) = 1.0_wp
         ease(:) = 0.0_wp
         solves(:) = 0
         do solve = 1, most_solves
-            call apply_scheme(n, pack%shear, pack%stiffness, pack%rigid, pack%contact, pack%closed, pack%held, pack%known, &
-                              pack%spring, pack%force)
-            if (any(ease > 0.0_wp)) pack%spring(:, :) = pack%spring + spread(ease, 2, n + 1)
-            moves(:) = 0.0_wp
-            if (ends_hold(pack, n) .and. .not. beam%with_hinges) then
-                pack%turn(:, :) = pack%left + pack%right
-                call sweep_both_ends(beam, n, pack%turn, pack%force, pack%held, pack%known, pack%spring, pack%room, pack%w, &
-                                     pack%ml)
-                call copy_moments(n, pack%ml, pack%mr)
+            pack%is_solved = is_easy .and. ends_hold(pack, n)
+            if (pack%is_solved) pack%is_solved = .not. any(ease > 0.0_wp)
+            where (alive > 0.5_wp) solves = solves + 1
+            if (pack%is_solved) then
+                call pass_both_ends(beam, n, pack%turn, pack%shear, pack%stiffness, pack%rigid, pack%contact, pack%turn_rest, &
+                                    pack%closed, pack%room, pack%w, pack%ml)
+                moves(:) = 0.0_wp
+                call find_wrong_between(beam, n, alive, pack%shear, pack%stiffness, pack%rigid, pack%contact, pack%closed, &
+                                        pack%w, pack%ml, pack%turn_rest, wrong)
             else
+                pack%closed(:, :) = abs(pack%closed - pack%turn_rest)
+                call apply_scheme(n, pack%shear, pack%stiffness, pack%rigid, pack%contact, pack%closed, pack%held, pack%known, &
+                                  pack%spring, pack%force)
+                if (any(ease > 0.0_wp)) pack%spring(:, :) = pack%spring + spread(ease, 2, n + 1)
                 call sweep_chain(beam, n, pack%left, pack%right, pack%force, pack%couple, pack%held, pack%known, pack%spring, &
                                  pack%room, pack%w, pack%ml, pack%mr, moves)
+                ! A scheme that moves is solved once more, with weak springs, as by gapbeam_scheme
+                ease(:) = ease + moves*beam%ease
+                looked_at(:) = alive*(1.0_wp - moves)
+                call find_wrong(beam, n, looked_at, pack%shear, pack%stiffness, pack%contact, pack%held, pack%closed, pack%w, &
+                                pack%ml, pack%mr, pack%turn_rest, wrong)
             end if
-            where (alive > 0.5_wp) solves = solves + 1
-            ! A scheme that moves is solved once more, with weak springs, as by gapbeam_scheme
-            ease(:) = ease + moves*beam%ease
-            looked_at(:) = alive*(1.0_wp - moves)
-            call find_wrong(beam, n, looked_at, pack%shear, pack%stiffness, pack%contact, pack%held, pack%closed, pack%w, pack%ml, &
-                            pack%mr, pack%turn_rest, pack%force_rest, wrong)
             ! What has settled stays as it is
             where (.not. wrong > 0.5_wp) alive = alive*moves
             if (.not. any(alive > 0.5_wp)) exit
@@ -133,7 +142,6 @@ contains
             idle(:) = merge(0.0_wp, idle + 1.0_wp, wrong < fewest)
             fewest(:) = min(fewest, wrong)
             if (any(alive*idle > patience)) call keep_every_other(n, solve, idle, pack%turn_rest)
-            pack%closed(:, :) = abs(pack%closed - pack%turn_rest)
         end do
         lost = alive > 0.5_wp
     end subroutine search
@@ -156,14 +164,21 @@ contains
         end do
     end subroutine apply_scheme
 
-    !> Does an acting support hold each end in all cases, and is there no couple
+    !> Will an acting support hold each end in all cases, once what is wrong is changed
     pure function ends_hold(pack, n) result(hold)
         type(pack_type), intent(in) :: pack
         integer, intent(in) :: n
         logical :: hold
+        real(wp) :: least
+        integer :: l
 
-        hold = all(pack%held(:, 0) + pack%spring(:, 0) > 0.0_wp) .and. all(pack%held(:, n) + pack%spring(:, n) > 0.0_wp) &
-            .and. .not. pack%with_couples
+        least = 1.0_wp
+        do l = 1, lanes
+            least = min(least, &
+                        abs(pack%closed(l, 0) - pack%turn_rest(l, 0))*(pack%rigid(l, 0) + pack%stiffness(l, 0)), &
+                        abs(pack%closed(l, n) - pack%turn_rest(l, n))*(pack%rigid(l, n) + pack%stiffness(l, n)))
+        end do
+        hold = least > 0.0_wp
     end function ends_hold
 
     !> Moments right of the nodes, where there are no couples
@@ -178,14 +193,14 @@ contains
     end subroutine copy_moments
 
     !> Which supports have the wrong state, and by how much
-    pure subroutine find_wrong(beam, n, alive, shear, stiffness, contact, held, closed, w, ml, mr, wrong, badness, number)
+    pure subroutine find_wrong(beam, n, alive, shear, stiffness, contact, held, closed, w, ml, mr, wrong, number)
         type(lane_beam_type), intent(in) :: beam
         integer, intent(in) :: n
         !> Cases that are looked at
         real(wp), intent(in) :: alive(lanes)
         real(wp), intent(in), dimension(lanes, 0:n) :: shear, stiffness, contact, held, closed, w, ml, mr
-        !> 1 where wrong; force with which a closed one pulls, or penetration of an open one
-        real(wp), intent(out), dimension(lanes, 0:n) :: wrong, badness
+        !> 1 where wrong
+        real(wp), intent(out) :: wrong(lanes, 0:n)
         !> How many are wrong
         real(wp), intent(out) :: number(lanes)
         real(wp) :: force, pressing, bad, side, changes, h_left, h_right
@@ -207,7 +222,6 @@ contains
                 pressing = side*(w(l, i) - contact(l, i))
                 bad = pressing - closed(l, i)*(pressing + pressing*stiffness(l, i))
                 bad = merge(force, bad, held(l, i) > 0.5_wp)*changes*alive(l)
-                badness(l, i) = bad
                 bad = merge(1.0_wp, 0.0_wp, bad > 0.0_wp)
                 wrong(l, i) = bad
                 number(l) = number(l) + bad
@@ -238,16 +252,22 @@ contains
         integer, intent(in) :: n
         type(pack_type), intent(in) :: pack
         integer, intent(out) :: method(lanes)
-        integer :: l
+        real(wp), dimension(lanes) :: holding, couples
+        integer :: i, l
 
+        holding(:) = 0.0_wp
+        couples(:) = 0.0_wp
+        do i = 1, n - 1
+            holding(:) = holding + pack%held(:, i)
+        end do
+        if (pack%with_couples) couples(:) = sum(abs(pack%couple), 2)
         do l = 1, lanes
-            associate (held => pack%held(l, :), spring => pack%spring(l, :))
+            associate (first => pack%held(l, 0), last => pack%held(l, n), spring => pack%spring(l, [0, n]))
                 method(l) = by_chain
-                if (all(pack%held(l, 1:n - 1) > 0.5_wp) .and. sum(pack%held(l, :)) > 1.5_wp &
-                    .and. .not. (spring(1) > 0.0_wp .or. spring(n + 1) > 0.0_wp)) then
+                if (holding(l) > n - 1.5_wp .and. holding(l) + first + last > 1.5_wp .and. .not. any(spring > 0.0_wp)) then
                     method(l) = by_three_moments
-                else if (held(1) + spring(1) > 0.0_wp .and. held(n + 1) + spring(n + 1) > 0.0_wp) then
-                    if (.not. any(abs(pack%couple(l, :)) > 0.0_wp)) method(l) = by_both_ends
+                else if (first + spring(1) > 0.0_wp .and. last + spring(2) > 0.0_wp .and. .not. couples(l) > 0.0_wp) then
+                    method(l) = by_both_ends
                 end if
             end associate
         end do
@@ -266,15 +286,26 @@ contains
         integer :: n
 
         n = beam%n
-        call apply_scheme(n, pack%shear, pack%stiffness, pack%rigid, pack%contact, pack%closed, pack%held, pack%known, &
-                          pack%spring, pack%force)
-        call solve(beam, n, method, pack%left, pack%right, pack%force, pack%couple, pack%held, pack%known, pack%spring, &
-                   pack%turn, pack%room, pack%w, pack%ml, pack%mr, moves)
+        moves(:) = 0.0_wp
+        if (pack%is_solved) then
+            call copy_moments(n, pack%ml, pack%mr)
+        else
+            call apply_scheme(n, pack%shear, pack%stiffness, pack%rigid, pack%contact, pack%closed, pack%held, pack%known, &
+                              pack%spring, pack%force)
+            call solve(beam, n, method, pack%left, pack%right, pack%force, pack%couple, pack%held, pack%known, pack%spring, &
+                       pack%turn, pack%room, pack%w, pack%ml, pack%mr, moves)
+        end if
         call find_rest(beam, n, pack%left, pack%right, pack%force, pack%held, pack%known, pack%spring, pack%w, pack%ml, pack%mr, &
-                       pack%room, pack%turn_rest, pack%force_rest, pack%known_rest)
-        pack%nothing(:, :) = 0.0_wp
-        call solve(beam, n, method, pack%nothing, pack%turn_rest, pack%force_rest, pack%nothing, pack%held, pack%known_rest, &
-                   pack%spring, pack%turn, pack%room, pack%dw, pack%dl, pack%dr, moves)
+                       pack%turn_rest, pack%force_rest, pack%known_rest)
+        if (pack%is_solved) then
+            call correct_both_ends(beam, n, pack%turn_rest, pack%force_rest, pack%held, pack%known_rest, pack%room, pack%dw, &
+                                   pack%dl)
+            call copy_moments(n, pack%dl, pack%dr)
+        else
+            pack%nothing(:, :) = 0.0_wp
+            call solve(beam, n, method, pack%nothing, pack%turn_rest, pack%force_rest, pack%nothing, pack%held, pack%known_rest, &
+                       pack%spring, pack%turn, pack%room, pack%dw, pack%dl, pack%dr, moves)
+        end if
         call add_correction(n, pack%dw, pack%dl, pack%dr, pack%w, pack%ml, pack%mr)
         call complete(beam, n, pack, doubt)
         doubtful = doubt + moves > 0.5_wp

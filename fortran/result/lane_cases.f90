@@ -60,9 +60,9 @@ contains
         !> Settlement, gap and stiffness of every support of the scene, shape (3, nsupport, ncase); nsupport 0: their own
         real(wp), intent(in) :: values(:, :, :)
         !> Starts in, working schemes out, where a case is done; 1 closed, shape (at least size(beam%supports), ncase)
-        integer, intent(inout) :: closed(:, :)
+        integer, intent(inout), contiguous :: closed(:, :)
         !> In the scene's units: deflections, moments left and right of the nodes, shape (n + 1, ncase); reactions
-        real(wp), intent(inout) :: w(:, :), ml(:, :), mr(:, :), reaction(:, :)
+        real(wp), intent(inout), contiguous :: w(:, :), ml(:, :), mr(:, :), reaction(:, :)
         integer, intent(inout) :: solves(:)
         !> Which cases are done; the others are as they were
         logical, intent(out) :: done(:)
@@ -128,6 +128,7 @@ contains
                     case_of(l) = queue%case_of(first)
                     call take_lane(queue%pack, first, pack, l)
                 end do
+                pack%is_solved = .false.
                 call finish(kind, case_of, pack)
             end associate
         end do
@@ -138,14 +139,18 @@ contains
         subroutine finish(way, numbers, schemes)
             integer, intent(in) :: way, numbers(lanes)
             type(pack_type), intent(inout) :: schemes
+            real(wp) :: largest(lanes)
             logical :: doubtful(lanes)
             integer :: k
 
             call finish_pack_at(at_level, beam, way, schemes, doubtful)
+            largest(:) = largest_values(schemes%w, schemes%ml, schemes%mr, schemes%reaction)
             do k = 1, lanes
                 if (doubtful(k) .or. (k > 1 .and. numbers(k) == numbers(max(k - 1, 1)))) cycle
                 associate (i => numbers(k))
-                    call give_case(lowered, units, schemes, k, closed(:, i), w(:, i), ml(:, i), mr(:, i), reaction(:, i), done(i))
+                    done(i) = largest(k) <= huge(1.0_wp)/max(maxval(units), 1.0_wp)
+                    if (done(i)) call give_case(lowered, units, schemes, k, closed(:, i), w(:, i), ml(:, i), mr(:, i), &
+                                                reaction(:, i))
                 end associate
             end do
         end subroutine finish
@@ -335,34 +340,39 @@ contains
         end do
     end subroutine take_start
 
-    !> The solution of a case in the scene's units, if these hold it
-    pure subroutine give_case(lowered, units, pack, l, closed, w, ml, mr, reaction, done)
+    !> The largest absolute values of solutions in the engine's units
+    pure function largest_values(w, ml, mr, reaction) result(largest)
+        real(wp), intent(in), dimension(:, 0:), contiguous :: w, ml, mr, reaction
+        real(wp) :: largest(lanes)
+        integer :: i
+
+        largest(:) = 0.0_wp
+        do i = 0, ubound(w, 2)
+            largest(:) = max(largest, abs(w(:, i)), abs(ml(:, i)), abs(mr(:, i)), abs(reaction(:, i)))
+        end do
+    end function largest_values
+
+    !> The solution of a case in the scene's units, which hold it
+    pure subroutine give_case(lowered, units, pack, l, closed, w, ml, mr, reaction)
         type(lowered_type), intent(in) :: lowered
         !> Of deflections, moments and forces, as numbers
         real(wp), intent(in) :: units(3)
         type(pack_type), intent(in) :: pack
         integer, intent(in) :: l
-        integer, intent(inout) :: closed(:)
-        real(wp), intent(inout) :: w(:), ml(:), mr(:), reaction(:)
-        logical, intent(out) :: done
-        real(wp) :: total
+        integer, intent(inout), contiguous :: closed(:)
+        real(wp), intent(inout), contiguous :: w(:), ml(:), mr(:), reaction(:)
         integer :: k
 
-        total = 0.0_wp
         do k = 1, size(w)
             w(k) = pack%w(l, k - 1)*units(1)
             ml(k) = pack%ml(l, k - 1)*units(2)
             mr(k) = pack%mr(l, k - 1)*units(2)
-            total = total + (abs(w(k)) + abs(ml(k)) + abs(mr(k)))
         end do
         do k = 1, size(lowered%beam%supports)
-            reaction(k) = pack%reaction(l, lowered%beam%supports(k)%node)*units(3)
-            total = total + abs(reaction(k))
-        end do
-        done = total <= huge(total)
-        if (.not. done) return
-        do k = 1, size(lowered%beam%supports)
-            closed(k) = merge(1, 0, pack%closed(l, lowered%beam%supports(k)%node) > 0.5_wp)
+            associate (node => lowered%beam%supports(k)%node)
+                reaction(k) = pack%reaction(l, node)*units(3)
+                closed(k) = merge(1, 0, pack%closed(l, node) > 0.5_wp)
+            end associate
         end do
     end subroutine give_case
 
