@@ -36,7 +36,8 @@ contains
 
         call add_loads(beam, beam%n, factors, pack%left, pack%right, pack%shear, pack%couple, pack%load_size, pack%turn_size, &
                        pack%room, pack%force)
-        pack%with_couples = any(abs(pack%couple) > 0.0_wp)
+        pack%with_couples = .false.
+        if (beam%with_couples) pack%with_couples = any(abs(pack%couple) > 0.0_wp)
         call search(beam, beam%n, pack, solves, lost)
         ! Without the weak springs
         call apply_scheme(beam%n, pack%shear, pack%stiffness, pack%rigid, pack%contact, pack%closed, pack%held, pack%known, &
@@ -262,11 +263,11 @@ contains
         end do
         if (pack%with_couples) couples(:) = sum(abs(pack%couple), 2)
         do l = 1, lanes
-            associate (first => pack%held(l, 0), last => pack%held(l, n), spring => pack%spring(l, [0, n]))
+            associate (first => pack%held(l, 0), last => pack%held(l, n), left => pack%spring(l, 0), right => pack%spring(l, n))
                 method(l) = by_chain
-                if (holding(l) > n - 1.5_wp .and. holding(l) + first + last > 1.5_wp .and. .not. any(spring > 0.0_wp)) then
+                if (holding(l) > n - 1.5_wp .and. holding(l) + first + last > 1.5_wp .and. .not. left + right > 0.0_wp) then
                     method(l) = by_three_moments
-                else if (first + spring(1) > 0.0_wp .and. last + spring(2) > 0.0_wp .and. .not. couples(l) > 0.0_wp) then
+                else if (first + left > 0.0_wp .and. last + right > 0.0_wp .and. .not. couples(l) > 0.0_wp) then
                     method(l) = by_both_ends
                 end if
             end associate

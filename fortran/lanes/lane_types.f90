@@ -29,7 +29,8 @@ module gapbeam_lane_types
         real(wp), allocatable :: there(:), changes(:)
         !> 1 at hinges
         real(wp), allocatable :: hinge(:)
-        logical :: with_hinges = .false.
+        !> Are there hinges, and loads with a couple at a node
+        logical :: with_hinges = .false., with_couples = .true.
         !> What loads with factor 1 do to links: which load, which link; rotations and shears of the simple bar at both ends, sums
         !> of absolute values of loads and rotations (share_type of gapbeam_cases), shape (6, :)
         integer, allocatable :: link_load(:), link(:)

@@ -17,7 +17,7 @@ module gapbeam_case_extremes
     use gapbeam_combinations, only: combination_type, combine, solve_combination
     use gapbeam_lane_types, only: lanes, lane_beam_type, lane_pieces_type, pack_type, piece_pack_type, new_pack, new_piece_pack
     use gapbeam_lane_levels, only: extremes_of_pack_at, best_level
-    use gapbeam_lane_cases, only: prepare_lanes, take_supports, take_values, take_start
+    use gapbeam_lane_cases, only: prepare_lanes, take_supports, take_values, take_starts
     implicit none
     private
     public :: has_lane_extremes, extremes_of_cases
@@ -53,8 +53,8 @@ contains
         !> rule_block or rule_single of gapbeam_search
         integer, intent(in) :: rule
         !> Solutions: working schemes, deflections and moments as solve_in_lanes gives them
-        integer, intent(in) :: closed(:, :)
-        real(wp), intent(in) :: w(:, :), ml(:, :), mr(:, :)
+        integer, intent(in), contiguous :: closed(:, :)
+        real(wp), intent(in), contiguous :: w(:, :), ml(:, :), mr(:, :)
         !> Which of deflection, rotation, moment and shear are asked for
         logical, intent(in) :: wanted(4)
         !> Maximum and minimum of those and their places, in the scene's units, shape (2, 4, ncase)
@@ -102,13 +102,13 @@ contains
                 i = case_of(l)
                 factors_of(l, :) = factors(:, i)
                 if (size(values, 2) > 0 .and. .not. lost) call take_values(lowered, values(:, :, i), l, pack, lost)
-                call take_start(lowered, closed(:, i), l, pack)
                 do k = 1, beam%n + 1
                     pack%w(l, k - 1) = w(k, i)
                     pack%ml(l, k - 1) = ml(k, i)
                     pack%mr(l, k - 1) = mr(k, i)
                 end do
             end do
+            call take_starts(lowered, closed, case_of, pack)
             pack%w(:, :) = scale(1.0_wp, -lowered%units%deflection)*pack%w
             pack%ml(:, :) = scale(1.0_wp, -moment_unit(lowered%units))*pack%ml
             pack%mr(:, :) = scale(1.0_wp, -moment_unit(lowered%units))*pack%mr

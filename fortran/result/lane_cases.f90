@@ -15,7 +15,7 @@ module gapbeam_lane_cases
     implicit none
     private
     public :: fits_lanes, solve_in_lanes, find_schemes
-    public :: prepare_lanes, take_supports, take_values, take_start
+    public :: prepare_lanes, take_supports, take_values, take_starts
 
     !> Links from which on gapbeam_search keeps a solution up to date, whose last digits are others then
     integer, parameter :: long_beam = 300
@@ -93,9 +93,9 @@ contains
             do l = 1, lanes
                 factors_of(l, :) = factors(:, case_of(l))
                 if (size(values, 2) > 0 .and. .not. lost) call take_values(lowered, values(:, :, case_of(l)), l, pack, lost)
-                call take_start(lowered, closed(:, case_of(l)), l, pack)
             end do
             if (lost) cycle
+            call take_starts(lowered, closed, case_of, pack)
             call search_pack_at(at_level, beam, factors_of, pack, solves_of, method)
             solves(case_of) = solves_of
             kind = method(1)
@@ -270,6 +270,7 @@ contains
                     to%to_link(:, k) = [s%turn_a, s%turn_b, s%shear_a, s%shear_b, s%load_sum, s%turn_sum]
                 end associate
             end do
+            to%with_couples = any(abs(loads%of_nodes%couple) > 0.0_wp)
             do k = 1, size(loads%of_nodes)
                 to%node_load(k) = loads%of_nodes(k)%load
                 to%node(k) = loads%of_nodes(k)%node
@@ -278,7 +279,7 @@ contains
         end associate
     end subroutine prepare_lanes
 
-    !> The supports as they are in all cases
+    !> The supports as they are in all cases, open
     pure subroutine take_supports(lowered, pack)
         type(lowered_type), intent(in) :: lowered
         type(pack_type), intent(inout) :: pack
@@ -287,6 +288,7 @@ contains
         pack%stiffness(:, :) = 0.0_wp
         pack%rigid(:, :) = 0.0_wp
         pack%contact(:, :) = 0.0_wp
+        pack%closed(:, :) = 0.0_wp
         do k = 1, size(lowered%beam%supports)
             associate (s => lowered%beam%supports(k))
                 pack%contact(:, s%node) = s%contact
@@ -325,20 +327,24 @@ contains
         end do
     end subroutine take_values
 
-    !> Where the search of a case starts
-    pure subroutine take_start(lowered, closed, l, pack)
+    !> Where the searches of cases start
+    pure subroutine take_starts(lowered, closed, case_of, pack)
         type(lowered_type), intent(in) :: lowered
-        integer, intent(in) :: closed(:), l
+        !> As for solve_in_lanes, and the case of every lane
+        integer, intent(in), contiguous :: closed(:, :)
+        integer, intent(in) :: case_of(lanes)
+        !> Open where there is no support
         type(pack_type), intent(inout) :: pack
-        integer :: k
+        integer :: k, l
 
-        pack%closed(l, :) = 0.0_wp
         do k = 1, size(lowered%beam%supports)
             associate (s => lowered%beam%supports(k))
-                if (closed(k) /= 0 .or. s%side == both) pack%closed(l, s%node) = 1.0_wp
+                do l = 1, lanes
+                    pack%closed(l, s%node) = merge(1.0_wp, 0.0_wp, closed(k, case_of(l)) /= 0 .or. s%side == both)
+                end do
             end associate
         end do
-    end subroutine take_start
+    end subroutine take_starts
 
     !> The largest absolute values of solutions in the engine's units
     pure function largest_values(w, ml, mr, reaction) result(largest)
