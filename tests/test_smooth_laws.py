@@ -34,6 +34,7 @@ def test_a_curve_beside_a_beam(name, load, side, sign, gap):
         assert sign * step.deflection[1] == pytest.approx(float(expected), rel=2e-15)
         assert sign * step.reaction[1] == pytest.approx(float(load - 48 * expected), rel=1e-12, abs=1e-15)
         assert step.state[1] == ("branch 1" if expected > gap else "open")
+        assert step.opening[1] == pytest.approx(max(float(gap - expected), 0.0), rel=1e-13, abs=1e-18)
         assert step.certificate["error_bound"] < 1e-11
 
 

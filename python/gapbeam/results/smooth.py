@@ -169,6 +169,27 @@ def solve_on_curves(beam: Beam, factor: float, solution: Solution) -> tuple[Beam
     raise EngineError("the smooth laws of the supports could not be met: give them as polylines", Status.NOT_CONVERGED)
 
 
+def with_openings(beam: Beam, solution: Solution) -> Solution:
+    """Put right how far supports with smooth laws are open: what replaced the laws begins elsewhere.
+
+    Parameters
+    ----------
+    beam : Beam
+        With smooth laws, or lines instead of them.
+    solution : Solution
+        On the laws.
+
+    Returns
+    -------
+    Solution
+    """
+    laws = SmoothLaws(beam)
+    d, _ = laws.past_the_gap(laws.deflections(solution))
+    at_supports = solution.at_supports.copy()
+    at_supports[2, [number for number, _ in beam.curves]] = np.maximum(-d, 0.0)
+    return replace(solution, at_supports=at_supports)
+
+
 def factor_on_curves(beam: Beam, factor: float, closed: np.ndarray, support: int) -> float:
     """Load factor at which a support changes its state, on the smooth laws of others.
 

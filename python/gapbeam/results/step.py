@@ -17,7 +17,7 @@ from ..engine.beam import SOLVED, Beam
 from ..engine.units import bound_in_scene, scaled
 from .ground import Contact, FreeSpan, Run, find_contact, find_free_spans, find_runs
 from .kinks import piece_of
-from .smooth import solve_on_curves
+from .smooth import solve_on_curves, with_openings
 
 PLASTIC = 1
 """Unloading, as in gapbeam_scene."""
@@ -73,8 +73,10 @@ class Step(Pickled):
     def _solved(self) -> tuple[Beam, Solution, float]:
         begin = perf_counter()
         beam, solution = self._beam, self._beam.solve(self.factor, self._rule, self._start)
-        if beam.curves and not self._settled and solution.status == SOLVED:
-            beam, solution = solve_on_curves(beam, self.factor, solution)
+        if beam.curves and solution.status == SOLVED:
+            if not self._settled:
+                beam, solution = solve_on_curves(beam, self.factor, solution)
+            solution = with_openings(beam, solution)
         return beam, solution, perf_counter() - begin
 
     @property
