@@ -47,6 +47,7 @@ class Lines:
         self._tables = [np.array([self._values(state) for state in run.states]) for run in way.runs]
         sizes = [np.abs(table).max(axis=(0, 2)) for table in self._tables]
         self._scale = np.max(sizes, axis=0) if sizes else np.ones(len(rows))
+        self._on_jump = np.isin(x, way.jumps)
         self._passed: dict[float, Placed] = {}
         self._take_limits()
         for run, table in zip(way.runs, self._tables, strict=True):
@@ -84,47 +85,60 @@ class Lines:
 
     def _climb(self, states: list[Placed], at: np.ndarray, table: np.ndarray) -> None:
         """Find what is greater between the states of a run."""
-        course, low, high = self._way.course, at[0], at[-1]
-        beside = 4 * self._way.near
-        on_jump = np.isin(self._x, self._way.jumps)
-        for k, x in enumerate(self._x.tolist()):
-            met = np.unique(x - course.offset[states[0].acts])
-            passed = {}
-            for position in met[(met >= low - beside) & (met <= high + beside)].tolist():
-                at_end = states[0] if position <= low + beside else states[-1] if position >= high - beside else None
-                state = self._state(position, states[0]) if at_end is None else at_end
-                if state.status != states[0].status:
-                    continue
-                both = state.values(self._x[[k, k]], np.array([False, True]))[self._rows].T
-                if at_end is None:
-                    passed[position] = both
-                elif on_jump[k]:
-                    continue
-                for i, sign in enumerate((1.0, -1.0)):
-                    for row, value in enumerate((sign * both).max(axis=0).tolist()):
-                        self._take(i, row, k, value, state.position)
-            cuts = [low, *passed, high]
-            for row in range(len(self._rows)):
-                for start, stop in pairwise(cuts):
-                    inside = (at > start) & (at < stop) if passed else slice(None)
-                    where, values = at[inside], table[inside, row, k]
-                    if passed:
-                        # On which side of a passing axle the field goes on, its neighbour tells
-                        where, values = self._with_ends(where, values, start, stop, passed, row, (at, table[:, row, k]))
-                    self._climb_line(row, k, where, values, states[0])
+        if len(states) < 2:
+            return
+        for k in range(len(self._x)):
+            passed = self._pass(k, states)
+            for start, stop in pairwise((float(at[0]), *passed, float(at[-1]))):
+                part = self._part(k, start, stop, states, at, table[:, :, k], passed)
+                if part is not None:
+                    where, values = part
+                    for row in range(len(self._rows)):
+                        self._climb_line(row, k, where, values[:, row], states[0])
 
-    @staticmethod
-    def _with_ends(where, values, start, stop, passed, row, run):
-        """Put the values at both ends of a part to those inside."""
+    def _pass(self, k: int, states: list[Placed]) -> dict[float, np.ndarray]:
+        """Consider the positions at which axles stand at a place; give the fields on both sides of it at those inside a run."""
+        low, high, beside = states[0].position, states[-1].position, 4 * self._way.near
+        met = np.unique(self._x[k] - self._way.course.offset[states[0].acts])
+        passed = {}
+        for position in met[(met >= low - beside) & (met <= high + beside)].tolist():
+            at_end = states[0] if position <= low + beside else states[-1] if position >= high - beside else None
+            if at_end is not None and self._on_jump[k]:
+                continue  # _take_limits has them
+            state = self._state(position, states[0]) if at_end is None else at_end
+            if state.status != states[0].status:
+                continue
+            both = state.values(self._x[[k, k]], np.array([False, True]))[self._rows].T
+            if at_end is None:
+                passed[position] = both
+            for i, sign in enumerate((1.0, -1.0)):
+                for row, value in enumerate((sign * both).max(axis=0).tolist()):
+                    self._take(i, row, k, value, state.position)
+        return passed
+
+    def _part(
+        self, k: int, start: float, stop: float, states: list[Placed], at: np.ndarray, table: np.ndarray,
+        passed: dict[float, np.ndarray],
+    ) -> tuple[np.ndarray, np.ndarray] | None:  # fmt: skip
+        """Give positions from one to another, one at least between, and the fields there; None where one is not solved."""
+        inside = (at > start) & (at < stop)
+        where, values = at[inside], table[inside]
+        if not len(where):
+            middle = self._state(start + (stop - start) / 2, states[0])
+            if middle.status != states[0].status or not start < middle.position < stop:
+                return None
+            where, values = np.array([middle.position]), middle.values(self._x[[k]], self._left[[k]])[self._rows].T
+            for i, sign in enumerate((1.0, -1.0)):
+                for row, value in enumerate(values[0].tolist()):
+                    self._take(i, row, k, sign * value, middle.position)
         ends = []
-        for position, inner in ((start, 0), (stop, -1)):
-            if position in passed:
-                both = [one[row] for one in passed[position]]
-                near = values[inner] if len(values) else both[0]
-                ends.append(min(both, key=lambda value: abs(value - near)))
-            else:
-                ends.append(run[1][inner])
-        return np.concatenate(([start], where, [stop])), np.concatenate((ends[:1], values, ends[1:]))
+        for position, end in ((start, 0), (stop, -1)):
+            both = passed.get(position)
+            if both is None:
+                ends.append(table[end])
+            else:  # on which side of a passing axle the field goes on, the neighbour tells
+                ends.append(np.take_along_axis(both, np.abs(both - values[end]).argmin(axis=0)[None], axis=0)[0])
+        return np.concatenate(([start], where, [stop])), np.vstack((ends[0], values, ends[1]))
 
     def _state(self, position: float, like: Placed) -> Placed:
         if position not in self._passed:
@@ -133,11 +147,8 @@ class Lines:
 
     def _climb_line(self, row: int, k: int, at: np.ndarray, values: np.ndarray, like: Placed) -> None:
         """Find what is greater between positions where the values at one place are known."""
-        n = len(at)
-        if n < 3:
-            return
-        rise = np.diff(values)
-        bend = np.abs(np.diff(rise / np.diff(at))) * np.maximum(np.diff(at)[1:], np.diff(at)[:-1])
+        rise, widths = np.diff(values), np.diff(at)
+        bend = np.abs(np.diff(rise / widths)) * np.maximum(widths[1:], widths[:-1])
         gain = np.concatenate((bend[:1], bend, bend[-1:]))
         for i, sign in enumerate((1.0, -1.0)):
             up = np.concatenate(([0.0], sign * rise))

@@ -69,15 +69,16 @@ def find_peaks(way: SearchedWay, value: Callable[[Placed], float], further: Sequ
         return []
     best = max(known)
     scale = max(abs(float(np.nanmax(np.abs(table)))) for table in tables if not np.isnan(table).all())
-    found = list(further)
-    promising = []
+    most = max((float(_bends(run, table).max()) for run, table in zip(way.runs, tables, strict=True) if len(table) > 2), default=best)
+    found, promising = list(further), []
     for run, table in zip(way.runs, tables, strict=True):
         if np.isnan(table).any():
             continue
         found += _tops(run, table, best - EQUAL * max(abs(best), scale))
-        promising += [(float(table[k]) + gain, run, table, k) for k, gain in _hills(run, table) if gain > 2.0**-50 * scale]
-    for most, run, table, k in sorted(promising, key=lambda one: -one[0]):
-        if most < best:
+        hills = _hills(run, table, most)
+        promising += [(float(table[k]) + gain, run, table, k) for k, gain in hills if gain > 2.0**-50 * scale]
+    for reach, run, table, k in sorted(promising, key=lambda one: -one[0]):
+        if reach < best:
             break
         top = _climb(way, run, table, k, value)
         found.append(top)
@@ -101,17 +102,18 @@ def _tops(run: Run, table: np.ndarray, least: float) -> list[Peak]:
     return found
 
 
-def _hills(run: Run, table: np.ndarray) -> list[tuple[int, float]]:
-    """States around which values may be greater than there, and by how much at most, about."""
+def _bends(run: Run, table: np.ndarray) -> np.ndarray:
+    """How far values are from straight lines, about, at all states but the ends."""
+    widths = np.diff([state.position for state in run.states])
+    return np.abs(np.diff(np.diff(table) / widths)) * np.maximum(widths[1:], widths[:-1])
+
+
+def _hills(run: Run, table: np.ndarray, most: float) -> list[tuple[int, float]]:
+    """States around which values may be greater than there, and by how much at most, about; `most` where there are but two."""
     n = len(table)
     if n < 3:
-        return [(k, abs(float(table[-1] - table[0]))) for k in range(n) if n == 2 and table[k] == table.max()]
-    at = np.array([state.position for state in run.states])
-    rise = np.diff(table)
-    widths = np.diff(at)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        bend = np.abs(np.diff(rise / widths)) * np.maximum(widths[1:], widths[:-1])
-    bend = np.nan_to_num(bend, nan=0.0, posinf=0.0)
+        return [(int(table.argmax()), most)] if n == 2 else []
+    rise, bend = np.diff(table), _bends(run, table)
     found = [(k, float(bend[k - 1])) for k in range(1, n - 1) if table[k] >= table[k - 1] and table[k] >= table[k + 1]]
     # At an end only where the way down from it does not begin at once
     for k, inward, curve in ((0, -rise[0], bend[0]), (n - 1, rise[-1], bend[-1])):
@@ -131,6 +133,8 @@ def _climb(way: SearchedWay, run: Run, table: np.ndarray, k: int, value: Callabl
     acts = run.states[k].acts
     for _ in range(MOST_STEPS):
         place, _ = vertex(best, heights, left, right)
+        if place is None and best in (left, right) and len(heights) > 2:
+            break  # from an end of the run values fall
         if place is None or abs(place - best) > last / 2:
             place = best + GOLDEN * ((right - best) if right - best > best - left else (left - best))
         last = abs(place - best)
