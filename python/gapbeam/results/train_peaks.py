@@ -69,9 +69,10 @@ def find_peaks(way: SearchedWay, value: Callable[[Placed], float], further: Sequ
         return []
     best = max(known)
     scale = max(abs(float(np.nanmax(np.abs(table)))) for table in tables if not np.isnan(table).all())
-    most = max((float(_bends(run, table).max()) for run, table in zip(way.runs, tables, strict=True) if len(table) > 2), default=best)
+    pairs = list(zip(way.runs, tables, strict=True))
+    most = max((float(_bends(run, table).max()) for run, table in pairs if len(table) > 2), default=abs(best))
     found, promising = list(further), []
-    for run, table in zip(way.runs, tables, strict=True):
+    for run, table in pairs:
         if np.isnan(table).any():
             continue
         found += _tops(run, table, best - EQUAL * max(abs(best), scale))

@@ -39,6 +39,9 @@ NEIGHBOURS = 2.0**-45
 NEXT_TO = 2.0**-32
 """Next to a change a state may not be settled, since a zone has next to no length there: positions on both sides of it that are as
 near as this share of the beam are neighbours."""
+BESIDE = 2.0**-26
+"""Share of the beam by which an axle stands beside a support when the shear between both is asked for: nearer to it, hardly any
+digits of it would be left."""
 MOST_CHANGES = 64
 """Changes between two states of the grid, beyond which they are not told apart."""
 
@@ -69,7 +72,7 @@ class Limit(NamedTuple):
     state : Placed
         That with the axle on it.
     position : float
-        The next position at which the axle is on that side.
+        One beside it, at which the axle is on that side.
     """
 
     value: float
@@ -153,7 +156,7 @@ class SearchedWay:
                     if there.any():
                         shear = state.values(np.array([x]), np.array([side == "left"]))[SHEAR, 0]
                         value = float(shear + sign * course.force[there].sum())
-                        found.append(Limit(value, x, side, state, state.position + sign * 4 * near))
+                        found.append(Limit(value, x, side, state, state.position + sign * BESIDE * self.loads.beam.places.end))
         return found
 
     def shown_position(self, state: Placed) -> float:
