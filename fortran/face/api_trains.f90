@@ -190,7 +190,7 @@ contains
         type(error_type), allocatable, intent(out) :: error
 
         if (allocated(lowered%layers)) then
-            call fatal_error(error, gapbeam_bad_input, "trains on a foundation are not available in this version: "// &
+            call fatal_error(error, gapbeam_bad_input, "trains on a foundation are followed in Python only: "// &
                              "give positions as loads, or springs as supports")
         end if
     end subroutine require_no_more

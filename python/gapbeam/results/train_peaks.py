@@ -77,7 +77,7 @@ def find_peaks(way: SearchedWay, value: Callable[[Placed], float], further: Sequ
             continue
         found += _tops(run, table, best - EQUAL * max(abs(best), scale))
         hills = _hills(run, table, most)
-        promising += [(float(table[k]) + gain, run, table, k) for k, gain in hills if gain > 2.0**-50 * scale]
+        promising += [(float(table[k]) + gain, run, table, k) for k, gain in hills if gain > 2.0**-46 * scale]
     for reach, run, table, k in sorted(promising, key=lambda one: -one[0]):
         if reach < best:
             break
