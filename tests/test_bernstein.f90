@@ -2,8 +2,8 @@
 program test_bernstein
     use testing, only: check, check_close, finish
     use gapbeam_kinds, only: wp
-    use gapbeam_bernstein, only: highest_degree, patch_type, sample_points, to_coefficients, value_of, halve, first_below, &
-        crossing, greatest_on_patch
+    use gapbeam_bernstein, only: highest_degree, sample_points, to_coefficients, value_of, halve, first_below, crossing
+    use gapbeam_patch, only: patch_type, greatest_on_patch
     implicit none
     integer :: status
 
@@ -51,6 +51,7 @@ contains
     subroutine greatest_of_two_variables()
         type(patch_type) :: patch
         real(wp) :: points(0:4), matrix(0:4, 0:4), values(0:4, 0:4), value, v, u
+        real(wp), parameter :: small = 1e-9_wp
         integer :: j, k
 
         patch%along = 4
@@ -77,6 +78,17 @@ contains
         end do
         call greatest_on_patch(patch, -1.0_wp, value, v, u)
         call check_close([value, v], [0.5_wp, 0.5_wp], "the same in one direction but for rounding")
+        ! Next to nothing moves over what stays: x = u + v, at x = 1 with a little more on the right
+        do k = 0, 4
+            do j = 0, 4
+                values(j, k) = 1 - (points(j) + points(k) - 1)**2 + small*points(k)
+            end do
+        end do
+        patch%along = 4
+        patch%across = 4
+        patch%b(0:4, 0:4) = matmul(matmul(matrix, values), transpose(matrix))
+        call greatest_on_patch(patch, -1.0_wp, value, v, u, reshape([0.0_wp, 1.0_wp, 1.0_wp, 2.0_wp], [2, 2]))
+        call check_close([value, u], [1 + small, 1.0_wp], "nearly the same along a line", 1e-14_wp)
         patch%along = 0
         patch%across = 2
         patch%b(0, 0:2) = [0.0_wp, 1.0_wp, 0.0_wp]

@@ -1,7 +1,7 @@
 !> Parts of a train's way that may hold an extreme value (gapbeam_train_envelope): those that what is known already does not exceed
 module gapbeam_train_candidates
     use gapbeam_kinds, only: wp
-    use gapbeam_bernstein, only: patch_type
+    use gapbeam_patch, only: patch_type
     use gapbeam_train_cells, only: cell_type
     implicit none
     private

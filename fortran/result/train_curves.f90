@@ -2,7 +2,8 @@
 module gapbeam_train_curves
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_not_converged
-    use gapbeam_bernstein, only: patch_type, sample_points, to_coefficients, greatest_on_patch
+    use gapbeam_bernstein, only: sample_points, to_coefficients
+    use gapbeam_patch, only: patch_type, greatest_on_patch
     use gapbeam_band, only: band_ok
     use gapbeam_element, only: field_type, fields_at
     use gapbeam_law, only: drop_level

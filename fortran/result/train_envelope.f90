@@ -6,7 +6,8 @@
 module gapbeam_train_envelope
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved
-    use gapbeam_bernstein, only: patch_type, to_coefficients, greatest_on_patch, value_of, most_along, highest_degree
+    use gapbeam_bernstein, only: to_coefficients, value_of, highest_degree
+    use gapbeam_patch, only: patch_type, greatest_on_patch, most_along
     use gapbeam_element, only: field_type
     use gapbeam_law, only: both
     use gapbeam_units, only: moment_unit, rotation_unit
@@ -226,7 +227,7 @@ contains
                     if (max(high(field), -low(field)) < candidates%known) cycle
                     call make_patch(j, field, patch)
                     if (way == 2) patch%b(:, 0:n) = -patch%b(:, 0:n)
-                    call greatest_on_patch(patch, candidates%known, value, v, u)
+                    call greatest_on_patch(patch, candidates%known, value, v, u, ends_of(samples%cells%cells(j), k))
                     candidates%known = max(candidates%known, value)
                 end do
             end associate
@@ -268,6 +269,18 @@ contains
                 end do
             end do
         end subroutine begin_scheme
+
+        !> Ends of a cell at the first and the last position of a stretch
+        pure function ends_of(cell, stretch) result(ends)
+            type(cell_type), intent(in) :: cell
+            integer, intent(in) :: stretch
+            real(wp) :: ends(2, 2)
+
+            ends(:, :) = 0.0_wp
+            if (cell%piece == 0) return
+            call cell_ends(track, samples%cells, cell, passage%from(stretch), ends(1, 1), ends(2, 1))
+            call cell_ends(track, samples%cells, cell, passage%to(stretch), ends(1, 2), ends(2, 2))
+        end function ends_of
 
         !> Coefficients of a field in a cell
         subroutine make_patch(c, field, patch)
@@ -352,7 +365,9 @@ contains
             do step = 1, candidates%number
                 next = maxloc(upper, 1)
                 if (upper(next) < best - equal*candidates%largest) exit
-                call greatest_on_patch(candidates%list(next)%patch, best - equal*candidates%largest, value, v, u)
+                associate (one => candidates%list(next))
+                    call greatest_on_patch(one%patch, best - equal*candidates%largest, value, v, u, ends_of(one%cell, one%stretch))
+                end associate
                 found(:, next) = [value, v, u]
                 best = max(best, value)
                 upper(next) = -huge(1.0_wp)

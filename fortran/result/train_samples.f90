@@ -7,7 +7,8 @@ module gapbeam_train_samples
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_not_converged, gapbeam_not_finite
     use gapbeam_words, only: shown
-    use gapbeam_bernstein, only: sample_points, most_along
+    use gapbeam_bernstein, only: sample_points
+    use gapbeam_patch, only: most_along
     use gapbeam_band, only: band_ok
     use gapbeam_element, only: field_type
     use gapbeam_link, only: piece_type, piece_load_type
