@@ -517,3 +517,27 @@ def test_what_moves_without_a_force_changes_nothing(train, same):
     for name, kinds in expected.items():
         for kind, extreme in kinds.items():
             assert found[name][kind].value == pytest.approx(extreme.value, rel=1e-8, abs=1e-12), (name, kind)
+
+
+def test_deflections_at_rigid_supports_are_their_levels():
+    """They were off by rounding where they are largest or smallest."""
+    supports = [at(0, side="below"), at(1, side="below", gap=0.0067), at(2, side="below", settlement=-0.003), at(3, side="above")]
+    made = scene([6.0, 5.0, 4.0], supports, [uniform(3.0, case="dead")], EI=1e4)
+    made["trains"] = [{"name": "t", "axles": [[0.0, 60.0], [1.7, 80.0]]}]
+    envelope = gapbeam.solve(made).envelope(x=[0.0, 6.0, 11.0, 15.0])
+    largest = [one["deflection"]["max"].value for one in envelope.supports]
+    assert largest[:3] == [0.0, 0.0067, -0.003]
+    assert envelope.supports[3]["deflection"]["min"].value == 0.0
+    assert envelope.fields.largest["deflection"].tolist()[:3] == largest[:3]
+
+
+def test_light_trains_beside_great_loads():
+    """Searched for along the line on which a field is nearly the same, this took minutes."""
+    made = scene([6.0, 6.0], [at(i) for i in range(3)], [uniform(6e11, case="dead")], EI=1e4)
+    made["trains"] = [{"name": "t", "axles": [[0.0, 60.0], [2.5, 80.0]]}]
+    result = gapbeam.solve(made)
+    envelope, train = result.envelope(), result.trains["t"]
+    moment = envelope.extremes["moment"]
+    assert 0.0 < moment["max"].value - 9 / 128 * 6e11 * 6.0**2 < (60.0 + 80.0) * 6.0 / 4
+    for position in (-1.0, 0.0, 1.3, 2.7, 6.0, 8.9, 12.0):
+        assert max(train.at(position).extremes()["moment"]["max"]) <= moment["max"].value * (1 + 4e-15)

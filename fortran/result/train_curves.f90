@@ -20,6 +20,8 @@ module gapbeam_train_curves
     use gapbeam_train_columns, only: at_distance
     use gapbeam_train_view, only: view_type, look_type, new_view, show_stretch, look_at_link, slopes_in_link, greatest_curvature
     use gapbeam_train_bounds, only: slack, most_lost
+    use gapbeam_train_candidates, only: equal
+    use gapbeam_train_levels, only: keep_level
     use gapbeam_train_samples, only: samples_type, new_samples, sample_stretch, degree_in_position
     implicit none
     private
@@ -100,6 +102,11 @@ contains
             call search()
             if (allocated(error)) return
         end if
+        do q = 1, size(piece)
+            do k = 1, 2
+                call keep_level(track%beam, node_of_place(q), equal*sizes(1), value(k, 1, q))
+            end do
+        end do
         associate (units => lowered%units)
             powers(:) = [units%deflection, rotation_unit(units), moment_unit(units), units%force]
         end associate
@@ -108,6 +115,19 @@ contains
         end do
 
     contains
+
+        !> Node of a place, -1 if it is at none
+        pure function node_of_place(q) result(node)
+            integer, intent(in) :: q
+            integer :: node
+
+            node = -1
+            if (distance(q) <= 0.0_wp) then
+                node = lowered%node_of_point(piece(q) - 1)
+            else if (distance(q)*view%columns%to_length >= lowered%pieces(piece(q))%length) then
+                node = lowered%node_of_point(piece(q))
+            end if
+        end function node_of_place
 
         !> Show a stretch: the fields at the left ends of all cells, at both ends of it
         subroutine show()

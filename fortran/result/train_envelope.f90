@@ -21,6 +21,7 @@ module gapbeam_train_envelope
     use gapbeam_train_view, only: look_type, show_stretch, look_at_link
     use gapbeam_train_support_bounds, only: watch_scheme
     use gapbeam_train_candidates, only: candidate_type, candidates_type, equal, least_of, raise, upper_bound, offer
+    use gapbeam_train_levels, only: keep_level
     use gapbeam_train_bounds, only: bounds_type, find_bounds, slack, most_lost
     implicit none
     private
@@ -134,11 +135,13 @@ contains
         end associate
         do f = 1, 4
             do i = 1, 2
-                call find_extreme(of_fields(i, f), i, powers(f), envelope%fields(i, f))
+                call find_extreme(of_fields(i, f), i, powers(f), f == 1, envelope%fields(i, f))
                 do c = 1, m
-                    call find_extreme(of_supports(i, f, c), i, 0, envelope%supports(i, f, c))
+                    call find_extreme(of_supports(i, f, c), i, 0, .false., envelope%supports(i, f, c))
                     if (f <= 2) call drop_rounding(f == 1, lowered%model%supports(c)%side, &
                                                    equal*of_supports(i, f, c)%largest, envelope%supports(i, f, c))
+                    if (f == 3) call keep_levels(lowered%node_of_point(lowered%support_point(c)), &
+                                                 equal*of_supports(i, f, c)%largest, envelope%supports(i, f, c))
                 end do
             end do
         end do
@@ -345,12 +348,14 @@ contains
         end subroutine add_support
 
         !> The largest value among candidates, and where it is
-        subroutine find_extreme(candidates, which, power, extreme)
+        subroutine find_extreme(candidates, which, power, of_deflection, extreme)
             type(candidates_type), intent(in) :: candidates
             !> 1 largest, 2 smallest
             integer, intent(in) :: which
             !> Exponent of the unit
             integer, intent(in) :: power
+            !> Of the beam's deflection
+            logical, intent(in) :: of_deflection
             type(extreme_type), intent(out) :: extreme
             type(tie_type) :: tie
             real(wp) :: best, value, v, u
@@ -374,7 +379,10 @@ contains
             end do
             do q = 1, candidates%number
                 if (found(1, q) < best - equal*candidates%largest) cycle
-                tie%value = scale(merge(found(1, q), -found(1, q), which == 1), power)
+                tie%value = merge(found(1, q), -found(1, q), which == 1)
+                if (of_deflection) call keep_level(track%beam, node_at(candidates%list(q)%cell, found(2, q)), &
+                                                   equal*candidates%largest, tie%value)
+                tie%value = scale(tie%value, power)
                 call place_tie(candidates%list(q), found(2, q), found(3, q), equal*candidates%largest, tie)
                 call add_tie(extreme, tie)
             end do
@@ -382,6 +390,34 @@ contains
                 extreme%ties(q)%position = extreme%ties(q)%position + inside(extreme%ties(q)%limit)*least_distance(track, train)
             end do
         end subroutine find_extreme
+
+        !> Deflections of a rigid support, in the user's units
+        subroutine keep_levels(node, rounding, extreme)
+            integer, intent(in) :: node
+            real(wp), intent(in) :: rounding
+            type(extreme_type), intent(inout) :: extreme
+            real(wp) :: deflection
+            integer :: q
+
+            associate (power => lowered%units%deflection)
+                do q = 1, extreme%number
+                    deflection = scale(extreme%ties(q)%value, -power)
+                    call keep_level(track%beam, node, scale(rounding, -power), deflection)
+                    extreme%ties(q)%value = scale(deflection, power)
+                end do
+            end associate
+        end subroutine keep_levels
+
+        !> Node at an end of a cell, -1 if there is none
+        pure function node_at(cell, v) result(node)
+            type(cell_type), intent(in) :: cell
+            real(wp), intent(in) :: v
+            integer :: node
+
+            node = -1
+            if (v <= 0.0_wp .and. cell%left == 0) node = lowered%node_of_point(cell%piece - 1)
+            if (v >= 1.0_wp .and. cell%right == 0) node = lowered%node_of_point(cell%piece)
+        end function node_at
 
         !> Where a value is
         subroutine place_tie(candidate, v, share, slack, tie)
