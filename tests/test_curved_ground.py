@@ -150,3 +150,13 @@ def test_a_rigid_pile_as_near_to_its_limit_load_as_one_likes(turn, digits):
     assert abs(fields.deflection[1]) <= digits * fields.deflection[0]
     # Nor are piles that bend lost there
     assert gapbeam.solve({**pile, "beam": {"spans": [length], "EI": 2e5}}).at(0.0).deflection > fields.deflection[0]
+
+
+def test_the_limit_load_of_a_pile_on_curves():
+    law = {"type": "tanh", "stiffness": [0.0, 9e3], "limit": [0.0, 400.0]}
+    pile = {"beam": {"spans": [6.0], "EI": 2e5}, "foundation": [{"law": law}], "loads": [{"type": "force", "x": 0.0, "F": 500.0}]}
+    path = gapbeam.solve({**pile, "analysis": {"follow": "events"}})
+    assert path.status == "limit-load"
+    limit = 2400.0 * (0.25 ** (1 / 3) - 0.5) / 500.0
+    assert f"and {limit:.12g};" in path.reason
+    assert limit * (1.0 - 1e-6) < path.segments[-1].stop < limit

@@ -8,11 +8,12 @@ module gapbeam_ground_path
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved, gapbeam_not_converged, gapbeam_not_finite
     use gapbeam_words, only: shown
     use gapbeam_polyline, only: last_kink
-    use gapbeam_layers, only: has_limit
+    use gapbeam_layers, only: has_limit, has_curves
+    use gapbeam_ground_solver, only: limit_on_ground
     use gapbeam_lowered, only: lowered_type, point_x
     use gapbeam_pieces, only: acting_type, acting_piece, what_happens, nothing
     use gapbeam_solution, only: state_type
-    use gapbeam_state, only: solve_state
+    use gapbeam_state, only: solve_state, ground_of, detail_of
     use gapbeam_ground_changes, only: zone_type, zone_change_type, find_zones, same_zones, compare_zones
     implicit none
     private
@@ -25,6 +26,9 @@ module gapbeam_ground_path
     !> Next to an event a state may not be settled, since a zone has next to no length there: factors on both sides of it that are
     !> as near as this are neighbours
     real(wp), parameter :: next_to = 2.0_wp**(-32)
+    !> Curves come to their limit where the beam has gone without end: the path is followed until this share of it is missing, or
+    !> that, powers of 2
+    integer, parameter :: missing_powers(*) = [-20, -10]
     !> What acts at this share of the way, a power of 2, acts from the beginning: at factor 0 a beam without dead load lies there
     !> without any force. Where so small a load is nothing beside gaps and settlements, it is what acts at one of the next shares
     integer, parameter :: begin_powers(*) = [-40, -34, -28, -22]
@@ -120,6 +124,10 @@ contains
                 high = next
                 below = now
                 above = then
+                if (.not. then%stands) then
+                    call go_to_limit(low, high, below, above)
+                    if (allocated(error) .or. path%at_limit) return
+                end if
                 call bisect(low, below, high, above)
                 if (allocated(error)) return
                 if (.not. above%stands) then
@@ -169,6 +177,42 @@ contains
             held%closed(:) = state%closed
             call find_zones(lowered, state%ground, held%zones, error)
         end subroutine hold
+
+        !> Where laws are curves limit analysis knows the limit load: end the path there, or look next to it for what changes before
+        subroutine go_to_limit(low, high, below, above)
+            real(wp), intent(in) :: low
+            real(wp), intent(inout) :: high
+            type(held_type), intent(in) :: below
+            type(held_type), intent(inout) :: above
+            type(held_type) :: held
+            real(wp) :: bears, beyond, last
+            logical :: found
+            integer :: k
+
+            if (.not. any(has_curves(lowered%layers))) return
+            bears = low
+            beyond = high
+            call limit_on_ground(ground_of(lowered), detail_of(lowered), bears, beyond, found)
+            if (.not. found) return
+            do k = 1, size(missing_powers)
+                last = bears*(1 - 2.0_wp**missing_powers(k))
+                if (last <= low) return
+                call hold(last, held)
+                if (allocated(error)) return
+                if (held%stands) exit
+            end do
+            if (.not. held%stands) return
+            if (.not. alike(below, held)) then
+                high = last
+                above = held
+                return
+            end if
+            call hold(beyond, held)
+            if (allocated(error)) return
+            path%last = last
+            path%beyond = beyond
+            path%at_limit = .true.
+        end subroutine go_to_limit
 
         !> Neighbouring factors around the first change between two, and what holds the beam there
         subroutine bisect(low, below, high, above)

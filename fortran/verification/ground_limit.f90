@@ -12,7 +12,7 @@ module gapbeam_ground_limit
     use gapbeam_kinematics_quad, only: work_of_loads
     implicit none
     private
-    public :: find_collapse
+    public :: find_collapse, find_limit
 
     !> Work, relative to its parts, that counts as none: places and loads are rounded to doubles. Ground at its limit is weighed to
     !> the last digit, so that all load factors but one are on one side
@@ -29,13 +29,13 @@ module gapbeam_ground_limit
 contains
 
     !> Look for a motion of the whole beam along which the loads do more work than is resisted
-    pure subroutine find_collapse(ground, factor, found, tied, motion)
+    pure subroutine find_collapse(ground, factor, found, tied, stands, motion)
         !> The beam and its ground, and the load factor
         type(ground_type), intent(in) :: ground
         real(qp), intent(in) :: factor
-        !> Is there one; or is there one along which both are the same to rounding. Never of a beam with hinges or rotational
-        !> restraints
-        logical, intent(out) :: found, tied
+        !> Is there one; or is there one along which both are the same to rounding; or do the loads do less along all, so that there
+        !> is an equilibrium. Never of a beam with hinges or rotational restraints
+        logical, intent(out) :: found, tied, stands
         !> Downward displacements of the nodes of the beam without ground, largest 1, shape (0:n)
         real(wp), allocatable, intent(out) :: motion(:)
         real(qp) :: share(0:size(ground%pieces)), work(2), parts(2), y(2), best(2), excess, most, resisted, least, low, high
@@ -43,6 +43,7 @@ contains
 
         found = .false.
         tied = .false.
+        stands = .false.
         if (any(ground%beam%kind /= plain)) return
         share(0) = 0.0_qp
         do k = 1, size(ground%pieces)
@@ -53,6 +54,7 @@ contains
         call work_of_loads(ground%beam, factor, share, [0, size(ground%pieces)], work(2), parts(2))
         most = 0.0_qp
         best = 0.0_qp
+        stands = .true.
         do k = 1, size(start, 2)
             call find_allowed(ground, share, start(:, k), way(:, k), low, high)
             if (low > high) cycle
@@ -61,6 +63,7 @@ contains
             excess = dot_product(y, work) - resisted
             least = merge(least_excess, no_work, resisted > 0.0_qp)*(sum(parts) + resisted)
             tied = tied .or. abs(excess) <= least
+            stands = stands .and. excess < -least
             if (excess <= max(most, least)) cycle
             most = excess
             best = y
@@ -72,6 +75,34 @@ contains
         allocate (motion(0:size(ground%pieces)))
         motion(:) = real(share/maxval(abs(share)), wp)
     end subroutine find_collapse
+
+    !> Between two load factors, neighbours in double precision of which the loads of the first one are borne, and of the second not
+    pure subroutine find_limit(ground, low, high, found)
+        type(ground_type), intent(in) :: ground
+        real(wp), intent(inout) :: low, high
+        !> Are there such factors
+        logical, intent(out) :: found
+        real(wp), allocatable :: motion(:)
+        real(wp) :: middle
+        logical :: collapses, tied, stands
+
+        call find_collapse(ground, real(high, qp), collapses, tied, stands, motion)
+        found = collapses
+        if (.not. found) return
+        call find_collapse(ground, real(low, qp), collapses, tied, stands, motion)
+        found = stands
+        if (.not. found) return
+        do
+            middle = low + (high - low)/2
+            if (middle <= low .or. middle >= high) return
+            call find_collapse(ground, real(middle, qp), collapses, tied, stands, motion)
+            if (stands) then
+                low = middle
+            else
+                high = middle
+            end if
+        end do
+    end subroutine find_limit
 
     !> Between which t no support is pressed, nor ground whose force has no limit
     pure subroutine find_allowed(ground, share, start, way, low, high)

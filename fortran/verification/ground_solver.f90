@@ -34,10 +34,10 @@ module gapbeam_ground_solver
     use gapbeam_scheme_quad, only: fine_outcome_type => outcome_type
     use gapbeam_law_quad, only: find_margins, is_watched_in
     use gapbeam_ground_ties, only: stands_on_edge, may_move
-    use gapbeam_ground_limit, only: find_collapse
+    use gapbeam_ground_limit, only: find_collapse, find_limit
     implicit none
     private
-    public :: ground_solution_type, solve_on_ground
+    public :: ground_solution_type, solve_on_ground, limit_on_ground
 
     !> Shares of the stretches beside them by which ends may still move in the round that is taken for the last one
     real(wp), parameter :: rough = 1e-10_wp, nearly = 1e-2_wp
@@ -114,7 +114,7 @@ contains
         type(workspace_type) :: work
         type(fine_ground_type) :: fine
         logical, allocatable :: start(:)
-        logical :: settled, known, on_edge, collapses, tied
+        logical :: settled, known, on_edge, collapses, tied, stands, curves
         real(wp) :: moved
         real(wp), allocatable :: motion(:)
         integer :: try, last, solves
@@ -126,11 +126,13 @@ contains
         call refine_ground(ground, detail, fine)
         call full_contact(ground, zones)
         on_edge = .false.
+        ! Near what curves bear zones take many rounds, which limit analysis may spare
+        curves = any(has_curves(fine%layers))
         last = ubound(spring_numbers, 1)
         do try = 0, ubound(spring_numbers, 1)
             if (try > last) exit
-            if (try == 1) then
-                call find_collapse(fine, real(factor, qp), collapses, tied, motion)
+            if (try == merge(0, 1, curves)) then
+                call find_collapse(fine, real(factor, qp), collapses, tied, stands, motion)
                 if (collapses) then
                     if (allocated(error)) deallocate (error)
                     outcome = outcome_type(status=gapbeam_no_equilibrium)
@@ -153,7 +155,12 @@ contains
                     if (error%code == gapbeam_no_memory .or. try == last) return
                     cycle
                 end if
-                if (outcome%status /= gapbeam_solved) return
+                if (outcome%status /= gapbeam_solved) then
+                    ! Springs are not the ground where next to no load more would be too much
+                    if (stands .and. try < last) cycle
+                    if (.not. stands) return
+                    exit
+                end if
                 on_edge = any(zones%acts > 0) .and. sum(zones%to - zones%from, any(zones%acts > 0, 1)) &
                     <= edge_parts*sum(ground%pieces%length)/spring_numbers(try)
             end if
@@ -188,6 +195,20 @@ contains
         call fatal_error(error, gapbeam_not_converged, "the zones in which the beam touches the ground could not be settled: "// &
                          "look for a load at the very end of the ground, or for ground that is far stiffer than the beam")
     end subroutine solve_on_ground
+
+    !> The limit load between two load factors, by limit analysis
+    subroutine limit_on_ground(ground, detail, low, high, found)
+        !> As for solve_on_ground
+        type(ground_type), intent(in) :: ground
+        type(detail_type), intent(in) :: detail
+        !> As for find_limit
+        real(wp), intent(inout) :: low, high
+        logical, intent(out) :: found
+        type(fine_ground_type) :: fine
+
+        call refine_ground(ground, detail, fine)
+        call find_limit(fine, low, high, found)
+    end subroutine limit_on_ground
 
     !> The beam and its ground in quadruple precision
     subroutine refine_ground(ground, detail, fine)
