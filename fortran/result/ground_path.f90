@@ -23,6 +23,8 @@ module gapbeam_ground_path
     integer, parameter :: parts = 64
     !> Distance of load factors at which it is enough to know that states between them cannot be settled
     real(wp), parameter :: near = 2.0_wp**(-44)
+    !> The same where laws are curves that come to a limit: next to it states take long
+    real(wp), parameter :: near_on_curves = 2.0_wp**(-20)
     !> Next to an event a state may not be settled, since a zone has next to no length there: factors on both sides of it that are
     !> as near as this are neighbours
     real(wp), parameter :: next_to = 2.0_wp**(-32)
@@ -189,7 +191,7 @@ contains
             logical :: found
             integer :: k
 
-            if (.not. any(has_curves(lowered%layers))) return
+            if (.not. levels_off(lowered)) return
             bears = low
             beyond = high
             call limit_on_ground(ground_of(lowered), detail_of(lowered), bears, beyond, found)
@@ -229,7 +231,10 @@ contains
                 end if
                 middle = low + (high - low)/2
                 if (middle <= low .or. middle >= high) exit
-                if (allocated(trouble) .and. .not. above%stands .and. high - low <= near*high) exit
+                if (.not. above%stands) then
+                    if (allocated(trouble) .and. high - low <= near*high) exit
+                    if (levels_off(lowered) .and. high - low <= near_on_curves*high) exit
+                end if
                 call hold(middle, between)
                 if (allocated(error)) return
                 if (alike(below, between)) then
@@ -255,6 +260,7 @@ contains
 
             path%beyond = last
             if (.not. allocated(trouble)) then
+                if (levels_off(lowered)) path%beyond = above
                 call hold(above, held)
                 return
             end if
@@ -368,6 +374,20 @@ contains
         if (same) same = all(held%closed .eqv. other%closed)
         if (same) same = same_zones(held%zones, other%zones)
     end function alike
+
+    !> Are there curves that come to a limit
+    pure function levels_off(lowered) result(does)
+        type(lowered_type), intent(in) :: lowered
+        logical :: does
+        integer :: k
+
+        does = .false.
+        do k = 1, size(lowered%layers)
+            associate (layer => lowered%layers(k))
+                does = does .or. (has_curves(layer) .and. has_limit(layer, lowered%law_pieces))
+            end associate
+        end do
+    end function levels_off
 
     !> Does some ground carry no more than so much
     pure function yields(lowered) result(capped)

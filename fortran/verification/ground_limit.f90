@@ -6,7 +6,7 @@
 !> zones nor springs tell, this does.
 module gapbeam_ground_limit
     use gapbeam_kinds, only: wp, qp
-    use gapbeam_nodes, only: plain
+    use gapbeam_nodes, only: hinge, restrained
     use gapbeam_ground_quad, only: ground_type
     use gapbeam_layers_quad, only: layer_type, has_limit, law_by_points
     use gapbeam_kinematics_quad, only: work_of_loads
@@ -34,7 +34,7 @@ contains
         type(ground_type), intent(in) :: ground
         real(qp), intent(in) :: factor
         !> Is there one; or is there one along which both are the same to rounding; or do the loads do less along all, so that there
-        !> is an equilibrium. Never of a beam with hinges or rotational restraints
+        !> is an equilibrium. Never of a beam with hinges
         logical, intent(out) :: found, tied, stands
         !> Downward displacements of the nodes of the beam without ground, largest 1, shape (0:n)
         real(wp), allocatable, intent(out) :: motion(:)
@@ -44,7 +44,7 @@ contains
         found = .false.
         tied = .false.
         stands = .false.
-        if (any(ground%beam%kind /= plain)) return
+        if (any(ground%beam%kind == hinge)) return
         share(0) = 0.0_qp
         do k = 1, size(ground%pieces)
             share(k) = share(k - 1) + ground%pieces(k)%length
@@ -57,6 +57,12 @@ contains
         stands = .true.
         do k = 1, size(start, 2)
             call find_allowed(ground, share, start(:, k), way(:, k), low, high)
+            if (any(ground%beam%kind == restrained)) then
+                ! Down or up as a whole: both ends by as much
+                low = max(low, sum(start(:, k)))
+                high = min(high, sum(start(:, k)))
+                if (k > 2) cycle
+            end if
             if (low > high) cycle
             y = start(:, k) + way(:, k)*most_work(ground, share, work, start(:, k), way(:, k), low, high)
             resisted = dot_product(y, resistance(ground, share, y))
