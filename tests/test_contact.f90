@@ -142,7 +142,7 @@ contains
         call find_wrong(beam, [t, t, t], 32.0_wp, work, wrong(:3))
         call check(all(wrong(:3) .eqv. [f, t, f]), "the middle support pulls")
         call check_close(complementarity(beam, [t, t, t], work), 1.0_wp, "as much as the others push")
-        call prepare_signs(beam, signs)
+        call prepare_signs(beam, work, signs)
         call find_clearly_wrong(beam, signs, [t, t, t], work, wrong(:3), number, doubtful)
         call check(all(wrong(:3) .eqv. [f, t, f]) .and. number == 1 .and. .not. doubtful, "clearly so")
         beam%force(1, :) = 0.0_wp
@@ -154,7 +154,7 @@ contains
         call check_close(complementarity(beam, [t, t, t], work), 0.0_wp, "nor wrong")
         beam%force(1, 0:2) = [1.0_wp, 1.0_wp, 1.0_wp]
         beam%supports(2)%contact = 0.5_wp
-        call prepare_signs(beam, signs)
+        call prepare_signs(beam, work, signs)
         call solve(beam, [t, f, t], work, state)
         work%answers%deflection = [0.0_wp, 0.5_wp + 1e-13_wp, 0.0_wp]
         call find_clearly_wrong(beam, signs, [t, f, t], work, wrong(:3), number, doubtful)
@@ -165,7 +165,7 @@ contains
         beam%supports(2)%node = 0
         beam%supports(2)%side = above
         call order_supports([beam%supports], beam)
-        call prepare_signs(beam, signs)
+        call prepare_signs(beam, work, signs)
         call find_clearly_wrong(beam, signs, [t, f, t], work, wrong(:3), number, doubtful)
         call check(doubtful, "nor is the share of a rigid support that is not alone")
 

@@ -7,11 +7,12 @@ module gapbeam_plain
     use gapbeam_require, only: checked, require
     use gapbeam_link, only: link_type
     use gapbeam_band, only: node_type, rhs_type, answer_type, plain, restrained
+    use gapbeam_residual, only: residual_chain, residual_inside, size_type
     use gapbeam_kernel, only: cell_type, row_type, eliminated_type, sweep_type, last_step, start_at_free_end, step_alone, &
         sweep_inward, meet, sweep_outward
     implicit none
     private
-    public :: plain_type, prepare_plain, is_plain, ends_hold, solve_plain, set_node, solve_rows
+    public :: plain_type, prepare_plain, is_plain, ends_hold, solve_plain, set_node, solve_rows, refine_rows
 
     !> A plain beam prepared for solves, and room for them
     type :: plain_type
@@ -19,6 +20,8 @@ module gapbeam_plain
         type(row_type), allocatable :: rows(:)
         type(eliminated_type), allocatable :: eliminated(:)
         real(wp), allocatable :: moment(:), deflection(:)
+        !> Room for the rows of a correction
+        real(wp), allocatable :: turn(:), shear(:)
         !> Are the rows those of the scheme that was solved last
         logical :: has_rows = .false.
     end type plain_type
@@ -67,7 +70,7 @@ contains
         n = size(links)
         if (checked) call require(is_plain(links, spread(plain, 1, n + 1)), "prepare_plain: a rigid link, or one link alone")
         allocate (beam%cells(0:last_step(n)), beam%rows(0:last_step(n)), beam%eliminated(0:last_step(n)))
-        allocate (beam%moment(0:n), beam%deflection(0:n))
+        allocate (beam%moment(0:n), beam%deflection(0:n), beam%turn(0:n), beam%shear(0:n))
         ! Lane 1 may have nothing to do at step 0, and multiplies what it finds there all the same
         beam%rows(0) = row_type([0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp])
         beam%eliminated(0) = eliminated_type([0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp], &
@@ -93,6 +96,7 @@ contains
         integer :: n, s, odd
 
         n = ubound(nodes, 1)
+        if (checked) call require(.not. any(abs(rhs%couple) > 0.0_wp), "solve_plain: couples")
         odd = modulo(n, 2)
         do s = 0, last_step(n)
             call set_row(nodes(max(s - odd, 0)), rhs(max(s - odd, 0)), 1, beam%rows(s))
@@ -131,7 +135,6 @@ contains
             call require(size(beam%moment) == n + 1, "solve_rows: prepared for another beam")
             call require(size(rhs) == n + 1 .and. size(answers) == n + 1, "solve_rows: shapes")
             call require(ends_hold(nodes) .and. all(nodes(1:n - 1)%kind == plain), "solve_rows: nodes")
-            call require(.not. any(abs(rhs%couple) > 0.0_wp), "solve_rows: couples")
         end if
         odd = modulo(n, 2)
         call start_lane(2, nodes(n), beam%cells(0), beam%rows(0), sweep, beam%eliminated(0))
@@ -148,6 +151,46 @@ contains
         answers(0)%moment_left = 0.0_wp
         answers(n)%moment_right = 0.0_wp
     end subroutine solve_rows
+
+    !> The correction of the solution of solve_rows, from residuals in twice the working precision
+    pure subroutine refine_rows(beam, nodes, links, rhs, answers, residual, correction)
+        !> Solved by solve_rows; its rows become those of the correction
+        type(plain_type), intent(inout) :: beam
+        !> As for solve_plain
+        type(node_type), intent(in) :: nodes(0:)
+        type(link_type), intent(in) :: links(:)
+        type(rhs_type), intent(in) :: rhs(0:)
+        type(answer_type), intent(in) :: answers(0:)
+        !> Room, shape (0:n)
+        type(rhs_type), intent(inout) :: residual(0:)
+        !> The correction, shape (0:n)
+        type(answer_type), intent(inout) :: correction(0:)
+        type(size_type), allocatable :: sizes(:)
+        real(wp) :: compatibility, equilibrium
+        integer :: n, i, odd
+
+        n = ubound(nodes, 1)
+        odd = modulo(n, 2)
+        allocate (sizes(0:n))
+        do i = 0, n, n
+            call residual_chain(nodes, links, rhs, answers, residual, sizes, compatibility, equilibrium, [i, i])
+            call set_node(beam, i, nodes(i), residual(i))
+        end do
+        call residual_inside(nodes, links, rhs, beam%moment, beam%deflection, beam%turn, beam%shear)
+        do i = 1, n/2 - 1
+            beam%rows(i + odd)%turn(1) = beam%turn(i)
+            beam%rows(i + odd)%shear(1) = beam%shear(i)
+        end do
+        do i = n/2 + 1, n - 1
+            beam%rows(n - i)%turn(2) = beam%turn(i)
+            beam%rows(n - i)%shear(2) = beam%shear(i)
+        end do
+        associate (middle => residual(n/2))
+            middle = rhs_type(right=beam%turn(n/2), shear=beam%shear(n/2), deflection=beam%shear(n/2))
+        end associate
+        call solve_rows(beam, nodes, residual, correction)
+        beam%has_rows = .false.
+    end subroutine refine_rows
 
     !> The first node of a lane: without a moment, or with its restraint as what lies outside
     pure subroutine start_lane(lane, node, cell, row, sweep, eliminated)

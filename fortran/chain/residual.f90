@@ -10,7 +10,10 @@ module gapbeam_residual
     use gapbeam_band, only: node_type, rhs_type, answer_type, plain, restrained
     implicit none
     private
-    public :: residual_chain, size_type
+    public :: residual_chain, residual_inside, size_type
+
+    !> So many nodes at a time, in arrays that stay in the first-level cache
+    integer, parameter :: block = 64
 
     !> high + low, high the nearest double
     type :: double_double
@@ -115,6 +118,79 @@ contains
         compatibility = compatibility/largest_turn
         equilibrium = equilibrium/largest_shear
     end subroutine residual_chain
+
+    !> The same numbers at the inner nodes of a plain beam without couples, some nodes at a time side by side in wide registers
+    pure subroutine residual_inside(nodes, links, rhs, moment, deflection, turn, shear)
+        !> As for residual_chain
+        type(node_type), intent(in) :: nodes(0:)
+        type(link_type), intent(in) :: links(:)
+        type(rhs_type), intent(in) :: rhs(0:)
+        !> A solution, shape (0:n): moments just inside the ends, deflections
+        real(wp), intent(in), contiguous :: moment(0:), deflection(0:)
+        !> Residuals of compatibility and of equilibrium, or of the known deflection, shape (0:n); those at the ends are not set
+        real(wp), intent(inout), contiguous :: turn(0:), shear(0:)
+        real(wp), dimension(block + 1) :: length, faa, fab, fbb
+        real(wp), dimension(block) :: left, right, force, known, stiffness, held
+        integer :: from, to, i, m
+
+        if (checked) call require(all(nodes(1:size(links) - 1)%kind == plain), "residual_inside: nodes")
+        do from = 1, size(links) - 1, block
+            to = min(from + block - 1, size(links) - 1)
+            m = to - from + 1
+            do i = from, to + 1
+                length(i - from + 1) = links(i)%length
+                faa(i - from + 1) = links(i)%faa
+                fab(i - from + 1) = links(i)%fab
+                fbb(i - from + 1) = links(i)%fbb
+            end do
+            do i = from, to
+                left(i - from + 1) = rhs(i)%left
+                right(i - from + 1) = rhs(i)%right
+                force(i - from + 1) = rhs(i)%shear
+                known(i - from + 1) = rhs(i)%deflection
+                stiffness(i - from + 1) = nodes(i)%stiffness
+                held(i - from + 1) = merge(1.0_wp, 0.0_wp, nodes(i)%held)
+            end do
+            call residual_of_block(m, length, faa, fab, fbb, left, right, force, known, stiffness, held, &
+                                   moment(from - 1:to + 1), deflection(from - 1:to + 1), turn(from:to), shear(from:to))
+        end do
+    end subroutine residual_inside
+
+    !> Residuals of m nodes, with the links to both sides
+    pure subroutine residual_of_block(m, length, faa, fab, fbb, left, right, force, known, stiffness, held, moment, deflection, &
+                                      turn, shear)
+        integer, intent(in) :: m
+        real(wp), intent(in) :: length(m + 1), faa(m + 1), fab(m + 1), fbb(m + 1), left(m), right(m), force(m), known(m), &
+            stiffness(m), held(m), moment(0:m + 1), deflection(0:m + 1)
+        real(wp), intent(out) :: turn(m), shear(m)
+        real(wp), dimension(block + 1) :: a_high, a_low, b_high, b_low, v_high, v_low
+        type(double_double) :: slope, a, b, v
+        real(wp) :: by_force, by_deflection
+        integer :: i
+
+        do i = 1, m + 1
+            slope = divided(plus(double_double(deflection(i), 0.0_wp), -deflection(i - 1)), length(i))
+            a = plus_product(plus_product(slope, faa(i), moment(i - 1)), fab(i), moment(i))
+            b = plus_product(plus_product(slope, -fab(i), moment(i - 1)), -fbb(i), moment(i))
+            v = divided(plus(double_double(moment(i), 0.0_wp), -moment(i - 1)), length(i))
+            a_high(i) = a%high
+            a_low(i) = a%low
+            b_high(i) = b%high
+            b_low(i) = b%low
+            v_high(i) = v%high
+            v_low(i) = v%low
+        end do
+        do i = 1, m
+            a = double_double(a_high(i + 1), a_low(i + 1))
+            b = double_double(b_high(i), b_low(i))
+            turn(i) = value_of(plus(plus(minus(a, b), left(i)), right(i)))
+            a = double_double(v_high(i + 1), v_low(i + 1))
+            b = double_double(v_high(i), v_low(i))
+            by_force = value_of(plus_product(plus(minus(a, b), force(i)), -stiffness(i), deflection(i)))
+            by_deflection = known(i) - deflection(i)
+            shear(i) = by_force*(1 - held(i)) + by_deflection*held(i)
+        end do
+    end subroutine residual_of_block
 
     !> Rotations and shear at the two ends of a link
     pure subroutine ends_of_link(link, nodes, a, b, end_a, end_b)

@@ -75,8 +75,9 @@ contains
         !> Rigid stretch over too many rigid supports; not settled; not finite
         type(error_type), allocatable, intent(out) :: error
         type(motion_type), allocatable :: motions(:)
-        logical, allocatable :: start(:)
+        logical, allocatable :: start(:), wrong(:)
         logical :: settled, refined
+        integer :: attempt
 
         if (checked) call require(size(closed) == size(beam%supports), "find_scheme: closed")
         closed = closed .or. always_closed(beam%supports)
@@ -88,23 +89,37 @@ contains
         allocate (start(size(closed)))
         start = closed
         refined = .false.
-        call settle(beam, rule, size(motions) > 0, closed, work, settled, error)
-        if (allocated(error)) return
-        if (.not. settled) then
-            closed = start
-            call iterate_floating(beam, factor, rule, closed, work, outcome, refined, error)
-            if (allocated(error)) call look_for_motion(beam, factor, rule, start, outcome, error)
-        end if
-        if (allocated(error) .or. outcome%status /= gapbeam_solved) return
-        if (checked) call require(all(closed .or. .not. always_closed(beam%supports)), "find_scheme: opened what holds both ways")
-        ! Once, so that the last digits are those of the scheme, whatever way led to it
-        if (.not. refined) call refine_scheme(beam, closed, work)
-        if (.not. all(abs(work%answers%deflection) <= huge(1.0_wp)) .or. &
-            .not. all(abs(work%answers%moment_left) <= huge(1.0_wp))) then
+        allocate (wrong(size(closed)))
+        do attempt = 1, 2
+            call settle(beam, rule, size(motions) > 0, closed, work, settled, error, carefully=attempt == 2)
+            if (allocated(error)) return
+            if (.not. settled) then
+                closed = start
+                call iterate_floating(beam, factor, rule, closed, work, outcome, refined, error)
+                if (allocated(error)) call look_for_motion(beam, factor, rule, start, outcome, error)
+            end if
+            if (allocated(error) .or. outcome%status /= gapbeam_solved) return
+            if (checked) call require(all(closed .or. .not. always_closed(beam%supports)), "find_scheme: opened a bilateral one")
+            ! Once, so that the last digits are those of the scheme, whatever way led to it
+            if (.not. refined) call refine_scheme(beam, closed, work)
+            if (.not. (settled .and. is_finite(work))) exit
+            call find_wrong(beam, closed, first_width, work, wrong)
+            if (.not. any(wrong)) exit
+            ! That has turned a sign
+        end do
+        if (.not. is_finite(work)) then
             call fatal_error(error, gapbeam_not_finite, "numbers left the range of double precision: choose units " &
                 //"in which lengths, stiffnesses and loads are nearer to 1")
         end if
     end subroutine find_scheme
+
+    !> Is the solution in the range of numbers
+    pure function is_finite(work) result(it_is)
+        type(workspace_type), intent(in) :: work
+        logical :: it_is
+
+        it_is = all(abs(work%answers%deflection) <= huge(1.0_wp)) .and. all(abs(work%answers%moment_left) <= huge(1.0_wp))
+    end function is_finite
 
     !> A beam whose reactions statics cannot tell apart may still have no equilibrium. That does not depend on how stiff
     !> its supports are, so it is decided with soft ones

@@ -65,6 +65,10 @@ module gapbeam_search
         integer :: wrong_now = 0, fewest = 0
         !> Has any support a law; do laws go on by one piece at a time
         logical :: with_laws = .false., by_pieces = .false.
+        !> Is everything refined where few are wrong
+        logical :: carefully = .false.
+        !> Is this a part of the beam, so that what is found is looked at again in the whole
+        logical :: in_part = .false.
         !> Rounding errors beyond which a sign counts
         real(wp) :: width = first_width
         !> The scheme solved last, if its solution can be kept up to date; that which nodes in work are those of, if they are of any
@@ -89,7 +93,7 @@ module gapbeam_search
 contains
 
     !> Change supports until none is wrong
-    recursive subroutine settle(beam, rule, may_float, closed, work, settled, error, rounds)
+    recursive subroutine settle(beam, rule, may_float, closed, work, settled, error, rounds, carefully)
         !> The beam
         type(beam_type), intent(in) :: beam
         !> rule_block or rule_single
@@ -106,12 +110,18 @@ contains
         type(error_type), allocatable, intent(out) :: error
         !> Rounds of parts, if this is a part itself
         integer, intent(in), optional :: rounds
+        !> Refine wherever few are wrong, however clearly (default: not what is solved from both ends, where little cancels)
+        logical, intent(in), optional :: carefully
         type(search_type) :: search
 
         allocate (search%wrong(size(closed)))
         search%rounds = part_rounds
         if (present(rounds)) search%rounds = rounds
+        search%in_part = present(rounds)
         search%next_rounds = search%rounds/2
+        ! Weak springs let the beam go far: little of its deflection is bending
+        search%carefully = any(work%ease > 0.0_wp)
+        if (present(carefully)) search%carefully = search%carefully .or. carefully
         ! Parts and interior points know of ordinary supports only
         search%with_laws = has_laws(beam%supports)
         if (.not. (search%with_laws .or. allocated(beam%ground))) search%margin = least_margin(beam)
@@ -164,9 +174,10 @@ contains
         search%applied(:) = closed
         if (search%state /= band_ok) return
         if (.not. (reactions .or. allocated(beam%ground))) then
-            if (.not. allocated(search%signs%support)) call prepare_signs(beam, search%signs)
+            if (.not. allocated(search%signs%w)) call prepare_signs(beam, work, search%signs)
             call find_clearly_wrong(beam, search%signs, closed, work, search%wrong, search%wrong_now, doubtful)
-            if (.not. doubtful .and. (search%wrong_now > few .or. work%from_both_ends .or. size(beam%links) < long_beam)) then
+            if (.not. doubtful .and. (search%wrong_now > few .or. (work%from_both_ends .or. search%in_part) &
+                                     .and. .not. search%carefully)) then
                 settled = search%wrong_now == 0
                 return
             end if
@@ -316,6 +327,7 @@ contains
                 idle = 0
             else
                 idle = idle + 1
+                search%carefully = .true.
                 if (idle > merge(law_patience, idle_solves, search%with_laws)) return
                 ! Over several pieces at once laws may go to and fro (Newton without line search)
                 search%by_pieces = search%with_laws

@@ -15,53 +15,88 @@ module gapbeam_signs
     !> Far above all rounding errors
     real(wp), parameter :: near_zero = 2.0_wp**19*epsilon(1.0_wp)
 
-    !> The supports of a beam that may change, from left to right
-    type :: sign_type
+    !> Supports from left to right
+    type :: group_type
         !> Their numbers and nodes
         integer, allocatable :: support(:), node(:)
         !> 1 or -1, contact levels, and what of these counts as zero
         real(wp), allocatable :: side(:), contact(:), zero(:)
-        !> Are they rigid; are there others at the node
-        logical, allocatable :: rigid(:), in_company(:)
-        !> Has any support a law: which of its pieces acts is for gapbeam_law
-        logical :: with_laws = .false.
+    end type group_type
+
+    !> The supports of a beam that may change
+    type :: sign_type
+        !> Rigid ones and others
+        type(group_type) :: rigid, elastic
+        !> Has any support a law, or are there several at a node of which one is rigid: which piece acts, and whose a force is, is
+        !> for gapbeam_law
+        logical :: unclear = .false.
+        !> Bounds of the sizes of shears and deflections that loads, imposed rotations and contact levels make
+        real(wp) :: shear = 0.0_wp, deflection = 0.0_wp
+        !> Moments and deflections of a solution, shape (0:n)
+        real(wp), allocatable :: moment(:), w(:)
     end type sign_type
 
 contains
 
-    !> Take what signs need from the supports of a beam
-    pure subroutine prepare_signs(beam, signs)
+    !> Take what signs need from a beam and its loads
+    pure subroutine prepare_signs(beam, work, signs)
         !> The beam
         type(beam_type), intent(in) :: beam
+        !> Its loads, by set_loads
+        type(workspace_type), intent(in) :: work
         !> Its supports that may change
         type(sign_type), intent(out) :: signs
-        integer :: j, m, number
+        real(wp) :: farthest, moment
+        integer :: i
 
-        number = count(may_change(beam%supports))
-        allocate (signs%support(number), signs%node(number), signs%side(number), signs%contact(number), signs%zero(number), &
-                  signs%rigid(number), signs%in_company(number))
-        signs%with_laws = has_laws(beam%supports)
-        m = 0
-        do j = 1, size(beam%order)
-            associate (s => beam%supports(beam%order(j)))
-                if (.not. may_change(s)) cycle
-                m = m + 1
-                signs%support(m) = beam%order(j)
-                signs%node(m) = s%node
-                signs%side(m) = s%side
-                signs%contact(m) = s%contact
-                signs%zero(m) = near_zero*abs(s%contact)
-                signs%rigid(m) = is_rigid(s)
-                signs%in_company(m) = beam%first(s%node + 1) - beam%first(s%node) > 1
-            end associate
+        call take_group(beam, .true., signs%rigid)
+        call take_group(beam, .false., signs%elastic)
+        associate (nodes => signs%rigid%node)
+            signs%unclear = has_laws(beam%supports) .or. any(beam%first(nodes + 1) - beam%first(nodes) > 1)
+        end associate
+        farthest = 0.0_wp
+        if (size(beam%supports) > 0) farthest = maxval(abs(beam%supports%contact))
+        signs%shear = maxval(work%load_size)
+        do i = 1, size(beam%links)
+            moment = (work%turn_size(i) + 2*farthest*work%inverse(i))*work%fixity(i)
+            signs%shear = max(signs%shear, 2*moment*work%inverse(i))
+            signs%deflection = max(signs%deflection, work%reach(i)*moment)
         end do
+        allocate (signs%moment(0:size(beam%links)), signs%w(0:size(beam%links)))
     end subroutine prepare_signs
+
+    !> Take the rigid supports that may change, or the others
+    pure subroutine take_group(beam, rigid, group)
+        type(beam_type), intent(in) :: beam
+        logical, intent(in) :: rigid
+        type(group_type), intent(out) :: group
+        integer :: j, m, pass
+
+        do pass = 1, 2
+            m = 0
+            do j = 1, size(beam%order)
+                associate (s => beam%supports(beam%order(j)))
+                    if (is_rigid(s) .neqv. rigid) cycle
+                    if (.not. may_change(s)) cycle
+                    m = m + 1
+                    if (pass == 1) cycle
+                    group%support(m) = beam%order(j)
+                    group%node(m) = s%node
+                    group%side(m) = s%side
+                    group%contact(m) = s%contact
+                    group%zero(m) = near_zero*abs(s%contact)
+                end associate
+            end do
+            if (pass == 1) allocate (group%support(m), group%node(m), group%side(m), group%contact(m), group%zero(m))
+        end do
+    end subroutine take_group
 
     !> The wrong ones, as long as nothing is near zero
     pure subroutine find_clearly_wrong(beam, signs, closed, work, wrong, number, doubtful)
-        !> The beam, not on the ground, and its supports that may change
+        !> The beam, not on the ground
         type(beam_type), intent(in) :: beam
-        type(sign_type), intent(in) :: signs
+        !> Its supports that may change
+        type(sign_type), intent(inout) :: signs
         !> The scheme, solved by solve_deflections of gapbeam_system
         logical, intent(in) :: closed(:)
         type(workspace_type), intent(in) :: work
@@ -70,40 +105,43 @@ contains
         integer, intent(out) :: number
         !> Something is so near zero that only find_wrong of gapbeam_rules can tell, or no number
         logical, intent(out) :: doubtful
-        real(wp) :: force, margin, zero, least_force, least_deflection
-        integer :: j, n, k
+        real(wp) :: shear, deflection, force, margin
+        integer :: j, k, n
 
         if (checked) then
             call require(.not. allocated(beam%ground) .and. size(closed) == size(beam%supports), "find_clearly_wrong: beam")
         end if
+        n = size(beam%links)
         wrong(:) = .false.
         number = 0
-        doubtful = signs%with_laws
+        doubtful = signs%unclear
         if (doubtful) return
+        signs%moment(:) = max(abs(work%answers%moment_left), abs(work%answers%moment_right))
+        signs%w(:) = work%answers%deflection
         ! No rounding error that find_wrong allows for can be larger than these times some epsilon
-        call find_largest_sizes(beam, work, least_force, least_deflection)
-        least_force = near_zero*least_force
-        least_deflection = near_zero*least_deflection
-        n = size(beam%links)
-        associate (a => work%answers)
-            do j = 1, size(signs%support)
-                k = signs%support(j)
-                associate (i => signs%node(j))
-                    if (signs%rigid(j) .and. closed(k)) then
-                        ! Forces of several supports at one node are for share_forces
-                        doubtful = signs%in_company(j)
-                        if (doubtful) return
+        shear = signs%shear
+        deflection = signs%deflection
+        call raise_sizes(n, signs%moment, signs%w, work%inverse, work%reach, shear, deflection)
+        associate (s => signs%elastic)
+            call judge(size(s%support), s%support, s%node, s%side, s%contact, s%zero, near_zero*deflection, n, signs%w, &
+                       size(closed), closed, wrong, number, doubtful)
+        end associate
+        if (doubtful) return
+        associate (a => work%answers, s => signs%rigid)
+            do j = 1, size(s%support)
+                k = s%support(j)
+                associate (i => s%node(j))
+                    if (closed(k)) then
                         force = work%loads(i)%shear + work%ease(i)*(work%reference(i) - a(i)%deflection)
                         if (i > 0) force = force - (a(i)%moment_left - a(i - 1)%moment_right)*work%inverse(i)
                         if (i < n) force = force + (a(i + 1)%moment_left - a(i)%moment_right)*work%inverse(i + 1)
-                        margin = signs%side(j)*force
-                        zero = least_force
+                        margin = s%side(j)*force
+                        doubtful = .not. abs(margin) > near_zero*shear
                     else
-                        margin = signs%side(j)*(a(i)%deflection - signs%contact(j))
-                        zero = least_deflection + signs%zero(j)
+                        margin = s%side(j)*(a(i)%deflection - s%contact(j))
+                        doubtful = .not. abs(margin) > near_zero*deflection + s%zero(j)
                     end if
                 end associate
-                doubtful = .not. abs(margin) > zero
                 if (doubtful) return
                 wrong(k) = closed(k) .neqv. margin > 0.0_wp
                 if (wrong(k)) number = number + 1
@@ -111,27 +149,42 @@ contains
         end associate
     end subroutine find_clearly_wrong
 
-    !> The largest of the sizes that find_own_sizes of gapbeam_reactions finds
-    pure subroutine find_largest_sizes(beam, work, shear, deflection)
-        type(beam_type), intent(in) :: beam
-        type(workspace_type), intent(in) :: work
-        real(wp), intent(out) :: shear, deflection
-        real(wp) :: turn, moment, at_node
+    !> Raise two sizes to the largest that find_own_sizes of gapbeam_reactions finds beside nodes
+    pure subroutine raise_sizes(n, moment, w, inverse, reach, shear, deflection)
+        integer, intent(in) :: n
+        real(wp), intent(in) :: moment(0:n), w(0:n), inverse(n), reach(n)
+        real(wp), intent(inout) :: shear, deflection
+        real(wp) :: larger, at_node
         integer :: i
 
-        associate (a => work%answers)
-            shear = maxval(work%load_size)
-            deflection = abs(a(0)%deflection)
-            at_node = 0.0_wp
-            do i = 1, size(beam%links)
-                turn = work%turn_size(i) + (work%level(i) + work%level(i - 1))*work%inverse(i)
-                moment = max(abs(a(i - 1)%moment_right), abs(a(i)%moment_left), turn*work%fixity(i))
-                shear = max(shear, 2*moment*work%inverse(i))
-                deflection = max(deflection, work%reach(i)*moment)
-                at_node = max(at_node, abs(a(i)%deflection))
-            end do
-            deflection = max(deflection, at_node)
-        end associate
-    end subroutine find_largest_sizes
+        at_node = abs(w(0))
+        do i = 1, n
+            larger = max(moment(i - 1), moment(i))
+            shear = max(shear, 2*larger*inverse(i))
+            deflection = max(deflection, reach(i)*larger)
+            at_node = max(at_node, abs(w(i)))
+        end do
+        deflection = max(deflection, at_node)
+    end subroutine raise_sizes
+
+    !> Which of the supports of springs, closed or open, are wrong
+    pure subroutine judge(m, support, node, side, contact, zero, least, n, w, total, closed, wrong, number, doubtful)
+        integer, intent(in) :: m, support(m), node(m), n, total
+        real(wp), intent(in) :: side(m), contact(m), zero(m), least, w(0:n)
+        logical, intent(in) :: closed(total)
+        logical, intent(inout) :: wrong(total)
+        integer, intent(inout) :: number
+        logical, intent(out) :: doubtful
+        real(wp) :: margin
+        integer :: j
+
+        doubtful = .false.
+        do j = 1, m
+            margin = side(j)*(w(node(j)) - contact(j))
+            doubtful = doubtful .or. .not. abs(margin) > least + zero(j)
+            wrong(support(j)) = closed(support(j)) .neqv. margin > 0.0_wp
+            number = number + merge(1, 0, wrong(support(j)))
+        end do
+    end subroutine judge
 
 end module gapbeam_signs

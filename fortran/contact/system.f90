@@ -7,7 +7,7 @@ module gapbeam_system
     use gapbeam_residual, only: residual_chain
     use gapbeam_three_moment, only: fits_three_moment, solve_three_moment
     use gapbeam_pivoting, only: solve_pivoting
-    use gapbeam_plain, only: ends_hold, solve_plain, set_node, solve_rows
+    use gapbeam_plain, only: ends_hold, solve_plain, set_node, solve_rows, refine_rows
     use gapbeam_model, only: beam_type
     use gapbeam_kinematics, only: free_motions, motion_type
     use gapbeam_workspace, only: workspace_type, apply_scheme, method_mixed, method_three_moment, method_pivoting
@@ -197,16 +197,19 @@ contains
             if (.not. work%complete) call complete_scheme(beam, acting, work)
             return
         end if
-        call residual_chain(work%nodes, beam%links, work%rhs, work%answers, work%eliminated, &
-                            work%sizes, work%compatibility, work%equilibrium)
-        if (fits_three_moment(work%nodes)) then
-            work%method = method_three_moment
-            call solve_three_moment(work%nodes, beam%links, work%eliminated, work%moment_work, work%correction, regular)
-        else if (fits_both_ends(work)) then
-            work%plain%has_rows = .false.
-            call solve_plain(work%plain, work%nodes, work%eliminated, work%correction)
+        if (work%plain%has_rows) then
+            call refine_rows(work%plain, work%nodes, beam%links, work%rhs, work%answers, work%eliminated, work%correction)
         else
-            call solve_chain(work%nodes, beam%links, work%pivots, work%eliminated, work%correction)
+            call residual_chain(work%nodes, beam%links, work%rhs, work%answers, work%eliminated, &
+                                work%sizes, work%compatibility, work%equilibrium)
+            if (fits_three_moment(work%nodes)) then
+                work%method = method_three_moment
+                call solve_three_moment(work%nodes, beam%links, work%eliminated, work%moment_work, work%correction, regular)
+            else if (fits_both_ends(work)) then
+                call solve_plain(work%plain, work%nodes, work%eliminated, work%correction)
+            else
+                call solve_chain(work%nodes, beam%links, work%pivots, work%eliminated, work%correction)
+            end if
         end if
         work%answers%deflection = work%answers%deflection + work%correction%deflection
         work%answers%moment_left = work%answers%moment_left + work%correction%moment_left
