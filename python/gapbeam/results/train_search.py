@@ -16,6 +16,7 @@ import numpy as np
 
 from ..base.errors import EngineError, SceneError, Status
 from ..engine.beam import SOLVED, Beam
+from ..scene.ground_laws import CubicGround
 from ..scene.structs import ForceLoad, Scene
 from ..scene.trains import LEFT, Course
 from .kinks import EVENTS, what_happens
@@ -180,12 +181,20 @@ class SearchedWay:
 
     def _grid(self, borders: np.ndarray) -> np.ndarray:
         """Parts between the borders."""
-        parts = np.ceil(np.diff(borders) / grid_step(self._scene, self.loads.beam)).astype(int)
+        parts = np.ceil(np.diff(borders) / grid_step(self._scene, self.loads.beam, self._largest_deflection())).astype(int)
         parts = np.maximum(parts, LEAST)
         if (count := int(parts.sum())) > MOST_STATES:
             problem = f"the train {self._name} would take states at {count:,} positions, which is too many"
             raise SceneError("trains", f"{problem}; give from and to, or a train with fewer axles")
         return parts
+
+    def _largest_deflection(self) -> float:
+        """How far the beam goes down or up about, on ground that gets stiffer by that; 0 without."""
+        if not (self.loads.beam.columns.foundation[6, :-1] == CubicGround.code).any():
+            return 0.0
+        course = self.course
+        states = [self.loads.state(course.from_ + share * (course.to - course.from_)) for share in (0.25, 0.5, 0.75)]
+        return max((float(np.abs(one.extremes[0][:, 0]).max()) for one in states if one.status == SOLVED), default=0.0)
 
     def _walk(self) -> list[list[Placed]]:
         """All states in ascending order, cell by cell; in a cell the same axles are on the beam."""
@@ -338,7 +347,7 @@ def places_of_kinks(scene: Scene) -> np.ndarray:
     return np.unique(found)
 
 
-def grid_step(scene: Scene, beam: Beam) -> float:
+def grid_step(scene: Scene, beam: Beam, deflection: float) -> float:
     """Give the distance of positions at which states are solved.
 
     Parameters
@@ -347,6 +356,8 @@ def grid_step(scene: Scene, beam: Beam) -> float:
         The scene.
     beam : Beam
         Made of it.
+    deflection : float
+        How far it goes down about, for ground that gets stiffer by that.
 
     Returns
     -------
@@ -357,6 +368,8 @@ def grid_step(scene: Scene, beam: Beam) -> float:
     spans = max(len(np.unique(scene.positions(scene.supports))) - 1, 1)
     ground = beam.columns.foundation[:, :-1]
     modulus = max(ground[2:4].max(initial=0.0), ground[[7, 10]].max(initial=0.0))
+    k1, _, k3 = ground[7:13, ground[6] == CubicGround.code].reshape(2, 3, -1).max(axis=0)
+    modulus = max(modulus, (k1 + 3.0 * k3 * deflection**2).max(initial=0.0))
     which, (way, force) = beam.columns.ground_law_foundations[:-1], beam.columns.ground_law[:, :-1]
     first = np.append(True, np.diff(which) != 0)[: len(which)]
     ways, forces = (np.where(first, values, np.diff(values, prepend=0.0)) for values in (way, force))
