@@ -203,6 +203,7 @@ def test_events():
 def test_outputs(tmp_path):
     result = gapbeam.solve(rail(trains=[{**rail()["trains"][0], "from": 3.0, "to": 5.0}]))
     data = json.loads(to_json(result))
+    assert result.to_dict() == data
     (train,) = data["trains"]
     event = next(event for event in train["events"] if "foundation" in event)
     assert (event["foundation"], event["name"]) == (0, "ballast")

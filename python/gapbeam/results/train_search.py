@@ -111,6 +111,8 @@ class SearchedWay:
         In the order in which they happen.
     gaps : list of Gap
         Positions that are not solved.
+    solves : int
+        Linear solves of these, without those for extremes.
     """
 
     def __init__(self, result: Result, course: Course, near: float, name: str):
@@ -119,13 +121,8 @@ class SearchedWay:
         self.jumps = places_of_jumps(result.scene)
         self._scene, self._name = result.scene, name
         self._neighbours = NEIGHBOURS * result.beam.places.end
-        way = self._walk()
-        self._read(way)
-
-    @property
-    def solves(self) -> int:
-        """Linear solves."""
-        return self.loads.solves
+        self._read(self._walk())
+        self.solves = self.loads.solves
 
     def member(self, train: TrainResult, combination: str | None) -> Searched:
         """Give what an envelope is made of.
