@@ -321,3 +321,15 @@ def test_zones_are_born_where_the_reference_says(seed):
     for change, born in ((-1e-12, False), (1e-12, True)):
         found = reference(made, factor=event.factor * (1.0 + change), digits=30).contact[event.foundation]
         assert any(zone.end - zone.start < 1e-10 and abs(zone.start - event.x) < 1e-9 for zone in found) == born
+
+
+@pytest.mark.parametrize("seed", range(1, 5))
+def test_many_axles_on_a_rail_take_few_rounds(seed):
+    """Ends that went farther than asked joined zones which parted again, round after round."""
+    loads = [{"type": "force", "x": x, "F": 120.0} for x in np.random.default_rng(seed).uniform(0.0, 300.0, 30).tolist()]
+    ground = [{"k": 4e4, "side": "below"}]
+    result = gapbeam.solve(
+        {"beam": {"spans": [300.0], "EI": 6.4e3}, "foundation": ground, "loads": [{"type": "uniform", "q": 0.6}, *loads]}
+    )
+    assert result.steps[-1].solves < 20
+    assert sum(zone.resultant for zone in result.steps[-1].contact) == pytest.approx(30 * 120.0 + 180.0, rel=1e-14)

@@ -25,6 +25,8 @@ module gapbeam_zones
     !> An end that moves by more is far from the solution. Then it goes farther, as if it had moved by this share of the move before
     !> at most, and by this share of the stretch ahead at most
     real(wp), parameter :: far = 0.01_wp, largest_ratio = 0.92_wp, largest_share = 0.4_wp
+    !> Ends that have come back differ by less than this share of the stretches beside them
+    real(wp), parameter :: alike = 1e-5_wp
     !> What moves by less than this share of the beam does not move: so short zones have no force, and behind a part of the beam
     !> that next to no ground holds no end is known better
     real(wp), parameter :: unseen = sqrt(epsilon(1.0_wp))
@@ -32,7 +34,8 @@ module gapbeam_zones
 contains
 
     !> Change the zones until their ends stay where they are
-    subroutine settle_zones(ground, factor, rule, tolerance, zones, closed, grounded, work, outcome, settled, moved, error)
+    subroutine settle_zones(ground, factor, rule, tolerance, zones, closed, grounded, work, outcome, settled, moved, cycles, &
+                            error)
         !> The beam and its ground
         type(ground_type), intent(in) :: ground
         !> Load factor, and rule for the supports (gapbeam_search)
@@ -52,13 +55,18 @@ contains
         logical, intent(out) :: settled
         !> By which share of the stretches beside it an end moved last
         real(wp), intent(out) :: moved
+        !> Do the same zones come back again and again
+        logical, intent(out) :: cycles
         !> As for find_scheme
         type(error_type), allocatable, intent(out) :: error
-        type(zones_type) :: found, asked, last, last_asked
+        type(zones_type) :: found, asked, last, last_asked, mark
         real(wp) :: before
         integer :: round, solves
+        logical :: hurries
 
         settled = .false.
+        cycles = .false.
+        hurries = .true.
         moved = huge(moved)
         solves = 0
         do round = 1, most_rounds
@@ -69,12 +77,20 @@ contains
             before = moved
             moved = max(way_of_ends(zones, found), way_of_fields(ground, grounded, zones, found))
             asked = found
-            if (moved > far .and. round > 1) call go_farther(last, last_asked, zones, found)
+            ! Zones that are parted again were joined by going too far
+            if (round > 2) hurries = hurries .and. size(found%piece) <= size(zones%piece)
+            if (moved > far .and. round > 1 .and. hurries) call go_farther(last, last_asked, zones, found)
             last = zones
             last_asked = asked
             zones = found
             settled = moved <= tolerance .or. (moved <= noise .and. moved >= before/2)
             if (settled) return
+            ! Compared with those of the last round that is a power of two (Brent 1980)
+            if (round > 2 .and. moved > far) then
+                cycles = max(way_of_ends(mark, asked), way_of_fields(ground, grounded, mark, asked)) <= alike
+                if (cycles) return
+            end if
+            if (iand(round, round - 1) == 0) mark = asked
         end do
     end subroutine settle_zones
 
