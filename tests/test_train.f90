@@ -8,13 +8,15 @@ program test_train
     use gapbeam_lowered, only: lowered_type, copy_model
     use gapbeam_lower, only: lower_model
     use gapbeam_train, only: train_type, uniform_type, track_type, new_track
-    use gapbeam_train_path, only: passage_type, pass_train
+    use gapbeam_train_passage, only: passage_type
+    use gapbeam_train_path, only: pass_train
     use gapbeam_train_events, only: train_event_type, find_events
     use gapbeam_train_envelope, only: envelope_type, find_envelope
     use gapbeam_element, only: field_type
     use gapbeam_train_samples, only: samples_type, new_samples, sample_stretch
     use gapbeam_train_view, only: view_type, look_type, new_view, show_stretch, look_at_link
-    use gapbeam_train_curves, only: find_curves, find_influence
+    use gapbeam_train_curves, only: find_curves
+    use gapbeam_train_influence, only: find_influence
     use gapbeam_pieces, only: gapbeam_opens, gapbeam_closes
     implicit none
     integer :: status

@@ -20,9 +20,11 @@ module gapbeam_api_trains
     use gapbeam_lowered, only: lowered_type, point_x
     use gapbeam_query, only: find_pieces
     use gapbeam_train, only: train_type, uniform_type, track_type, new_track
-    use gapbeam_train_path, only: passage_type, pass_train, gapbeam_moves_freely => not_unique
+    use gapbeam_train_passage, only: passage_type, gapbeam_moves_freely => not_unique
+    use gapbeam_train_path, only: pass_train
     use gapbeam_train_events, only: train_event_type, find_events
-    use gapbeam_train_envelope, only: envelope_type, extreme_type, find_envelope
+    use gapbeam_train_ties, only: extreme_type
+    use gapbeam_train_envelope, only: envelope_type, find_envelope
     use gapbeam_train_curves, only: find_curves
     use gapbeam_api, only: prepared_type, require_beam, require_no_path, require_size
     implicit none

@@ -167,7 +167,7 @@ subroutine gbtinf(beam, train, ns, nm, nx, closed, chosen, piece, dist, x, value
     use gapbeam_error, only: error_type
     use gapbeam_handle, only: handle_type, handle_of, report
     use gapbeam_train_handle, only: train_handle_type, train_of
-    use gapbeam_train_curves, only: find_influence
+    use gapbeam_train_influence, only: find_influence
     implicit none
     integer(8), intent(in) :: beam, train
     ! One more than there are supports of the engine and of the scene; places of the force

@@ -6,9 +6,10 @@ module gapbeam_train_handle
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_lowered, only: lowered_type
     use gapbeam_train, only: train_type, uniform_type, track_type, new_track
-    use gapbeam_train_path, only: passage_type, pass_train
+    use gapbeam_train_passage, only: passage_type
+    use gapbeam_train_path, only: pass_train
     use gapbeam_train_events, only: train_event_type, find_events
-    use gapbeam_train_envelope, only: extreme_type
+    use gapbeam_train_ties, only: extreme_type
     implicit none
     private
     public :: train_handle_type, new_train, train_of, drop_train, pack_extremes

@@ -12,8 +12,9 @@ module gapbeam_train_bounds
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved
     use gapbeam_nodes, only: hinge
     use gapbeam_lowered, only: lowered_type
-    use gapbeam_train, only: train_type, track_type, reach_type
-    use gapbeam_train_path, only: passage_type
+    use gapbeam_train, only: train_type, track_type
+    use gapbeam_train_reaches, only: reach_type
+    use gapbeam_train_passage, only: passage_type
     use gapbeam_train_view, only: view_type, look_type, slopes_type, new_view, show_stretch, look_ahead, look_at_link, &
         slopes_in_link, greatest_curvature, greater
     use gapbeam_train_support_bounds, only: support_bounds_type, new_support_bounds, watch_scheme, look_at_supports, mark_stretches

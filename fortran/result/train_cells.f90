@@ -7,7 +7,8 @@ module gapbeam_train_cells
     use gapbeam_recover, only: recover_beam
     use gapbeam_workspace, only: workspace_type
     use gapbeam_lowered, only: lowered_type
-    use gapbeam_train, only: train_type, track_type, reach_type
+    use gapbeam_train, only: train_type, track_type
+    use gapbeam_train_reaches, only: reach_type
     implicit none
     private
     public :: cell_type, cells_type, new_cells, find_cells, fill_cells, recover_cells, cell_ends, fields_in_cell, x_in_cell, &

@@ -9,12 +9,11 @@ module gapbeam_train_envelope
     use gapbeam_bernstein, only: to_coefficients, value_of, highest_degree
     use gapbeam_patch, only: patch_type, greatest_on_patch, most_along
     use gapbeam_element, only: field_type
-    use gapbeam_law, only: both
     use gapbeam_units, only: moment_unit, rotation_unit
     use gapbeam_lowered, only: lowered_type
     use gapbeam_train, only: train_type, track_type, degree_of, least_distance
     use gapbeam_train_cells, only: cell_type, cell_ends, x_in_cell
-    use gapbeam_train_path, only: passage_type
+    use gapbeam_train_passage, only: passage_type
     use gapbeam_train_samples, only: samples_type, new_samples, sample_stretch, sample_supports, along_cell, bound_fields, &
         load_degree, lebesgue
     use gapbeam_train_columns, only: set_scheme
@@ -22,35 +21,16 @@ module gapbeam_train_envelope
     use gapbeam_train_support_bounds, only: watch_scheme
     use gapbeam_train_candidates, only: candidate_type, candidates_type, equal, least_of, raise, upper_bound, offer
     use gapbeam_train_levels, only: keep_level
+    use gapbeam_train_ties, only: tie_type, extreme_type, add_tie, drop_rounding
     use gapbeam_train_bounds, only: bounds_type, find_bounds, slack, most_lost
     implicit none
     private
-    public :: envelope_type, extreme_type, tie_type, find_envelope
+    public :: envelope_type, find_envelope
 
     !> How far inside a stretch that does not hold at its first or last position, in least distances
     real(wp), parameter :: inside(0:2) = [0.0_wp, 2.0_wp, -2.0_wp]
     !> Stretches on which it is tried whether bounds are to be trusted
     integer, parameter :: trials = 8
-    !> Equal values are listed up to so many
-    integer, parameter :: most_ties = 16
-
-    !> Where an extreme value is: x, position of the train, value; 1 where it is the value left of x, 2 right of it (0: both). At an
-    !> end of a stretch that does not hold there the position is one just inside, at which an axle that is near the end of the beam
-    !> is on the same side of it
-    type :: tie_type
-        real(wp) :: value = 0.0_wp, x = 0.0_wp, position = 0.0_wp
-        integer :: side = 0
-        !> 1 or 2 where it is the first or last one of such a stretch
-        integer, private :: limit = 0
-        !> Where that ends, if the value stays the same on the way: x and position
-        real(wp) :: x_end = 0.0_wp, position_end = 0.0_wp
-    end type tie_type
-
-    !> Extremes of a quantity, all ties
-    type :: extreme_type
-        integer :: number = 0
-        type(tie_type) :: ties(most_ties)
-    end type extreme_type
 
     !> Largest (1) and smallest (2) values in the user's units; none where no stretch is solved
     type :: envelope_type
@@ -494,59 +474,5 @@ contains
             end do
         end do
     end subroutine convert
-
-    !> A support that acts one way has no reaction the other way, and where it comes to zero, or its opening, but by rounding: zero
-    pure subroutine drop_rounding(of_reaction, side, rounding, extreme)
-        !> Of a reaction, not an opening
-        logical, intent(in) :: of_reaction
-        !> 1 below, -1 above, 0 both
-        integer, intent(in) :: side
-        real(wp), intent(in) :: rounding
-        type(extreme_type), intent(inout) :: extreme
-
-        if (side == both) return
-        where (abs(extreme%ties%value) <= rounding) extreme%ties%value = 0.0_wp
-        if (.not. of_reaction) return
-        where (side*extreme%ties%value < 0.0_wp) extreme%ties%value = 0.0_wp
-    end subroutine drop_rounding
-
-    !> Add where an extreme is, unless it is the place before: found twice, or what stays the same from stretch to stretch
-    subroutine add_tie(extreme, tie)
-        type(extreme_type), intent(inout) :: extreme
-        type(tie_type), intent(in) :: tie
-        integer :: q
-
-        do q = 1, extreme%number
-            associate (t => extreme%ties(q))
-                if (same(t%x_end, t%position_end, tie%x, tie%position)) then
-                    t%x_end = tie%x_end
-                    t%position_end = tie%position_end
-                    return
-                else if (same(t%x, t%position, tie%x_end, tie%position_end)) then
-                    t%x = tie%x
-                    t%position = tie%position
-                    t%side = tie%side
-                    t%limit = tie%limit
-                    return
-                end if
-            end associate
-        end do
-        if (extreme%number == most_ties) return
-        extreme%number = extreme%number + 1
-        extreme%ties(extreme%number) = tie
-
-    contains
-
-        !> Are two places and positions the same
-        pure function same(x, position, other_x, other_position)
-            real(wp), intent(in) :: x, position, other_x, other_position
-            logical :: same
-            real(wp), parameter :: near = 1e-9_wp
-
-            same = abs(x - other_x) <= near*max(1.0_wp, abs(x)) .and. &
-                abs(position - other_position) <= near*max(1.0_wp, abs(position))
-        end function same
-
-    end subroutine add_tie
 
 end module gapbeam_train_envelope

@@ -5,7 +5,7 @@ module gapbeam_train_events
     use gapbeam_polyline, only: last_kink
     use gapbeam_lowered, only: lowered_type
     use gapbeam_pieces, only: acting_type, acting_piece, what_happens, nothing
-    use gapbeam_train_path, only: passage_type
+    use gapbeam_train_passage, only: passage_type
     implicit none
     private
     public :: train_event_type, find_events

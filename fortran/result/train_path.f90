@@ -13,14 +13,9 @@ module gapbeam_train_path
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_indeterminate, &
         gapbeam_not_converged
-    use gapbeam_bernstein, only: sample_points, to_coefficients, halve, first_below, crossing, highest_degree
-    use gapbeam_band, only: band_ok
-    use gapbeam_law, only: find_margins, may_change
-    use gapbeam_model, only: beam_type
-    use gapbeam_kinematics, only: work_of_loads
+    use gapbeam_bernstein, only: highest_degree
+    use gapbeam_law, only: may_change
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
-    use gapbeam_rules, only: first_width
-    use gapbeam_system, only: solve_and_refine
     use gapbeam_search, only: rule_block
     use gapbeam_scheme, only: find_scheme, outcome_type
     use gapbeam_redundancy, only: find_redundancy
@@ -29,50 +24,22 @@ module gapbeam_train_path
     use gapbeam_lowered, only: lowered_type
     use gapbeam_solution, only: state_type, new_state, close_all
     use gapbeam_state, only: solve_along_axis
-    use gapbeam_train, only: train_type, track_type, reach_type, find_reaches, enter_reach, place_train, degree_of, least_distance
+    use gapbeam_train, only: train_type, track_type, degree_of, least_distance
+    use gapbeam_train_reaches, only: reach_type, find_reaches, enter_reach
+    use gapbeam_train_loads, only: place_train
+    use gapbeam_train_passage, only: passage_type, not_unique, keep_motion, lengthen
+    use gapbeam_train_margins, only: margins_type, sample_margins, sample_work, find_interval, are_zero, least_share
     implicit none
     private
-    public :: passage_type, pass_train, not_unique
+    public :: pass_train
 
-    !> Beside gapbeam_solved and gapbeam_no_equilibrium: the beam can move freely without work of the loads
-    integer, parameter :: not_unique = 2
-    !> Where the scheme is looked for first, and nearest, as shares of what is left of the reach; the largest share that is left
-    !> out where nothing else leads on
-    real(wp), parameter :: first_share = 2.0_wp**(-20), least_share = 2.0_wp**(-42), largest_share = 2.0_wp**(-24)
+    !> Where the scheme is looked for first, as a share of what is left of the reach; the largest share that is left out where
+    !> nothing else leads on
+    real(wp), parameter :: first_share = 2.0_wp**(-20), largest_share = 2.0_wp**(-24)
     !> What is a sliver of a reach
     real(wp), parameter :: sliver = 2.0_wp**(-16)
     !> Changes of the scheme in a reach at most: so many, and so many a support
     integer, parameter :: most_changes = 200, most_of_each = 20
-
-    !> The way of a train over a beam: stretches of places, on each of which one scheme acts, in ascending order
-    type :: passage_type
-        !> How many there are
-        integer :: number = 0
-        !> First and last place, and gapbeam_solved, gapbeam_no_equilibrium, not_unique, or where there is no unique answer the code
-        !> of the error, gapbeam_indeterminate or gapbeam_not_converged
-        real(wp), allocatable :: from(:), to(:)
-        integer, allocatable :: status(:)
-        !> Number of the reach
-        integer, allocatable :: reach(:)
-        !> Scheme, and supports at zero all the way, shape (size(supports), number at least)
-        logical, allocatable :: closed(:, :), at_zero(:, :)
-        !> Where there is no equilibrium the free motion, shape (0:n, number of such), and the number of that of each stretch; 0
-        !> where the beam slides along its axis
-        real(wp), allocatable :: motion(:, :)
-        integer, allocatable :: motion_of(:)
-        !> The reaches
-        type(reach_type), allocatable :: reaches(:)
-        !> Linear solves
-        integer :: solves = 0
-    end type passage_type
-
-    !> Reactions and openings over a stretch, or work along a motion: all are right where none is below its rounding error
-    type :: margins_type
-        !> Coefficients over the rest of the reach, shape (0:degree, m), and rounding errors
-        real(wp), allocatable :: b(:, :), slack(:)
-        !> Which are looked at, the first `count` of them
-        integer :: count = 0
-    end type margins_type
 
 contains
 
@@ -346,123 +313,6 @@ contains
 
     end subroutine cross_reach
 
-    !> Reactions and openings of a scheme from here to the end of a reach
-    subroutine sample_margins(track, train, reach, now, closed, margins, work, solved)
-        type(track_type), intent(inout) :: track
-        type(train_type), intent(in) :: train
-        type(reach_type), intent(in) :: reach
-        real(wp), intent(in) :: now
-        logical, intent(in) :: closed(:)
-        type(margins_type), intent(inout) :: margins
-        type(workspace_type), intent(inout) :: work
-        !> Has the scheme a solution
-        logical, intent(out) :: solved
-        real(wp) :: points(0:degree_of(train)), values(0:degree_of(train), size(closed)), rounding(size(closed))
-        real(wp) :: matrix(0:degree_of(train), 0:degree_of(train))
-        integer :: k, p, n, state, place
-
-        n = degree_of(train)
-        points(:) = sample_points(n)
-        matrix(:, :) = to_coefficients(n)
-        margins%count = size(closed)
-        margins%slack(:) = 0.0_wp
-        solved = .false.
-        do p = 0, n
-            call place_train(track, train, reach, now + points(p)*(reach%to - now))
-            call set_loads(track%beam, 1.0_wp, work)
-            call solve_and_refine(track%beam, closed, work, state, place)
-            if (state /= band_ok) return
-            if (.not. all(abs(work%answers%deflection) <= huge(1.0_wp))) return
-            call find_margins(track%beam%supports, closed, work%answers, work%deflection_size, work%reaction, &
-                              work%reaction_error, values(p, :), rounding)
-            margins%slack(:size(closed)) = max(margins%slack(:size(closed)), first_width*rounding)
-        end do
-        do k = 1, size(closed)
-            margins%b(0:n, k) = matmul(matrix, values(:, k))
-        end do
-        solved = .true.
-    end subroutine sample_margins
-
-    !> Work of the loads along a motion from here to the end of a reach
-    subroutine sample_work(track, train, reach, now, motion, margins)
-        type(track_type), intent(inout) :: track
-        type(train_type), intent(in) :: train
-        type(reach_type), intent(in) :: reach
-        real(wp), intent(in) :: now
-        real(wp), intent(in) :: motion(0:)
-        type(margins_type), intent(inout) :: margins
-        real(wp) :: points(0:degree_of(train)), values(0:degree_of(train)), parts
-        integer :: p, n
-
-        n = degree_of(train)
-        points(:) = sample_points(n)
-        margins%count = 1
-        margins%slack(1) = 0.0_wp
-        do p = 0, n
-            call place_train(track, train, reach, now + points(p)*(reach%to - now))
-            call work_of_loads(track%beam, 1.0_wp, motion, [0, ubound(motion, 1)], values(p), parts)
-            margins%slack(1) = max(margins%slack(1), first_width*epsilon(1.0_wp)*parts)
-        end do
-        margins%b(0:n, 1) = matmul(to_coefficients(n), values)
-    end subroutine sample_work
-
-    !> The interval about a place on which nothing is below its rounding error
-    subroutine find_interval(margins, n, u, begin, end, at_end)
-        type(margins_type), intent(in) :: margins
-        !> Degree, and the place, all as shares of what is left of the reach
-        integer, intent(in) :: n
-        real(wp), intent(in) :: u
-        !> Ends of the interval; the second one 0 if there is none
-        real(wp), intent(out) :: begin, end
-        !> What comes to zero at its end
-        logical, intent(inout) :: at_end(:)
-        real(wp) :: left(0:highest_degree), right(0:highest_degree), lost, zero
-        real(wp) :: zeros(margins%count)
-        integer :: k
-
-        begin = 0.0_wp
-        end = 1.0_wp
-        zeros(:) = 2.0_wp
-        do k = 1, margins%count
-            associate (b => margins%b(0:n, k), slack => margins%slack(k))
-                if (all(b >= -slack)) cycle
-                right(0:n) = b
-                if (u > 0.0_wp) then
-                    call halve(b, u, left(0:n), right(0:n))
-                    if (right(0) < -slack) then
-                        end = 0.0_wp
-                        exit
-                    end if
-                    left(0:n) = left(n:0:-1)
-                    lost = first_below(left(0:n), -slack)
-                    if (lost <= 1.0_wp) begin = max(begin, u*(1 - lost))
-                end if
-                lost = first_below(right(0:n), -slack)
-                if (lost > 1.0_wp) cycle
-                zero = 0.0_wp
-                if (right(0) > 0.0_wp) zero = crossing(right(0:n), min(first_below(right(0:n), 0.0_wp), lost), lost)
-                zeros(k) = u + (1 - u)*zero
-                end = min(end, zeros(k))
-            end associate
-        end do
-        at_end(:) = .false.
-        do k = 1, min(margins%count, size(at_end))
-            at_end(k) = zeros(k) <= end + least_share .and. margins%count == size(at_end)
-        end do
-    end subroutine find_interval
-
-    !> What is zero all the way
-    pure function are_zero(margins, n, m) result(zero)
-        type(margins_type), intent(in) :: margins
-        integer, intent(in) :: n, m
-        logical :: zero(m)
-        integer :: k
-
-        do k = 1, m
-            zero(k) = all(abs(margins%b(0:n, k)) <= margins%slack(k))
-        end do
-    end function are_zero
-
     !> How far a beam that can move freely without work of the loads, or has no unique answer, stays so: tried at a few places up to
     !> the end of the reach, else half as far, and so on
     function so_until(track, train, reach, now, least, start, status) result(share)
@@ -506,62 +356,5 @@ contains
         end do
         share = least
     end function so_until
-
-    !> Keep the motion of the last stretch, joined to that before where it is the same
-    subroutine keep_motion(passage, motion, error)
-        type(passage_type), intent(inout) :: passage
-        real(wp), intent(in) :: motion(0:)
-        type(error_type), allocatable, intent(out) :: error
-        real(wp), allocatable :: longer(:, :)
-        integer :: count, stat
-
-        count = size(passage%motion, 2)
-        if (count > 0) then
-            if (maxval(abs(passage%motion(:, count) - motion)) <= 1e-9_wp) then
-                passage%motion_of(passage%number) = count
-                return
-            end if
-        end if
-        allocate (longer(0:ubound(motion, 1), count + 1), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
-        longer(:, :count) = passage%motion
-        longer(:, count + 1) = motion
-        call move_alloc(longer, passage%motion)
-        passage%motion_of(passage%number) = count + 1
-    end subroutine keep_motion
-
-    !> Make room for more stretches
-    subroutine lengthen(passage, m, count, stat)
-        type(passage_type), intent(inout) :: passage
-        !> Supports, and stretches
-        integer, intent(in) :: m, count
-        integer, intent(out) :: stat
-        type(passage_type) :: longer
-        integer :: n
-
-        n = passage%number
-        allocate (longer%from(count), longer%to(count), longer%status(count), longer%reach(count), longer%motion_of(count), &
-                  longer%closed(m, count), longer%at_zero(m, count), stat=stat)
-        if (stat /= 0) return
-        if (n > 0) then
-            longer%from(:n) = passage%from(:n)
-            longer%to(:n) = passage%to(:n)
-            longer%status(:n) = passage%status(:n)
-            longer%reach(:n) = passage%reach(:n)
-            longer%motion_of(:n) = passage%motion_of(:n)
-            longer%closed(:, :n) = passage%closed(:, :n)
-            longer%at_zero(:, :n) = passage%at_zero(:, :n)
-        end if
-        call move_alloc(longer%from, passage%from)
-        call move_alloc(longer%to, passage%to)
-        call move_alloc(longer%status, passage%status)
-        call move_alloc(longer%reach, passage%reach)
-        call move_alloc(longer%motion_of, passage%motion_of)
-        call move_alloc(longer%closed, passage%closed)
-        call move_alloc(longer%at_zero, passage%at_zero)
-    end subroutine lengthen
 
 end module gapbeam_train_path

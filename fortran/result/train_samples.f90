@@ -18,9 +18,11 @@ module gapbeam_train_samples
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_state, only: solve_along_axis
     use gapbeam_query, only: support_values
-    use gapbeam_train, only: train_type, track_type, reach_type, enter_reach, place_train, degree_of
+    use gapbeam_train, only: train_type, track_type, degree_of
+    use gapbeam_train_reaches, only: reach_type, enter_reach
+    use gapbeam_train_loads, only: place_train
     use gapbeam_train_cells, only: cells_type, new_cells, find_cells, fill_cells, recover_cells, fields_in_cell
-    use gapbeam_train_path, only: passage_type
+    use gapbeam_train_passage, only: passage_type
     implicit none
     private
     public :: samples_type, new_samples, sample_stretch, sample_supports, degree_in_position, along_cell, bound_fields, &

@@ -5,10 +5,12 @@ module gapbeam_train_view
     use gapbeam_element, only: field_type
     use gapbeam_link, only: piece_load_type, combine_loads
     use gapbeam_lowered, only: lowered_type
-    use gapbeam_train, only: train_type, track_type, reach_type, enter_reach
+    use gapbeam_train, only: train_type, track_type
+    use gapbeam_train_reaches, only: reach_type, enter_reach
     use gapbeam_train_cells, only: cells_type, new_cells, find_cells
-    use gapbeam_train_path, only: passage_type
-    use gapbeam_train_columns, only: columns_type, new_columns, set_scheme, solve_columns, at_distance, value_of_column
+    use gapbeam_train_passage, only: passage_type
+    use gapbeam_train_columns, only: columns_type, new_columns, set_scheme, at_distance, value_of_column
+    use gapbeam_train_elimination, only: solve_columns
     implicit none
     private
     public :: view_type, look_type, slopes_type, new_view, show_stretch, look_ahead, look_at_link, slopes_in_link, &

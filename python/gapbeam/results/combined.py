@@ -2,29 +2,25 @@
 
 from __future__ import annotations
 
-from collections import OrderedDict
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Iterator, Sequence
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..base.errors import WITHOUT_ANSWER, EngineError, SceneError, Status, check_status
+from ..base.errors import WITHOUT_ANSWER, EngineError, SceneError, Status
 from ..base.memory import refuse_beyond
-from ..base.records import Pickled, read_only
-from ..engine.beam import Beam, RefusalError
+from ..base.records import read_only
+from ..engine.beam import Beam
 from ..engine.combinations import Combined, all_combinations, solve_combinations
 from ..scene.columns import columns, curves
 from ..scene.combinations import Plan, plan_combinations
-from ..scene.names import label, labels, names_in_errors
-from ..scene.refusals import refusal
+from ..scene.names import label
 from ..scene.structs import Scene
 from ..scene.wording import shown
+from .combinations import Combinations
 from .envelope import Envelope, Source, at_full_load, fields_on_sides
-from .following import follow_load, starting_scheme
 from .result import Result
-from .tables import KINDS, extremes_while_trains_pass
 from .train_envelope import TrainEnvelope, places_given
 from .train_members import Member, Standing
 
@@ -33,185 +29,8 @@ if TYPE_CHECKING:
     from .step import Step
     from .trains import Trains
 
-KEPT = 64
-"""Results of combinations that stay once they have been looked at."""
 WORST = ("solved", "limit-load", "no-equilibrium", *(status.word for status in WITHOUT_ANSWER))
 """Outcomes, the worst last: that is the outcome of all combinations together."""
-
-
-class Combinations(Pickled, Mapping[str, Result]):
-    """Results by name of the combination, or by its number; each is made when it is looked at.
-
-    Parameters
-    ----------
-    plan : Plan
-        The combinations.
-    beam : Beam
-        Made of the plan's scene, nothing combined.
-    rule : {"block", "single"}
-        How working schemes are found.
-    start : numpy.ndarray of int
-        Where every search starts.
-
-    Attributes
-    ----------
-    failed : dict
-        Those that are known to have no unique answer: the code of the error by number.
-    """
-
-    def __init__(self, plan: Plan, beam: Beam, rule: str, start: np.ndarray):
-        self._plan, self._beam, self._rule, self._start = plan, beam, rule, start
-        self.failed: dict[int, Status] = {}
-        self._kept: OrderedDict[int, Result] = OrderedDict()
-        self._solved: tuple[Combined, tuple[str, ...], dict[str, int]] | None = None
-
-    def take(self, found: Combined, statuses: tuple[str, ...], fields: dict[str, int]) -> None:
-        """Take what came of all, for `columns`.
-
-        Parameters
-        ----------
-        found : Combined
-            Their states at full load.
-        statuses : tuple of str
-            The status of each.
-        fields : dict
-            Names of the fields, and which of FIELDS they are.
-        """
-        self._solved = found, statuses, fields
-
-    def columns(self) -> dict[str, Any]:
-        """As columns of a table with a row for every combination, for example for pandas.
-
-        Returns
-        -------
-        dict
-            ``combination``, ``status``; of every field its extremes and their places (``moment_max``, ``moment_max_x``), of every
-            support its reaction (``reaction R-104``, or by number), at full load; with trains the extremes over all their
-            positions, of reactions too (``reaction R-104_max``). Not-a-number where a combination is not solved.
-        """
-        found, statuses, fields = self._solved
-        table: dict[str, Any] = {"combination": list(self._plan.names), "status": list(statuses)}
-        scene = self._plan.scene
-        if scene.trains:
-            return table | extremes_while_trains_pass(self)
-        for name, column in fields.items():
-            for i, kind in enumerate(KINDS):
-                table |= {f"{name}_{kind}": found.extremes[:, column, i], f"{name}_{kind}_x": found.places[:, column, i]}
-        return table | {f"reaction {name}": found.at_supports[:, 0, k] for k, name in enumerate(labels(scene.supports))}
-
-    def __len__(self) -> int:
-        """Count the combinations."""
-        return len(self._plan)
-
-    def __iter__(self) -> Iterator[str]:
-        """Go through the names."""
-        return iter(self._plan.names)
-
-    def __getitem__(self, key: str | int) -> Result:
-        """Give the result of a combination.
-
-        Raises
-        ------
-        KeyError
-            There is no such combination.
-        """
-        k = self.number(key)
-        if k not in self._kept:
-            self._kept[k] = self._make(k)
-            if len(self._kept) > KEPT:
-                self._kept.popitem(last=False)
-        return self._kept[k]
-
-    def number(self, key: str | int) -> int:
-        """Find a combination.
-
-        Parameters
-        ----------
-        key : str or int
-            Its name, or its number.
-
-        Returns
-        -------
-        int
-            Its number, from 0.
-
-        Raises
-        ------
-        KeyError
-            There is no such combination.
-        """
-        names = self._plan.names
-        if isinstance(key, str) and key in names:
-            return names.index(key)
-        if isinstance(key, int) and -len(names) <= key < len(names):
-            return key % len(names)
-        few = ", ".join(map(shown, names[:12])) + (f" and {len(names) - 12} more" if len(names) > 12 else "")
-        raise KeyError(f"there is no combination {shown(key)}; there are {few}")
-
-    def beam_of(self, k: int) -> Beam:
-        """Make the beam of a combination, with its loads on it and its supports moved.
-
-        Parameters
-        ----------
-        k : int
-            Its number.
-
-        Returns
-        -------
-        Beam
-
-        Raises
-        ------
-        SceneError
-            Supports that moved leave no room for each other.
-        EngineError
-            Numbers are beyond the range of doubles.
-        """
-        plan, base = self._plan, self._beam.columns
-        load, support = base.load.copy(order="F"), base.support.copy(order="F")
-        load[2:, :-1] *= plan.factors[k]
-        support[3, :-1] += plan.settlements[k]
-        try:
-            return Beam(replace(base, load=load, support=support), self._beam.curves)
-        except RefusalError as refused:
-            raise refusal(self._plan.scene_of(k), *refused.codes) from None
-
-    def _make(self, k: int) -> Result:
-        plan = self._plan
-        with _named(plan, k):
-            scene, beam = plan.scene_of(k), self.beam_of(k)
-            try:
-                with names_in_errors(plan.scene):
-                    if plan.scheme_of[k] is not None:
-                        return self._in_scheme(k, plan.scheme_of[k])
-                    result = follow_load(scene, beam, self._rule, self._start)
-                    if k in self.failed:
-                        at_full_load(result)  # what is wrong may be with its fields
-                        check_status(self.failed[k], b"it has no unique answer")
-                    return result
-            except EngineError as error:
-                if error.status not in WITHOUT_ANSWER:
-                    raise
-                result = Result(scene, beam, self._rule)
-                result.refuse_answer(error)
-                return result
-
-    def _in_scheme(self, k: int, other: int) -> Result:
-        """Solve with the working scheme of another combination."""
-        plan, before = self._plan, self[other]
-        if before.status != "solved":
-            result = Result(plan.scene_of(k), self.beam_of(k), self._rule)
-            result.status = before.status
-            result.reason = f"the combination {shown(plan.names[other])}, whose working scheme it takes, is not solved"
-            return result
-        acts = [state != "open" for state in before.steps[-1].state]
-        scene = plan.scene_of(k, acts)
-        taken = columns(scene)
-        beam = Beam(taken, curves(scene, taken))
-        result = follow_load(scene, beam, self._rule, starting_scheme(beam))
-        if result.reason:
-            result.reason += f" (in the working scheme of {shown(plan.names[other])})"
-        return result
 
 
 class NoSteps(Sequence):
@@ -235,21 +54,6 @@ class NoSteps(Sequence):
         if isinstance(index, slice):
             return []
         raise IndexError(self._words)
-
-
-class _named:
-    """Put the name of a combination before what is raised inside."""
-
-    def __init__(self, plan: Plan, k: int) -> None:
-        self._name = f"combinations {shown(plan.names[k])}"
-
-    def __enter__(self) -> None: ...
-
-    def __exit__(self, kind: Any, error: BaseException | None, trace: Any) -> None:
-        if isinstance(error, SceneError):
-            raise SceneError(self._name, f"{error.place}: {error.problem}" if error.place else error.problem) from None
-        if isinstance(error, EngineError):
-            raise EngineError(f"{self._name}: {error}", error.status) from None
 
 
 class CombinedResult(Result):
@@ -355,7 +159,9 @@ class CombinedResult(Result):
         before = self.combinations[other].steps[-1]
         if not before.undecided:
             return ""
-        which = ", ".join(f"{label(self.scene.supports, i)} (taken as {before.state[i]})" for i in before.undecided)
+        which = ", ".join(
+            f"{label(self.scene.supports, i)} (taken as {before.state[i]})" for i in before.undecided
+        )
         return (
             f"the combination {shown(self.names[k])} takes the scheme of {shown(self.names[other])}, in which reaction or opening "
             f"of support {which} is zero, so that it may be closed or open"
@@ -368,7 +174,9 @@ class CombinedResult(Result):
             wrong = np.argwhere(~np.isfinite(self._plan.factors * largest))
         if len(wrong):
             k, load = wrong[0].tolist()
-            raise SceneError(f"combinations {shown(self.names[k])}", f"loads[{load}] times its factor is too great")
+            raise SceneError(
+                f"combinations {shown(self.names[k])}", f"loads[{load}] times its factor is too great"
+            )
 
     def _solve_at_once(self) -> tuple[Combined, list[str]]:
         """Solve all in few calls of the engine, those in the scheme of others after them."""
@@ -489,10 +297,14 @@ class CombinedResult(Result):
             there |= {"axial_force": 4, "axial_displacement": 5}
         return there
 
-    def _curves(self, points: int, x: np.ndarray | None) -> tuple[np.ndarray, Iterator[tuple[slice, np.ndarray]]]:
+    def _curves(
+        self, points: int, x: np.ndarray | None
+    ) -> tuple[np.ndarray, Iterator[tuple[slice, np.ndarray]]]:
         """Places along the beam, and the fields there of some combinations at a time."""
         if x is not None:
-            piece, distance = map(np.concatenate, zip(self.beam.find(x, False), self.beam.find(x, True), strict=True))
+            piece, distance = map(
+                np.concatenate, zip(self.beam.find(x, False), self.beam.find(x, True), strict=True)
+            )
             x = np.tile(x, 2)
             return x, self._fields_at(piece, distance, x, np.arange(len(x)) >= len(x) // 2)
         piece, distance = self.places_along(points)
@@ -501,13 +313,17 @@ class CombinedResult(Result):
         x = np.where(at_end, places.point_x[piece + 1], places.point_x[piece] + distance)
         return x, self._fields_at(piece + np.int32(1), distance, x, at_end)
 
-    def _fields_at(self, piece: np.ndarray, distance: np.ndarray, x: np.ndarray, left: np.ndarray) -> Iterator:
+    def _fields_at(
+        self, piece: np.ndarray, distance: np.ndarray, x: np.ndarray, left: np.ndarray
+    ) -> Iterator:
         plan = self._plan
         alone = [k for k in range(len(plan)) if not self._at_once or plan.scheme_of[k] is not None]
         if self._at_once:
             start = self._found.closed
             left_out = {*alone, *np.flatnonzero(self._found.status)}
-            for part, found in solve_combinations(self.beam, plan.factors, plan.settlements, self.rule, start, piece, distance):
+            for part, found in solve_combinations(
+                self.beam, plan.factors, plan.settlements, self.rule, start, piece, distance
+            ):
                 values = found.fields
                 here = [k - part.start for k in left_out if part.start <= k < part.stop]
                 if here:

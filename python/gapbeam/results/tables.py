@@ -11,7 +11,7 @@ from ..scene.names import labels
 
 if TYPE_CHECKING:
     from ..scene.structs import Scene
-    from .combined import Combinations
+    from .combinations import Combinations
     from .envelope import Curves
 
 KINDS = ("max", "min")

@@ -1,0 +1,110 @@
+!> Influence lines of a beam in a scheme
+module gapbeam_train_influence
+    use gapbeam_kinds, only: wp
+    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_not_converged
+    use gapbeam_band, only: band_ok
+    use gapbeam_element, only: field_type
+    use gapbeam_law, only: drop_level
+    use gapbeam_link, only: piece_load_type
+    use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
+    use gapbeam_system, only: solve_and_refine
+    use gapbeam_units, only: moment_unit, rotation_unit
+    use gapbeam_lowered, only: lowered_type
+    use gapbeam_train, only: train_type, track_type
+    use gapbeam_train_reaches, only: reach_type, find_reaches, enter_reach
+    use gapbeam_train_loads, only: place_train
+    use gapbeam_train_cells, only: cells_type, new_cells, find_cells, fill_cells, recover_cells, cell_ends, cell_of_place, &
+        fields_in_cell
+    implicit none
+    private
+    public :: find_influence
+
+contains
+
+    !> Influence line of a scheme: what a unit force at each place adds, while the same supports act
+    subroutine find_influence(lowered, track, closed, support, piece, distance, places, value, error)
+        type(lowered_type), intent(in) :: lowered
+        type(track_type), intent(in) :: track
+        !> The scheme
+        logical, intent(in) :: closed(:)
+        !> Which supports of the model, shape (nsupport)
+        logical, intent(in) :: support(:)
+        !> A place of the beam: piece, and distance from its left end in the user's units
+        integer, intent(in) :: piece
+        real(wp), intent(in) :: distance
+        !> Places of the force, shape (n)
+        real(wp), intent(in) :: places(:)
+        !> Deflection, rotation, moment, shear at the place, and the sum of the reactions of the supports, in the user's units,
+        !> shape (5, n)
+        real(wp), intent(out) :: value(:, :)
+        !> No unique state, or no memory
+        type(error_type), allocatable, intent(out) :: error
+        type(track_type) :: bare
+        type(train_type) :: unit
+        type(cells_type) :: cells
+        type(lowered_type) :: empty
+        type(reach_type), allocatable :: reaches(:)
+        type(reach_type) :: reach
+        type(workspace_type) :: work
+        type(field_type) :: at
+        real(wp) :: left, right
+        integer :: powers(4), c, j, k, state, place, stat
+
+        bare = track
+        empty = lowered
+        empty%dead(:) = piece_load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
+        empty%live(:) = empty%dead
+        call drop_level(bare%beam%supports)
+        bare%beam%force(:, :) = 0.0_wp
+        bare%beam%couple(:, :) = 0.0_wp
+        bare%loaded = 0
+        bare%is_loaded(:) = .false.
+        do j = 1, size(bare%beam%links)
+            associate (link => bare%beam%links(j))
+                link%turn_a(:) = 0.0_wp
+                link%turn_b(:) = 0.0_wp
+                link%shear_a(:) = 0.0_wp
+                link%shear_b(:) = 0.0_wp
+                link%load_sum(:) = 0.0_wp
+                link%turn_sum(:) = 0.0_wp
+            end associate
+        end do
+        allocate (unit%offset(1), unit%force(1), unit%uniform(0))
+        unit%offset(:) = 0.0_wp
+        unit%force(:) = 1.0_wp
+        call new_workspace(bare%beam, work)
+        call new_cells(bare, unit, cells, stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        associate (units => lowered%units)
+            powers(:) = [units%deflection, rotation_unit(units), moment_unit(units), units%force]
+        end associate
+        do k = 1, size(places)
+            call find_reaches(bare, unit, places(k), places(k), reaches, error)
+            if (allocated(error)) return
+            call enter_reach(bare, unit, reaches(1), reach)
+            call place_train(bare, unit, reach, places(k))
+            call set_loads(bare%beam, 1.0_wp, work)
+            call solve_and_refine(bare%beam, closed, work, state, place)
+            if (state /= band_ok) then
+                call fatal_error(error, gapbeam_not_converged, "the beam is held by so little that its state is not unique")
+                return
+            end if
+            call find_cells(bare, unit, reach, cells)
+            call fill_cells(empty, bare, places(k), cells)
+            call recover_cells(bare, work, cells)
+            c = cell_of_place(bare, cells, piece, track%x(piece - 1) + distance, places(k))
+            call cell_ends(bare, cells, cells%cells(c), places(k), left, right)
+            at = fields_in_cell(cells%starts(c), scale(max(0.0_wp, track%x(piece - 1) + distance - left), -track%length_unit), &
+                                cells%pieces(c), cells%loads(c))
+            value(1:4, k) = scale([at%deflection, at%rotation, at%moment, at%shear], powers)
+            value(5, k) = 0.0_wp
+            do j = 1, size(closed)
+                if (support(lowered%normal(j))) value(5, k) = value(5, k) + scale(work%reaction(j), powers(4))
+            end do
+        end do
+    end subroutine find_influence
+
+end module gapbeam_train_influence
