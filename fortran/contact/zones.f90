@@ -34,8 +34,7 @@ module gapbeam_zones
 contains
 
     !> Change the zones until their ends stay where they are
-    subroutine settle_zones(ground, factor, rule, tolerance, zones, closed, grounded, work, outcome, settled, moved, cycles, &
-                            error)
+    subroutine settle_zones(ground, factor, rule, tolerance, zones, closed, grounded, work, outcome, settled, moved, error)
         !> The beam and its ground
         type(ground_type), intent(in) :: ground
         !> Load factor, and rule for the supports (gapbeam_search)
@@ -55,8 +54,6 @@ contains
         logical, intent(out) :: settled
         !> By which share of the stretches beside it an end moved last
         real(wp), intent(out) :: moved
-        !> Do the same zones come back again and again
-        logical, intent(out) :: cycles
         !> As for find_scheme
         type(error_type), allocatable, intent(out) :: error
         type(zones_type) :: found, asked, last, last_asked, mark
@@ -65,7 +62,6 @@ contains
         logical :: hurries
 
         settled = .false.
-        cycles = .false.
         hurries = .true.
         moved = huge(moved)
         solves = 0
@@ -85,10 +81,9 @@ contains
             zones = found
             settled = moved <= tolerance .or. (moved <= noise .and. moved >= before/2)
             if (settled) return
-            ! Compared with those of the last round that is a power of two (Brent 1980)
+            ! Zones that come back do so again and again. Compared with those of the last round that is a power of two (Brent 1980)
             if (round > 2 .and. moved > far) then
-                cycles = max(way_of_ends(mark, asked), way_of_fields(ground, grounded, mark, asked)) <= alike
-                if (cycles) return
+                if (max(way_of_ends(mark, asked), way_of_fields(ground, grounded, mark, asked)) <= alike) return
             end if
             if (iand(round, round - 1) == 0) mark = asked
         end do

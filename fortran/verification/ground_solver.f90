@@ -114,7 +114,7 @@ contains
         type(workspace_type) :: work
         type(fine_ground_type) :: fine
         logical, allocatable :: start(:)
-        logical :: settled, known, on_edge, collapses, tied, stands, curves, cycles
+        logical :: settled, known, on_edge, collapses, tied, stands, curves
         real(wp) :: moved
         real(wp), allocatable :: motion(:)
         integer :: try, last, solves
@@ -164,15 +164,14 @@ contains
                 on_edge = any(zones%acts > 0) .and. sum(zones%to - zones%from, any(zones%acts > 0, 1)) &
                     <= edge_parts*sum(ground%pieces%length)/spring_numbers(try)
             end if
-            call settle_zones(ground, factor, rule, rough, zones, closed, grounded, work, outcome, known, moved, cycles, &
-                              error)
+            call settle_zones(ground, factor, rule, rough, zones, closed, grounded, work, outcome, known, moved, error)
             solution%solves = solution%solves + work%solves
             if (allocated(error)) then
                 if (error%code == gapbeam_no_memory) return
             end if
             if (allocated(error) .or. outcome%status /= gapbeam_solved) cycle
             ! Where it all but touches, only quadruple precision tells where; from full contact that is not worth while
-            if (.not. known .and. moved > nearly .and. (try == 0 .or. cycles)) cycle
+            if (.not. known .and. try == 0 .and. moved > nearly) cycle
             call settle_finely(fine, real(factor, qp), rule, zones, known, closed, solution, outcome, settled, error)
             if (allocated(error)) then
                 ! Springs may tell that there is no equilibrium
@@ -269,7 +268,6 @@ contains
         type(fine_grounded_type) :: polished_beam
         type(fine_workspace_type) :: polished_work
         logical, allocatable :: polished_closed(:)
-        logical :: cycles
         real(qp) :: moved, tolerance
 
         call new_zones(size(rough_zones%piece), size(rough_zones%acts, 1), rough_zones%steps, zones)
@@ -286,8 +284,7 @@ contains
             if (allocated(error)) return
         end if
         if (.not. settled) then
-            call settle_fine_zones(fine, factor, rule, fine_enough, zones, closed, grounded, work, found, settled, moved, cycles, &
-                                   error)
+            call settle_fine_zones(fine, factor, rule, fine_enough, zones, closed, grounded, work, found, settled, moved, error)
             solution%solves = solution%solves + work%solves
             if (allocated(error)) return
             settled = settled .or. moved <= good_enough
