@@ -7,7 +7,7 @@ module gapbeam_ground_solver
     use gapbeam_kinds, only: wp, qp
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_not_converged, &
         gapbeam_not_finite, gapbeam_no_memory
-    use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type
+    use gapbeam_foundation, only: stretch_ends_type
     use gapbeam_memory, only: reserve_memory, for_solving, for_ground
     use gapbeam_ground, only: ground_type, zones_type, grounded_type, full_contact
     use gapbeam_zones, only: settle_zones
@@ -16,23 +16,15 @@ module gapbeam_ground_solver
     use gapbeam_workspace, only: workspace_type
     use gapbeam_scheme, only: outcome_type
     use gapbeam_law, only: is_blocked
-    use gapbeam_rules, only: first_width
     use gapbeam_referee, only: detail_type, refine_beam, fine_piece, fine_load
-    use gapbeam_foundation_quad, only: fine_stretch_type => stretch_type, fine_stretch_load_type => stretch_load_type, &
-        fine_ends_type => stretch_ends_type
-    use gapbeam_foundation_taylor_quad, only: expand, terms_of, most_terms
     use gapbeam_layers, only: layer_type, law_piece_type
-    use gapbeam_layers_quad, only: fine_layer_type => layer_type, fine_law_piece_type => law_piece_type, law_piece, &
-        is_curve, has_curves
-    use gapbeam_ground_laws_quad, only: contact_line, slope_of_layer, offset_of_layer
+    use gapbeam_layers_quad, only: fine_layer_type => layer_type, fine_law_piece_type => law_piece_type, has_curves
     use gapbeam_ground_quad, only: fine_ground_type => ground_type, fine_zones_type => zones_type, &
-        fine_grounded_type => grounded_type, new_zones, combined_load
+        fine_grounded_type => grounded_type, new_zones
     use gapbeam_zones_quad, only: settle_fine_zones => settle_zones, polish_zones
-    use gapbeam_zone_fields_quad, only: ends_of, fields_at_ends, take_curved
-    use gapbeam_curved_quad, only: curved_type, advance_curved, curved_fields
     use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type
     use gapbeam_scheme_quad, only: fine_outcome_type => outcome_type
-    use gapbeam_law_quad, only: find_margins, is_watched_in
+    use gapbeam_ground_solution, only: ground_solution_type, take_rounded
     use gapbeam_ground_ties, only: stands_on_edge, may_move
     use gapbeam_ground_limit, only: find_collapse, find_limit
     implicit none
@@ -53,42 +45,8 @@ module gapbeam_ground_solver
     integer, parameter :: edge_parts = 4
     !> Part of the largest displacement of a motion that is none
     real(wp), parameter :: no_way = 1e-6_wp
-    !> Roundings in quadruple precision below which a reaction is none
-    real(qp), parameter :: fine_width = 4096.0_qp
-    !> Numbers that are smaller beside the terms they are made of are nothing but rounding in quadruple precision
-    real(qp), parameter :: no_number = 2.0_qp**(-90)
     !> Differences are taken so many times
     real(wp), parameter :: safety = 4.0_wp
-
-    !> A solved beam on the ground, in stretches from left to right, and the values at the nodes
-    type :: ground_solution_type
-        !> Piece of the beam, and distances of the ends of the stretch from its left end, shape (m)
-        integer, allocatable :: piece(:)
-        real(wp), allocatable :: from(:), to(:)
-        !> Piece of the law on which every layer acts, 0: not in contact, shape (most layers of a piece, m)
-        integer, allocatable :: acts(:, :)
-        !> The stretches and what is at their ends, and their loads, with those of the layers, less what the ground takes of the
-        !> chord between the ends: so the deflection beside the chord has its digits however deep the ground lies, shape (m)
-        type(stretch_type), allocatable :: stretches(:)
-        type(stretch_load_type), allocatable :: loads(:)
-        type(stretch_ends_type), allocatable :: ends(:)
-        !> Slope of the chord, shape (m)
-        real(wp), allocatable :: slope(:)
-        !> Rotations and shears at the two ends, shape (2, m)
-        real(wp), allocatable :: rotation(:, :), shear(:, :)
-        !> Force of every layer on the stretch, up, shape (most layers of a piece, m)
-        real(wp), allocatable :: resultant(:, :)
-        !> At the nodes of the beam, shape (0:n)
-        real(wp), allocatable :: deflection(:), moment_left(:), moment_right(:)
-        !> Of the supports
-        real(wp), allocatable :: reaction(:)
-        logical, allocatable :: undecided(:)
-        !> Linear solves; rounds of zones in double precision
-        integer :: solves = 0
-        !> Bounds of the errors of deflections, rotations, moments, shears along the beam, and of reactions; largest residuals of
-        !> compatibility and equilibrium at the borders of stretches, relative to the largest of their kind
-        real(wp) :: bounds(5) = 0.0_wp, residuals(2) = 0.0_wp
-    end type ground_solution_type
 
 contains
 
@@ -407,298 +365,5 @@ contains
             ends(i) = fine%pieces(zones%piece(i))%length
         end do
     end function exact_ends
-
-    !> The solution in quadruple precision, rounded once
-    subroutine take_rounded(fine, factor, zones, grounded, closed, work, solution)
-        type(fine_ground_type), intent(in) :: fine
-        real(qp), intent(in) :: factor
-        !> Zones that the solution asks for, and the beam on those before
-        type(fine_zones_type), intent(in) :: zones
-        type(fine_grounded_type), intent(in) :: grounded
-        logical, intent(in) :: closed(:)
-        type(fine_workspace_type), intent(inout) :: work
-        type(ground_solution_type), intent(inout) :: solution
-        type(fine_stretch_type) :: stretch
-        type(fine_ends_type) :: ends
-        type(fine_stretch_load_type) :: load, beside
-        real(qp), allocatable :: margin(:), rounding(:)
-        type(curved_type), allocatable :: curved
-        real(qp) :: field(2, 2), forces(size(zones%acts, 1)), from
-        integer :: i, k, m
-        logical :: curves
-
-        m = size(zones%piece)
-        curves = any(has_curves(fine%layers))
-        from = 0.0_qp
-        call make_room(solution, m, size(zones%acts, 1), size(fine%pieces), size(closed))
-        solution%piece(:) = zones%piece
-        solution%from(:) = real(zones%from, wp)
-        solution%to(:) = real(zones%to, wp)
-        solution%acts(:, :) = zones%acts
-        do i = 1, m
-            call drop_rounding(grounded, i, work)
-            stretch = grounded%stretches(i)
-            ends = ends_of(work, i)
-            load = combined_load(grounded%dead(i), grounded%live(i), factor)
-            call fields_at_ends(grounded, factor, work, i, field(:, 1), field(:, 2))
-            call drop_small(grounded, factor, work, i, field)
-            ! Where it was when it was solved: its ends have moved since then
-            if (i > 1) then
-                from = from + grounded%stretches(i - 1)%length
-                if (zones%piece(i) /= zones%piece(i - 1)) from = 0.0_qp
-            end if
-            if (.not. curves) call go_with_ends(zones%from(i) - from, zones%to(i) - zones%from(i), stretch, load, ends, field)
-            solution%stretches(i) = stretch_type(real(stretch%length, wp), real(stretch%flexibility, wp), &
-                                                 real(stretch%shear_flexibility, wp), real(stretch%modulus_a, wp), &
-                                                 real(stretch%modulus_b, wp))
-            solution%slope(i) = real((ends%w_b - ends%w_a)/stretch%length, wp)
-            solution%ends(i) = stretch_ends_type(real(ends%w_a, wp), real(ends%w_b, wp), real(ends%moment_a, wp), &
-                                                 real(ends%moment_b, wp))
-            call take_curved(fine, grounded, zones, factor, work, i, curved)
-            call sum_layers(fine, zones, i, merge(from, zones%from(i), curves), stretch, load, ends, field, curved, forces)
-            beside = beside_line(stretch, load, [ends%w_a, ends%w_b])
-            if (allocated(curved)) beside = load
-            solution%loads(i) = stretch_load_type(real(beside%qa, wp), real(beside%qb, wp), real(beside%qc, wp), &
-                                                  real(beside%kappa, wp))
-            solution%resultant(:, i) = real(forces, wp)
-            solution%rotation(:, i) = real(field(:, 1), wp)
-            solution%shear(:, i) = real(field(:, 2), wp)
-        end do
-        allocate (margin(size(closed)), rounding(size(closed)))
-        call find_margins(grounded%beam%supports, closed, work%answers, work%deflection_size, work%reaction, work%reaction_error, &
-                          margin, rounding)
-        do k = 1, size(closed)
-            solution%undecided(k) = .false.
-            if (.not. is_watched_in(grounded%beam%supports, closed, k)) cycle
-            solution%undecided(k) = abs(margin(k)) <= first_width*rounding(k)*(epsilon(1.0_wp)/epsilon(1.0_qp))
-            if (closed(k) .and. abs(margin(k)) <= fine_width*rounding(k)) work%reaction(k) = 0.0_qp
-        end do
-        associate (a => work%answers(grounded%node))
-            solution%deflection(:) = real(a%deflection, wp)
-            solution%moment_left(:) = real(a%moment_left, wp)
-            solution%moment_right(:) = real(a%moment_right, wp)
-        end associate
-        solution%reaction(:) = real(work%reaction, wp)
-    end subroutine take_rounded
-
-    !> Move the ends of a stretch a little, and all that stands there with them: the rest is of the order of the square of the way
-    pure subroutine go_with_ends(way, length, stretch, load, ends, field)
-        !> Way of the left end, and the new length
-        real(qp), intent(in) :: way, length
-        !> The stretch and its load, and what is at its ends
-        type(fine_stretch_type), intent(inout) :: stretch
-        type(fine_stretch_load_type), intent(inout) :: load
-        type(fine_ends_type), intent(inout) :: ends
-        !> Left and right, rotation and shear
-        real(qp), intent(inout) :: field(2, 2)
-        type(fine_stretch_type) :: s
-        type(fine_stretch_load_type) :: q
-        real(qp) :: ways(2), share(2)
-
-        s = stretch
-        q = load
-        ways = [way, way + (length - s%length)]
-        if (.not. any(abs(ways) > 0.0_qp)) return
-        call go(ways(1), s%modulus_a, q%qa, ends%w_a, ends%moment_a, field(1, :))
-        call go(ways(2), s%modulus_b, q%qb, ends%w_b, ends%moment_b, field(2, :))
-        share = [ways(1), s%length + ways(2)]/s%length
-        stretch%length = length
-        stretch%modulus_a = s%modulus_a + share(1)*(s%modulus_b - s%modulus_a)
-        stretch%modulus_b = s%modulus_a + share(2)*(s%modulus_b - s%modulus_a)
-        load%qa = q%qa + share(1)*(q%qb - q%qa + q%qc*(1 - share(1)))
-        load%qb = q%qa + share(2)*(q%qb - q%qa + q%qc*(1 - share(2)))
-        load%qc = q%qc*(length/s%length)**2
-
-    contains
-
-        !> The fields a little farther on
-        pure subroutine go(way, modulus, pressure, w, moment, turn_and_shear)
-            real(qp), intent(in) :: way, modulus, pressure
-            real(qp), intent(inout) :: w, moment, turn_and_shear(2)
-            real(qp) :: gain(4)
-
-            associate (psi => turn_and_shear(1), shear => turn_and_shear(2))
-                gain = way*[psi + s%shear_flexibility*shear, q%kappa - s%flexibility*moment, shear, modulus*w - pressure]
-                w = w + gain(1)
-                psi = psi + gain(2)
-                moment = moment + gain(3)
-                shear = shear + gain(4)
-            end associate
-        end subroutine go
-
-    end subroutine go_with_ends
-
-    !> A solution without numbers, but for those of the solves
-    pure subroutine make_room(solution, stretches, layers, pieces, supports)
-        type(ground_solution_type), intent(inout) :: solution
-        !> Stretches, most layers under one, pieces of the beam, supports
-        integer, intent(in) :: stretches, layers, pieces, supports
-        type(ground_solution_type) :: empty
-        integer :: solves
-
-        solves = solution%solves
-        solution = empty
-        solution%solves = solves
-        allocate (solution%piece(stretches), solution%from(stretches), solution%to(stretches), solution%acts(layers, stretches), &
-                  solution%stretches(stretches), solution%loads(stretches), solution%ends(stretches), &
-                  solution%slope(stretches), solution%rotation(2, stretches), solution%shear(2, stretches), &
-                  solution%resultant(layers, stretches))
-        allocate (solution%deflection(0:pieces), solution%moment_left(0:pieces), solution%moment_right(0:pieces), &
-                  solution%reaction(supports), solution%undecided(supports))
-    end subroutine make_room
-
-    !> Moments that are nothing but rounding beside what the stretch right of them could make are zero
-    subroutine drop_rounding(grounded, i, work)
-        type(fine_grounded_type), intent(in) :: grounded
-        integer, intent(in) :: i
-        type(fine_workspace_type), intent(inout) :: work
-        real(qp) :: size_of_shear
-
-        associate (a => work%answers(i - 1), b => work%answers(i), g => grounded%beam%ground(i), link => grounded%beam%links(i))
-            size_of_shear = g%pa*max(abs(a%moment_right), abs(b%moment_left)) + g%gaa*max(abs(a%deflection), abs(b%deflection)) &
-                + sum(abs(link%shear_a))
-            if (abs(a%moment_right) <= no_number*size_of_shear/g%pa) a%moment_right = 0.0_qp
-            if (abs(b%moment_left) <= no_number*size_of_shear/g%pa) b%moment_left = 0.0_qp
-        end associate
-    end subroutine drop_rounding
-
-    !> Rotations and shears at the ends of a stretch that are nothing but rounding are zero
-    subroutine drop_small(grounded, factor, work, i, field)
-        type(fine_grounded_type), intent(in) :: grounded
-        real(qp), intent(in) :: factor
-        type(fine_workspace_type), intent(in) :: work
-        integer, intent(in) :: i
-        !> Left and right, rotation and shear
-        real(qp), intent(inout) :: field(2, 2)
-        real(qp) :: w, moment, sizes(2)
-
-        associate (a => work%answers(i - 1), b => work%answers(i), g => grounded%beam%ground(i), link => grounded%beam%links(i))
-            w = max(abs(a%deflection), abs(b%deflection))
-            moment = max(abs(a%moment_right), abs(b%moment_left))
-            sizes = [g%pa*w + max(g%faa, g%fbb)*moment + abs(link%turn_a(1)) + abs(factor*link%turn_a(2)), &
-                     g%pa*moment + max(g%gaa, g%gbb)*w + abs(link%shear_a(1)) + abs(factor*link%shear_a(2))]
-        end associate
-        where (abs(field) <= no_number*spread(sizes, 1, 2)) field = 0.0_qp
-    end subroutine drop_small
-
-    !> Force of every layer on a stretch: what the shear gains is the whole pressure less the load, and shared out by the moduli
-    subroutine sum_layers(fine, zones, i, from, stretch, load, ends, field, curved, forces)
-        type(fine_ground_type), intent(in) :: fine
-        type(fine_zones_type), intent(in) :: zones
-        !> Number of the stretch, distance of its left end from that of the piece; what it is made of, its load, what is at its ends
-        integer, intent(in) :: i
-        real(qp), intent(in) :: from
-        type(fine_stretch_type), intent(in) :: stretch
-        type(fine_stretch_load_type), intent(in) :: load
-        type(fine_ends_type), intent(in) :: ends
-        !> Left and right, rotation and shear
-        real(qp), intent(in) :: field(2, 2)
-        !> Allocated if some ground acts by curves
-        type(curved_type), allocatable, intent(in) :: curved
-        !> Up
-        real(qp), intent(out) :: forces(:)
-        type(fine_law_piece_type) :: law
-        real(qp) :: slope(2), contact(2), offset(2), modulus(2), by_springs, y(4)
-        real(qp), allocatable :: by_curves(:)
-        logical :: alike, lost
-        integer :: k, n
-
-        forces(:) = 0.0_qp
-        modulus = [stretch%modulus_a, stretch%modulus_b]
-        by_springs = (field(2, 2) - field(1, 2)) + stretch%length*((load%qa + load%qb)/2 + load%qc/6)
-        n = 0
-        if (allocated(curved)) then
-            allocate (by_curves(size(curved%curves)))
-            call advance_curved(curved, 0.0_qp, curved%left, 1.0_qp, y, lost, forces=by_curves)
-            by_springs = by_springs - dot_product(curved%curves%side, by_curves)
-        end if
-        associate (j => zones%piece(i), length => stretch%length)
-            do k = 1, fine%first(j + 1) - fine%first(j)
-                if (zones%acts(k, i) == 0) cycle
-                associate (layer => fine%layers(fine%first(j) + k - 1))
-                    if (is_curve(layer, zones%acts(k, i))) then
-                        n = n + 1
-                        forces(k) = layer%side*by_curves(n)
-                        cycle
-                    end if
-                    law = law_piece(layer, fine%laws, zones%acts(k, i))
-                    slope = slope_of_layer(layer, law, zones%acts(k, i), [from, from + length], fine%pieces(j)%length)
-                    contact = contact_line(layer, [from, from + length], fine%pieces(j)%length)
-                    offset = offset_of_layer(layer, law, zones%acts(k, i), [from, from + length], fine%pieces(j)%length)
-                    forces(k) = layer%side*(offset(1) + offset(2))/2*length &
-                        - length*(dot_product(slope, contact)/2 - (slope(2) - slope(1))*(contact(2) - contact(1))/6)
-                    if (.not. any(slope > 0.0_qp)) cycle
-                    ! Is its share of the modulus the same everywhere
-                    alike = .not. abs(slope(1)*modulus(2) - slope(2)*modulus(1)) > 64*epsilon(1.0_qp)*slope(1)*modulus(2)
-                    if (alike) then
-                        forces(k) = forces(k) + by_springs*(sum(slope)/sum(modulus))
-                    else
-                        forces(k) = forces(k) + integral(slope)
-                    end if
-                end associate
-            end do
-        end associate
-
-    contains
-
-        !> Integral of the slope times the deflection: term by term of its series, which is short as such stretches are
-        function integral(slope) result(total)
-            real(qp), intent(in) :: slope(2)
-            real(qp) :: total
-            real(qp) :: c(1, 4, 0:most_terms), start(1, 4)
-            integer :: n, i
-
-            if (allocated(curved)) then
-                total = integral_on_curves(slope)
-                return
-            end if
-            n = terms_of(stretch, 1.0_qp)
-            start(1, :) = [ends%w_a - stretch%shear_flexibility*ends%moment_a, field(1, 1), ends%moment_a, field(1, 2)]
-            call expand(stretch, [load], 0.0_qp, start, 1.0_qp, n, c)
-            total = 0.0_qp
-            do i = n, 0, -1
-                total = total + (c(1, 1, i) + stretch%shear_flexibility*c(1, 3, i)) &
-                    *(slope(1)/(i + 1) + (slope(2) - slope(1))/(i + 2))
-            end do
-            total = total*stretch%length
-        end function integral
-
-        !> The same where laws are curves (Gauss, 5 points on each of 16 parts)
-        function integral_on_curves(slope) result(total)
-            real(qp), intent(in) :: slope(2)
-            real(qp) :: total
-            real(qp) :: xi, w, psi, moment, shear
-            integer, parameter :: parts = 16
-            real(qp), parameter :: near = sqrt(5 - 2*sqrt(10/7.0_qp))/3, far = sqrt(5 + 2*sqrt(10/7.0_qp))/3, &
-                point(5) = [-far, -near, 0.0_qp, near, far], root = sqrt(70.0_qp), &
-                weight(5) = [322 - 13*root, 322 + 13*root, 512.0_qp, 322 + 13*root, 322 - 13*root]/1800
-            integer :: part, g
-
-            total = 0.0_qp
-            do part = 1, parts
-                do g = 1, size(point)
-                    xi = (part - 0.5_qp + point(g)/2)/parts
-                    call curved_fields(curved, xi, w, psi, moment, shear)
-                    total = total + weight(g)*(slope(1) + (slope(2) - slope(1))*xi)*w
-                end do
-            end do
-            total = total*stretch%length/parts
-        end function integral_on_curves
-
-    end subroutine sum_layers
-
-    !> Load of a stretch for the deflection beside a line: less what the ground takes of the line
-    pure function beside_line(stretch, load, line) result(found)
-        type(fine_stretch_type), intent(in) :: stretch
-        type(fine_stretch_load_type), intent(in) :: load
-        !> At the two ends
-        real(qp), intent(in) :: line(2)
-        type(fine_stretch_load_type) :: found
-
-        found = load
-        found%qa = load%qa - stretch%modulus_a*line(1)
-        found%qb = load%qb - stretch%modulus_b*line(2)
-        found%qc = load%qc + (stretch%modulus_b - stretch%modulus_a)*(line(2) - line(1))
-    end function beside_line
 
 end module gapbeam_ground_solver
