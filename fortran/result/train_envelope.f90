@@ -29,6 +29,8 @@ module gapbeam_train_envelope
 
     !> How far inside a stretch that does not hold at its first or last position, in least distances
     real(wp), parameter :: inside(0:2) = [0.0_wp, 2.0_wp, -2.0_wp]
+    !> What values that are the same differ by, as a share of the largest
+    real(wp), parameter :: rounding = 2.0_wp**(-46)
     !> Stretches on which it is tried whether bounds are to be trusted
     integer, parameter :: trials = 8
 
@@ -357,7 +359,18 @@ contains
                 best = max(best, value)
                 upper(next) = -huge(1.0_wp)
             end do
-            do q = 1, candidates%number
+            ! In their order, but that what is greater on the beam by more than rounding comes first
+            next = 1
+            if (candidates%number > 0) next = maxloc(found(1, :), 1)
+            do step = 0, candidates%number
+                q = step
+                if (step == 0) then
+                    if (candidates%number == 0) return
+                    if (candidates%list(next)%cell%piece == 0) cycle
+                    if (.not. any(found(1, :next - 1) >= best - equal*candidates%largest .and. &
+                                  found(1, :next - 1) < found(1, next) - rounding*candidates%largest)) cycle
+                    q = next
+                end if
                 if (found(1, q) < best - equal*candidates%largest) cycle
                 tie%value = merge(found(1, q), -found(1, q), which == 1)
                 if (of_deflection) call keep_level(track%beam, node_at(candidates%list(q)%cell, found(2, q)), &
