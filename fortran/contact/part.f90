@@ -87,7 +87,7 @@ contains
         !> Numbers of its supports in the whole beam
         integer, allocatable, intent(out) :: number(:)
         type(node_support_type), allocatable :: supports(:)
-        integer :: m, k
+        integer :: m, j, k
 
         m = to - from
         if (checked) call require(0 <= from .and. from < to .and. to <= size(beam%links), "cut_out: from, to")
@@ -97,7 +97,16 @@ contains
         part%compliance(:) = beam%compliance(from:to)
         part%force(:, :) = beam%force(:, from:to)
         part%couple(:, :) = beam%couple(:, from:to)
-        number = pack([(k, k=1, size(closed))], beam%supports%node >= from .and. beam%supports%node <= to)
+        associate (there => beam%order(beam%first(from):beam%first(to + 1) - 1))
+            allocate (number(size(there)))
+            number(:) = there
+        end associate
+        ! In the caller's order
+        do k = 2, size(number)
+            if (number(k) > number(k - 1)) cycle
+            number(:) = pack([(j, j=1, size(closed))], beam%supports%node >= from .and. beam%supports%node <= to)
+            exit
+        end do
         allocate (supports(size(number)))
         supports(:) = beam%supports(number)
         supports%node = supports%node - from

@@ -16,7 +16,7 @@ module gapbeam_scheme
     use gapbeam_model, only: beam_type, softest
     use gapbeam_kinematics, only: free_motions, motion_type, work_of_loads
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
-    use gapbeam_system, only: solve_and_refine, refine_scheme, complete_scheme
+    use gapbeam_system, only: solve_and_refine, refine_scheme, complete_scheme, is_finite
     use gapbeam_rules, only: find_wrong, first_width
     use gapbeam_search, only: settle, refuse_scheme
     implicit none
@@ -86,10 +86,9 @@ contains
         work%came_back = .false.
         work%ease = 0.0_wp
         call free_motions(beam, always_closed(beam%supports), motions)
-        allocate (start(size(closed)))
+        allocate (start(size(closed)), wrong(size(closed)))
         start = closed
         refined = .false.
-        allocate (wrong(size(closed)))
         do attempt = 1, 2
             call settle(beam, rule, size(motions) > 0, closed, work, settled, error, carefully=attempt == 2)
             if (allocated(error)) return
@@ -112,14 +111,6 @@ contains
                 //"in which lengths, stiffnesses and loads are nearer to 1")
         end if
     end subroutine find_scheme
-
-    !> Is the solution in the range of numbers
-    pure function is_finite(work) result(it_is)
-        type(workspace_type), intent(in) :: work
-        logical :: it_is
-
-        it_is = all(abs(work%answers%deflection) <= huge(1.0_wp)) .and. all(abs(work%answers%moment_left) <= huge(1.0_wp))
-    end function is_finite
 
     !> A beam whose reactions statics cannot tell apart may still have no equilibrium. That does not depend on how stiff
     !> its supports are, so it is decided with soft ones

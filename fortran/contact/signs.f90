@@ -32,7 +32,7 @@ module gapbeam_signs
         logical :: unclear = .false.
         !> Bounds of the sizes of shears and deflections that loads, imposed rotations and contact levels make
         real(wp) :: shear = 0.0_wp, deflection = 0.0_wp
-        !> Moments and deflections of a solution, shape (0:n)
+        !> Room for moments and deflections, shape (0:n)
         real(wp), allocatable :: moment(:), w(:)
     end type sign_type
 
@@ -116,16 +116,18 @@ contains
         number = 0
         doubtful = signs%unclear
         if (doubtful) return
-        signs%moment(:) = max(abs(work%answers%moment_left), abs(work%answers%moment_right))
-        signs%w(:) = work%answers%deflection
         ! No rounding error that find_wrong allows for can be larger than these times some epsilon
         shear = signs%shear
         deflection = signs%deflection
-        call raise_sizes(n, signs%moment, signs%w, work%inverse, work%reach, shear, deflection)
-        associate (s => signs%elastic)
-            call judge(size(s%support), s%support, s%node, s%side, s%contact, s%zero, near_zero*deflection, n, signs%w, &
-                       size(closed), closed, wrong, number, doubtful)
-        end associate
+        if (work%plain%has_rows) then
+            call judge_elastic(signs%elastic, n, work%plain%moment, work%plain%deflection, work%inverse, work%reach, size(closed), &
+                               closed, shear, deflection, wrong, number, doubtful)
+        else
+            signs%moment(:) = max(abs(work%answers%moment_left), abs(work%answers%moment_right))
+            signs%w(:) = work%answers%deflection
+            call judge_elastic(signs%elastic, n, signs%moment, signs%w, work%inverse, work%reach, size(closed), closed, shear, &
+                               deflection, wrong, number, doubtful)
+        end if
         if (doubtful) return
         associate (a => work%answers, s => signs%rigid)
             do j = 1, size(s%support)
@@ -149,25 +151,37 @@ contains
         end associate
     end subroutine find_clearly_wrong
 
-    !> Raise two sizes to the largest that find_own_sizes of gapbeam_reactions finds beside nodes
-    pure subroutine raise_sizes(n, moment, w, inverse, reach, shear, deflection)
-        integer, intent(in) :: n
+    !> Which of the supports of springs, closed or open, are wrong
+    pure subroutine judge_elastic(group, n, moment, w, inverse, reach, m, closed, shear, deflection, wrong, number, doubtful)
+        type(group_type), intent(in) :: group
+        !> Links and supports
+        integer, intent(in) :: n, m
+        !> Moments and deflections; as in the workspace
         real(wp), intent(in) :: moment(0:n), w(0:n), inverse(n), reach(n)
+        logical, intent(in) :: closed(m)
+        !> Raised to the largest that find_own_sizes of gapbeam_reactions finds
         real(wp), intent(inout) :: shear, deflection
+        logical, intent(inout) :: wrong(m)
+        integer, intent(inout) :: number
+        logical, intent(out) :: doubtful
         real(wp) :: larger, at_node
         integer :: i
 
         at_node = abs(w(0))
         do i = 1, n
-            larger = max(moment(i - 1), moment(i))
+            larger = max(abs(moment(i - 1)), abs(moment(i)))
             shear = max(shear, 2*larger*inverse(i))
             deflection = max(deflection, reach(i)*larger)
             at_node = max(at_node, abs(w(i)))
         end do
         deflection = max(deflection, at_node)
-    end subroutine raise_sizes
+        associate (g => group)
+            call judge(size(g%support), g%support, g%node, g%side, g%contact, g%zero, near_zero*deflection, n, w, m, closed, &
+                       wrong, number, doubtful)
+        end associate
+    end subroutine judge_elastic
 
-    !> Which of the supports of springs, closed or open, are wrong
+    !> The same, array by array
     pure subroutine judge(m, support, node, side, contact, zero, least, n, w, total, closed, wrong, number, doubtful)
         integer, intent(in) :: m, support(m), node(m), n, total
         real(wp), intent(in) :: side(m), contact(m), zero(m), least, w(0:n)

@@ -14,7 +14,7 @@ module gapbeam_system
     use gapbeam_reactions, only: find_sizes, find_shears, find_reactions
     implicit none
     private
-    public :: solve_scheme, solve_and_refine, solve_deflections, complete_scheme, refine_scheme, check_scheme
+    public :: solve_scheme, solve_and_refine, solve_deflections, complete_scheme, refine_scheme, check_scheme, is_finite
 
     !> Zones of a smaller share of the beam, or of what the ground holds elsewhere, lose digits that are wanted back, in so many
     !> steps at most
@@ -268,6 +268,14 @@ contains
             loses = minval(beam%links%length) < short*sum(beam%links%length) .or. minval(g, g > 0.0_wp) < short*maxval(g)
         end associate
     end function loses_digits
+
+    !> Is the solution in the range of numbers
+    pure function is_finite(work) result(it_is)
+        type(workspace_type), intent(in) :: work
+        logical :: it_is
+
+        it_is = all(abs(work%answers%deflection) <= huge(1.0_wp)) .and. all(abs(work%answers%moment_left) <= huge(1.0_wp))
+    end function is_finite
 
     !> Relative residuals of the last solve, into work%compatibility and work%equilibrium
     pure subroutine check_scheme(beam, work)
