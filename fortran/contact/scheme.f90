@@ -101,7 +101,7 @@ contains
             if (checked) call require(all(closed .or. .not. always_closed(beam%supports)), "find_scheme: opened a bilateral one")
             ! Once, so that the last digits are those of the scheme, whatever way led to it
             if (.not. refined) call refine_scheme(beam, closed, work)
-            if (.not. (settled .and. is_finite(work))) exit
+            if (.not. (settled .and. work%from_both_ends .and. is_finite(work))) exit
             call find_wrong(beam, closed, first_width, work, wrong)
             if (.not. any(wrong)) exit
             ! That has turned a sign
