@@ -14,7 +14,7 @@ program test_lanes
     use gapbeam_search, only: rule_block
     use gapbeam_cases, only: case_loads_type, split_loads, solve_case, replace_supports
     use gapbeam_lane_levels, only: least_level, best_level
-    use gapbeam_lane_cases, only: fits_lanes, solve_in_lanes
+    use gapbeam_lane_cases, only: lane_room_type, fits_lanes, solve_in_lanes
     use gapbeam_case_extremes, only: extremes_of_cases
     implicit none
 
@@ -89,6 +89,7 @@ contains
         real(wp), intent(in) :: factors(:, :), values(:, :, :)
         integer, intent(in) :: level
         type(found_type), intent(out) :: found
+        type(lane_room_type) :: room
         integer, allocatable :: status(:)
         integer :: n, m, c
 
@@ -102,7 +103,7 @@ contains
         found%ml(:, :) = 0.0_wp
         found%mr(:, :) = 0.0_wp
         found%reaction(:, :) = 0.0_wp
-        call solve_in_lanes(lowered, loads, factors, values, found%closed, found%w, found%ml, found%mr, found%reaction, &
+        call solve_in_lanes(lowered, loads, factors, values, room, found%closed, found%w, found%ml, found%mr, found%reaction, &
                             found%solves, found%done, level)
         allocate (found%extremes(2, 4, c), found%places(2, 4, c))
         found%extremes(:, :, :) = 0.0_wp

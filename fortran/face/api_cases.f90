@@ -13,7 +13,7 @@ module gapbeam_api_cases
     use gapbeam_solution, only: close_all
     use gapbeam_pieces, only: acting_type, acting_piece, gapbeam_open, gapbeam_bilateral
     use gapbeam_cases, only: case_loads_type, split_loads
-    use gapbeam_many_cases, only: solve_many_cases
+    use gapbeam_many_cases, only: case_room_type, solve_in_room => solve_cases
     use gapbeam_query, only: node_places
     use gapbeam_api, only: prepared_type, options_type, require_beam, require_no_path, require_size, check_call
     implicit none
@@ -27,6 +27,7 @@ module gapbeam_api_cases
     type :: cases_type
         integer :: fingerprint = 0, nodes = 0, supports = 0
         type(case_loads_type), allocatable :: loads
+        type(case_room_type) :: room
         integer, allocatable :: start(:), closed(:, :), solves(:)
         real(wp), allocatable :: w(:, :), ml(:, :), mr(:, :), reaction(:, :), values(:, :, :)
     end type cases_type
@@ -106,6 +107,7 @@ contains
         type(ieee_status_type) :: environment
         type(options_type) :: chosen
         integer, allocatable :: codes(:)
+        real(wp) :: own_spans(2, 0, 0)
         integer :: first, last, given, n, stat
 
         call require_beam(beam, error)
@@ -134,9 +136,12 @@ contains
                 call take_values(beam%lowered%model%supports, first, settlement, gap, stiffness, cases%values(:, :, :n))
             end if
             cases%closed(:, :n) = spread(cases%start, 2, n)
-            call solve_many_cases(beam%lowered, cases%loads, factors(:, first:last), cases%values(:, :given, :n), chosen%rule, &
-                                  cases%closed(:, :n), cases%w(:, :n), cases%ml(:, :n), cases%mr(:, :n), cases%reaction(:, :n), &
-                                  cases%solves(:n), codes(:n))
+            call solve_in_room(beam%lowered, cases%loads, factors(:, first:last), cases%values(:, :given, :n), own_spans, &
+                               chosen%rule, cases%room, cases%closed(:, :n), &
+                               cases%w(:merge(cases%nodes, 0, present(deflection)), :n), &
+                               cases%ml(:merge(cases%nodes, 0, present(moment_left)), :n), &
+                               cases%mr(:merge(cases%nodes, 0, present(moment_right)), :n), &
+                               cases%reaction(:merge(cases%supports, 0, present(reaction)), :n), cases%solves(:n), codes(:n))
             if (codes(1) == gapbeam_no_memory) then
                 call no_memory(error)
                 exit

@@ -9,6 +9,7 @@ module gapbeam_handle
     use gapbeam_lower, only: lower_model
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_cases, only: case_loads_type
+    use gapbeam_many_cases, only: case_room_type
     use gapbeam_history, only: history_type
     use gapbeam_ground_path, only: ground_path_type
     use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type
@@ -17,6 +18,7 @@ module gapbeam_handle
     private
     public :: keep_ground, take_ground, ground_rows, pack_ground, unpack_ground
     public :: handle_type, new_handle, copy_handle, handle_of, drop_handle, state_of, report
+    public :: new_room, room_of, drop_room
 
     !> Rows of a solution on the ground as an array, beside those of the layers
     integer, parameter :: ground_rows = 19
@@ -111,6 +113,35 @@ contains
         handle => handle_of(address)
         if (associated(handle)) deallocate (handle)
     end subroutine drop_handle
+
+    !> Room for cases of a beam
+    subroutine new_room(address)
+        !> 0 where memory ends
+        integer(int64), intent(out) :: address
+        type(case_room_type), pointer :: room
+        integer :: stat
+
+        address = 0
+        allocate (room, stat=stat)
+        if (stat == 0) address = transfer(c_loc(room), address)
+    end subroutine new_room
+
+    !> The room at an address
+    function room_of(address) result(room)
+        integer(int64), intent(in) :: address
+        type(case_room_type), pointer :: room
+
+        call c_f_pointer(transfer(address, c_null_ptr), room)
+    end function room_of
+
+    !> Free it; the address is worth nothing from then on
+    subroutine drop_room(address)
+        integer(int64), intent(in) :: address
+        type(case_room_type), pointer :: room
+
+        room => room_of(address)
+        if (associated(room)) deallocate (room)
+    end subroutine drop_room
 
     !> A state from the numbers that were taken out of it
     subroutine state_of(lowered, factor, closed, w, ml, mr, shear, react, state, error)

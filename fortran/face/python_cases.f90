@@ -22,95 +22,117 @@ subroutine gbshar(beam, status)
     status = error%code
 end subroutine gbshar
 
-! Solve NC cases of loads; every load counts with its factor
-subroutine gbcase(beam, nl, ns, nd, nv, nc, factor, supp, rule, closed, w, ml, mr, react, solves, status)
-    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-    use gapbeam_error, only: gapbeam_solved, gapbeam_no_memory, gapbeam_not_finite
-    use gapbeam_memory, only: enough_memory, for_solving
-    use gapbeam_model, only: beam_type
-    use gapbeam_workspace, only: workspace_type, new_workspace
-    use gapbeam_units, only: moment_unit
-    use gapbeam_handle, only: handle_type, handle_of
-    use gapbeam_cases, only: solve_case, replace_supports
-    use gapbeam_search, only: rule_block
-    use gapbeam_lane_cases, only: fits_lanes, solve_in_lanes
+! Room for cases, kept from call to call; calls at the same time need one each. 0 where memory ends
+subroutine gbroom(room)
+    use gapbeam_handle, only: new_room
     implicit none
-    integer(8), intent(in) :: beam
-    integer, intent(in) :: nl, ns
-    ! One more than there are loads; cases
-    integer, intent(in) :: nd, nc
+    integer(8), intent(out) :: room
+
+    call new_room(room)
+end subroutine gbroom
+
+! Free it
+subroutine gbleav(room)
+    use gapbeam_handle, only: drop_room
+    implicit none
+    integer(8), intent(in) :: room
+
+    call drop_room(room)
+end subroutine gbleav
+
+! Solve NC cases of loads; every load counts with its factor
+subroutine gbcase(beam, room, nw, nl, nr, nt, ns, nd, nv, np, nc, factor, supp, span, rule, closed, w, ml, mr, react, solves, &
+                  status)
+    use gapbeam_handle, only: handle_type, handle_of, room_of
+    use gapbeam_many_cases, only: case_room_type, solve_cases
+    implicit none
+    ! The beam, and room of its own (GBROOM)
+    integer(8), intent(in) :: beam, room
+    ! One more than there are supports of the engine, loads; cases
+    integer, intent(in) :: ns, nd, nc
     ! One more than there are supports of the scene, or 1 where they are those of the scene
     integer, intent(in) :: nv
-    ! Factor of every load in every case; settlement, gap and stiffness of every support, of supports without laws
-    double precision, intent(in) :: factor(nd, nc), supp(3, nv, nc)
+    ! One more than there are spans, or 1 where they are those of the scene
+    integer, intent(in) :: np
+    ! Nodes, supports of the engine and one more; 1 where they are not wanted
+    integer, intent(in) :: nw, nl, nr, nt
+    ! Factor of every load in every case; settlement, gap and stiffness of every support, of supports without laws; EI and GA of
+    ! every span
+    double precision, intent(in) :: factor(nd, nc), supp(3, nv, nc), span(2, np, nc)
     integer, intent(in) :: rule
     ! Schemes: start in, working scheme out; of a case that is not solved all open, and its results are not numbers
-    integer, intent(inout) :: closed(ns + 1, nc)
+    integer, intent(inout) :: closed(ns, nc)
     ! In the scene's units: deflections and moments left and right of the nodes, reactions
-    double precision, intent(inout) :: w(0:nl, nc), ml(0:nl, nc), mr(0:nl, nc), react(ns + 1, nc)
+    double precision, intent(inout) :: w(nw, nc), ml(nl, nc), mr(nr, nc), react(nt, nc)
     ! Where memory ends all STATUS say so
     integer, intent(inout) :: solves(nc), status(nc)
     !f2py threadsafe
-    !f2py integer, intent(hide), depend(closed) :: ns = shape(closed, 0) - 1
+    !f2py integer, intent(hide), depend(closed) :: ns = shape(closed, 0)
     !f2py integer, intent(hide), depend(factor) :: nd = shape(factor, 0)
     !f2py integer, intent(hide), depend(factor) :: nc = shape(factor, 1)
     !f2py integer, intent(hide), depend(supp) :: nv = shape(supp, 1)
-    !f2py integer, intent(hide), depend(w) :: nl = shape(w, 0) - 1
+    !f2py integer, intent(hide), depend(span) :: np = shape(span, 1)
+    !f2py integer, intent(hide), depend(w) :: nw = shape(w, 0)
+    !f2py integer, intent(hide), depend(ml) :: nl = shape(ml, 0)
+    !f2py integer, intent(hide), depend(mr) :: nr = shape(mr, 0)
+    !f2py integer, intent(hide), depend(react) :: nt = shape(react, 0)
     type(handle_type), pointer :: handle
-    type(beam_type) :: loaded
-    type(workspace_type) :: work
-    logical, allocatable :: acting(:), done(:)
-    double precision :: nan
-    integer :: i
+    type(case_room_type), pointer :: kept
 
     handle => handle_of(beam)
-    solves = 0
-    status = gapbeam_no_memory
-    if (.not. enough_memory(for_solving, nl, ns, 0)) return
-    allocate (acting(ns), done(nc))
-    done(:) = .false.
-    if (rule == rule_block .and. fits_lanes(handle%lowered)) then
-        call solve_in_lanes(handle%lowered, handle%cases, factor, supp(:, :nv - 1, :), closed, w, ml, mr, react, solves, done)
-        where (done) status = gapbeam_solved
-        if (all(done)) return
-    end if
-    loaded = handle%lowered%beam
-    call new_workspace(loaded, work)
-    nan = ieee_value(nan, ieee_quiet_nan)
-    do i = 1, nc
-        if (done(i)) cycle
-        w(:, i) = nan
-        ml(:, i) = nan
-        mr(:, i) = nan
-        react(:, i) = nan
-        acting(:) = closed(:ns, i) /= 0
-        closed(:, i) = 0
-        if (nv > 1) then
-            call replace_supports(handle%lowered, supp(:, :nv - 1, i), loaded, status(i))
-            if (status(i) /= gapbeam_solved) cycle
-        end if
-        call solve_case(handle%cases, factor(:, i), rule, loaded, acting, work, status(i))
-        if (status(i) == gapbeam_no_memory) then
-            status = gapbeam_no_memory
-            return
-        end if
-        solves(i) = work%solves
-        if (status(i) /= gapbeam_solved) cycle
-        associate (units => handle%lowered%units, a => work%answers)
-            w(:, i) = scale(a%deflection, units%deflection)
-            ml(:, i) = scale(a%moment_left, moment_unit(units))
-            mr(:, i) = scale(a%moment_right, moment_unit(units))
-            react(:ns, i) = scale(work%reaction, units%force)
-        end associate
-        if (all(abs(w(:, i)) <= huge(nan)) .and. all(abs(ml(:, i)) <= huge(nan)) .and. all(abs(mr(:, i)) <= huge(nan)) &
-            .and. all(abs(react(:ns, i)) <= huge(nan))) then
-            closed(:ns, i) = merge(1, 0, acting)
-        else
-            status(i) = gapbeam_not_finite
-            w(:, i) = nan
-            ml(:, i) = nan
-            mr(:, i) = nan
-            react(:, i) = nan
-        end if
-    end do
+    kept => room_of(room)
+    call solve_cases(handle%lowered, handle%cases, factor(:nd - 1, :), supp(:, :nv - 1, :), span(:, :np - 1, :), rule, kept, &
+                     closed(:ns - 1, :), w(:merge(nw, 0, nw > 1), :), ml(:merge(nl, 0, nl > 1), :), mr(:merge(nr, 0, nr > 1), :), &
+                     react(:nt - 1, :), solves, status)
 end subroutine gbcase
+
+! Solve one case of a beam with loads, every search from all supports closed, at the least cost of a call
+subroutine gbone(beam, room, nd, nv, nb, factor, supp, rule, block, status)
+    use gapbeam_error, only: gapbeam_no_memory
+    use gapbeam_handle, only: handle_type, handle_of, room_of
+    use gapbeam_many_cases, only: case_room_type, solve_cases
+    implicit none
+    ! As for GBCASE
+    integer(8), intent(in) :: beam, room
+    integer, intent(in) :: nd, nv, nb
+    double precision, intent(in) :: factor(nd), supp(3, nv)
+    integer, intent(in) :: rule
+    ! STATUS and solves; deflections; moments left and right; reactions; scheme; the factors again
+    double precision, intent(inout), target :: block(nb)
+    ! -1 where a factor is not finite, and nothing was done
+    integer, intent(out) :: status
+    !f2py threadsafe
+    !f2py integer, intent(hide), depend(factor) :: nd = shape(factor, 0)
+    !f2py integer, intent(hide), depend(supp) :: nv = shape(supp, 1)
+    !f2py integer, intent(hide), depend(block) :: nb = shape(block, 0)
+    type(handle_type), pointer :: handle
+    type(case_room_type), pointer :: kept
+    double precision, pointer :: w(:, :), ml(:, :), mr(:, :), react(:, :)
+    integer, allocatable :: closed(:, :)
+    double precision :: factors(nd, 1), values(3, nv - 1, 1), spans(2, 0, 1)
+    integer :: n, m, at, stat, solves(1), found(1)
+
+    status = -1
+    if (.not. all(abs(factor) <= huge(1.0d0))) return
+    handle => handle_of(beam)
+    kept => room_of(room)
+    n = size(handle%lowered%beam%links) + 1
+    m = size(handle%lowered%beam%supports)
+    at = 3*n + 2
+    w(1:n, 1:1) => block(3:n + 2)
+    ml(1:n, 1:1) => block(n + 3:2*n + 2)
+    mr(1:n, 1:1) => block(2*n + 3:at)
+    react(1:m, 1:1) => block(at + 1:at + m)
+    factors(:, 1) = factor
+    values(:, :, 1) = supp(:, :nv - 1)
+    status = gapbeam_no_memory
+    allocate (closed(m, 1), stat=stat)
+    if (stat /= 0) return
+    closed(:, :) = 1
+    call solve_cases(handle%lowered, handle%cases, factors, values, spans, rule, kept, closed, w, ml, mr, react, solves, found)
+    status = found(1)
+    block(1) = status
+    block(2) = solves(1)
+    block(at + m + 1:at + 2*m) = closed(:, 1)
+    block(at + 2*m + 1:) = factor
+end subroutine gbone

@@ -1,13 +1,13 @@
 ! Combinations for Python, in the manner of face/python.f90, which says what the arguments BEAM, NS and NM are
 
 ! Solve NC combinations of loads at full load; one that is not solved has values that are not numbers, and its code as STATUS
-subroutine gbcomb(beam, ns, nd, nm, nc, nx, nv, factor, settle, supp, rule, closed, piece, dist, value, extr, place, field, &
-                  solves, status)
+subroutine gbcomb(beam, ns, nd, nm, nc, nx, nv, np, nf, factor, settle, supp, span, modul, rule, closed, piece, dist, value, &
+                  extr, place, field, solves, status)
     use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_memory
     use gapbeam_handle, only: handle_type, handle_of
     use gapbeam_solution, only: state_type
-    use gapbeam_combinations, only: combination_type, combine, solve_combination, values_of_combination
+    use gapbeam_combinations, only: combination_type, varied_type, combine, solve_combination, values_of_combination
     use gapbeam_search, only: rule_block
     use gapbeam_lane_cases, only: fits_lanes, find_schemes
     implicit none
@@ -16,8 +16,13 @@ subroutine gbcomb(beam, ns, nd, nm, nc, nx, nv, factor, settle, supp, rule, clos
     integer, intent(in) :: ns, nd, nm, nx, nc
     ! NM, or 1 where the supports are those of the scene
     integer, intent(in) :: nv
+    ! One more than there are spans or foundations, or 1 where they are those of the scene
+    integer, intent(in) :: np, nf
     ! Factor of every load, further movement of every support; settlement, gap and stiffness of every support
-    double precision, intent(in) :: factor(nd, nc), settle(nm, nc), supp(3, nv, nc)
+    double precision, intent(in) :: factor(nd, nc), settle(nm, nc)
+    double precision, intent(in), target :: supp(3, nv, nc)
+    ! EI and GA of every span; modulus of every foundation, negative: that of the scene
+    double precision, intent(in), target :: span(2, np, nc), modul(nf, nc)
     integer, intent(in) :: rule
     ! Schemes: start in, working scheme out, all open where there is none
     integer, intent(inout) :: closed(ns, nc)
@@ -35,9 +40,12 @@ subroutine gbcomb(beam, ns, nd, nm, nc, nx, nv, factor, settle, supp, rule, clos
     !f2py integer, intent(hide), depend(factor) :: nc = shape(factor, 1)
     !f2py integer, intent(hide), depend(settle) :: nm = shape(settle, 0)
     !f2py integer, intent(hide), depend(supp) :: nv = shape(supp, 1)
+    !f2py integer, intent(hide), depend(span) :: np = shape(span, 1)
+    !f2py integer, intent(hide), depend(modul) :: nf = shape(modul, 0)
     !f2py integer, intent(hide), depend(piece) :: nx = shape(piece, 0)
     type(handle_type), pointer :: handle
     type(combination_type) :: combined
+    type(varied_type) :: varied
     type(state_type) :: state
     type(error_type), allocatable :: error
     double precision :: nan
@@ -51,15 +59,14 @@ subroutine gbcomb(beam, ns, nd, nm, nc, nx, nv, factor, settle, supp, rule, clos
     field = nan
     solves = 0
     found = 0
-    if (rule == rule_block .and. fits_lanes(handle%lowered)) then
+    if (rule == rule_block .and. np == 1 .and. nf == 1 .and. fits_lanes(handle%lowered)) then
         call find_schemes(handle%lowered, factor(:nd - 1, :), settle(:nm - 1, :), supp(:, :nv - 1, :), closed, found)
     end if
     do i = 1, nc
-        if (nv > 1) then
-            call combine(handle%lowered, factor(:nd - 1, i), settle(:nm - 1, i), combined, error, supp(:, :nv - 1, i))
-        else
-            call combine(handle%lowered, factor(:nd - 1, i), settle(:nm - 1, i), combined, error)
-        end if
+        if (nv > 1) varied%supports => supp(:, :nv - 1, i)
+        if (np > 1) varied%spans => span(:, :np - 1, i)
+        if (nf > 1) varied%moduli => modul(:nf - 1, i)
+        call combine(handle%lowered, factor(:nd - 1, i), settle(:nm - 1, i), combined, error, varied)
         if (.not. allocated(error)) then
             call solve_combination(combined%lowered, rule, closed(:ns - 1, i) /= 0, state, error)
         end if

@@ -14,7 +14,7 @@ module gapbeam_case_extremes
     use gapbeam_solution, only: state_type
     use gapbeam_query, only: extremes_of_fields, field_count
     use gapbeam_cases, only: case_loads_type
-    use gapbeam_combinations, only: combination_type, combine, solve_combination
+    use gapbeam_combinations, only: combination_type, varied_type, combine, solve_combination
     use gapbeam_lane_types, only: lanes, lane_beam_type, lane_pieces_type, pack_type, piece_pack_type, new_pack, new_piece_pack
     use gapbeam_lane_levels, only: extremes_of_pack_at, best_level
     use gapbeam_lane_cases, only: prepare_lanes, take_supports, take_values, take_starts
@@ -130,13 +130,15 @@ contains
             type(state_type) :: state
             type(error_type), allocatable :: error
             real(wp) :: value(2, field_count), x(2, field_count)
+            real(wp), target :: own(3, size(values, 2))
+            type(varied_type) :: varied
 
+            if (size(own) > 0) then
+                own(:, :) = values(:, :, i)
+                varied%supports => own
+            end if
             associate (still => 0*lowered%model%supports%settlement, m => size(lowered%beam%supports))
-                if (size(values, 2) > 0) then
-                    call combine(lowered, factors(:size(lowered%model%loads), i), still, combined, error, values(:, :, i))
-                else
-                    call combine(lowered, factors(:size(lowered%model%loads), i), still, combined, error)
-                end if
+                call combine(lowered, factors(:size(lowered%model%loads), i), still, combined, error, varied)
                 if (.not. allocated(error)) then
                     call solve_combination(combined%lowered, rule, closed(:m, i) /= 0, state, error)
                 end if

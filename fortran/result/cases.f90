@@ -8,11 +8,10 @@ module gapbeam_cases
     use gapbeam_scheme, only: outcome_type
     use gapbeam_referee, only: decide_scheme, detail_type
     use gapbeam_scene, only: gapbeam_force, gapbeam_couple, gapbeam_axial_force, gapbeam_live
-    use gapbeam_units, only: moment_unit, stiffness_unit
-    use gapbeam_range, only: is_lost
+    use gapbeam_units, only: moment_unit
     use gapbeam_lowered, only: lowered_type, is_stretch
     use gapbeam_lower_loads, only: spread_load, lower_loads
-    use gapbeam_lower_units, only: load_in_units
+    use gapbeam_lower_units, only: load_in_units, support_in_units
     implicit none
     private
     public :: case_loads_type, split_loads, replace_supports, solve_case, take_case
@@ -145,17 +144,17 @@ contains
         real(wp), intent(in) :: values(:, :)
         !> The beam of the cases
         type(beam_type), intent(inout) :: beam
-        !> gapbeam_solved, or gapbeam_not_finite for numbers out of range (see scale_supports of gapbeam_lower_units)
+        !> gapbeam_solved, or gapbeam_not_finite for numbers out of range
         integer, intent(out) :: status
         integer :: k
+        logical :: lost_stiffness, lost_level
 
         status = gapbeam_solved
         do k = 1, size(beam%supports)
             associate (s => beam%supports(k), given => values(:, lowered%normal(k)))
-                s%stiffness = scale(given(3), -stiffness_unit(lowered%units))
-                s%contact = scale(given(1) + s%side*given(2), -lowered%units%deflection)
-                if ((is_lost(s%stiffness) .and. given(3) > 0.0_wp .and. given(3) <= huge(1.0_wp)) &
-                    .or. .not. abs(s%contact) <= huge(1.0_wp)) status = gapbeam_not_finite
+                call support_in_units(lowered%units, given(3), given(1) + s%side*given(2), s%stiffness, s%contact, &
+                                      lost_stiffness, lost_level)
+                if (lost_stiffness .or. lost_level) status = gapbeam_not_finite
             end associate
         end do
     end subroutine replace_supports

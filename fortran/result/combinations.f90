@@ -3,6 +3,7 @@
 module gapbeam_combinations
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
+    use gapbeam_scene, only: model_type
     use gapbeam_lowered, only: lowered_type, copy_model
     use gapbeam_lower, only: lower_model
     use gapbeam_lower_loads, only: lower_loads
@@ -12,7 +13,17 @@ module gapbeam_combinations
     use gapbeam_pressure, only: pressure_in_pieces, extremes_of_pressure
     implicit none
     private
-    public :: combination_type, combine, solve_combination, values_of_combination
+    public :: combination_type, varied_type, combine, solve_combination, values_of_combination
+
+    !> Numbers of a combination in place of those of the beam; what has no columns stays
+    type :: varied_type
+        !> Settlement, gap and stiffness of every support, shape (3, nsupport)
+        real(wp), pointer :: supports(:, :) => null()
+        !> EI and GA of every span, shape (2, nspan)
+        real(wp), pointer :: spans(:, :) => null()
+        !> Modulus of every foundation; negative: as it was. Shape (nfoundation)
+        real(wp), pointer :: moduli(:) => null()
+    end type varied_type
 
     !> A beam under a combination, made again for the next one
     type :: combination_type
@@ -24,7 +35,7 @@ module gapbeam_combinations
 contains
 
     !> Put a combination on a beam
-    subroutine combine(base, factors, settlements, combined, error, supports)
+    subroutine combine(base, factors, settlements, combined, error, varied)
         !> The beam
         type(lowered_type), intent(in) :: base
         !> Factor of every load, shape (nload); the products are within range
@@ -35,12 +46,12 @@ contains
         type(combination_type), intent(inout) :: combined
         !> Supports that leave no room for each other, numbers out of range, or no memory
         type(error_type), allocatable, intent(out) :: error
-        !> Settlement, gap and stiffness of every support instead of those of the beam, shape (3, nsupport)
-        real(wp), intent(in), optional :: supports(:, :)
+        type(varied_type), intent(in), optional :: varied
         logical :: moves
         integer :: stat
 
-        moves = any(abs(settlements) > 0.0_wp) .or. present(supports)
+        moves = any(abs(settlements) > 0.0_wp)
+        if (present(varied)) moves = moves .or. associated(varied%supports)
         stat = 0
         if (moves .or. combined%moved) then
             if (allocated(combined%lowered)) deallocate (combined%lowered)
@@ -56,12 +67,8 @@ contains
         associate (lowered => combined%lowered, loads => base%model%loads)
             lowered%model%loads%value = factors*loads%value
             lowered%model%loads%value_to = factors*loads%value_to
+            if (present(varied)) call take_varied(varied, lowered%model)
             if (moves .or. combined%moved) then
-                if (present(supports)) then
-                    lowered%model%supports%settlement = supports(1, :)
-                    lowered%model%supports%gap = supports(2, :)
-                    lowered%model%supports%stiffness = supports(3, :)
-                end if
                 lowered%model%supports%settlement = lowered%model%supports%settlement + settlements
                 call lower_model(lowered, error)
             else
@@ -71,6 +78,28 @@ contains
         ! What an error leaves behind is no beam to go on with
         combined%moved = moves .or. allocated(error)
     end subroutine combine
+
+    !> Take other numbers of supports, spans and foundations
+    pure subroutine take_varied(varied, model)
+        type(varied_type), intent(in) :: varied
+        type(model_type), intent(inout) :: model
+
+        if (associated(varied%supports)) then
+            model%supports%settlement = varied%supports(1, :)
+            model%supports%gap = varied%supports(2, :)
+            model%supports%stiffness = varied%supports(3, :)
+        end if
+        if (associated(varied%spans)) then
+            model%spans%EI = varied%spans(1, :)
+            model%spans%GA = varied%spans(2, :)
+        end if
+        if (associated(varied%moduli)) then
+            where (varied%moduli >= 0.0_wp)
+                model%foundations%k = varied%moduli
+                model%foundations%k_to = varied%moduli
+            end where
+        end if
+    end subroutine take_varied
 
     !> Solve a combination at full load
     subroutine solve_combination(lowered, rule, closed, state, error)

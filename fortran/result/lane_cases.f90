@@ -6,15 +6,15 @@ module gapbeam_lane_cases
     use gapbeam_band, only: plain, hinge
     use gapbeam_model, only: softest
     use gapbeam_law, only: both, is_rigid, has_laws, may_change
-    use gapbeam_range, only: is_lost
-    use gapbeam_units, only: moment_unit, stiffness_unit
+    use gapbeam_units, only: moment_unit
     use gapbeam_lowered, only: lowered_type
+    use gapbeam_lower_units, only: support_in_units
     use gapbeam_cases, only: case_loads_type, split_loads
     use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type, new_pack
     use gapbeam_lane_levels, only: search_pack_at, finish_pack_at, best_level
     implicit none
     private
-    public :: fits_lanes, solve_in_lanes, find_schemes
+    public :: lane_room_type, fits_lanes, solve_in_lanes, find_schemes
     public :: prepare_lanes, take_supports, take_values, take_starts
 
     !> Links from which on gapbeam_search keeps a solution up to date, whose last digits are others then
@@ -31,6 +31,18 @@ module gapbeam_lane_cases
         type(pack_type) :: pack
         integer :: waiting = 0, case_of(lanes) = 0
     end type queue_type
+
+    !> What cases of one beam need, kept from call to call; calls at the same time need one each
+    type :: lane_room_type
+        logical :: made = .false.
+        !> Has every case the supports of the beam in the pack
+        logical :: with_own_supports = .false.
+        type(lane_beam_type) :: beam
+        type(pack_type) :: pack
+        type(queue_type) :: queues(ways)
+        !> Factor of every load, shape (lanes, nload)
+        real(wp), allocatable :: factors(:, :)
+    end type lane_room_type
 
 contains
 
@@ -52,66 +64,64 @@ contains
     end function fits_lanes
 
     !> Solve cases of a beam that fits
-    subroutine solve_in_lanes(lowered, loads, factors, values, closed, w, ml, mr, reaction, solves, done, level)
+    subroutine solve_in_lanes(lowered, loads, factors, values, room, closed, w, ml, mr, reaction, solves, done, level)
         type(lowered_type), intent(in) :: lowered
         !> By split_loads, and the factor of every load, shape (nload, ncase)
         type(case_loads_type), intent(in) :: loads
         real(wp), intent(in) :: factors(:, :)
         !> Settlement, gap and stiffness of every support of the scene, shape (3, nsupport, ncase); nsupport 0: their own
         real(wp), intent(in) :: values(:, :, :)
+        !> Empty, or of earlier cases of this beam
+        type(lane_room_type), intent(inout) :: room
         !> Starts in, working schemes out, where a case is done; 1 closed, shape (at least size(beam%supports), ncase)
         integer, intent(inout), contiguous :: closed(:, :)
-        !> In the scene's units: deflections, moments left and right of the nodes, shape (n + 1, ncase); reactions
+        !> In the scene's units: deflections, moments left and right of the nodes, shape (n + 1, ncase); reactions. Not wanted:
+        !> without rows
         real(wp), intent(inout), contiguous :: w(:, :), ml(:, :), mr(:, :), reaction(:, :)
         integer, intent(inout) :: solves(:)
         !> Which cases are done; the others are as they were
         logical, intent(out) :: done(:)
         !> Instructions (gapbeam_lane_levels); default the best that there are
         integer, intent(in), optional :: level
-        type(lane_beam_type) :: beam
-        type(pack_type) :: pack
-        type(queue_type) :: queues(ways)
-        real(wp), allocatable :: factors_of(:, :)
         real(wp) :: units(3)
-        integer :: first, l, kind, solves_of(lanes), method(lanes), case_of(lanes), stat, at_level
+        integer :: first, l, kind, solves_of(lanes), method(lanes), case_of(lanes), at_level
         logical :: lost, made
 
         done(:) = .false.
         at_level = best_level()
         if (present(level)) at_level = level
-        call prepare_lanes(lowered, loads, beam, made)
-        if (made) call new_pack(beam%n, pack, made)
-        if (.not. made) return
-        allocate (factors_of(lanes, size(factors, 1)), stat=stat)
-        if (stat /= 0) return
-        call take_supports(lowered, pack)
+        if (.not. room%made) call make_room(lowered, loads, size(factors, 1), room)
+        if (.not. room%made) return
+        if (size(values, 2) > 0) room%with_own_supports = .false.
+        if (.not. room%with_own_supports) call take_supports(lowered, room%pack)
+        room%with_own_supports = size(values, 2) == 0
         units = scale(1.0_wp, [lowered%units%deflection, moment_unit(lowered%units), lowered%units%force])
         do first = 1, size(done), lanes
             ! The last lanes repeat the last case
             case_of = [(min(first + l, size(done)), l=0, lanes - 1)]
             lost = .false.
             do l = 1, lanes
-                factors_of(l, :) = factors(:, case_of(l))
-                if (size(values, 2) > 0 .and. .not. lost) call take_values(lowered, values(:, :, case_of(l)), l, pack, lost)
+                room%factors(l, :) = factors(:, case_of(l))
+                if (size(values, 2) > 0 .and. .not. lost) call take_values(lowered, values(:, :, case_of(l)), l, room%pack, lost)
             end do
             if (lost) cycle
-            call take_starts(lowered, closed, case_of, pack)
-            call search_pack_at(at_level, beam, factors_of, pack, solves_of, method)
+            call take_starts(lowered, closed, case_of, room%pack)
+            call search_pack_at(at_level, room%beam, room%factors, room%pack, solves_of, method)
             solves(case_of) = solves_of
             kind = method(1)
             if (kind > 0 .and. all(method == kind)) then
-                call finish(kind, case_of, pack)
+                call finish(kind, case_of, room%pack)
             else
                 do l = 1, min(lanes, size(done) - first + 1)
                     if (method(l) == 0) cycle
-                    associate (queue => queues(method(l)))
+                    associate (queue => room%queues(method(l)))
                         if (.not. allocated(queue%pack%left)) then
-                            call new_pack(beam%n, queue%pack, made)
-                            if (.not. made) return
+                            call new_pack(room%beam%n, queue%pack, made)
+                            if (.not. made) exit
                         end if
                         queue%waiting = queue%waiting + 1
                         queue%case_of(queue%waiting) = case_of(l)
-                        call take_lane(pack, l, queue%pack, queue%waiting)
+                        call take_lane(room%pack, l, queue%pack, queue%waiting)
                         if (queue%waiting < lanes) cycle
                         queue%waiting = 0
                         call finish(method(l), queue%case_of, queue%pack)
@@ -120,16 +130,17 @@ contains
             end if
         end do
         do kind = 1, ways
-            associate (queue => queues(kind))
+            associate (queue => room%queues(kind))
                 if (queue%waiting == 0) cycle
                 ! The last lanes repeat the first case
                 do l = 1, lanes
                     first = merge(l, 1, l <= queue%waiting)
                     case_of(l) = queue%case_of(first)
-                    call take_lane(queue%pack, first, pack, l)
+                    call take_lane(queue%pack, first, room%pack, l)
                 end do
-                pack%is_solved = .false.
-                call finish(kind, case_of, pack)
+                queue%waiting = 0
+                room%pack%is_solved = .false.
+                call finish(kind, case_of, room%pack)
             end associate
         end do
 
@@ -143,7 +154,7 @@ contains
             logical :: doubtful(lanes)
             integer :: k
 
-            call finish_pack_at(at_level, beam, way, schemes, doubtful)
+            call finish_pack_at(at_level, room%beam, way, schemes, doubtful)
             largest(:) = largest_values(schemes%w, schemes%ml, schemes%mr, schemes%reaction)
             do k = 1, lanes
                 if (doubtful(k) .or. (k > 1 .and. numbers(k) == numbers(max(k - 1, 1)))) cycle
@@ -168,17 +179,17 @@ contains
         !> How many systems were solved for them
         integer, intent(out) :: solves(:)
         type(case_loads_type) :: loads
+        type(lane_room_type) :: room
         type(error_type), allocatable :: error
-        real(wp), allocatable :: values(:, :, :), w(:, :), ml(:, :), mr(:, :), reaction(:, :)
+        real(wp), allocatable :: values(:, :, :), not_wanted(:, :)
         logical, allocatable :: done(:)
-        integer :: i, n, m, stat
+        integer :: i, m, stat
 
         solves(:) = 0
         call split_loads(lowered, loads, error)
         if (allocated(error)) return
-        n = size(lowered%beam%links) + 1
         m = size(solves)
-        allocate (w(n, m), ml(n, m), mr(n, m), reaction(size(lowered%beam%supports), m), done(m), stat=stat)
+        allocate (not_wanted(0, m), done(m), stat=stat)
         if (stat == 0) allocate (values(3, merge(size(settlements, 1), 0, size(supports, 2) > 0 &
                                                  .or. any(abs(settlements) > 0.0_wp)), m), stat=stat)
         if (stat /= 0) return
@@ -194,9 +205,26 @@ contains
                 values(1, :, i) = values(1, :, i) + settlements(:, i)
             end do
         end if
-        call solve_in_lanes(lowered, loads, factors, values, closed, w, ml, mr, reaction, solves, done)
+        call solve_in_lanes(lowered, loads, factors, values, room, closed, not_wanted, not_wanted, not_wanted, not_wanted, solves, &
+                            done)
         where (.not. done) solves = 0
     end subroutine find_schemes
+
+    !> Room for cases of a beam
+    subroutine make_room(lowered, loads, number, room)
+        type(lowered_type), intent(in) :: lowered
+        type(case_loads_type), intent(in) :: loads
+        !> How many factors a case has
+        integer, intent(in) :: number
+        type(lane_room_type), intent(inout) :: room
+        integer :: stat
+
+        call prepare_lanes(lowered, loads, room%beam, room%made)
+        if (room%made) call new_pack(room%beam%n, room%pack, room%made)
+        if (.not. room%made) return
+        allocate (room%factors(lanes, number), stat=stat)
+        room%made = stat == 0
+    end subroutine make_room
 
     !> Put a case into a lane of another pack
     pure subroutine take_lane(from, l, to, m)
@@ -311,18 +339,16 @@ contains
         logical, intent(out) :: lost
         real(wp) :: stiffness
         integer :: k
+        logical :: lost_stiffness, lost_level
 
         lost = .false.
         do k = 1, size(lowered%beam%supports)
             associate (s => lowered%beam%supports(k), given => values(:, lowered%normal(k)), i => lowered%beam%supports(k)%node)
-                pack%contact(l, i) = scale(given(1) + s%side*given(2), -lowered%units%deflection)
-                lost = lost .or. .not. abs(pack%contact(l, i)) <= huge(1.0_wp)
+                call support_in_units(lowered%units, given(3), given(1) + s%side*given(2), stiffness, pack%contact(l, i), &
+                                      lost_stiffness, lost_level)
+                lost = lost .or. lost_stiffness .or. lost_level
                 pack%rigid(l, i) = merge(1.0_wp, 0.0_wp, given(3) > huge(1.0_wp))
-                pack%stiffness(l, i) = 0.0_wp
-                if (given(3) > huge(1.0_wp)) cycle
-                stiffness = scale(given(3), -stiffness_unit(lowered%units))
-                lost = lost .or. (is_lost(stiffness) .and. given(3) > 0.0_wp)
-                pack%stiffness(l, i) = stiffness
+                pack%stiffness(l, i) = merge(0.0_wp, stiffness, given(3) > huge(1.0_wp))
             end associate
         end do
     end subroutine take_values
@@ -371,14 +397,18 @@ contains
 
         do k = 1, size(w)
             w(k) = pack%w(l, k - 1)*units(1)
+        end do
+        do k = 1, size(ml)
             ml(k) = pack%ml(l, k - 1)*units(2)
+        end do
+        do k = 1, size(mr)
             mr(k) = pack%mr(l, k - 1)*units(2)
         end do
+        do k = 1, size(reaction)
+            reaction(k) = pack%reaction(l, lowered%beam%supports(k)%node)*units(3)
+        end do
         do k = 1, size(lowered%beam%supports)
-            associate (node => lowered%beam%supports(k)%node)
-                reaction(k) = pack%reaction(l, node)*units(3)
-                closed(k) = merge(1, 0, pack%closed(l, node) > 0.5_wp)
-            end associate
+            closed(k) = merge(1, 0, pack%closed(l, lowered%beam%supports(k)%node) > 0.5_wp)
         end do
     end subroutine give_case
 

@@ -1,104 +1,185 @@
-!> Many cases of a beam in one call: side by side where lanes hold the beam (gapbeam_lane_cases), the others one by one
+!> Cases of a beam: side by side in lanes where that can be (gapbeam_lane_cases), the others one by one
 module gapbeam_many_cases
     use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: gapbeam_solved, gapbeam_no_memory, gapbeam_not_finite
+    use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_memory, gapbeam_not_finite
     use gapbeam_memory, only: enough_memory, for_solving
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, new_workspace
+    use gapbeam_search, only: rule_block
     use gapbeam_units, only: moment_unit
     use gapbeam_lowered, only: lowered_type
-    use gapbeam_search, only: rule_block
-    use gapbeam_cases, only: case_loads_type, solve_case, replace_supports
-    use gapbeam_lane_cases, only: fits_lanes, solve_in_lanes
+    use gapbeam_lower_loads, only: lower_loads
+    use gapbeam_cases, only: case_loads_type, split_loads, solve_case, replace_supports
+    use gapbeam_lane_cases, only: lane_room_type, fits_lanes, solve_in_lanes
     implicit none
     private
-    public :: solve_many_cases
+    public :: case_room_type, solve_cases
+
+    !> What cases of one beam need, kept from call to call; calls at the same time need one each
+    type :: case_room_type
+        logical :: made = .false., fits = .false.
+        type(lane_room_type) :: lanes
+        !> Of cases one by one: the beam with their loads and supports, where it has been made
+        logical :: loaded_is_made = .false.
+        type(beam_type) :: loaded
+        type(workspace_type) :: work
+        !> Of cases whose spans have other stiffnesses: the beam with them, and what loads do to it
+        logical :: varied_is_sound = .false.
+        type(lowered_type), allocatable :: varied
+        type(case_loads_type) :: loads
+    end type case_room_type
 
 contains
 
-    !> Solve cases of a beam that is on no foundation
-    subroutine solve_many_cases(lowered, loads, factors, values, rule, closed, w, ml, mr, reaction, solves, status)
+    !> Solve cases
+    subroutine solve_cases(lowered, loads, factors, values, spans, rule, room, closed, w, ml, mr, reaction, solves, status)
+        !> A beam without ground
         type(lowered_type), intent(in) :: lowered
-        !> By split_loads, and the factor of every load, shape (nload, ncase)
+        !> By split_loads, and the factor of every load, shape (at least nload, ncase)
         type(case_loads_type), intent(in) :: loads
         real(wp), intent(in) :: factors(:, :)
-        !> Settlement, gap and stiffness of every support of the scene, of supports without laws, shape (3, nsupport, ncase);
+        !> Settlement, gap and stiffness of every support of the scene, none of which has a law, shape (3, nsupport, ncase);
         !> nsupport 0: their own
         real(wp), intent(in) :: values(:, :, :)
+        !> EI and GA of every span, shape (2, nspan, ncase); nspan 0: their own
+        real(wp), intent(in) :: spans(:, :, :)
         !> rule_block or rule_single of gapbeam_search
         integer, intent(in) :: rule
-        !> Starts in, working schemes out, of a case that is not solved all open; 1 closed, shape (at least size(beam%supports),
-        !> ncase)
+        !> Empty, or of earlier cases of this beam
+        type(case_room_type), intent(inout) :: room
+        !> Starts in, working schemes out, 1 closed; of a case that is not solved all open
         integer, intent(inout) :: closed(:, :)
-        !> In the scene's units: deflections, moments left and right of the nodes, shape (n + 1, ncase); reactions, shape as for
-        !> closed; of a case that is not solved not-a-number
+        !> In the scene's units: deflections, moments left and right of the nodes, reactions; without rows: not wanted. Those of a
+        !> case that is not solved are not numbers
         real(wp), intent(inout) :: w(:, :), ml(:, :), mr(:, :), reaction(:, :)
-        !> Linear solves; gapbeam_solved, gapbeam_no_equilibrium or the code of an error; where memory ends all say so
-        integer, intent(inout) :: solves(:), status(:)
-        type(beam_type) :: loaded
-        type(workspace_type) :: work
+        !> Linear solves; gapbeam_solved, gapbeam_no_equilibrium or the code of an error. Where memory ends all say so
+        integer, intent(out) :: solves(:), status(:)
         logical, allocatable :: acting(:), done(:)
-        real(wp) :: nan
         integer :: i, m, stat
 
         m = size(lowered%beam%supports)
         solves(:) = 0
         status(:) = gapbeam_no_memory
-        if (.not. enough_memory(for_solving, size(lowered%beam%links), m, 0)) return
+        if (.not. room%made) then
+            if (.not. enough_memory(for_solving, size(lowered%beam%links), m, 0)) return
+            room%fits = fits_lanes(lowered)
+            room%made = .true.
+        end if
         allocate (acting(m), done(size(status)), stat=stat)
         if (stat /= 0) return
         done(:) = .false.
-        if (rule == rule_block .and. fits_lanes(lowered)) then
-            call solve_in_lanes(lowered, loads, factors, values, closed, w, ml, mr, reaction, solves, done)
+        if (rule == rule_block .and. room%fits .and. size(spans, 2) == 0) then
+            call solve_in_lanes(lowered, loads, factors, values, room%lanes, closed, w, ml, mr, reaction, solves, done)
             where (done) status = gapbeam_solved
             if (all(done)) return
         end if
-        loaded = lowered%beam
-        call new_workspace(loaded, work)
-        nan = ieee_value(nan, ieee_quiet_nan)
+        if (size(spans, 2) == 0) then
+            if (.not. room%loaded_is_made) then
+                room%loaded = lowered%beam
+                call new_workspace(room%loaded, room%work)
+                room%loaded_is_made = .true.
+            end if
+            if (m > 0 .and. size(values, 2) == 0) room%loaded%supports(:) = lowered%beam%supports
+        end if
         do i = 1, size(status)
             if (done(i)) cycle
             acting(:) = closed(:m, i) /= 0
-            call take_nothing(nan, closed(:, i), w(:, i), ml(:, i), mr(:, i), reaction(:, i))
-            if (size(values, 2) > 0) then
-                call replace_supports(lowered, values(:, :, i), loaded, status(i))
-                if (status(i) /= gapbeam_solved) cycle
+            solves(i) = 0
+            if (size(spans, 2) > 0) then
+                call change_spans(lowered, spans(:, :, i), room, status(i))
+                if (status(i) == gapbeam_solved) call solve(room%varied, room%loads)
+                call give_case(room%varied, room%work, acting, closed(:, i), w(:, i), ml(:, i), mr(:, i), reaction(:, i), status(i))
+            else
+                status(i) = gapbeam_solved
+                call solve(lowered, loads)
+                call give_case(lowered, room%work, acting, closed(:, i), w(:, i), ml(:, i), mr(:, i), reaction(:, i), status(i))
             end if
-            call solve_case(loads, factors(:, i), rule, loaded, acting, work, status(i))
             if (status(i) == gapbeam_no_memory) then
                 status(:) = gapbeam_no_memory
                 return
             end if
-            solves(i) = work%solves
-            if (status(i) /= gapbeam_solved) cycle
-            associate (units => lowered%units, a => work%answers)
-                w(:, i) = scale(a%deflection, units%deflection)
-                ml(:, i) = scale(a%moment_left, moment_unit(units))
-                mr(:, i) = scale(a%moment_right, moment_unit(units))
-                reaction(:m, i) = scale(work%reaction, units%force)
-            end associate
-            if (all(abs(w(:, i)) <= huge(nan)) .and. all(abs(ml(:, i)) <= huge(nan)) .and. all(abs(mr(:, i)) <= huge(nan)) &
-                .and. all(abs(reaction(:m, i)) <= huge(nan))) then
-                closed(:m, i) = merge(1, 0, acting)
-            else
-                status(i) = gapbeam_not_finite
-                call take_nothing(nan, closed(:, i), w(:, i), ml(:, i), mr(:, i), reaction(:, i))
-            end if
         end do
-    end subroutine solve_many_cases
 
-    !> A case that is not solved
-    pure subroutine take_nothing(nan, closed, w, ml, mr, reaction)
-        real(wp), intent(in) :: nan
+    contains
+
+        !> Solve the case at hand
+        subroutine solve(beam, shares)
+            type(lowered_type), intent(in) :: beam
+            type(case_loads_type), intent(in) :: shares
+
+            if (size(values, 2) > 0) call replace_supports(beam, values(:, :, i), room%loaded, status(i))
+            if (status(i) /= gapbeam_solved) return
+            call solve_case(shares, factors(:, i), rule, room%loaded, acting, room%work, status(i))
+            solves(i) = room%work%solves
+        end subroutine solve
+
+    end subroutine solve_cases
+
+    !> Make the beam of a case whose spans have other stiffnesses
+    subroutine change_spans(lowered, spans, room, status)
+        type(lowered_type), intent(in) :: lowered
+        !> EI and GA, shape (2, nspan)
+        real(wp), intent(in) :: spans(:, :)
+        type(case_room_type), intent(inout) :: room
+        !> gapbeam_solved or the code of an error
+        integer, intent(out) :: status
+        type(error_type), allocatable :: error
+        integer :: stat
+
+        status = gapbeam_no_memory
+        room%loaded_is_made = .false.
+        ! What an error leaves behind is no beam to go on with
+        if (allocated(room%varied) .and. .not. room%varied_is_sound) deallocate (room%varied)
+        if (.not. allocated(room%varied)) then
+            allocate (room%varied, source=lowered, stat=stat)
+            if (stat /= 0) return
+        end if
+        room%varied%model%spans%EI = spans(1, :)
+        room%varied%model%spans%GA = spans(2, :)
+        call lower_loads(room%varied, error)
+        if (.not. allocated(error)) call split_loads(room%varied, room%loads, error)
+        room%varied_is_sound = .not. allocated(error)
+        status = gapbeam_solved
+        if (allocated(error)) then
+            status = error%code
+        else
+            room%loaded = room%varied%beam
+            call new_workspace(room%loaded, room%work)
+        end if
+    end subroutine change_spans
+
+    !> A case in the scene's units, where it is solved and these hold it
+    subroutine give_case(lowered, work, acting, closed, w, ml, mr, reaction, status)
+        type(lowered_type), intent(in) :: lowered
+        type(workspace_type), intent(in) :: work
+        logical, intent(in) :: acting(:)
+        !> As for solve_cases
         integer, intent(out) :: closed(:)
-        real(wp), intent(out) :: w(:), ml(:), mr(:), reaction(:)
+        real(wp), intent(inout) :: w(:), ml(:), mr(:), reaction(:)
+        integer, intent(inout) :: status
 
         closed(:) = 0
-        w(:) = nan
-        ml(:) = nan
-        mr(:) = nan
-        reaction(:) = nan
-    end subroutine take_nothing
+        if (status == gapbeam_solved) then
+            associate (units => lowered%units, a => work%answers)
+                if (all(abs(scale(a%deflection, units%deflection)) <= huge(1.0_wp)) &
+                    .and. all(abs(scale(a%moment_left, moment_unit(units))) <= huge(1.0_wp)) &
+                    .and. all(abs(scale(a%moment_right, moment_unit(units))) <= huge(1.0_wp)) &
+                    .and. all(abs(scale(work%reaction, units%force)) <= huge(1.0_wp))) then
+                    if (size(w) > 0) w(:) = scale(a%deflection, units%deflection)
+                    if (size(ml) > 0) ml(:) = scale(a%moment_left, moment_unit(units))
+                    if (size(mr) > 0) mr(:) = scale(a%moment_right, moment_unit(units))
+                    if (size(reaction) > 0) reaction(:size(acting)) = scale(work%reaction, units%force)
+                    closed(:size(acting)) = merge(1, 0, acting)
+                    return
+                end if
+            end associate
+            status = gapbeam_not_finite
+        end if
+        w(:) = ieee_value(1.0_wp, ieee_quiet_nan)
+        ml(:) = ieee_value(1.0_wp, ieee_quiet_nan)
+        mr(:) = ieee_value(1.0_wp, ieee_quiet_nan)
+        reaction(:) = ieee_value(1.0_wp, ieee_quiet_nan)
+    end subroutine give_case
 
 end module gapbeam_many_cases

@@ -14,7 +14,7 @@ module gapbeam_lower_units
     use gapbeam_refusal, only: refuse_range, named, of_supports, of_foundations
     implicit none
     private
-    public :: change_units, refuse_link, name_farthest, load_in_units
+    public :: change_units, refuse_link, name_farthest, load_in_units, support_in_units
 
     character(len=*), parameter :: too_great_loads = " are too great together, or beside the levels at which supports act", &
         smaller_loads = "give smaller ones"
@@ -175,6 +175,7 @@ contains
         type(lowered_type), intent(inout) :: lowered
         type(error_type), allocatable, intent(out) :: error
         integer :: i, k, m
+        logical :: lost_stiffness, lost_level
 
         m = size(lowered%model%supports)
         associate (beam => lowered%beam, units => lowered%units)
@@ -196,13 +197,13 @@ contains
                                           "from the other numbers", "bring them nearer together")
                         return
                     end if
-                    s%stiffness = scale(given%stiffness, -stiffness_unit(units))
-                    s%contact = scale(contact_level(given), -units%deflection)
-                    if (is_lost(s%stiffness) .and. given%stiffness > 0.0_wp .and. given%stiffness <= huge(1.0_wp)) then
+                    call support_in_units(units, given%stiffness, contact_level(given), s%stiffness, s%contact, lost_stiffness, &
+                                          lost_level)
+                    if (lost_stiffness) then
                         call refuse_range(error, trim(named(of_supports, lowered%normal(k), m))//": stiffness = "// &
                                           trim(shown(given%stiffness))//" is too far from the stiffness of the beam", &
                                           "make it infinite (rigid) or 0")
-                    else if (.not. abs(s%contact) <= huge(1.0_wp)) then
+                    else if (lost_level) then
                         call refuse_range(error, trim(named(of_supports, lowered%normal(k), m))//" acts at a deflection of "// &
                                           trim(shown(contact_level(given)))//", too far from the deflections that the loads "// &
                                           "make", "give a smaller one")
@@ -212,6 +213,22 @@ contains
             end do
         end associate
     end subroutine scale_supports
+
+    !> A support without a law in the engine's units
+    pure subroutine support_in_units(units, stiffness, level, scaled_stiffness, scaled_level, lost_stiffness, lost_level)
+        type(units_type), intent(in) :: units
+        !> In the user's units: stiffness, infinite of a rigid one, and deflection at which it begins to act
+        real(wp), intent(in) :: stiffness, level
+        !> The same in the engine's
+        real(wp), intent(out) :: scaled_stiffness, scaled_level
+        !> Did they leave the range of doubles
+        logical, intent(out) :: lost_stiffness, lost_level
+
+        scaled_stiffness = scale(stiffness, -stiffness_unit(units))
+        scaled_level = scale(level, -units%deflection)
+        lost_stiffness = is_lost(scaled_stiffness) .and. stiffness > 0.0_wp .and. stiffness <= huge(1.0_wp)
+        lost_level = .not. abs(scaled_level) <= huge(1.0_wp)
+    end subroutine support_in_units
 
     !> Loads in the engine's units
     subroutine scale_loads(lowered, error)

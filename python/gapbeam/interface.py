@@ -6,10 +6,11 @@ from .base.errors import EngineError, GapbeamError, SceneError, Status
 from .batches import sample
 from .batches.batch import Batch
 from .batches.run import batch
-from .results.cases import Cases, Prepared, prepare
+from .results.cases import Prepared, prepare
 from .results.combined import CombinedResult
 from .results.envelope import Envelope
 from .results.result import Fields, Result, System
+from .results.solved_cases import Cases
 from .results.step import Step
 from .results.stepping import solve
 from .scene import (

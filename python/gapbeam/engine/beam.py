@@ -7,7 +7,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from ..base.errors import EngineError, Status, check_status
+from ..base.errors import Status, check_status
 from ..base.records import read_only
 from . import calls as _engine  # the compiled layer itself, but for Ctrl-C
 from .arrays import Columns, Ground, GroundChanges, History, Places, Solution, Stretch
@@ -72,6 +72,8 @@ class Beam:
         Bars of the axial system; -1 if there is none.
     units : Units
         The engine's.
+    rooms : list
+        Those of calls for cases that are not in use now.
     has_hinges, has_restraints, has_shear, is_one_sided : bool
         What of that there is; a one-sided support that can carry.
     ground_layers : int
@@ -107,6 +109,7 @@ class Beam:
     def _take(self, handle: int) -> None:
         """Keep a handle, and what it says of itself."""
         self.handle = _engine.Handle(handle)
+        self.rooms: list[_engine.Room] = []
         sizes, units = _engine.gbsize(handle)
         self.pieces, self.links, self.supports, self.scene_supports, self.bars, *has, self.ground_layers = sizes.tolist()
         self.has_hinges, self.has_restraints, self.has_shear, self.is_one_sided, self.has_laws, self.depends_on_path = map(
@@ -603,76 +606,6 @@ class Beam:
         about = which.T[:number].copy()
         about[:, 0] -= 1
         return bool(same), about, x[:number]
-
-    def split_loads(self) -> None:
-        """Condense the loads one by one, for `solve_cases`."""
-        if self.ground_layers:
-            return
-        check_status(_engine.gbshar(self.handle, self.pieces + self.columns.load.shape[1]))
-
-    def solve_cases(
-        self, factors: np.ndarray, rule: str, closed: np.ndarray, supports: np.ndarray | None = None
-    ) -> tuple[np.ndarray, ...]:
-        """Solve load cases.
-
-        Parameters
-        ----------
-        factors : numpy.ndarray
-            Factor of every load, cases by loads.
-        rule : {"block", "single"}
-            How working schemes are found.
-        closed : numpy.ndarray of int
-            Starting scheme of all cases.
-        supports : numpy.ndarray, optional
-            Of a beam without laws and ground: settlement, gap and stiffness of the scene's supports instead of their own, cases by
-            supports (and one more) by 3.
-
-        Returns
-        -------
-        tuple of numpy.ndarray
-            Deflection, moments left and right of the nodes, reactions in the scene's units (not-a-number where a case is not
-            solved), schemes (all open where there is none), solves and status, one row a case.
-        """
-        if self.ground_layers:
-            return self._solve_cases_on_ground(factors, rule, closed)
-        cases, m, n = len(factors), self.supports, self.links + 1
-        shares = np.zeros((cases, factors.shape[1] + 1))
-        shares[:, :-1] = factors
-        schemes = np.zeros((cases, m + 1), dtype=np.int32)
-        schemes[:, :m] = closed
-        own = np.zeros((cases, 1, 3)) if supports is None else supports
-        w, left, right, reaction = (np.empty((cases, width)) for width in (n, n, n, m + 1))
-        solves, status = np.zeros(cases, np.int32), np.zeros(cases, np.int32)
-        if cases:
-            _engine.gbcase(
-                self.handle, shares.T, own.T, RULES[rule], schemes.T, w.T, left.T, right.T, reaction.T, solves, status
-            )
-            if status[0] == Status.NO_MEMORY:  # then all are
-                check_status(Status.NO_MEMORY)
-        return w, left, right, reaction[:, :m], schemes[:, :m], solves, status
-
-    def _solve_cases_on_ground(self, factors: np.ndarray, rule: str, closed: np.ndarray) -> tuple[np.ndarray, ...]:
-        """Solve load cases one by one: each has zones of its own."""
-        cases, n, m = len(factors), self.links + 1, self.supports
-        nodes, reactions = np.full((3, cases, n), np.nan), np.full((cases, m), np.nan)
-        schemes, solves = np.zeros((cases, m), np.int32), np.zeros(cases, np.int32)
-        status = np.zeros(cases, np.int32)
-        start = np.broadcast_to(closed, m)
-        units = self.units
-        for k, row in enumerate(factors):
-            try:
-                solution = self.with_factors(row).solve(1.0, rule, start)
-            except EngineError as error:
-                status[k] = error.status
-                continue
-            solves[k], status[k] = solution.solves, solution.status
-            if solution.status == SOLVED:
-                fields = solution.deflection, solution.moment_left, solution.moment_right
-                moment = units.force + units.length
-                for row_of, values, power in zip(nodes, fields, (units.deflection, moment, moment), strict=True):
-                    row_of[k] = scaled(values, power)
-                reactions[k], schemes[k] = scaled(solution.reaction, units.force), solution.closed
-        return (*nodes, reactions, schemes, solves, status)
 
 
 def _made_of(

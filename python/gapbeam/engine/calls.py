@@ -140,6 +140,18 @@ class Handle(int):
             drop(self)
 
 
+class Room(int):
+    """What cases of a beam need in the compiled layer, which is freed with the last reference to this number.
+
+    Calls at the same time need one each.
+    """
+
+    def __del__(self, drop: Callable = _engine.gbleav) -> None:
+        """Free it, also when Python ends and modules are gone."""
+        if self:
+            drop(self)
+
+
 class TrainHandle(int):
     """A train in the compiled layer, which is freed with the last reference to this number."""
 
@@ -172,6 +184,8 @@ def parts(count: int) -> Iterator[slice]:
 
 
 gbsize = _engine.gbsize
+gbroom = _engine.gbroom
+gbone = _engine.gbone
 gbnumb = _engine.gbnumb
 gbhget = _engine.gbhget
 gbgget = _engine.gbgget
@@ -208,22 +222,25 @@ gbtinf = interruptible(_engine.gbtinf)
 _long_cases = interruptible(_engine.gbcase)
 
 
-def gbcase(beam: Handle, factors: np.ndarray, supports: np.ndarray, rule: int, *results: np.ndarray) -> None:
+def gbcase(
+    beam: Handle, room: Room, factors: np.ndarray, supports: np.ndarray, spans: np.ndarray, rule: int, *results: np.ndarray
+) -> None:
     """Solve load cases, so many at a time that each call is a short one.
 
     Parameters
     ----------
-    beam, factors, supports, rule, *results
+    beam, room, factors, supports, spans, rule, *results
         As for GBCASE, cases along the last axes; results, from the schemes on, are changed in place.
     """
-    cases, nodes = factors.shape[1], results[1].shape[0]
+    cases, nodes = factors.shape[1], max(values.shape[0] for values in results[:5])
     if cases * nodes < FEW_NODES:
-        _engine.gbcase(beam, factors, supports, rule, *results)
+        _engine.gbcase(beam, room, factors, supports, spans, rule, *results)
         return
     some, first = max(NODES_AT_A_TIME // nodes, 1), 0
     while first < cases:
         part = slice(first, min(first + some, cases))
         begin = perf_counter()
-        _long_cases(beam, factors[:, part], supports[..., part], rule, *(values[..., part] for values in results))
+        given = factors[:, part], supports[..., part], spans[..., part]
+        _long_cases(beam, room, *given, rule, *(values[..., part] for values in results))
         some = max(int(some * min(max(SECONDS / (perf_counter() - begin), 0.25), 4.0)), 1)
         first = part.stop

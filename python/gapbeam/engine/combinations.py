@@ -21,6 +21,37 @@ NUMBERS_AT_A_TIME = 4_000_000
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Varied(Record):
+    """Numbers of combinations in place of those of the beam; None where they stay.
+
+    Attributes
+    ----------
+    supports : numpy.ndarray or None
+        Settlement, gap and stiffness of the supports: combinations by supports of the scene (and one more) by 3.
+    spans : numpy.ndarray or None
+        EI and GA of the spans: combinations by spans (and one more) by 2.
+    moduli : numpy.ndarray or None
+        Of the foundations, negative where one stays: combinations by foundations (and one more).
+    """
+
+    supports: np.ndarray | None = None
+    spans: np.ndarray | None = None
+    moduli: np.ndarray | None = None
+
+    @property
+    def is_nothing(self) -> bool:
+        """Whether all stay."""
+        return self.supports is self.spans is self.moduli is None
+
+    def part(self, which: slice) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Take the numbers of some combinations, as GBCOMB does."""
+        count = which.stop - which.start
+        given = self.supports, self.spans, self.moduli
+        own = ((count, 1, 3), (count, 1, 2), (count, 1))
+        return tuple((np.zeros(shape) if one is None else one[which]).T for one, shape in zip(given, own, strict=True))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Combined(Record):
     """Combinations at full load, in the scene's units; values are not-a-number where one is not solved.
 
@@ -51,7 +82,7 @@ class Combined(Record):
 
 def solve_combinations(
     beam: Beam, factors: np.ndarray, settlements: np.ndarray | None, rule: str, closed: np.ndarray,
-    piece: np.ndarray | None = None, distance: np.ndarray | None = None, supports: np.ndarray | None = None,
+    piece: np.ndarray | None = None, distance: np.ndarray | None = None, varied: Varied | None = None,
 ) -> Iterator[tuple[slice, Combined]]:  # fmt: skip
     """Solve combinations, so many at a time that each call is a short one.
 
@@ -69,9 +100,8 @@ def solve_combinations(
         Where the searches start: supports of the engine, or combinations by supports.
     piece, distance : numpy.ndarray, optional
         Places at which fields are wanted, as for `Beam.values`.
-    supports : numpy.ndarray, optional
-        Settlement, gap and stiffness of the supports instead of those of the beam: combinations by supports of the scene (and
-        one more) by 3.
+    varied : Varied, optional
+        Numbers that differ from those of the beam.
 
     Yields
     ------
@@ -99,11 +129,11 @@ def solve_combinations(
         shares, moves = (
             np.column_stack((rows[part], np.zeros(part.stop - first))).T for rows in (factors, settlements)
         )
-        own = np.zeros((part.stop - first, 1, 3)) if supports is None else supports[part]
+        own = (varied or Varied()).part(part)
         scheme = np.asfortranarray(schemes[part].T)
         begin = perf_counter()
         values, extremes, places, fields_at, solves, status = _engine.gbcomb(
-            beam.handle, np.asfortranarray(shares), np.asfortranarray(moves), own.T, RULES[rule], scheme, *about
+            beam.handle, np.asfortranarray(shares), np.asfortranarray(moves), *own, RULES[rule], scheme, *about
         )
         if Status.NO_MEMORY in status:
             check_status(Status.NO_MEMORY)
@@ -116,13 +146,13 @@ def solve_combinations(
 
 def all_combinations(
     beam: Beam, factors: np.ndarray, settlements: np.ndarray | None, rule: str, closed: np.ndarray,
-    piece: np.ndarray | None = None, distance: np.ndarray | None = None, supports: np.ndarray | None = None,
+    piece: np.ndarray | None = None, distance: np.ndarray | None = None, varied: Varied | None = None,
 ) -> Combined:  # fmt: skip
     """Solve combinations, and keep all results.
 
     Parameters
     ----------
-    beam, factors, settlements, rule, closed, piece, distance, supports
+    beam, factors, settlements, rule, closed, piece, distance, varied
         As for `solve_combinations`.
 
     Returns
@@ -134,7 +164,7 @@ def all_combinations(
         nothing = np.zeros((1, factors.shape[1]))
         one = all_combinations(beam, nothing, None, rule, np.zeros(beam.supports, np.int32), piece, distance)
         return Combined(*(getattr(one, part.name)[:0] for part in fields(Combined)))
-    parts = [found for _, found in solve_combinations(beam, factors, settlements, rule, closed, piece, distance, supports)]
+    parts = [found for _, found in solve_combinations(beam, factors, settlements, rule, closed, piece, distance, varied)]
     if len(parts) == 1:
         return parts[0]
     joined = (np.concatenate([getattr(part, one.name) for part in parts]) for one in fields(Combined))

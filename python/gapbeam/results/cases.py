@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import replace
 from functools import cached_property
 from math import isfinite
 from typing import Any
@@ -17,10 +17,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..base.errors import SceneError, Status
-from ..base.records import Pickled, Record, read_only
-from ..engine.beam import FIELDS, Beam, RefusalError
-from ..engine.case_extremes import case_extremes
-from ..engine.combinations import Combined, all_combinations
+from ..base.records import Pickled, read_only
+from ..engine.beam import Beam, RefusalError
+from ..engine.calls import FEW_NODES
+from ..engine.cases import OneCase, solve_cases, split_loads
+from ..engine.combinations import Combined, Varied, all_combinations
 from ..scene.names import find
 from ..scene.reading import read_beam
 from ..scene.refusals import refusal
@@ -28,165 +29,12 @@ from ..scene.structs import Scene
 from ..scene.wording import key_of
 from .arguments import numbers, scheme
 from .following import choose_rule, starting_scheme
-from .result import Fields, Result, find_places
+from .result import Result, find_places
+from .solved_cases import Asked, Cases, case_in_block, cases_of, wanted_names
 from .steps import LoadSteps
-from .varied import Given, base_values, cases_in, replace_supports, vary_supports
+from .varied import Given, SupportArrays, base_values, cases_in, replace_numbers, vary
 
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Asked(Record):
-    """What was asked for, so that more can be asked.
-
-    Attributes
-    ----------
-    beam : Beam
-        The prepared beam.
-    rule : str
-        How working schemes are found.
-    factors : numpy.ndarray
-        Cases by loads.
-    closed : numpy.ndarray of int
-        Working schemes that were found, or where the searches start: cases by supports of the engine.
-    supports : numpy.ndarray or None
-        Settlement, gap and stiffness of the supports where they differ from those of the scene, settlements included.
-    """
-
-    beam: Beam
-    rule: str
-    factors: np.ndarray
-    closed: np.ndarray
-    supports: np.ndarray | None = None
-
-    def solve(self, x: np.ndarray | None = None, side: str = "right") -> Combined:
-        """Solve all cases.
-
-        Parameters
-        ----------
-        x : numpy.ndarray, optional
-            Places at which fields are wanted.
-        side : {"right", "left"}
-            Which value is taken where a field jumps.
-
-        Returns
-        -------
-        Combined
-        """
-        where = (None, None) if x is None else find_places(self.beam, x, side)
-        return all_combinations(self.beam, self.factors, None, self.rule, self.closed, *where, self.supports)
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Cases(Record):
-    """Solutions of load cases; arrays have one row a case, or no such axis after `Prepared.solve` with one case.
-
-    The arrays are read-only. Two are equal if all their arrays are, but for `solves`.
-
-    Attributes
-    ----------
-    status : numpy.ndarray of int
-        0 solved, 1 no equilibrium, above 10 another reason why there is no unique answer; `Prepared.result` of that case
-        says it in words. Values of a case that is not solved are not-a-number.
-    closed : numpy.ndarray of int
-        1 where a support across the beam acts, 0 where it is open or the case is not solved; in the order of the scene.
-    reaction : numpy.ndarray
-        Reaction of every support across the beam, positive upward.
-    deflection : numpy.ndarray
-        At every node (`Prepared.node_x`), positive downward.
-    moment_left, moment_right : numpy.ndarray
-        Left and right of every node, sagging positive.
-    solves : numpy.ndarray of int
-        Linear solves.
-    """
-
-    status: np.ndarray
-    closed: np.ndarray
-    reaction: np.ndarray
-    deflection: np.ndarray
-    moment_left: np.ndarray
-    moment_right: np.ndarray
-    solves: np.ndarray = field(compare=False)
-    _asked: Asked | None = field(default=None, compare=False, repr=False)
-
-    def at(self, x: ArrayLike, side: str = "right") -> Fields:
-        """Exact values anywhere along the beam, of all cases in few calls of the engine.
-
-        Parameters
-        ----------
-        x : float or array_like
-            Places along the beam.
-        side : {"right", "left"}
-            Which value is taken where a field jumps.
-
-        Returns
-        -------
-        Fields
-            Of every case a row of the shape of `x` (of one case that shape alone); not-a-number where it is not solved.
-
-        Raises
-        ------
-        ValueError
-            A place outside the beam, or something else than numbers; another side.
-
-        Examples
-        --------
-        >>> import gapbeam
-        >>> beam = gapbeam.prepare({"beam": {"spans": [4.0], "EI": 1.0}, "supports": [{"node": 0}, {"node": 1}],
-        ...                         "loads": [{"type": "uniform", "q": 1.0}]})
-        >>> beam.solve([[1.0], [3.0]]).at([1.0, 2.0]).moment
-        array([[1.5, 2. ],
-               [4.5, 6. ]])
-        """
-        places = np.array(numbers("x", x))
-        found = self._asked.solve(places.ravel(), side)
-        shape = self.status.shape + places.shape
-        of = self._asked.beam.fields
-        return Fields(places, **{name: found.fields[:, :, column].reshape(shape).copy() for name, column in of.items()})
-
-    def states(self) -> Combined:
-        """Values at all supports and extremes of all fields, of all cases in few calls of the engine.
-
-        Returns
-        -------
-        Combined
-            As arrays, cases along their first axis.
-        """
-        return self._asked.solve()
-
-    def extremes(self) -> dict[str, dict[str, tuple[np.ndarray, np.ndarray]]]:
-        """Exact largest and smallest values of every field with their places, of all cases in few calls of the engine.
-
-        Returns
-        -------
-        dict
-            ``{"moment": {"max": (values, x), "min": (values, x)}, ...}``, arrays with an entry for every case.
-        """
-        return self.extremes_of(self._asked.beam.fields)
-
-    def extremes_of(self, names: Collection[str]) -> dict[str, dict[str, tuple[np.ndarray, np.ndarray]]]:
-        """Find those of some fields, each of which takes time of its own.
-
-        Parameters
-        ----------
-        names : collection of str
-            Of the fields.
-
-        Returns
-        -------
-        dict
-            As of `extremes`.
-        """
-        asked, shape = self._asked, self.status.shape
-        nodes = tuple(np.atleast_2d(one) for one in (self.deflection, self.moment_left, self.moment_right))
-        there = case_extremes(
-            asked.beam, asked.rule, asked.factors, asked.supports, asked.closed, np.atleast_1d(self.status), nodes, names
-        )  # fmt: skip
-        if there is None:
-            states = self.states()
-            there = {name: (states.extremes[:, FIELDS.index(name)], states.places[:, FIELDS.index(name)]) for name in names}
-        return {
-            name: {kind: (values[:, row].reshape(shape), x[:, row].reshape(shape)) for row, kind in enumerate(("max", "min"))}
-            for name, (values, x) in there.items()
-        }
+FLOAT = np.dtype(float)
 
 
 class Prepared(Pickled):
@@ -210,17 +58,33 @@ class Prepared(Pickled):
         self.supports = read_only(np.flatnonzero(beam.across))
         # Columns of the supports of the engine; None if these are the same, one by one
         self._carries = None if np.array_equal(beam.numbers, self.supports) else np.searchsorted(self.supports, beam.numbers)
-        beam.split_loads()
+        self._one = self._one_case()
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Leave out what is for the short way."""
+        return {name: value for name, value in self.__dict__.items() if name not in ("_one", "_support_arrays")}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         """Take the attributes back."""
         super().__setstate__(state)
-        self._beam.split_loads()
+        self._one = self._one_case()
+
+    def _one_case(self) -> OneCase | None:
+        """Split the loads; and the short way for one case, where there is one."""
+        beam = self._beam
+        if beam.ground_layers:
+            return None
+        split_loads(beam)
+        short = len(self.scene.loads) > 0 and beam.links + 1 < FEW_NODES
+        if not short or beam.has_laws or self._carries is not None:
+            return None
+        return OneCase(beam, self._rule)
 
     def solve(
         self, factors: ArrayLike | None = None, start: Sequence[bool] | None = None,
         settlements: Mapping[str | int, ArrayLike] | None = None, *,
-        gap: Given = None, settlement: Given = None, stiffness: Given = None,
+        gap: Given = None, settlement: Given = None, stiffness: Given = None, EI: Given = None, GA: Given = None, k: Given = None,
+        want: str | Collection[str] | None = None, out: Cases | None = None,
     ) -> Cases:  # fmt: skip
         """Solve load cases.
 
@@ -237,6 +101,15 @@ class Prepared(Pickled):
         gap, settlement, stiffness : array_like or mapping, optional
             What supports have instead of the scene's numbers: an array with one for every support, or a row of them for each
             case; or by name or number of some supports one for all cases, or an array with one for each.
+        EI, GA : array_like or mapping, optional
+            Likewise bending and shear stiffness of the spans (``beam.EI``); sections keep their own.
+        k : array_like or mapping, optional
+            Likewise the modulus of foundations.
+        want : str or collection of str, optional
+            Which arrays of `Cases` are made, moment for both moments; status, closed and solves always are. Default: all.
+        out : Cases, optional
+            Earlier cases of this beam, as many as there are now, to be filled again with what was wanted then, where it can be
+            in the same memory: arrays that were taken out of it change. It is what is returned.
 
         Returns
         -------
@@ -246,9 +119,10 @@ class Prepared(Pickled):
         Raises
         ------
         ValueError
-            Factors of another number than the loads, or that are no finite numbers; another `start`; arrays of another shape.
+            Factors of another number than the loads, or that are no finite numbers; another `start`; arrays of another shape; cases
+            to be filled again that are not such as these.
         SceneError
-            A support that is not there, or a number that a support cannot have: names the case and the support.
+            A support, span or foundation that is not there, or a number that it cannot have: names the case and the place.
 
         Examples
         --------
@@ -265,10 +139,39 @@ class Prepared(Pickled):
         array([[0.75 , 2.5  , 0.75 ],
                [1.125, 1.75 , 1.125],
                [2.   , 0.   , 2.   ]])
+        >>> beam.solve([1.0, 1.0], EI=[[100.0, 100.0], [100.0, 400.0]], want="reaction").reaction.round(3)
+        array([[1.625, 3.75 , 0.625],
+               [1.55 , 3.9  , 0.55 ]])
         """
-        factors = self._checked(factors)
-        varied = not (settlements is None is settlement and gap is None is stiffness)
-        given = {"settlement": settlement, "gap": gap, "stiffness": stiffness} if varied else {}
+        one = self._one
+        if one is not None and (start is settlements is EI is GA is k is want is None):
+            found = self._solve_one(one, factors, settlement, gap, stiffness, out)
+            if found is not None:
+                return found
+        given = {"settlement": settlement, "gap": gap, "stiffness": stiffness, "EI": EI, "GA": GA, "k": k}
+        return self._solve_many(self._checked(factors), start, settlements, given, want, out)
+
+    def _solve_one(
+        self, one: OneCase, factors: ArrayLike | None, settlement: Given, gap: Given, stiffness: Given, out: Cases | None
+    ) -> Cases | None:
+        """Solve one case in the short way; None where it is none, or anything is wrong with it, which the other way says."""
+        if type(factors) is not np.ndarray or factors.dtype is not FLOAT:
+            factors = np.ones(one.shape) if factors is None else numbers("factors", factors)
+        supports = None
+        if not (settlement is gap is stiffness is None):
+            supports = self._support_arrays.take(settlement, gap, stiffness)
+            if supports is None:
+                return None
+        if factors.shape != one.shape or not (out is None or (type(out) is Cases and out._one is one)):
+            return None
+        block = np.empty(one.size) if out is None else out._block
+        return case_in_block(one, block, supports, out) if one.solve(factors, supports, block) else None
+
+    def _solve_many(
+        self, factors: np.ndarray, start: Sequence[bool] | None, settlements: Mapping[str | int, ArrayLike] | None,
+        given: dict[str, Given], want: str | Collection[str] | None, out: Cases | None,
+    ) -> Cases:  # fmt: skip
+        """Solve any number of cases, arguments as for `solve`, factors checked."""
         count = len(factors) if factors.ndim == 2 else cases_in(given)
         # What is asked later is about these
         many = np.array(factors, ndmin=2) if count is None else np.array(np.broadcast_to(factors, (count, factors.shape[-1])))
@@ -277,34 +180,52 @@ class Prepared(Pickled):
         else:
             closed = scheme(start, len(self.supports), "support across the beam")
             closed = closed if self._carries is None else closed[self._carries]
-        supports = self._vary(settlements, given, len(many)) if varied else None
-        if supports is None or self._is_simple:
-            found = self._beam.solve_cases(many, self._rule, closed, supports)
+        varied = self._vary(settlements, given, len(many))
+        names = wanted_names(want) if out is None else self._fitting(out, want, count)
+        again = states = None
+        if self._beam.ground_layers or not (varied.supports is None or self._is_simple):
+            found, states = self._solve_again(Asked(self._beam, self._rule, many, closed, varied), names)
         else:
-            found = self._solve_again(Asked(self._beam, self._rule, many, closed, supports))
-        w, left, right, reaction, closed, solves, status = found
-        asked = Asked(self._beam, self._rule, many, closed, supports)
+            into = None if out is None else out._take_arrays()
+            found = again = solve_cases(self._beam, many, self._rule, closed, varied, names, into)
+        asked = Asked(self._beam, self._rule, many, found["closed"].copy(), varied, states)
         if self._carries is not None:
-            closed = self._by_supports(closed, self._carries, np.zeros(len(many), dtype=np.int32))
-            if reaction.shape[1] != len(self.supports):
-                reaction = self._by_supports(reaction, self._carries, np.where(status == Status.SOLVED, 0.0, np.nan))
-            for k in self._beam.laws if self._beam.has_laws else ():
-                closed[:, np.searchsorted(self.supports, k)] = self._acts(k, closed[:, np.searchsorted(self.supports, k)])
-        if count is None:
-            return Cases(status[0], closed[0], reaction[0], w[0], left[0], right[0], solves[0], asked)
-        return Cases(status, closed, reaction, w, left, right, solves, asked)
+            found = self._by_scene(found)
+        cases = cases_of({}, None, False) if out is None else out
+        cases._fill(found, asked, count is None, again)
+        return cases
+
+    def _fitting(self, out: Cases, want: str | Collection[str] | None, count: int | None) -> tuple[str, ...]:
+        """Refuse cases that cannot be filled again with what is wanted; give what that is."""
+        if not isinstance(out, Cases):
+            raise ValueError(f"out: expected Cases, of this beam, got {type(out).__name__}")
+        if out._beam is not self._beam:
+            raise ValueError("out: these cases are of another prepared beam; give cases of this one")
+        if want is not None and out._names != wanted_names(want):
+            wanted = ", ".join(out._names) or "nothing else"
+            raise ValueError(f"out: of these cases {wanted} was wanted; want the same, or leave want out")
+        shape = () if count is None else (count,)
+        if out._shape != shape:
+            said = ["one case without an axis of cases" if not one else f"{one[0]} cases" for one in (out._shape, shape)]
+            raise ValueError(f"out: these are {said[0]}, and there are {said[1]} to solve; give as many")
+        return out._names
 
     def _vary(
         self, settlements: Mapping[str | int, ArrayLike] | None, given: dict[str, Given], count: int
-    ) -> np.ndarray | None:
-        """Settlement, gap and stiffness of all supports in all cases; None if they are those of the scene."""
-        supports = vary_supports(self.scene, self._beam.columns, given, count)
+    ) -> Varied:
+        """Numbers that differ from those of the scene, movements of supports among their settlements."""
+        varied = vary(self.scene, self._beam.columns, given, count)
+        if not settlements:
+            return varied
         moves = self._movements(settlements, count)
-        if moves.any():
-            if supports is None:
-                supports = np.broadcast_to(base_values(self._beam.columns), (count, moves.shape[1] + 1, 3)).copy()
-            supports[:, :-1, 0] += moves
-        return supports
+        if not moves.any():
+            return varied
+        supports = varied.supports
+        if supports is None:
+            supports = np.broadcast_to(base_values(self._beam.columns), (count, moves.shape[1] + 1, 3))
+        supports = supports.copy()
+        supports[:, :-1, 0] += moves
+        return Varied(supports, varied.spans, varied.moduli)
 
     @cached_property
     def _start(self) -> np.ndarray:
@@ -316,6 +237,11 @@ class Prepared(Pickled):
         """Whether supports can get other numbers without being looked at together: no laws, no ground, one at a place."""
         nodes = self._beam.places.support_nodes
         return not (self._beam.has_laws or self._beam.ground_layers) and len(np.unique(nodes)) == len(nodes)
+
+    @cached_property
+    def _support_arrays(self) -> SupportArrays:
+        """What supports may have in the short way."""
+        return SupportArrays(self._beam.columns, self._is_simple)
 
     def _movements(self, settlements: Mapping[str | int, ArrayLike] | None, count: int) -> np.ndarray:
         """Further movements of all supports, cases by supports."""
@@ -329,17 +255,34 @@ class Prepared(Pickled):
             moves[:, k] += values
         return moves
 
-    def _solve_again(self, asked: Asked) -> tuple[np.ndarray, ...]:
-        """Solve cases with other supports from the scene on, as `Beam.solve_cases` gives them, but for reactions."""
+    def _solve_again(self, asked: Asked, want: tuple[str, ...]) -> tuple[dict[str, np.ndarray], Combined]:
+        """Solve cases with other numbers from the scene on, as `solve_cases` gives them, but for reactions; and all else."""
         beam, nodes = self._beam, len(self.node_x)
         sides = [find_places(beam, self.node_x, side) for side in ("left", "right")]
         piece, distance = (np.concatenate(parts) for parts in zip(*sides, strict=True))
-        found = all_combinations(beam, asked.factors, None, self._rule, asked.closed, piece, distance, asked.supports)
-        w, left, right = found.fields[:, nodes:, 0], found.fields[:, :nodes, 2].copy(), found.fields[:, nodes:, 2].copy()
+        found = all_combinations(beam, asked.factors, None, self._rule, asked.closed, piece, distance, asked.varied)
+        left, right = found.fields[:, :nodes, 2].copy(), found.fields[:, nodes:, 2].copy()
         solved = found.status == Status.SOLVED
         left[solved, 0] = right[solved, -1] = 0.0  # beside the beam
-        reaction = found.at_supports[:, 0][:, self.supports]
-        return w, left, right, reaction, found.closed.copy(), found.solves, found.status
+        arrays = {
+            "deflection": found.fields[:, nodes:, 0].copy(), "moment_left": left, "moment_right": right,
+            "reaction": found.at_supports[:, 0][:, self.supports],
+        }  # fmt: skip
+        arrays = {name: arrays[name] for name in want}
+        arrays |= {"closed": found.closed.copy(), "solves": found.solves.copy(), "status": found.status.copy()}
+        return arrays, replace(found, fields=found.fields[:, :0].copy())
+
+    def _by_scene(self, found: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+        """The same with columns for the supports of the scene across the beam."""
+        columns, status = self._carries, found["status"]
+        closed = self._by_supports(found["closed"], columns, np.zeros(len(status), dtype=np.int32))
+        for k in self._beam.laws if self._beam.has_laws else ():
+            closed[:, np.searchsorted(self.supports, k)] = self._acts(k, closed[:, np.searchsorted(self.supports, k)])
+        found = {**found, "closed": closed}
+        if "reaction" in found and found["reaction"].shape[1] != len(self.supports):
+            idle = np.where(status == Status.SOLVED, 0.0, np.nan)
+            found["reaction"] = self._by_supports(found["reaction"], columns, idle)
+        return found
 
     def _by_supports(self, values: np.ndarray, carries: np.ndarray, idle: np.ndarray) -> np.ndarray:
         """Add up the columns of the kinks of laws, and add those of supports that can carry nothing."""
@@ -368,7 +311,7 @@ class Prepared(Pickled):
 
     def result(
         self, factors: ArrayLike | None = None, settlements: Mapping[str | int, ArrayLike] | None = None, *,
-        gap: Given = None, settlement: Given = None, stiffness: Given = None,
+        gap: Given = None, settlement: Given = None, stiffness: Given = None, EI: Given = None, GA: Given = None, k: Given = None,
     ) -> Result:  # fmt: skip
         """Solve one case with all that `gapbeam.solve` gives: fields, extremes, certificate, report.
 
@@ -378,7 +321,7 @@ class Prepared(Pickled):
             Factor of every load of the scene; default all 1.
         settlements : mapping, optional
             As for `solve`, numbers only.
-        gap, settlement, stiffness : array_like or mapping, optional
+        gap, settlement, stiffness, EI, GA, k : array_like or mapping, optional
             As for `solve`, of one case.
 
         Returns
@@ -394,13 +337,13 @@ class Prepared(Pickled):
             No unique answer exists.
         """
         factors = self._checked(factors)
-        given = {"settlement": settlement, "gap": gap, "stiffness": stiffness}
+        given = {"settlement": settlement, "gap": gap, "stiffness": stiffness, "EI": EI, "GA": GA, "k": k}
         if factors.ndim != 1 or cases_in(given) is not None:
-            raise ValueError(f"{'factors' if factors.ndim != 1 else 'supports'}: expected one case")
+            raise ValueError(f"{'factors' if factors.ndim != 1 else 'numbers by case'}: expected one case")
         base, scene = self._beam, self.scene
-        supports = self._vary(settlements, given, 1)
-        if supports is not None:
-            scene, columns = replace_supports(scene, base.columns, supports[0])
+        varied = self._vary(settlements, given, 1)
+        if not varied.is_nothing:
+            scene, columns = replace_numbers(scene, base.columns, varied)
             try:
                 base = Beam(columns)
             except RefusalError as refused:

@@ -1,9 +1,11 @@
-"""Numbers of supports that differ from case to case, checked."""
+"""Numbers of supports, spans and foundations that differ from case to case, checked."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from math import isfinite
+from types import SimpleNamespace
 from typing import Any
 
 import msgspec
@@ -12,15 +14,20 @@ from numpy.typing import ArrayLike
 
 from ..base.errors import SceneError
 from ..engine.arrays import Columns
+from ..engine.combinations import Varied
 from ..scene.names import find, names_in_errors
 from ..scene.structs import Scene
 from ..scene.wording import key_of
 from .arguments import numbers
 
 Given = Mapping[str | int, ArrayLike] | ArrayLike | None
-"""An array of cases by supports, or of supports; or by name or number of supports a number, or one for every case."""
-KEYS = ("settlement", "gap", "stiffness")
-"""What may vary, as GBCASE takes it."""
+"""An array of cases by supports, or of supports; or by name or number of supports a number, or one for every case. So of spans and
+foundations."""
+OF_SUPPORTS = ("settlement", "gap", "stiffness")
+"""What may vary of supports, as GBCASE takes it."""
+OF_SPANS = ("EI", "GA")
+"""And of spans, as GBCOMB takes it; of foundations it is k."""
+KEYS = (*OF_SUPPORTS, *OF_SPANS, "k")
 
 
 def base_values(columns: Columns) -> np.ndarray:
@@ -34,7 +41,7 @@ def base_values(columns: Columns) -> np.ndarray:
     Returns
     -------
     numpy.ndarray
-        Supports by `KEYS`, and one row more.
+        Supports by `OF_SUPPORTS`, and one row more.
     """
     return columns.support[[3, 2, 1]].T.copy()
 
@@ -45,7 +52,7 @@ def cases_in(given: Mapping[str, Given]) -> int | None:
     Parameters
     ----------
     given : mapping
-        What is given, by keys of a support.
+        What is given, by `KEYS`.
 
     Returns
     -------
@@ -62,7 +69,7 @@ def cases_in(given: Mapping[str, Given]) -> int | None:
     return None
 
 
-def vary_supports(scene: Scene, columns: Columns, given: Mapping[str, Given], count: int) -> np.ndarray | None:
+def vary(scene: Scene, columns: Columns, given: Mapping[str, Given], count: int) -> Varied:
     """Put the numbers of every case together.
 
     Parameters
@@ -72,46 +79,60 @@ def vary_supports(scene: Scene, columns: Columns, given: Mapping[str, Given], co
     columns : Columns
         Its columns.
     given : mapping
-        Of `KEYS`, what is given instead of the scene's numbers.
+        By `KEYS`, what is given instead of the scene's numbers.
     count : int
         Cases.
 
     Returns
     -------
-    numpy.ndarray or None
-        Cases by supports (and one more) by `KEYS`; None where nothing is given.
+    Varied
 
     Raises
     ------
     ValueError
         Arrays of another shape.
     SceneError
-        A support that is not there, or a number that makes no sense for one: names the case and the support.
+        A support, span or foundation that is not there, or a number that makes no sense for one: names the case and the place.
     """
-    if all(values is None for values in given.values()):
-        return None
-    m = len(scene.supports)
-    all_values = np.broadcast_to(base_values(columns), (count, m + 1, len(KEYS))).copy()
-    for j, key in enumerate(KEYS):
-        values = given.get(key)
-        if values is None:
-            continue
-        which: Any = slice(0, m)
-        if isinstance(values, Mapping):
-            which = []
-            for name, column in values.items():
-                place = f"{key}.{key_of(name)}"
-                k = find(scene.supports, name, place, "support")
-                which.append(k)
-                all_values[:, k, j] = _shaped(place, column, (count,), f"a number, or {count}, one a case")
-            if len(set(which)) < len(which):
-                raise SceneError(key, "a support stands there twice, by its name and by its number")
-        else:
-            expected = f"{m} numbers, one for each support, or {count} {'row' if count == 1 else 'rows'} of them, one a case"
-            all_values[:, :m, j] = _shaped(key, values, (count, m), expected)
+    supports = spans = moduli = None
+    if any(given.get(key) is not None for key in OF_SUPPORTS):
+        supports = np.broadcast_to(base_values(columns), (count, len(scene.supports) + 1, 3)).copy()
+        for j, key in enumerate(OF_SUPPORTS):
+            which = _take(key, given.get(key), scene.supports, "support", supports[:, :-1, j])
+            with names_in_errors(scene):
+                _check_supports(columns, key, which, supports[:, :, j])
+    if any(given.get(key) is not None for key in OF_SPANS):
+        spans = np.broadcast_to(columns.span[[1, 2]].T, (count, columns.span.shape[1], 2)).copy()
+        for j, key in enumerate(OF_SPANS):
+            which = _take(key, given.get(key), [SimpleNamespace(name=None)] * len(scene.beam.spans), "span", spans[:, :-1, j])
+            wrong = ~(spans[:, which, j] > 0.0)
+            _refuse(wrong, spans[:, which, j], [f"beam.{key}[{k}]" for k in which], "expected a number above 0, inf is rigid")
+    if given.get("k") is not None:
+        moduli = np.full((count, len(scene.foundation) + 1), -1.0)
+        which = _take("k", given["k"], scene.foundation, "foundation", moduli[:, :-1])
         with names_in_errors(scene):
-            _check(columns, key, np.arange(m)[which], all_values[:, :, j])
-    return all_values
+            _check_moduli(columns, which, moduli)
+    return Varied(supports, spans, moduli)
+
+
+def _take(key: str, given: Given, items: Sequence[Any], noun: str, values: np.ndarray) -> list[int]:
+    """Put what is given into its columns of `values`, cases by items, and say which these are."""
+    count, m = values.shape
+    if given is None:
+        return []
+    if not isinstance(given, Mapping):
+        expected = f"{m} numbers, one for each {noun}, or {count} {'row' if count == 1 else 'rows'} of them, one a case"
+        values[:] = _shaped(key, given, (count, m), expected)
+        return list(range(m))
+    which = []
+    for name, column in given.items():
+        place = f"{key}.{key_of(name)}"
+        k = find(items, name, place, noun)
+        which.append(k)
+        values[:, k] = _shaped(place, column, (count,), f"a number, or {count}, one a case")
+    if len(set(which)) < len(which):
+        raise SceneError(key, f"a {noun} stands there twice, by its name and by its number")
+    return which
 
 
 def _shaped(place: str, given: ArrayLike, shape: tuple[int, ...], expected: str) -> np.ndarray:
@@ -121,14 +142,18 @@ def _shaped(place: str, given: ArrayLike, shape: tuple[int, ...], expected: str)
     return values
 
 
-def _check(columns: Columns, key: str, which: np.ndarray, values: np.ndarray) -> None:
+def _refuse(wrong: np.ndarray, found: np.ndarray, places: Sequence[str], problem: str) -> None:
+    """Refuse the first number that is wrong, cases by places."""
+    if wrong.any():
+        case, at = np.argwhere(wrong)[0].tolist()
+        raise SceneError(f"case {case}, {places[at]}", f"{problem}; got {found[case, at]:.15g}")
+
+
+def _check_supports(columns: Columns, key: str, which: list[int], values: np.ndarray) -> None:
     """Refuse what no support, or not this one, can have; the scene's own number is always right."""
-    found, base = values[:, which], base_values(columns)[which, KEYS.index(key)]
-    for wrong, problem in _mistakes(columns, key, which, found):
-        bad = wrong & (found != base)
-        if bad.any():
-            case, at = np.argwhere(bad)[0].tolist()
-            raise SceneError(f"case {case}, supports[{which[at]}].{key}", f"{problem}; got {found[case, at]:.15g}")
+    found, base = values[:, which], base_values(columns)[which, OF_SUPPORTS.index(key)]
+    for wrong, problem in _mistakes(columns, key, np.array(which, dtype=int), found):
+        _refuse(wrong & (found != base), found, [f"supports[{k}].{key}" for k in which], problem)
 
 
 def _mistakes(columns: Columns, key: str, which: np.ndarray, found: np.ndarray) -> list[tuple[np.ndarray, str]]:
@@ -151,28 +176,103 @@ def _mistakes(columns: Columns, key: str, which: np.ndarray, found: np.ndarray) 
     return mistakes
 
 
-def replace_supports(scene: Scene, columns: Columns, values: np.ndarray) -> tuple[Scene, Columns]:
+def _check_moduli(columns: Columns, which: list[int], values: np.ndarray) -> None:
+    """Refuse what is no modulus, and foundations that have none, or two."""
+    found, places = values[:, which], [f"foundation[{k}].k" for k in which]
+    at_ends = columns.foundation[2:4, which]
+    _refuse(~((found > 0.0) & np.isfinite(found)), found, places, "expected a finite number above 0")
+    with_law = np.broadcast_to(~(at_ends > 0.0).any(axis=0), found.shape)
+    _refuse(with_law, found, places, "it has a law instead of a modulus; leave it out")
+    pairs = np.broadcast_to(at_ends[0] != at_ends[1], found.shape)
+    _refuse(pairs, found, places, "the prepared scene has a pair here, (at from, at to), which stays; prepare it with one number")
+
+
+class SupportArrays:
+    """Numbers of all supports for one case, given as arrays, and looked at as shortly as can be.
+
+    Parameters
+    ----------
+    columns : Columns
+        Of the scene.
+    may_vary : bool
+        False where cases with other supports are solved in another way.
+    """
+
+    def __init__(self, columns: Columns, may_vary: bool):
+        self.base = base_values(columns)
+        self.shape = (len(self.base) - 1,)
+        self.may_vary = may_vary
+        side, direction = columns.support_codes[:2, :-1]
+        without_gap = np.flatnonzero((side == 0) | (direction != 0))
+        idle = np.flatnonzero(~(columns.support[1, :-1] > 0.0))
+        stays = np.zeros(0, int), without_gap, idle
+        self.stays = [(which, self.base[which, j].tolist()) for j, which in enumerate(stays)]
+
+    def take(self, *given: Given) -> np.ndarray | None:
+        """Put the numbers of a case together.
+
+        Parameters
+        ----------
+        *given : numpy.ndarray or None
+            By `OF_SUPPORTS`.
+
+        Returns
+        -------
+        numpy.ndarray or None
+            Supports (and one more) by `OF_SUPPORTS`; None where they are not given as arrays, or something is wrong: then `vary`
+            takes them, or says what.
+        """
+        if not self.may_vary:
+            return None
+        values = self.base.copy()
+        for j, one in enumerate(given):
+            if one is None:
+                continue
+            if type(one) is not np.ndarray or one.dtype != float or one.shape != self.shape:
+                return None
+            which, own = self.stays[j]
+            fine = (one > 0.0).all() if j == 2 else isfinite(sum(one.tolist()))
+            if not fine or one[which].tolist() != own:
+                return None
+            values[:-1, j] = one
+        return values
+
+
+def replace_numbers(scene: Scene, columns: Columns, varied: Varied) -> tuple[Scene, Columns]:
     """Make the scene of one case.
 
     Parameters
     ----------
     scene, columns
         The scene; left as it is.
-    values : numpy.ndarray
-        Supports (and one more) by `KEYS`.
+    varied : Varied
+        Of one case.
 
     Returns
     -------
     scene : Scene
-        The same with other supports.
+        The same with other numbers.
     columns : Columns
         Its columns.
     """
-    base = base_values(columns)
-    changed = [
-        msgspec.structs.replace(one, **dict(zip(KEYS, row, strict=True))) if row != old else one
-        for one, row, old in zip(scene.supports, values[:-1].tolist(), base[:-1].tolist(), strict=True)
-    ]
-    support = columns.support.copy(order="F")
-    support[[3, 2, 1], :-1] = values[:-1].T
-    return msgspec.structs.replace(scene, supports=changed), replace(columns, support=support)
+    support, span, foundation = (one.copy(order="F") for one in (columns.support, columns.span, columns.foundation))
+    changed: dict[str, Any] = {}
+    if varied.supports is not None:
+        values, base = varied.supports[0, :-1], base_values(columns)[:-1].tolist()
+        changed["supports"] = [
+            msgspec.structs.replace(one, **dict(zip(OF_SUPPORTS, row, strict=True))) if row != old else one
+            for one, row, old in zip(scene.supports, values.tolist(), base, strict=True)
+        ]
+        support[[3, 2, 1], :-1] = values.T
+    if varied.spans is not None:
+        span[[1, 2]] = varied.spans[0].T
+        rows = dict(zip(OF_SPANS, varied.spans[0, :-1].T.tolist(), strict=True))
+        changed["beam"] = msgspec.structs.replace(scene.beam, **rows)
+    if varied.moduli is not None:
+        values = varied.moduli[0, :-1]
+        changed["foundation"] = [
+            one if k < 0.0 else msgspec.structs.replace(one, k=k)
+            for one, k in zip(scene.foundation, values.tolist(), strict=True)
+        ]
+        foundation[2:4, :-1] = np.where(values < 0.0, foundation[2:4, :-1], values)
+    return msgspec.structs.replace(scene, **changed), replace(columns, support=support, span=span, foundation=foundation)
