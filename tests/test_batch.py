@@ -69,20 +69,30 @@ def test_a_row_is_the_scene_with_its_numbers():
 
 
 def test_prepared_beams_give_what_scenes_give():
-    """Factors, gaps, settlements and stiffnesses of random scenes, some of them impossible, on both roads."""
+    """Factors, gaps, settlements, stiffnesses, moduli of random scenes, some of them impossible, on both roads."""
     seen = set()
     for seed in range(16):
         rng = random.Random(seed)
-        scene = gapbeam.read_scene(random_scene(rng, held=rng.choice((True, None))))
+        made = random_scene(rng, held=rng.choice((True, None)))
+        if seed > 13:
+            made["foundation"] = [{"k": 1e4, "side": "below"}]
+        scene = gapbeam.read_scene(made)
         columns = [f"supports[{k}].settlement" for k in range(len(scene.supports))]
         columns += [f"supports[{k}].gap" for k, one in enumerate(scene.supports) if one.side != "both"]
         columns += [f"supports[{k}].stiffness" for k in range(len(scene.supports))]
         columns += [f"factors.{case}" for case in sorted({load.case for load in scene.loads})]
+        spans = range(len(scene.beam.spans))
+        for key in ("EI", "GA")[: seed % 3]:
+            columns += [f"beam.{key}[{i}]" for i in spans] if isinstance(getattr(scene.beam, key), list) else [f"beam.{key}"]
+        columns += [f"foundation[{i}].k" for i in range(len(scene.foundation))]
         made = job(scene, columns)
         if not made.is_prepared:
             continue
-        size = [1.0 if name.startswith("f") else 1e5 if name.endswith("ss") else 0.02 for name in columns]
+        size = [1.0 if "factors" in name else 0.02 if name[-2:] in ("nt", "ap") else 1e5 for name in columns]
         values = np.array([[s * rng.choice((0.0, 1.0, rng.uniform(-1, 1), rng.uniform(-1, 1))) for _ in range(4)] for s in size])
+        for row, name in zip(values, columns, strict=True):
+            if name[-2:] not in ("nt", "ap") and "factors" not in name:
+                row[:3] = np.abs(row[:3]) + 1.0 * (row[:3] == 0.0)  # the last case is impossible
         values[0, 3] = np.nan
         found = made.solve(Arrays(dict(zip(columns, values, strict=True))).rows(0, 4), 0)
         alone = job(scene, columns)

@@ -1,4 +1,4 @@
-"""Many cases at once on a prepared beam: columns are loads, factors of cases, or gaps, settlements and stiffnesses of supports."""
+"""Many cases at once on a prepared beam: columns are loads, factors of cases, numbers of supports, stiffnesses, moduli."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import numpy as np
 
 from ..base.errors import GapbeamError, Status
 from ..results.cases import prepare
+from ..results.varied import OF_SPANS
 from ..scene.columns import SIDES
 from ..scene.combinations import VALUES
 from .paths import KeyPath, with_values
@@ -32,7 +33,7 @@ def prepared_road(scene: dict[str, Any], paths: Sequence[KeyPath]) -> PreparedRo
     PreparedRoad or None
         None where each case has to be solved as a scene of its own.
     """
-    if any(scene[key] for key in ("foundation", "combinations", "trains")) or scene["analysis"]["history"] != [1.0]:
+    if any(scene[key] for key in ("combinations", "trains")) or scene["analysis"]["history"] != [1.0]:
         return None
     if not all(_varies(scene, path) for path in paths):
         return None
@@ -44,6 +45,10 @@ def prepared_road(scene: dict[str, Any], paths: Sequence[KeyPath]) -> PreparedRo
 
 def _varies(scene: dict[str, Any], path: KeyPath) -> bool:
     head, *rest = path.parts
+    if head == "beam":
+        return rest[0] in OF_SPANS
+    if head == "foundation":  # a modulus that is one number
+        return rest[1:] == ["k"] and isinstance(scene["foundation"][rest[0]]["k"], int | float)
     if head == "loads":
         return len(rest) == 2 and rest[1] in VALUES and not isinstance(scene["loads"][rest[0]][rest[1]], list)
     if head == "supports" and rest[1] == "gap":  # it moves the place where a one-sided support begins to act
@@ -76,17 +81,41 @@ class PreparedRoad:
         self._beam = prepare(scene)
         self._paths = paths
         self._cases = np.array([load["case"] for load in scene["loads"]], dtype=object)
-        self._sides = [SIDES[support["side"]] for support in scene["supports"]]
         held = scene["supports"]
-        self._levels = [one["settlement"] + side * one["gap"] for one, side in zip(held, self._sides, strict=True)]
+        self._sides = [SIDES[support["side"]] for support in held]
+        self._own = {key: [support[key] for support in held] for key in ("settlement", "gap")}
         x = self._beam.scene.positions(self._beam.scene.supports)
         self._nodes = np.abs(self._beam.node_x - x[:, None]).argmin(axis=1)
         # Reactions and openings then follow from what is known of the nodes
-        self._is_simple = all(one["law"] is None and one["direction"] == "normal" and one["stiffness"] > 0.0 for one in held)
+        self._is_simple = not scene["foundation"] and all(
+            one["law"] is None and one["direction"] == "normal" and one["stiffness"] > 0.0 for one in held
+        )
 
-    def knows(self, want: Sequence[str]) -> bool:
-        """Whether what is wanted follows from the solutions at the nodes, which are not found again for it."""
-        return self._is_simple and set(want) <= {"input", "reaction", "opening", "deflection", "rotation", "moment", "shear"}
+    def seconds(self, want: Sequence[str], nodes: int) -> float:
+        """Tell roughly how long a case takes.
+
+        Parameters
+        ----------
+        want : sequence of str
+            What is kept.
+        nodes : int
+            Of the beam.
+
+        Returns
+        -------
+        float
+        """
+        if self._beam.scene.foundation:
+            return 2e-2
+        # From the solutions at the nodes, which are not found again for it
+        known = {"input", "reaction", "opening"}
+        stiffnesses = 0.0
+        if any(path.parts[0] == "beam" for path in self._paths):
+            stiffnesses = 1e-6 * nodes
+        else:
+            known |= {"deflection", "rotation", "moment", "shear"}
+        is_known = self._is_simple and set(want) <= known
+        return stiffnesses + (3e-6 + 4e-7 * nodes if is_known else 2e-5 + 3e-6 * nodes)
 
     def solve(
         self, values: np.ndarray, want: Sequence[str], numbers: dict[str, np.ndarray], supports: Sequence[str]
@@ -109,50 +138,51 @@ class PreparedRoad:
         numpy.ndarray of bool
             Which cases are solved.
         """
-        factors, moves, stiffness = self._numbers(values)
+        factors, given = self._numbers(values)
         fine = np.isfinite(factors).all(axis=1)
-        for row in moves.values():
-            fine &= np.isfinite(row)
-        for row in stiffness.values():
-            fine &= row > 0.0
+        for key, columns in given.items():
+            for column in columns.values():
+                fine &= np.isfinite(column) if key in ("settlement", "gap", "k") else column > 0.0
+                fine &= column > 0.0 if key == "k" else True
         factors[~fine] = 0.0
-        found = self._beam.solve(
-            factors, settlements={k: np.where(fine, row, 0.0) for k, row in moves.items()},
-            stiffness={k: np.where(fine, row, 1.0) for k, row in stiffness.items()} or None,
-        )
+        for key, columns in given.items():
+            for k, column in columns.items():
+                columns[k] = np.where(fine, column, 0.0 if key in ("settlement", "gap") else 1.0)
+        rest = [name for name in want if name != "input" and not (self._is_simple and name in ("reaction", "opening"))]
+        fields = [name for name in rest if name not in ROWS]
+        found = self._beam.solve(factors, want=("reaction", "deflection", *(("moment",) if fields else ())), **given)
         solved = fine & (found.status == Status.SOLVED)
-        rest = [name for name in want if name != "input"]
         if self._is_simple:
-            rest = [name for name in rest if name not in ("reaction", "opening")]
             for k, one in enumerate(supports):
                 if "reaction" in want:
                     numbers[f"reaction.{one}"][solved] = found.reaction[solved, k] + 0.0  # there is one zero
                 if "opening" in want:
-                    away = self._sides[k] * (self._levels[k] + moves.get(k, 0.0) - found.deflection[:, self._nodes[k]])
+                    settlement, gap = (given.get(key, {}).get(k, own[k]) for key, own in self._own.items())
+                    away = self._sides[k] * (settlement + self._sides[k] * gap - found.deflection[:, self._nodes[k]])
                     numbers[f"opening.{one}"][solved] = np.where(found.closed[:, k], 0.0, np.maximum(away, 0.0) + 0.0)[solved]
-        if any(name in ROWS for name in rest):
-            states = found.states()
-            for name in (name for name in rest if name in ROWS):
-                for k, one in enumerate(supports):
-                    numbers[f"{name}.{one}"][solved] = states.at_supports[solved, ROWS[name], k]
-        for name, extremes in found.extremes_of([name for name in rest if name not in ROWS]).items():
+        states = found.states() if len(rest) > len(fields) else None
+        for name in (name for name in rest if name in ROWS):
+            for k, one in enumerate(supports):
+                numbers[f"{name}.{one}"][solved] = states.at_supports[solved, ROWS[name], k]
+        for name, extremes in (found.extremes_of(fields) if fields else {}).items():
             for kind, (extreme, place) in extremes.items():
                 numbers[f"{name}.{kind}"][solved] = extreme[solved]
                 numbers[f"{name}.{kind}_x"][solved] = place[solved]
         return solved
 
-    def _numbers(self, values: np.ndarray) -> tuple[np.ndarray, dict[int, np.ndarray], dict[int, np.ndarray]]:
-        """Factor of every load, cases by loads, movements and stiffnesses of supports."""
-        factors, moves, stiffness = np.ones((values.shape[1], len(self._cases))), {}, {}
+    def _numbers(self, values: np.ndarray) -> tuple[np.ndarray, dict[str, dict[int, np.ndarray]]]:
+        """Factor of every load, cases by loads, and what `Prepared.solve` takes by number of a support, span or foundation."""
+        factors, given = np.ones((values.shape[1], len(self._cases))), {}
         with np.errstate(over="ignore", invalid="ignore"):
             for path, column in zip(self._paths, values, strict=True):
-                if path.parts[0] == "loads":
-                    factors[:, path.parts[1]] *= column
-                elif path.parts[0] == "factors":
-                    factors[:, self._cases == path.parts[1]] *= column[:, None]
-                elif path.parts[2] == "stiffness":
-                    stiffness[path.parts[1]] = column
+                head, *rest = path.parts
+                if head == "loads":
+                    factors[:, rest[0]] *= column
+                elif head == "factors":
+                    factors[:, self._cases == rest[0]] *= column[:, None]
+                elif head == "beam":
+                    which = rest[1:] or range(len(self._beam.scene.beam.spans))
+                    given.setdefault(rest[0], {}).update(dict.fromkeys(which, column))
                 else:
-                    _, k, key = path.parts
-                    moves[k] = moves.get(k, 0.0) + (column if key == "settlement" else self._sides[k] * column)
-        return factors, moves, stiffness
+                    given.setdefault(rest[1], {})[rest[0]] = column
+        return factors, given

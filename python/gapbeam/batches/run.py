@@ -171,7 +171,7 @@ def _wanted(want: tuple[str, ...] | None, known: Sequence[str], default: tuple[s
 def _cases_a_file(job: Job, nodes: int, columns: int, states: int) -> int:
     """Cases that take about half a second, by their number of nodes alone: files must not depend on how fast a machine is."""
     if job.prepared is not None:
-        seconds = 3e-6 + 4e-7 * nodes if job.prepared.knows(job.want) else 2e-5 + 3e-6 * nodes
+        seconds = job.prepared.seconds(job.want, nodes)
     else:
         seconds = states * (7e-4 + 6e-6 * nodes + (2e-2 if job.scene["foundation"] else 0.0))
     numbers = columns + len(job.columns) + len(job.scene["loads"]) + 4 * len(job.supports) + 14
