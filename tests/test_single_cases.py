@@ -131,6 +131,28 @@ def test_cases_are_filled_again(kind):
         assert beam.solve(first, out=out) == beam.solve(first, want=want)
 
 
+def test_cases_whose_filling_was_interrupted(monkeypatch):
+    """The call that was left behind may still write into their arrays."""
+    beam = gapbeam.prepare(scene(SPANS, PLAIN, LOADS))
+    rows = np.random.default_rng(8).uniform(-2.0, 5.0, (500, 3))
+    out = beam.solve(rows)
+    reaction = out.reaction
+
+    def interrupted(*_):
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patch:
+        patch.setattr("gapbeam.engine.calls._long_cases", interrupted)
+        with pytest.raises(KeyboardInterrupt):
+            beam.solve(rows, out=out)
+    with pytest.raises(AttributeError, match=r"reaction: these cases were to be filled again .* solve them again"):
+        _ = out.reaction
+    with pytest.raises(ValueError, match="these cases were to be filled again"):
+        out.at(1.0)
+    assert beam.solve(rows, out=out) == beam.solve(rows)
+    assert not np.shares_memory(out.reaction, reaction)
+
+
 def test_cases_that_cannot_be_filled_again():
     beam = gapbeam.prepare(scene(SPANS, PLAIN, LOADS))
     other = gapbeam.prepare(scene(SPANS, PLAIN, LOADS))
