@@ -41,8 +41,8 @@ subroutine gbleav(room)
 end subroutine gbleav
 
 ! Solve NC cases of loads; every load counts with its factor
-subroutine gbcase(beam, room, nw, nl, nr, nt, ns, nd, nv, np, nc, factor, supp, span, rule, closed, w, ml, mr, react, solves, &
-                  status)
+subroutine gbcase(beam, room, nw, nl, nr, nt, ns, nd, nv, np, nc, vc, pc, factor, supp, span, rule, closed, w, ml, mr, react, &
+                  solves, status)
     use gapbeam_handle, only: handle_type, handle_of, room_of
     use gapbeam_many_cases, only: case_room_type, solve_cases
     implicit none
@@ -54,11 +54,13 @@ subroutine gbcase(beam, room, nw, nl, nr, nt, ns, nd, nv, np, nc, factor, supp, 
     integer, intent(in) :: nv
     ! One more than there are spans, or 1 where they are those of the scene
     integer, intent(in) :: np
+    ! NC; or any number where they are those of the scene
+    integer, intent(in) :: vc, pc
     ! Nodes, supports of the engine and one more; 1 where they are not wanted
     integer, intent(in) :: nw, nl, nr, nt
     ! Factor of every load in every case; settlement, gap and stiffness of every support, of supports without laws; EI and GA of
     ! every span
-    double precision, intent(in) :: factor(nd, nc), supp(3, nv, nc), span(2, np, nc)
+    double precision, intent(in) :: factor(nd, nc), supp(3, nv, vc), span(2, np, pc)
     integer, intent(in) :: rule
     ! Schemes: start in, working scheme out; of a case that is not solved all open, and its results are not numbers
     integer, intent(inout) :: closed(ns, nc)
@@ -71,7 +73,9 @@ subroutine gbcase(beam, room, nw, nl, nr, nt, ns, nd, nv, np, nc, factor, supp, 
     !f2py integer, intent(hide), depend(factor) :: nd = shape(factor, 0)
     !f2py integer, intent(hide), depend(factor) :: nc = shape(factor, 1)
     !f2py integer, intent(hide), depend(supp) :: nv = shape(supp, 1)
+    !f2py integer, intent(hide), depend(supp) :: vc = shape(supp, 2)
     !f2py integer, intent(hide), depend(span) :: np = shape(span, 1)
+    !f2py integer, intent(hide), depend(span) :: pc = shape(span, 2)
     !f2py integer, intent(hide), depend(w) :: nw = shape(w, 0)
     !f2py integer, intent(hide), depend(ml) :: nl = shape(ml, 0)
     !f2py integer, intent(hide), depend(mr) :: nr = shape(mr, 0)

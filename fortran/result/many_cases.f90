@@ -1,6 +1,5 @@
 !> Cases of a beam: side by side in lanes where that can be (gapbeam_lane_cases), the others one by one
 module gapbeam_many_cases
-    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_memory, gapbeam_not_finite
     use gapbeam_memory, only: enough_memory, for_solving
@@ -176,10 +175,18 @@ contains
             end associate
             status = gapbeam_not_finite
         end if
-        w(:) = ieee_value(1.0_wp, ieee_quiet_nan)
-        ml(:) = ieee_value(1.0_wp, ieee_quiet_nan)
-        mr(:) = ieee_value(1.0_wp, ieee_quiet_nan)
-        reaction(:) = ieee_value(1.0_wp, ieee_quiet_nan)
+        w(:) = not_a_number()
+        ml(:) = not_a_number()
+        mr(:) = not_a_number()
+        reaction(:) = not_a_number()
     end subroutine give_case
+
+    !> A number that is none. Procedures that know of ieee_arithmetic save the processor's state, each time they are called
+    function not_a_number() result(nan)
+        use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
+        real(wp) :: nan
+
+        nan = ieee_value(nan, ieee_quiet_nan)
+    end function not_a_number
 
 end module gapbeam_many_cases

@@ -240,7 +240,7 @@ def gbcase(
     while first < cases:
         part = slice(first, min(first + some, cases))
         begin = perf_counter()
-        given = factors[:, part], supports[..., part], spans[..., part]
+        given = factors[:, part], *(one if one.shape[1] == 1 else one[..., part] for one in (supports, spans))
         _long_cases(beam, room, *given, rule, *(values[..., part] for values in results))
         some = max(int(some * min(max(SECONDS / (perf_counter() - begin), 0.25), 4.0)), 1)
         first = part.stop

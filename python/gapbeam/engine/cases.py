@@ -17,6 +17,8 @@ ALWAYS = ("status", "closed", "solves")
 """What comes with every case."""
 NOT_FINITE = -1
 """Status of GBONE where a factor is not finite."""
+NONE = np.zeros((1, 1, 3)).T
+"""Where supports, and likewise spans, are those of the beam."""
 
 
 def split_loads(beam: Beam) -> None:
@@ -73,7 +75,11 @@ def solve_cases(
     cases, m, n = len(factors), beam.supports, beam.links + 1
     shares = np.zeros((cases, factors.shape[1] + 1))
     shares[:, :-1] = factors
-    supports, spans, _ = (varied or Varied()).part(slice(0, cases))
+    supports, spans = NONE, NONE[:2]
+    if varied is not None and varied.supports is not None:
+        supports = varied.supports.T
+    if varied is not None and varied.spans is not None:
+        spans = varied.spans.T
     if into is None:
         widths = (n, n, n, m + 1)
         made = [np.empty((cases, width if name in want else 1)) for name, width in zip(WANTED, widths, strict=True)]
@@ -127,7 +133,7 @@ class OneCase:
         names = ("status", "solves", *WANTED, "closed", "factors")
         self.parts = {name: slice(first, last) for name, first, last in zip(names, [0, *ends], ends, strict=False)}
         self.size = ends[-1]
-        self._call = _engine.gbone, beam.handle, RULES[rule], np.zeros((1, 3)).T, beam.rooms
+        self._call = _engine.gbone, beam.handle, RULES[rule], NONE[:, :, 0], beam.rooms
 
     def solve(self, factors: np.ndarray, supports: np.ndarray | None, block: np.ndarray) -> bool:
         """Solve a case.

@@ -28,6 +28,8 @@ OF_SUPPORTS = ("settlement", "gap", "stiffness")
 OF_SPANS = ("EI", "GA")
 """And of spans, as GBCOMB takes it; of foundations it is k."""
 KEYS = (*OF_SUPPORTS, *OF_SPANS, "k")
+NOTHING = Varied()
+"""Where all is as in the scene."""
 
 
 def base_values(columns: Columns) -> np.ndarray:
@@ -94,35 +96,36 @@ def vary(scene: Scene, columns: Columns, given: Mapping[str, Given], count: int)
     SceneError
         A support, span or foundation that is not there, or a number that makes no sense for one: names the case and the place.
     """
+    given = {key: values for key, values in given.items() if values is not None}
+    if not given:
+        return NOTHING
     supports = spans = moduli = None
-    if any(given.get(key) is not None for key in OF_SUPPORTS):
-        supports = np.broadcast_to(base_values(columns), (count, len(scene.supports) + 1, 3)).copy()
-        for j, key in enumerate(OF_SUPPORTS):
-            which = _take(key, given.get(key), scene.supports, "support", supports[:, :-1, j])
-            with names_in_errors(scene):
-                _check_supports(columns, key, which, supports[:, :, j])
-    if any(given.get(key) is not None for key in OF_SPANS):
-        spans = np.broadcast_to(columns.span[[1, 2]].T, (count, columns.span.shape[1], 2)).copy()
-        for j, key in enumerate(OF_SPANS):
-            which = _take(key, given.get(key), [SimpleNamespace(name=None)] * len(scene.beam.spans), "span", spans[:, :-1, j])
-            wrong = ~(spans[:, which, j] > 0.0)
-            _refuse(wrong, spans[:, which, j], [f"beam.{key}[{k}]" for k in which], "expected a number above 0, inf is rigid")
-    if given.get("k") is not None:
-        moduli = np.full((count, len(scene.foundation) + 1), -1.0)
-        which = _take("k", given["k"], scene.foundation, "foundation", moduli[:, :-1])
-        with names_in_errors(scene):
-            _check_moduli(columns, which, moduli)
+    with names_in_errors(scene):
+        for key, values in given.items():
+            if key in OF_SUPPORTS:
+                if supports is None:
+                    supports = np.broadcast_to(base_values(columns), (count, len(scene.supports) + 1, 3)).copy()
+                of_key = supports[:, :, OF_SUPPORTS.index(key)]
+                _check_supports(columns, key, _take(key, values, scene.supports, "support", of_key), of_key)
+            elif key in OF_SPANS:
+                if spans is None:
+                    spans = np.broadcast_to(columns.span[[1, 2]].T, (count, columns.span.shape[1], 2)).copy()
+                of_key = spans[:, :, OF_SPANS.index(key)]
+                which = _take(key, values, [SimpleNamespace(name=None)] * len(scene.beam.spans), "span", of_key)
+                places = [f"beam.{key}[{k}]" for k in which]
+                _refuse(~(of_key[:, which] > 0.0), of_key[:, which], places, "expected a number above 0, inf is rigid")
+            else:
+                moduli = np.full((count, len(scene.foundation) + 1), -1.0)
+                _check_moduli(columns, _take(key, values, scene.foundation, "foundation", moduli), moduli)
     return Varied(supports, spans, moduli)
 
 
 def _take(key: str, given: Given, items: Sequence[Any], noun: str, values: np.ndarray) -> list[int]:
-    """Put what is given into its columns of `values`, cases by items, and say which these are."""
-    count, m = values.shape
-    if given is None:
-        return []
+    """Put what is given into its columns of `values`, cases by items (and one more), and say which these are."""
+    count, m = values.shape[0], values.shape[1] - 1
     if not isinstance(given, Mapping):
         expected = f"{m} numbers, one for each {noun}, or {count} {'row' if count == 1 else 'rows'} of them, one a case"
-        values[:] = _shaped(key, given, (count, m), expected)
+        values[:, :m] = _shaped(key, given, (count, m), expected)
         return list(range(m))
     which = []
     for name, column in given.items():
@@ -153,7 +156,9 @@ def _check_supports(columns: Columns, key: str, which: list[int], values: np.nda
     """Refuse what no support, or not this one, can have; the scene's own number is always right."""
     found, base = values[:, which], base_values(columns)[which, OF_SUPPORTS.index(key)]
     for wrong, problem in _mistakes(columns, key, np.array(which, dtype=int), found):
-        _refuse(wrong & (found != base), found, [f"supports[{k}].{key}" for k in which], problem)
+        bad = wrong & (found != base)
+        if bad.any():
+            _refuse(bad, found, [f"supports[{k}].{key}" for k in which], problem)
 
 
 def _mistakes(columns: Columns, key: str, which: np.ndarray, found: np.ndarray) -> list[tuple[np.ndarray, str]]:
