@@ -1,0 +1,350 @@
+!> Random cases of beams of ten widths, 3 to 300 spans: the same bits in one call, alone, by the general engine, at every level of
+!> instructions, and in four threads on one prepared beam
+!>
+!> Usage: lane_widths [CASES [SEED]]     cases of all widths together; 1000000 take some minutes
+program lane_widths
+    use, intrinsic :: iso_fortran_env, only: int64
+    use, intrinsic :: iso_c_binding, only: c_int, c_intptr_t, c_ptr, c_null_ptr, c_funptr, c_funloc, c_loc, c_f_pointer
+    use testing, only: check, finish
+    use gapbeam_kinds, only: wp
+    use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_equilibrium
+    use gapbeam_scene, only: span_type, support_type, uniform_load, point_force, gapbeam_both, gapbeam_infinity
+    use gapbeam_units, only: moment_unit
+    use gapbeam_lowered, only: lowered_type
+    use gapbeam_lower, only: lower_model
+    use gapbeam_model, only: beam_type
+    use gapbeam_workspace, only: workspace_type, new_workspace
+    use gapbeam_search, only: rule_block
+    use gapbeam_cases, only: case_loads_type, split_loads, solve_case, replace_supports
+    use gapbeam_lane_levels, only: least_level, best_level
+    use gapbeam_lane_cases, only: lane_room_type, fits_lanes, solve_in_lanes
+    use gapbeam_many_cases, only: case_room_type, solve_cases
+    implicit none
+
+    integer, parameter :: widths(10) = [3, 5, 8, 10, 17, 30, 60, 100, 299, 300]
+    !> Most cases of a beam, threads, and where the cases of each begin
+    integer, parameter :: most = 100, threads = 4
+    !> What was compared, and what of it came out otherwise
+    integer, parameter :: alone = 1, engine = 2, levels = 3, in_threads = 4, kinds = 4
+
+    !> Cases of a beam, and what came of them
+    type :: share_type
+        type(lowered_type), pointer :: lowered => null()
+        type(case_loads_type), pointer :: loads => null()
+        real(wp), pointer :: factors(:, :) => null(), values(:, :, :) => null()
+        integer, allocatable :: closed(:, :), solves(:), status(:)
+        real(wp), allocatable :: w(:, :), ml(:, :), mr(:, :), reaction(:, :)
+        logical, allocatable :: done(:)
+    end type share_type
+
+    interface
+        !> POSIX
+        function pthread_create(thread, attributes, start, argument) result(code) bind(c)
+            import :: c_intptr_t, c_ptr, c_funptr, c_int
+            implicit none
+            integer(c_intptr_t), intent(out) :: thread
+            type(c_ptr), intent(in), value :: attributes, argument
+            type(c_funptr), intent(in), value :: start
+            integer(c_int) :: code
+        end function pthread_create
+        !> POSIX
+        function pthread_join(thread, answer) result(code) bind(c)
+            import :: c_intptr_t, c_ptr, c_int
+            implicit none
+            integer(c_intptr_t), intent(in), value :: thread
+            type(c_ptr), intent(in), value :: answer
+            integer(c_int) :: code
+        end function pthread_join
+    end interface
+
+    call all_widths(argument(1, 200), argument(2, 1))
+
+contains
+
+    !> A number of the command line
+    function argument(position, default) result(number)
+        integer, intent(in) :: position, default
+        integer :: number
+        character(len=20) :: text
+
+        number = default
+        if (command_argument_count() < position) return
+        call get_command_argument(position, text)
+        read (text, *) number
+    end function argument
+
+    !> Compare the cases of all widths
+    subroutine all_widths(cases, start)
+        integer, intent(in) :: cases, start
+        integer :: i, left, now, seen(kinds), wrong(kinds), all_seen(kinds), status, unsolved
+        integer(int64) :: seed
+        logical :: other
+
+        seed = 2463534242_int64 + 7919*start
+        all_seen(:) = 0
+        other = .false.
+        do i = 1, size(widths)
+            left = cases/size(widths)
+            seen(:) = 0
+            wrong(:) = 0
+            unsolved = 0
+            do while (left > 0)
+                now = min(left, most)
+                call one_beam(seed, widths(i), now, seen, wrong, unsolved)
+                left = left - now
+            end do
+            write (*, "(*(a, i0))") "# ", widths(i), " spans, without an answer ", unsolved, &
+                "; compared, otherwise: alone ", seen(alone), ", ", wrong(alone), "; engine ", seen(engine), ", ", wrong(engine), &
+                "; levels ", seen(levels), ", ", wrong(levels), "; threads ", seen(in_threads), ", ", wrong(in_threads)
+            call check(all(wrong == 0) .and. seen(engine) > 0 .and. (seen(levels) > 0 .eqv. widths(i) < 300), &
+                       "the same bits whatever stands beside a case")
+            all_seen = all_seen + seen
+        end do
+        call finish(status)
+        if (status /= 0) stop 1, quiet=.true.
+    end subroutine all_widths
+
+    !> Draw a beam and cases of it, and solve them in all ways
+    subroutine one_beam(seed, spans, cases, seen, wrong, unsolved)
+        integer(int64), intent(inout) :: seed
+        integer, intent(in) :: spans, cases
+        integer, intent(inout) :: seen(:), wrong(:), unsolved
+        type(lowered_type), target :: lowered
+        type(case_loads_type), target :: loads
+        type(error_type), allocatable :: error
+        real(wp), allocatable, target :: factors(:, :), values(:, :, :)
+        type(share_type), target :: together, one, part(threads)
+        type(case_room_type) :: room
+        type(lane_room_type) :: lane_room
+        integer(c_intptr_t) :: thread(threads)
+        integer(c_int) :: code
+        integer :: bounds(0:threads), i, t, level
+
+        call make_beam(seed, spans, lowered)
+        call split_loads(lowered, loads, error)
+        call draw_cases(seed, lowered, cases, factors, values)
+        call share_cases(lowered, loads, factors, values, together)
+        call solve_share(together, room)
+        unsolved = unsolved + count(together%status == gapbeam_no_equilibrium)
+
+        do i = 1, cases
+            call share_cases(lowered, loads, factors(:, i:i), values(:, :, i:i), one)
+            call solve_share(one, room)
+            call count_one(same(together, i, one, 1), alone, seen, wrong)
+        end do
+        call compare_engine(together, seen, wrong)
+        if (fits_lanes(lowered)) then
+            do level = least_level, best_level()
+                call share_cases(lowered, loads, factors, values, one)
+                call solve_in_lanes(lowered, loads, factors, values, lane_room, one%closed, one%w, one%ml, one%mr, one%reaction, &
+                                    one%solves, one%done, level)
+                do i = 1, cases
+                    if (one%done(i)) call count_one(same(together, i, one, i), levels, seen, wrong)
+                end do
+            end do
+        end if
+
+        bounds(:) = [(cases*t**2/threads**2, t=0, threads)]
+        do t = 1, threads
+            call share_cases(lowered, loads, factors(:, bounds(t - 1) + 1:bounds(t)), values(:, :, bounds(t - 1) + 1:bounds(t)), &
+                             part(t))
+            code = pthread_create(thread(t), c_null_ptr, c_funloc(solve_in_thread), c_loc(part(t)))
+            if (code /= 0) error stop "no thread"
+        end do
+        do t = 1, threads
+            code = pthread_join(thread(t), c_null_ptr)
+            do i = 1, bounds(t) - bounds(t - 1)
+                call count_one(same(together, bounds(t - 1) + i, part(t), i), in_threads, seen, wrong)
+            end do
+        end do
+    end subroutine one_beam
+
+    !> Count what was compared
+    subroutine count_one(equal, kind, seen, wrong)
+        logical, intent(in) :: equal
+        integer, intent(in) :: kind
+        integer, intent(inout) :: seen(:), wrong(:)
+
+        seen(kind) = seen(kind) + 1
+        if (.not. equal) wrong(kind) = wrong(kind) + 1
+    end subroutine count_one
+
+    !> Cases to be solved
+    subroutine share_cases(lowered, loads, factors, values, share)
+        type(lowered_type), intent(in), target :: lowered
+        type(case_loads_type), intent(in), target :: loads
+        real(wp), intent(in), target :: factors(:, :), values(:, :, :)
+        type(share_type), intent(out) :: share
+        integer :: n, m, c
+
+        share%lowered => lowered
+        share%loads => loads
+        share%factors => factors
+        share%values => values
+        n = size(lowered%beam%links) + 1
+        m = size(lowered%beam%supports)
+        c = size(factors, 2)
+        allocate (share%closed(m, c), share%solves(c), share%status(c), share%w(n, c), share%ml(n, c), share%mr(n, c), &
+                  share%reaction(m, c), share%done(c))
+        share%closed(:, :) = 1
+        share%solves(:) = 0
+        share%status(:) = gapbeam_solved
+        share%w(:, :) = 0.0_wp
+        share%ml(:, :) = 0.0_wp
+        share%mr(:, :) = 0.0_wp
+        share%reaction(:, :) = 0.0_wp
+    end subroutine share_cases
+
+    !> Solve them in one call
+    subroutine solve_share(share, room)
+        type(share_type), intent(inout) :: share
+        !> Empty, or of earlier cases of the beam
+        type(case_room_type), intent(inout) :: room
+        real(wp) :: own_spans(2, 0, 0)
+
+        call solve_cases(share%lowered, share%loads, share%factors, share%values, own_spans, rule_block, room, share%closed, &
+                         share%w, share%ml, share%mr, share%reaction, share%solves, share%status)
+    end subroutine solve_share
+
+    !> The same, for pthread_create
+    function solve_in_thread(address) result(answer) bind(c)
+        type(c_ptr), intent(in), value :: address
+        type(c_ptr) :: answer
+        type(share_type), pointer :: share
+        type(case_room_type) :: room
+
+        call c_f_pointer(address, share)
+        call solve_share(share, room)
+        answer = c_null_ptr
+    end function solve_in_thread
+
+    !> Has case i of a the bits of case k of b
+    pure function same(a, i, b, k) result(equal)
+        type(share_type), intent(in) :: a, b
+        integer, intent(in) :: i, k
+        logical :: equal
+
+        equal = a%status(i) == b%status(k)
+        if (.not. equal .or. a%status(i) /= gapbeam_solved) return
+        equal = all(a%closed(:, i) == b%closed(:, k)) .and. all(bits(a%reaction(:, i)) == bits(b%reaction(:, k))) .and. &
+            all(bits(a%w(:, i)) == bits(b%w(:, k)) .and. bits(a%ml(:, i)) == bits(b%ml(:, k)) &
+                .and. bits(a%mr(:, i)) == bits(b%mr(:, k)))
+    end function same
+
+    !> The bits of a number: zeros of both signs are two
+    elemental function bits(number)
+        real(wp), intent(in) :: number
+        integer(int64) :: bits
+
+        bits = transfer(number, bits)
+    end function bits
+
+    !> Compare with the engine that knows no lanes
+    subroutine compare_engine(together, seen, wrong)
+        type(share_type), intent(in) :: together
+        integer, intent(inout) :: seen(:), wrong(:)
+        type(share_type) :: one
+        type(beam_type) :: beam
+        type(workspace_type) :: work
+        logical, allocatable :: acting(:)
+        integer :: i
+
+        associate (lowered => together%lowered, units => together%lowered%units)
+            beam = lowered%beam
+            call new_workspace(beam, work)
+            allocate (acting(size(beam%supports)))
+            call share_cases(lowered, together%loads, together%factors(:, 1:1), together%values(:, :, 1:1), one)
+            do i = 1, size(together%status)
+                one%status(1) = gapbeam_solved
+                if (size(together%values, 2) > 0) call replace_supports(lowered, together%values(:, :, i), beam, one%status(1))
+                acting(:) = .true.
+                call solve_case(together%loads, together%factors(:, i), rule_block, beam, acting, work, one%status(1))
+                one%closed(:, 1) = merge(1, 0, acting)
+                one%w(:, 1) = scale(work%answers%deflection, units%deflection)
+                one%ml(:, 1) = scale(work%answers%moment_left, moment_unit(units))
+                one%mr(:, 1) = scale(work%answers%moment_right, moment_unit(units))
+                one%reaction(:, 1) = scale(work%reaction, units%force)
+                call count_one(same(together, i, one, 1), engine, seen, wrong)
+            end do
+        end associate
+    end subroutine compare_engine
+
+    !> A beam of so many spans on supports of all kinds, now and then one missing, now and then a hinge
+    subroutine make_beam(seed, spans, lowered)
+        integer(int64), intent(inout) :: seed
+        integer, intent(in) :: spans
+        type(lowered_type), intent(out) :: lowered
+        type(error_type), allocatable :: error
+        type(support_type), allocatable :: supports(:)
+        real(wp) :: x
+        integer :: i, k, m
+
+        associate (model => lowered%model)
+            x = random(seed)
+            k = merge(1, 0, spans < 299 .and. x < 0.3_wp)
+            allocate (model%spans(spans), model%hinges(k), model%sections(0), model%law(0), model%foundations(0), model%ground(0), &
+                      model%ground_law(0), supports(spans + 1), model%loads(4))
+            do i = 1, spans
+                model%spans(i) = span_type(2.0_wp + 4*random(seed), EI=10.0_wp**(3 + 2*random(seed)))
+            end do
+            m = 0
+            do i = 0, spans
+                x = random(seed)
+                if (x < 0.1_wp .and. i > 0 .and. i < spans .and. spans < 299) cycle
+                m = m + 1
+                supports(m) = support_type(node=i, settlement=0.01_wp*(random(seed) - 0.5_wp))
+                if (random(seed) < 0.4_wp) supports(m)%stiffness = 10.0_wp**(1 + 4*random(seed))
+                if (x < 0.4_wp) cycle
+                supports(m)%side = merge(1, -1, random(seed) < 0.8_wp)
+                if (random(seed) < 0.6_wp) supports(m)%gap = 0.01_wp*(random(seed) - 0.2_wp)
+            end do
+            allocate (model%supports(m))
+            model%supports(:) = supports(:m)
+            x = sum(model%spans%length)
+            if (k > 0) model%hinges(:) = x*(0.2_wp + 0.6_wp*random(seed))
+            model%loads(1) = uniform_load(10.0_wp, 0.0_wp, x)
+            model%loads(2) = uniform_load(20*random(seed), 0.3_wp*x*random(seed), x*(0.5_wp + 0.5_wp*random(seed)))
+            model%loads(3) = point_force(40*random(seed), node=int((spans + 1)*random(seed)))
+            model%loads(4) = uniform_load(20*random(seed), x*(0.6_wp + 0.2_wp*random(seed)), x*(0.9_wp + 0.1_wp*random(seed)))
+        end associate
+        call lower_model(lowered, error)
+        if (allocated(error)) error stop "no beam"
+    end subroutine make_beam
+
+    !> Factors, and for every second beam settlements, gaps and stiffnesses by case
+    subroutine draw_cases(seed, lowered, cases, factors, values)
+        integer(int64), intent(inout) :: seed
+        type(lowered_type), intent(in) :: lowered
+        integer, intent(in) :: cases
+        real(wp), allocatable, intent(out) :: factors(:, :), values(:, :, :)
+        integer :: i, k
+
+        associate (given => lowered%model%supports)
+            allocate (factors(size(lowered%model%loads), cases))
+            allocate (values(3, merge(size(given), 0, random(seed) < 0.5_wp), cases))
+            do i = 1, cases
+                do k = 1, size(factors, 1)
+                    factors(k, i) = 3*random(seed) - 1
+                end do
+                do k = 1, size(values, 2)
+                    values(:, k, i) = [given(k)%settlement + 0.01_wp*(random(seed) - 0.5_wp), given(k)%gap, given(k)%stiffness]
+                    if (given(k)%side /= gapbeam_both) values(2, k, i) = 0.01_wp*(random(seed) - 0.2_wp)
+                    if (random(seed) < 0.2_wp) values(3, k, i) = 10.0_wp**(1 + 4*random(seed))
+                    if (random(seed) < 0.1_wp) values(3, k, i) = gapbeam_infinity
+                end do
+            end do
+        end associate
+    end subroutine draw_cases
+
+    !> From 0 to 1 (Marsaglia 2003)
+    function random(seed) result(x)
+        integer(int64), intent(inout) :: seed
+        real(wp) :: x
+
+        seed = ieor(seed, shiftl(seed, 13))
+        seed = ieor(seed, shiftr(seed, 7))
+        seed = ieor(seed, shiftl(seed, 17))
+        x = real(shiftr(seed, 11), wp)*2.0_wp**(-53)
+    end function random
+
+end program lane_widths
