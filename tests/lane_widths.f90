@@ -96,7 +96,7 @@ contains
             write (*, "(*(a, i0))") "# ", widths(i), " spans, without an answer ", unsolved, &
                 "; compared, otherwise: alone ", seen(alone), ", ", wrong(alone), "; engine ", seen(engine), ", ", wrong(engine), &
                 "; levels ", seen(levels), ", ", wrong(levels), "; threads ", seen(in_threads), ", ", wrong(in_threads)
-            call check(all(wrong == 0) .and. seen(engine) > 0 .and. (seen(levels) > 0 .eqv. widths(i) < 300), &
+            call check(all(wrong == 0) .and. seen(levels) > 0 .and. (seen(engine) > 0 .eqv. widths(i) < 300), &
                        "the same bits whatever stands beside a case")
             all_seen = all_seen + seen
         end do
@@ -132,7 +132,8 @@ contains
             call solve_share(one, room)
             call count_one(same(together, i, one, 1), alone, seen, wrong)
         end do
-        call compare_engine(together, seen, wrong)
+        ! A longer beam alone keeps its solution up to date, with other last digits
+        if (spans < 300) call compare_engine(together, seen, wrong)
         if (fits_lanes(lowered)) then
             do level = least_level, best_level()
                 call share_cases(lowered, loads, factors, values, one)

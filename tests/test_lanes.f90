@@ -18,8 +18,8 @@ program test_lanes
     use gapbeam_case_extremes, only: extremes_of_cases
     implicit none
 
-    !> Cases of a beam, and beams
-    integer, parameter :: cases = 20, beams = 240
+    !> Cases of a beam; beams, the last of which are long: alone their solution is kept up to date, with other last digits
+    integer, parameter :: cases = 20, beams = 240, long_beams = 2
     integer :: status
 
     !> What comes out of some cases
@@ -55,7 +55,7 @@ contains
         other_bits = 0
         missed = 0
         do b = 1, beams
-            call make_beam(seed, lowered)
+            call make_beam(seed, b > beams - long_beams, lowered)
             call split_loads(lowered, loads, error)
             if (.not. fits_lanes(lowered)) cycle
             call draw_cases(seed, lowered, b, factors, values)
@@ -71,7 +71,7 @@ contains
             i = 1 + modulo(b, cases)
             call solve(lowered, loads, factors(:, i:i), values(:, :, i:i), best_level(), alone)
             if (.not. all(same(alone, all_cases, [i]))) other_lane = other_lane + 1
-            call compare(lowered, loads, factors, values, all_cases, other_bits, missed)
+            call compare(lowered, loads, factors, values, b > beams - long_beams, all_cases, other_bits, missed)
         end do
         call check(total > beams*cases/2, "most of the beams are such as lanes hold")
         call check(other_level == 0, "every kind of processor gives the same bits")
@@ -144,10 +144,12 @@ contains
     end function same
 
     !> Cases that come out otherwise one by one, and those that are solved only so
-    subroutine compare(lowered, loads, factors, values, found, number, missed)
+    subroutine compare(lowered, loads, factors, values, long, found, number, missed)
         type(lowered_type), intent(in) :: lowered
         type(case_loads_type), intent(in) :: loads
         real(wp), intent(in) :: factors(:, :), values(:, :, :)
+        !> Not to the last bit
+        logical, intent(in) :: long
         type(found_type), intent(in) :: found
         integer, intent(inout) :: number, missed
         type(beam_type) :: beam
@@ -172,6 +174,10 @@ contains
                             .and. bits(scale(a%moment_left, moment_unit(units))) == bits(found%ml(:, i)) &
                             .and. bits(scale(a%moment_right, moment_unit(units))) == bits(found%mr(:, i))) &
                         .and. all(bits(scale(work%reaction, units%force)) == bits(found%reaction(:, i)))) cycle
+                    associate (w => scale(a%deflection, units%deflection), r => scale(work%reaction, units%force))
+                        if (long .and. all(abs(w - found%w(:, i)) <= 1e-12_wp*maxval(abs(w))) &
+                            .and. all(abs(r - found%reaction(:, i)) <= 1e-12_wp*maxval(abs(r)))) cycle
+                    end associate
                 end if
             end associate
             number = number + 1
@@ -179,8 +185,10 @@ contains
     end subroutine compare
 
     !> A beam of 2 to 40 spans; at its ends and inside supports of all kinds, or none, and hinges
-    subroutine make_beam(seed, lowered)
+    subroutine make_beam(seed, long, lowered)
         integer(int64), intent(inout) :: seed
+        !> Of 300 to 700 spans
+        logical, intent(in) :: long
         type(lowered_type), intent(out) :: lowered
         type(error_type), allocatable :: error
         type(support_type), allocatable :: supports(:)
@@ -188,6 +196,7 @@ contains
         integer :: i, k, m, n
 
         n = 2 + int(39*random(seed)**3)
+        if (long) n = 300 + int(400*random(seed))
         associate (model => lowered%model)
             x = random(seed)
             k = merge(1, 0, n > 3 .and. x < 0.3_wp)

@@ -17,8 +17,9 @@ module gapbeam_lane_cases
     public :: lane_room_type, fits_lanes, solve_in_lanes, find_schemes
     public :: prepare_lanes, take_supports, take_values, take_starts
 
-    !> Links from which on gapbeam_search keeps a solution up to date, whose last digits are others then
-    integer, parameter :: long_beam = 300
+    !> Most links: eight cases of longer beams leave the processor's memory, and a case alone is solved faster by itself. From 300
+    !> links on gapbeam_search keeps a solution up to date, so that the last digits of solve_case may be others
+    integer, parameter :: most_links = 1000
     !> Exponents of units up to which a power of two is a double
     integer, parameter :: most_power = 1000
     !> Weak springs relative to the softest stiffness present, as in gapbeam_scheme
@@ -54,7 +55,7 @@ contains
 
         associate (beam => lowered%beam, units => lowered%units)
             n = size(beam%links)
-            fits = n > 1 .and. n < long_beam .and. .not. allocated(beam%ground)
+            fits = n > 1 .and. n <= most_links .and. .not. allocated(beam%ground)
             if (.not. fits) return
             fits = all(beam%kind == plain .or. beam%kind == hinge) &
                 .and. all(beam%links%faa > 0.0_wp .and. beam%links%fbb > 0.0_wp) &
