@@ -114,13 +114,12 @@ contains
         ease(:) = 0.0_wp
         solves(:) = 0
         do solve = 1, most_solves
-            pack%is_solved = is_easy .and. ends_hold(pack, n)
-            if (pack%is_solved) pack%is_solved = .not. any(ease > 0.0_wp)
-            where (alive > 0.5_wp) solves = solves + 1
+            pack%is_solved = is_easy
+            if (pack%is_solved) pack%is_solved = ends_hold(pack, n)
+            solves(:) = solves + nint(alive)
             if (pack%is_solved) then
                 call pass_both_ends(beam, n, pack%turn, pack%shear, pack%stiffness, pack%rigid, pack%contact, pack%turn_rest, &
                                     pack%closed, pack%room, pack%w, pack%ml)
-                moves(:) = 0.0_wp
                 call find_wrong_between(beam, n, alive, pack%shear, pack%stiffness, pack%rigid, pack%contact, pack%closed, &
                                         pack%w, pack%ml, pack%turn_rest, wrong)
             else
@@ -135,13 +134,15 @@ contains
                 looked_at(:) = alive*(1.0_wp - moves)
                 call find_wrong(beam, n, looked_at, pack%shear, pack%stiffness, pack%contact, pack%held, pack%closed, pack%w, &
                                 pack%ml, pack%mr, pack%turn_rest, wrong)
+                where (moves > 0.5_wp) wrong = huge(1.0_wp)
+                is_easy = is_easy .and. .not. any(moves > 0.5_wp)
             end if
             ! What has settled stays as it is
-            where (.not. wrong > 0.5_wp) alive = alive*moves
-            if (.not. any(alive > 0.5_wp)) exit
-            where (moves > 0.5_wp) wrong = huge(1.0_wp)
+            alive(:) = alive*merge(1.0_wp, 0.0_wp, wrong > 0.5_wp)
+            if (.not. sum(alive) > 0.5_wp) exit
             idle(:) = merge(0.0_wp, idle + 1.0_wp, wrong < fewest)
-            fewest(:) = min(fewest, wrong)
+            fewest(:) = merge(wrong, fewest, wrong < fewest)
+            if (solve < patience) cycle
             if (any(alive*idle > patience)) call keep_every_other(n, solve, idle, pack%turn_rest)
         end do
         lost = alive > 0.5_wp
