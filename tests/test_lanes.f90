@@ -7,7 +7,7 @@ program test_lanes
     use gapbeam_scene, only: model_type, span_type, support_type, point_force, point_couple, uniform_load, gapbeam_both, &
         gapbeam_infinity
     use gapbeam_units, only: moment_unit
-    use gapbeam_lowered, only: lowered_type
+    use gapbeam_lowered, only: lowered_type, piece_length
     use gapbeam_lower, only: lower_model
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, new_workspace
@@ -29,6 +29,8 @@ program test_lanes
         logical, allocatable :: done(:)
         !> Extremes of the fields, and their places
         real(wp), allocatable :: extremes(:, :, :), places(:, :, :)
+        !> Fields at both ends of the beam
+        real(wp), allocatable :: fields(:, :, :)
     end type found_type
 
     call lanes_have_the_bits_of_single_cases()
@@ -105,12 +107,14 @@ contains
         found%reaction(:, :) = 0.0_wp
         call solve_in_lanes(lowered, loads, factors, values, room, found%closed, found%w, found%ml, found%mr, found%reaction, &
                             found%solves, found%done, level)
-        allocate (found%extremes(2, 4, c), found%places(2, 4, c))
+        allocate (found%extremes(2, 4, c), found%places(2, 4, c), found%fields(4, 2, c))
+        found%fields(:, :, :) = 0.0_wp
         found%extremes(:, :, :) = 0.0_wp
         found%places(:, :, :) = 0.0_wp
         status = merge(gapbeam_solved, gapbeam_not_finite, found%done)
         call extremes_of_cases(lowered, loads, factors, values, rule_block, found%closed, found%w, found%ml, found%mr, &
-                               [.true., .true., .true., .true.], found%extremes, found%places, status, level)
+                               [.true., .true., .true., .true.], found%extremes, found%places, [1, size(lowered%pieces)], &
+                               [0.0_wp, piece_length(lowered, size(lowered%pieces))], found%fields, status, level)
         found%done = found%done .and. status == gapbeam_solved
     end subroutine solve
 
@@ -138,7 +142,8 @@ contains
                     all(bits(a%w(:, i)) == bits(b%w(:, k)) .and. bits(a%ml(:, i)) == bits(b%ml(:, k)) &
                         .and. bits(a%mr(:, i)) == bits(b%mr(:, k))) .and. all(bits(a%reaction(:, i)) == bits(b%reaction(:, k))) &
                     .and. all(bits(a%extremes(:, :, i)) == bits(b%extremes(:, :, k)) &
-                              .and. bits(a%places(:, :, i)) == bits(b%places(:, :, k)))
+                              .and. bits(a%places(:, :, i)) == bits(b%places(:, :, k))) &
+                    .and. all(bits(a%fields(:, :, i)) == bits(b%fields(:, :, k)))
             end associate
         end do
     end function same

@@ -149,7 +149,11 @@ def test_fields_and_extremes_of_cases_are_those_of_their_results():
                 one = beam.result(row, {key: values[k] for key, values in (settlements or {}).items()})
                 scale = 1e-12 * max(np.abs(row).max(initial=0.0), 1e-9) * 1e3
                 assert cases.reaction[k] == pytest.approx(one.steps[-1].reaction[beam.supports], rel=1e-11, abs=scale), seed
-                assert fields.moment[k] == pytest.approx(one.at(x, side="left").moment, rel=1e-10, abs=scale)
+                there = one.at(x, side="left")
+                assert fields.moment[k] == pytest.approx(there.moment, rel=1e-10, abs=scale)
+                assert fields.shear[k] == pytest.approx(there.shear, rel=1e-10, abs=scale)
+                for name in () if one.steps[-1].indifferent else ("deflection", "rotation"):
+                    assert getattr(fields, name)[k] == pytest.approx(getattr(there, name), rel=1e-9, abs=1e-12), name
                 largest = one.extremes()["shear"]["max"][0]
                 assert extremes["shear"]["max"][0][k] == pytest.approx(largest, rel=1e-11, abs=scale)
                 for name, field in one.extremes().items():

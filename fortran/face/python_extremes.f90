@@ -1,12 +1,14 @@
-! Extremes of cases for Python, in the manner of face/python.f90, which says what the arguments BEAM, NL, NS, ND, NV and NC are
+! Extremes of cases, and fields, for Python, in the manner of face/python.f90, which says what the arguments BEAM, NL, NS, ND, NV
+! and NC are
 
-! Find the extremes of the fields of NC cases that GBCASE has solved
-subroutine gbcext(beam, nl, ns, nd, nv, nc, factor, supp, rule, closed, w, ml, mr, want, extr, place, status, there)
+! Find the extremes of the fields of NC cases that GBCASE has solved, and the fields at NX places (one more than there are)
+subroutine gbcext(beam, nl, ns, nd, nv, nc, nx, factor, supp, rule, closed, w, ml, mr, want, extr, place, piece, dist, field, &
+                  status, there)
     use gapbeam_handle, only: handle_type, handle_of
     use gapbeam_case_extremes, only: has_lane_extremes, extremes_of_cases
     implicit none
     integer(8), intent(in) :: beam
-    integer, intent(in) :: nl, ns, nd, nv, nc
+    integer, intent(in) :: nl, ns, nd, nv, nc, nx
     ! As for GBCASE
     double precision, intent(in) :: factor(nd, nc), supp(3, nv, nc)
     integer, intent(in) :: rule
@@ -18,6 +20,10 @@ subroutine gbcext(beam, nl, ns, nd, nv, nc, factor, supp, rule, closed, w, ml, m
     ! Maximum and minimum of those, and where they are, in the scene's units; the others as they were, as are all of a case that is
     ! not solved
     double precision, intent(inout) :: extr(2, 4, nc), place(2, 4, nc)
+    ! Places, as for GBVALU, and the fields there
+    integer, intent(in) :: piece(nx)
+    double precision, intent(in) :: dist(nx)
+    double precision, intent(inout) :: field(4, nx, nc)
     ! By GBCASE in; out otherwise where a case has no extremes. Where memory ends some say so
     integer, intent(inout) :: status(nc)
     ! 0: not for such a beam, and nothing is done
@@ -27,6 +33,7 @@ subroutine gbcext(beam, nl, ns, nd, nv, nc, factor, supp, rule, closed, w, ml, m
     !f2py integer, intent(hide), depend(factor) :: nd = shape(factor, 0)
     !f2py integer, intent(hide), depend(factor) :: nc = shape(factor, 1)
     !f2py integer, intent(hide), depend(supp) :: nv = shape(supp, 1)
+    !f2py integer, intent(hide), depend(piece) :: nx = shape(piece, 0)
     !f2py integer, intent(hide), depend(w) :: nl = shape(w, 0) - 1
     type(handle_type), pointer :: handle
 
@@ -36,5 +43,5 @@ subroutine gbcext(beam, nl, ns, nd, nv, nc, factor, supp, rule, closed, w, ml, m
     if (.not. has_lane_extremes(handle%lowered)) there = 0
     if (there == 0 .or. nc == 0) return
     call extremes_of_cases(handle%lowered, handle%cases, factor(:nd - 1, :), supp(:, :nv - 1, :), rule, closed, w, ml, mr, &
-                           want /= 0, extr, place, status)
+                           want /= 0, extr, place, piece(:nx - 1), dist(:nx - 1), field(:, :nx - 1, :), status)
 end subroutine gbcext

@@ -5,6 +5,7 @@ module gapbeam_lane_extremes
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes, lane_beam_type, lane_pieces_type, pack_type, piece_pack_type
     use gapbeam_lane_fields, only: recover_pack
+    use gapbeam_lane_values, only: deflection, rotation, moment, shear, find_values, deflection_at, rotation_at
     use gapbeam_lane_roots, only: find_open, count_turns, find_only_root, find_roots
     implicit none
     private
@@ -14,8 +15,6 @@ module gapbeam_lane_extremes
     real(wp), parameter :: least_load = 1e-150_wp
     !> Queues of pieces with one root at most, and with several
     integer, parameter :: one_root = 1, some_roots = 2
-    !> Fields as gapbeam_query counts them
-    integer, parameter :: deflection = 1, rotation = 2, moment = 3, shear = 4
 
     !> Pieces of eight cases that wait for their roots to be found
     type :: queue_type
@@ -69,8 +68,8 @@ contains
         real(wp) :: x, length
         integer :: j, l
 
-        if (k <= rotation) call find_values(pieces, n, k, 0.5_wp, loads, starts, room(:, :, 1))
-        call find_values(pieces, n, k, 1.0_wp, loads, starts, room(:, :, 2))
+        if (k <= rotation) call find_values(pieces, n, k, pieces%number, pieces%half, loads, starts, room(:, :, 1))
+        call find_values(pieces, n, k, pieces%number, pieces%length, loads, starts, room(:, :, 2))
         best(:, 1) = starts(:, 1, k)
         best(:, 2) = 1.0_wp
         best(:, 3) = 0.0_wp
@@ -86,47 +85,6 @@ contains
             end do
         end do
     end subroutine look_at_ends
-
-    !> A field at the same share of the length of every piece
-    pure subroutine find_values(pieces, n, k, part, loads, starts, values)
-        type(lane_pieces_type), intent(in) :: pieces
-        integer, intent(in) :: n, k
-        real(wp), intent(in) :: part, loads(lanes, n, 5), starts(lanes, n, 4)
-        real(wp), intent(out) :: values(lanes, n)
-        real(wp) :: s, length, f, g
-        integer :: j, l
-
-        do j = 1, n
-            length = pieces%length(j)
-            s = part*length
-            f = pieces%flexibility(j)
-            g = pieces%shear_flexibility(j)
-            select case (k)
-            case (deflection)
-                !$omp simd
-                do l = 1, lanes
-                    values(l, j) = deflection_at(s, length, f, g, loads(l, j, 1), loads(l, j, 2), loads(l, j, 3), &
-                                                 starts(l, j, 1), starts(l, j, 2), starts(l, j, 3), starts(l, j, 4))
-                end do
-            case (rotation)
-                !$omp simd
-                do l = 1, lanes
-                    values(l, j) = rotation_at(s, length, f, loads(l, j, 1), loads(l, j, 2), loads(l, j, 3), starts(l, j, 2), &
-                                               starts(l, j, 3), starts(l, j, 4))
-                end do
-            case (moment)
-                !$omp simd
-                do l = 1, lanes
-                    values(l, j) = moment_at(s, length, loads(l, j, 1), loads(l, j, 2), starts(l, j, 3), starts(l, j, 4))
-                end do
-            case default
-                !$omp simd
-                do l = 1, lanes
-                    values(l, j) = starts(l, j, 4) - s*(loads(l, j, 1) + s*((loads(l, j, 2) - loads(l, j, 1))/length)/2)
-                end do
-            end select
-        end do
-    end subroutine find_values
 
     !> Shear inside pieces: where a linear load changes sign
     pure subroutine look_at_shear(pieces, n, loads, starts, best)
@@ -339,26 +297,7 @@ contains
         c4 = f*slope/24
     end subroutine derive_deflection
 
-    !> The deflection at a distance from the left end of a piece: fields_at of gapbeam_element
-    elemental function deflection_at(s, length, f, g, qa, qb, kappa, w, turn, m, v) result(x)
-        !> The distance; length, 1/EI, 1/GA; loads, and fields at the left end
-        real(wp), intent(in) :: s, length, f, g, qa, qb, kappa, w, turn, m, v
-        real(wp) :: x
-        real(wp) :: slope
-
-        slope = (qb - qa)/length
-        x = w + s*(turn + s*(kappa/2 - f*(m/2 + s*(v/6 - s*(qa/24 + s*slope/120))))) + g*(s*(v - s*(qa/2 + s*slope/6)))
-    end function deflection_at
-
-    !> The rotation likewise
-    elemental function rotation_at(s, length, f, qa, qb, kappa, turn, m, v) result(x)
-        real(wp), intent(in) :: s, length, f, qa, qb, kappa, turn, m, v
-        real(wp) :: x
-
-        x = turn + s*(kappa - f*(m + s*(v/2 - s*(qa/6 + s*((qb - qa)/length)/24))))
-    end function rotation_at
-
-    !> The moment likewise
+    !> The moment at a distance from the left end of a piece: fields_at of gapbeam_element
     elemental function moment_at(s, length, qa, qb, m, v) result(x)
         real(wp), intent(in) :: s, length, qa, qb, m, v
         real(wp) :: x

@@ -6,15 +6,18 @@ module gapbeam_lane_levels
     use gapbeam_lane_types, only: lanes, lane_beam_type, lane_pieces_type, pack_type, piece_pack_type
     use gapbeam_lane_search, only: search_pack, finish_pack
     use gapbeam_lane_extremes, only: extremes_of_pack
+    use gapbeam_lane_values, only: fields_of_pack
 #ifdef GAPBEAM_LEVELS
     use gapbeam_lane_search_v3, only: search_pack_v3 => search_pack, finish_pack_v3 => finish_pack
     use gapbeam_lane_search_v4, only: search_pack_v4 => search_pack, finish_pack_v4 => finish_pack
     use gapbeam_lane_extremes_v3, only: extremes_of_pack_v3 => extremes_of_pack
+    use gapbeam_lane_values_v3, only: fields_of_pack_v3 => fields_of_pack
     use gapbeam_lane_extremes_v4, only: extremes_of_pack_v4 => extremes_of_pack
+    use gapbeam_lane_values_v4, only: fields_of_pack_v4 => fields_of_pack
 #endif
     implicit none
     private
-    public :: best_level, least_level, search_pack_at, finish_pack_at, extremes_of_pack_at
+    public :: best_level, least_level, search_pack_at, finish_pack_at, extremes_of_pack_at, fields_of_pack_at
 
     !> Level of what every processor has
     integer, parameter :: least_level = 2
@@ -109,5 +112,31 @@ contains
             call extremes_of_pack(beam, pieces, wanted, factors, pack, fields, extremes, poor)
         end select
     end subroutine extremes_of_pack_at
+
+    !> fields_of_pack likewise
+    subroutine fields_of_pack_at(level, beam, pieces, factors, pack, fields, piece, distance, values, poor)
+        integer, intent(in) :: level
+        !> As for fields_of_pack
+        type(lane_beam_type), intent(in) :: beam
+        type(lane_pieces_type), intent(in) :: pieces
+        real(wp), intent(in), contiguous :: factors(:, :)
+        type(pack_type), intent(inout) :: pack
+        type(piece_pack_type), intent(inout) :: fields
+        integer, intent(in), contiguous :: piece(:)
+        real(wp), intent(in), contiguous :: distance(:)
+        real(wp), intent(out) :: values(lanes, size(piece), 4)
+        real(wp), intent(out) :: poor(lanes)
+
+        select case (level)
+#ifdef GAPBEAM_LEVELS
+        case (4)
+            call fields_of_pack_v4(beam, pieces, factors, pack, fields, piece, distance, values, poor)
+        case (3)
+            call fields_of_pack_v3(beam, pieces, factors, pack, fields, piece, distance, values, poor)
+#endif
+        case default
+            call fields_of_pack(beam, pieces, factors, pack, fields, piece, distance, values, poor)
+        end select
+    end subroutine fields_of_pack_at
 
 end module gapbeam_lane_levels

@@ -70,6 +70,9 @@ module gapbeam_lane_types
         integer, allocatable :: last(:)
         !> As in piece_type; distance of the left end from that of the link, of the right end from its right end, shape (npiece)
         real(wp), allocatable, dimension(:) :: length, flexibility, shear_flexibility, before, behind
+        !> 1, 2, ..., and half of the length, shape (npiece)
+        integer, allocatable :: number(:)
+        real(wp), allocatable :: half(:)
         !> What loads with factor 1 put on pieces: which load, which piece; load per length at both ends, imposed curvature, force
         !> and couple at the right end (piece_load_type), shape (5, :)
         integer, allocatable :: load(:), piece(:)

@@ -12,11 +12,11 @@ module gapbeam_case_extremes
     use gapbeam_lower_loads, only: spread_load
     use gapbeam_lower_units, only: load_in_units
     use gapbeam_solution, only: state_type
-    use gapbeam_query, only: extremes_of_fields, field_count
+    use gapbeam_query, only: extremes_of_fields, fields_in_pieces, field_count
     use gapbeam_cases, only: case_loads_type
     use gapbeam_combinations, only: combination_type, varied_type, combine, solve_combination
     use gapbeam_lane_types, only: lanes, lane_beam_type, lane_pieces_type, pack_type, piece_pack_type, new_pack, new_piece_pack
-    use gapbeam_lane_levels, only: extremes_of_pack_at, best_level
+    use gapbeam_lane_levels, only: extremes_of_pack_at, fields_of_pack_at, best_level
     use gapbeam_lane_cases, only: prepare_lanes, take_supports, take_values, take_starts
     implicit none
     private
@@ -44,8 +44,9 @@ contains
         end associate
     end function has_lane_extremes
 
-    !> Find the extremes of solved cases of such a beam
-    subroutine extremes_of_cases(lowered, loads, factors, values, rule, closed, w, ml, mr, wanted, extremes, places, status, level)
+    !> Find the extremes of solved cases of such a beam, and fields at places
+    subroutine extremes_of_cases(lowered, loads, factors, values, rule, closed, w, ml, mr, wanted, extremes, places, piece, &
+                                 distance, fields, status, level)
         type(lowered_type), intent(in) :: lowered
         !> As for solve_in_lanes
         type(case_loads_type), intent(in) :: loads
@@ -59,17 +60,22 @@ contains
         logical, intent(in) :: wanted(4)
         !> Maximum and minimum of those and their places, in the scene's units, shape (2, 4, ncase)
         real(wp), intent(inout) :: extremes(:, :, :), places(:, :, :)
-        !> gapbeam_solved in where a case is solved; out an error where one is found, its extremes as they were
+        !> Places (piece, and distance from its left end in the scene's units), shape (n); there deflection, rotation, moment and
+        !> shear, shape (4, n, ncase)
+        integer, intent(in) :: piece(:)
+        real(wp), intent(in) :: distance(:)
+        real(wp), intent(inout) :: fields(:, :, :)
+        !> gapbeam_solved in where a case is solved; out an error where one is found, its values as they were
         integer, intent(inout) :: status(:)
         !> As for solve_in_lanes
         integer, intent(in), optional :: level
         type(lane_beam_type) :: beam
         type(lane_pieces_type) :: pieces
         type(pack_type) :: pack
-        type(piece_pack_type) :: fields
+        type(piece_pack_type) :: along
         type(combination_type) :: combined
         integer, allocatable :: solved(:)
-        real(wp), allocatable :: factors_of(:, :)
+        real(wp), allocatable :: factors_of(:, :), at_places(:, :, :)
         real(wp) :: found(lanes, 6, 4), poor(lanes)
         integer :: first, i, k, l, number, stat, at_level, case_of(lanes)
         logical :: lost, made, fits
@@ -79,9 +85,10 @@ contains
         call prepare_lanes(lowered, loads, beam, made)
         if (made) call prepare_pieces(lowered, pieces, made)
         if (made) call new_pack(beam%n, pack, made)
-        if (made) call new_piece_pack(size(pieces%length), fields, made)
+        if (made) call new_piece_pack(size(pieces%length), along, made)
         stat = 0
-        if (made) allocate (solved(count(status == gapbeam_solved)), factors_of(lanes, size(factors, 1)), stat=stat)
+        if (made) allocate (solved(count(status == gapbeam_solved)), factors_of(lanes, size(factors, 1)), &
+                            at_places(lanes, size(piece), 4), stat=stat)
         if (.not. made .or. stat /= 0) then
             status(:) = gapbeam_no_memory
             return
@@ -113,11 +120,18 @@ contains
             pack%ml(:, :) = scale(1.0_wp, -moment_unit(lowered%units))*pack%ml
             pack%mr(:, :) = scale(1.0_wp, -moment_unit(lowered%units))*pack%mr
             poor(:) = 1.0_wp
-            if (.not. lost) call extremes_of_pack_at(at_level, beam, pieces, wanted, factors_of, pack, fields, found, poor)
+            if (any(wanted) .and. .not. lost) then
+                call extremes_of_pack_at(at_level, beam, pieces, wanted, factors_of, pack, along, found, poor)
+            end if
+            if (size(piece) > 0 .and. .not. lost) then
+                call fields_of_pack_at(at_level, beam, pieces, factors_of, pack, along, piece, &
+                                       scale(distance, -lowered%units%length), at_places, poor)
+            end if
             do l = 1, min(lanes, number - first + 1)
                 i = case_of(l)
                 fits = poor(l) < 0.5_wp
                 if (fits) call give_extremes(lowered, wanted, found, l, extremes(:, :, i), places(:, :, i), fits)
+                if (fits) call give_fields(lowered, at_places, l, fields(:, :, i), fits)
                 if (.not. fits) call solve_alone(i)
             end do
         end do
@@ -129,7 +143,7 @@ contains
             integer, intent(in) :: i
             type(state_type) :: state
             type(error_type), allocatable :: error
-            real(wp) :: value(2, field_count), x(2, field_count)
+            real(wp) :: value(2, field_count), x(2, field_count), all_fields(field_count, size(piece))
             real(wp), target :: own(3, size(values, 2))
             type(varied_type) :: varied
 
@@ -150,6 +164,10 @@ contains
             status(i) = state%status
             if (state%status /= gapbeam_solved) return
             call extremes_of_fields(combined%lowered, state, value, x, error)
+            if (.not. allocated(error)) then
+                call fields_in_pieces(combined%lowered, 1.0_wp, state%starts, state%displacement, state%tension, piece, distance, &
+                                      all_fields, error)
+            end if
             if (allocated(error)) then
                 status(i) = error%code
                 return
@@ -159,6 +177,7 @@ contains
                 extremes(:, k, i) = value(:, k)
                 places(:, k, i) = x(:, k)
             end do
+            fields(:, :, i) = all_fields(:4, :)
         end subroutine solve_alone
 
     end subroutine extremes_of_cases
@@ -182,12 +201,15 @@ contains
             end if
         end do
         allocate (pieces%last(0:size(lowered%beam%links)), pieces%length(n), pieces%flexibility(n), pieces%shear_flexibility(n), &
-                  pieces%before(n), pieces%behind(n), pieces%load(shares), pieces%piece(shares), pieces%to_piece(5, shares), &
+                  pieces%before(n), pieces%behind(n), pieces%number(n), pieces%half(n), pieces%load(shares), &
+                  pieces%piece(shares), pieces%to_piece(5, shares), &
                   on_pieces(n), stat=stat)
         made = stat == 0
         if (.not. made) return
         pieces%last(:) = lowered%node_point
         pieces%length(:) = lowered%pieces%length
+        pieces%half(:) = 0.5_wp*pieces%length
+        pieces%number(:) = [(j, j=1, n)]
         pieces%flexibility(:) = lowered%pieces%flexibility
         pieces%shear_flexibility(:) = lowered%pieces%shear_flexibility
         do k = 1, ubound(pieces%last, 1)
@@ -267,9 +289,7 @@ contains
         real(wp) :: value
         integer :: powers(4), i, k, piece
 
-        associate (units => lowered%units)
-            powers = [units%deflection, rotation_unit(units), moment_unit(units), units%force]
-        end associate
+        powers = powers_of(lowered)
         made = .true.
         do k = 1, 4
             if (.not. wanted(k)) cycle
@@ -282,5 +302,32 @@ contains
             end do
         end do
     end subroutine give_extremes
+
+    !> Fields of a case at places likewise
+    pure subroutine give_fields(lowered, found, l, fields, made)
+        type(lowered_type), intent(in) :: lowered
+        !> By fields_of_pack, and the lane
+        real(wp), intent(in) :: found(:, :, :)
+        integer, intent(in) :: l
+        real(wp), intent(inout) :: fields(:, :)
+        logical, intent(out) :: made
+        integer :: powers(4), i
+
+        powers = powers_of(lowered)
+        do i = 1, size(fields, 2)
+            fields(:, i) = scale(found(l, i, :), powers)
+        end do
+        made = all(abs(fields) <= huge(1.0_wp))
+    end subroutine give_fields
+
+    !> Exponents of the units of the fields
+    pure function powers_of(lowered) result(powers)
+        type(lowered_type), intent(in) :: lowered
+        integer :: powers(4)
+
+        associate (units => lowered%units)
+            powers = [units%deflection, rotation_unit(units), moment_unit(units), units%force]
+        end associate
+    end function powers_of
 
 end module gapbeam_case_extremes

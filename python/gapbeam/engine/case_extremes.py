@@ -1,4 +1,4 @@
-"""Extremes of the fields of many solved cases, from their solutions at the nodes."""
+"""Fields of many solved cases and their extremes, from the solutions at the nodes."""
 
 from __future__ import annotations
 
@@ -10,8 +10,10 @@ from ..base.errors import Status, check_status
 from . import calls as _engine
 from .beam import FIELDS, RULES, Beam
 
+HERE = FIELDS[:4]
+"""The fields that are found here."""
 NODES_AT_A_TIME = 50_000
-"""Nodes of all cases in a call: some milliseconds."""
+"""Nodes and places of all cases in a call: some milliseconds."""
 
 
 def case_extremes(
@@ -46,30 +48,66 @@ def case_extremes(
     MemoryError
         The system gives no more memory.
     """
-    if not set(names) <= set(FIELDS[:4]) or beam.ground_layers:
+    if not set(names) <= set(HERE):
         return None
-    cases, width = len(factors), beam.links + 1
-    found = np.full((2, cases, 4, 2), np.nan)
-    want = [int(name in names) for name in FIELDS[:4]]
+    found = _follow(beam, rule, factors, supports, closed, status, nodes, names, np.zeros(0, np.int32), np.zeros(0))
+    return found and {name: tuple(values[:, HERE.index(name)] for values in found[:2]) for name in names}
+
+
+def case_fields(
+    beam: Beam, rule: str, factors: np.ndarray, supports: np.ndarray | None, closed: np.ndarray, status: np.ndarray,
+    nodes: tuple[np.ndarray, np.ndarray, np.ndarray], piece: np.ndarray, distance: np.ndarray,
+) -> dict[str, np.ndarray] | None:  # fmt: skip
+    """Find fields at places.
+
+    Parameters
+    ----------
+    beam, rule, factors, supports, closed, status, nodes
+        As for `case_extremes`.
+    piece, distance : numpy.ndarray
+        The places, as for `Beam.values`.
+
+    Returns
+    -------
+    dict of numpy.ndarray or None
+        Every field, cases by places; as `case_extremes` otherwise.
+
+    Raises
+    ------
+    MemoryError
+        The system gives no more memory.
+    """
+    found = _follow(beam, rule, factors, supports, closed, status, nodes, (), piece, distance)
+    return found and {name: found[2][:, :, k] for k, name in enumerate(HERE)}
+
+
+def _follow(
+    beam: Beam, rule: str, factors: np.ndarray, supports: np.ndarray | None, closed: np.ndarray, status: np.ndarray,
+    nodes: tuple[np.ndarray, ...], names: Collection[str], piece: np.ndarray, distance: np.ndarray,
+) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:  # fmt: skip
+    """Find extremes, their places, and fields."""
+    if beam.ground_layers:
+        return None
+    cases, places = len(factors), len(piece)
+    extremes, x, fields = (np.full((cases, *shape), np.nan) for shape in ((4, 2), (4, 2), (places + 1, 4)))
+    about = np.append(piece, 1).astype(np.int32), np.append(distance, 0.0)
+    want = [int(name in names) for name in HERE]
     state = status.astype(np.int32)
     shares = np.zeros((cases, factors.shape[1] + 1))
     shares[:, :-1] = factors
     schemes = np.zeros((cases, beam.supports + 1), dtype=np.int32)
     schemes[:, :-1] = closed
     own = np.zeros((cases, 1, 3)) if supports is None else supports
-    w, left, right = (np.ascontiguousarray(one) for one in nodes)
-    some = max(NODES_AT_A_TIME // width, 1)
-    for first in range(0, max(cases, 1), some):
+    solutions = schemes, *(np.ascontiguousarray(one) for one in nodes)
+    some = max(NODES_AT_A_TIME // (beam.links + 1 + places), 1)
+    for first in range(0, cases, some):
         part = slice(first, first + some)
-        arrays = schemes, w, left, right
-        results = found[0, part].T, found[1, part].T, state[part]
-        if not len(results[-1]):
-            break
         there = _engine.gbcext(
-            beam.handle, shares[part].T, own[part].T, RULES[rule], *(one[part].T for one in arrays), want, *results
-        )
+            beam.handle, shares[part].T, own[part].T, RULES[rule], *(one[part].T for one in solutions), want,
+            extremes[part].T, x[part].T, *about, fields[part].T, state[part],
+        )  # fmt: skip
         if not there:
             return None
     if Status.NO_MEMORY in state:
         check_status(Status.NO_MEMORY)
-    return {name: (found[0, :, FIELDS.index(name)], found[1, :, FIELDS.index(name)]) for name in names}
+    return extremes, x, fields[:, :-1]

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from ..base.errors import Status
 from ..base.records import Record
 from ..engine.beam import FIELDS, Beam
-from ..engine.case_extremes import case_extremes
+from ..engine.case_extremes import HERE, case_extremes, case_fields
 from ..engine.cases import ALWAYS, WANTED, OneCase, solve_cases, split_loads
 from ..engine.combinations import Combined, Varied, all_combinations
 from .arguments import numbers
@@ -216,10 +216,27 @@ class Cases:
                [4.5, 6. ]])
         """
         places = np.array(numbers("x", x))
-        found = self._asked.solve(places.ravel(), side)
-        shape = self.status.shape + places.shape
-        of = self._asked.beam.fields
-        return Fields(places, **{name: found.fields[:, :, column].reshape(shape).copy() for name, column in of.items()})
+        beam, shape = self._asked.beam, self._shape + places.shape
+        solutions = self._solutions() if set(beam.fields) == set(HERE) else None
+        there = solutions and case_fields(*solutions, *find_places(beam, places.ravel(), side))
+        if there is None:
+            found = self._asked.solve(places.ravel(), side)
+            there = {name: found.fields[:, :, column] for name, column in beam.fields.items()}
+        return Fields(places, **{name: values.reshape(shape).copy() for name, values in there.items()})
+
+    def _solutions(self) -> tuple[Any, ...] | None:
+        """What fields follow from, as `case_extremes` takes it; None where they do not."""
+        asked = self._asked
+        if asked.states is not None or asked.varied.spans is not None:
+            return None
+        status, names = np.atleast_1d(self.status), WANTED[:3]
+        if set(names) <= set(self._names):
+            nodes = tuple(np.atleast_2d(getattr(self, name)) for name in names)
+        else:
+            found = solve_cases(asked.beam, asked.factors, asked.rule, asked.closed, asked.varied, names)
+            status = np.where(status == Status.SOLVED, found["status"], status)
+            nodes = tuple(found[name] for name in names)
+        return asked.beam, asked.rule, asked.factors, asked.varied.supports, asked.closed, status, nodes
 
     def states(self) -> Combined:
         """Values at all supports and extremes of all fields, of all cases in few calls of the engine.
@@ -254,19 +271,9 @@ class Cases:
         dict
             As of `extremes`.
         """
-        asked, shape = self._asked, self._shape
-        there = None
-        if asked.states is None and asked.varied.spans is None:
-            status, nodes = np.atleast_1d(self.status), WANTED[:3]
-            if set(nodes) <= set(self._names):
-                values = [np.atleast_2d(getattr(self, name)) for name in nodes]
-            else:
-                again = solve_cases(asked.beam, asked.factors, asked.rule, asked.closed, asked.varied, nodes)
-                values = [again[name] for name in nodes]
-                status = np.where(status == Status.SOLVED, again["status"], status)
-            there = case_extremes(
-                asked.beam, asked.rule, asked.factors, asked.varied.supports, asked.closed, status, values, names
-            )  # fmt: skip
+        shape = self._shape
+        solutions = self._solutions()
+        there = solutions and case_extremes(*solutions, names)
         if there is None:
             states = self.states()
             there = {name: (states.extremes[:, FIELDS.index(name)], states.places[:, FIELDS.index(name)]) for name in names}
