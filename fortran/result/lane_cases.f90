@@ -118,6 +118,7 @@ contains
                     associate (queue => room%queues(method(l)))
                         if (.not. allocated(queue%pack%left)) then
                             call new_pack(room%beam%n, queue%pack, made)
+                            if (.not. made .and. allocated(queue%pack%left)) deallocate (queue%pack%left)
                             if (.not. made) exit
                         end if
                         queue%waiting = queue%waiting + 1
