@@ -1,4 +1,4 @@
-"""Many cases in C, called by ctypes in the installed library, against `Prepared.solve` of Python, to the last bit."""
+"""Many cases in C and Fortran 77, called by ctypes in the installed library, against `Prepared.solve`, to the last bit."""
 
 import ctypes as c
 import random
@@ -6,7 +6,7 @@ import random
 import gapbeam
 import numpy as np
 import pytest
-from clibrary import RULES, Options, pointer
+from clibrary import RULES, F77Beam, Options, pointer
 from gapbeam.base.errors import GapbeamError
 from scenes import random_scene
 
@@ -27,6 +27,23 @@ def solve_in_c(beam, factors, given, rule):
     )  # fmt: skip
     library.gapbeam_free_cases(cases)
     return status, message.value.decode(), found
+
+
+def solve_in_f77(library, scene, factors, given, rule, like):
+    """INFO, and what GBMANY fills: statuses, reactions, deflections, moments, of the shapes of those of C."""
+    beam = F77Beam(library, scene)
+    varied = any(one is not None for one in given)
+    own = [[one.get(key, default) for one in scene["supports"]] for key, default in
+           (("settlement", 0.0), ("gap", 0.0), ("stiffness", np.inf))]  # fmt: skip
+    shape = len(factors), len(scene["supports"])
+    values = [np.broadcast_to(np.array(base, dtype=float), shape) if one is None else one
+              for one, base in zip(given, own, strict=True)]  # fmt: skip
+    supports = np.stack(values, axis=-1).copy()
+    found = [np.empty_like(one) for one in like]
+    conditions = np.empty(shape, np.int32)
+    info = beam.call("gbmany", beam.work, beam.iwork, shape[0], factors, int(varied), supports, RULES[rule], *found[:2], conditions,
+                     *found[2:])  # fmt: skip
+    return info, found
 
 
 def given_for(rng, scene, count):
@@ -71,12 +88,16 @@ def test_cases_agree(library):
             for name, values in zip(names, [found[1][:, across], *found[2:]], strict=True):
                 assert values.tobytes() == getattr(expected, name).tobytes(), (seed, name)
             assert np.isnan(found[1][:, ~across]).all()
+            info, in_f77 = solve_in_f77(library, scene, factors, given, rule, found)
+            assert info == 0
+            assert [one.tobytes() for one in in_f77] == [one.tobytes() for one in found]
             for one in found[0].tolist():
                 seen[one] = seen.get(one, 0) + 1
         else:
             refused += 1
             assert status == 11, (seed, message)
             assert "several stand at one place" in message, (seed, message)
+            assert solve_in_f77(library, scene, factors, given, rule, found)[0] == -6
         beam.close()
     assert min(seen[0], seen[1], refused) > 3
 
@@ -87,6 +108,8 @@ def test_cases_on_foundations_are_refused(library):
     beam, _ = library.prepare(scene)
     status, message, _ = solve_in_c(beam, np.ones((1, 1)), [None] * 3, "block")
     assert status == 11
+    like = [np.zeros(1, np.int32), *(np.zeros((1, n)) for n in (0, 2, 2, 2))]
+    assert solve_in_f77(library, scene, np.ones((1, 1)), [None] * 3, "block", like)[0] == -1
     assert message.startswith("the beam is on a foundation, where many cases in one call are not available; use combine_loads")
     beam.close()
 

@@ -219,6 +219,7 @@ contains
             k = findloc(abs(factors(:, i)) <= huge(1.0_wp), .false., 1)
             call fatal_error(error, gapbeam_bad_input, "case "//trim(whole(i))//", "//trim(named(of_loads, k, loads))// &
                              ": factor: expected a finite number, got "//trim(shown(factors(k, i))))
+            error%table = of_loads  ! the entry is the case
             error%entry = i
             return
         end do
@@ -242,6 +243,7 @@ contains
             if (any(lowered%with_law) .or. any(first(1:n + 1) - first(0:n) > 1)) then
                 call fatal_error(error, gapbeam_bad_input, "supports cannot vary by case where one has a law, or several "// &
                                  "stand at one place; use combine_loads, or prepare a model for each")
+                error%table = of_supports
                 return
             end if
             do i = 1, cases
@@ -283,6 +285,7 @@ contains
                 call fatal_error(wrong, gapbeam_bad_input, "case "//trim(whole(i))//", "// &
                                  trim(named(of_supports, k, size(lowered%model%supports)))//": "//key//": expected "//expected// &
                                  ", got "//trim(shown(value)))
+                wrong%table = of_supports
                 wrong%entry = i
             end associate
         end subroutine check_number
@@ -366,8 +369,7 @@ contains
                     reaction(k, i) = sum(found(j:last, i))
                 end do
             else
-                ! Across the beam one that never carries
-                reaction(k, :) = 0.0_wp
+                reaction(k, :) = 0.0_wp   ! it never carries
             end if
             where (status /= gapbeam_solved .or. lowered%model%supports(k)%direction == gapbeam_axial)
                 reaction(k, :) = ieee_value(1.0_wp, ieee_quiet_nan)
