@@ -7,10 +7,11 @@ import numpy as np
 import pytest
 from gapbeam.cli import main
 from gapbeam.studies import batch as study
+from gapbeam.studies import batch_limits
 from gapbeam.studies import batch_programs as programs
 from gapbeam.studies.batch_cases import SUPPORTS
 
-CASES = {"3 spans": 300, "10 spans": 100, "100 spans": 5, SUPPORTS: 100}
+CASES = {"3 spans": 300, "10 spans": 100, "100 spans": 5, "1,000 spans": 3, SUPPORTS: 100}
 
 
 @pytest.fixture(scope="module", params=CASES)
@@ -30,9 +31,11 @@ def test_gapbeam_has_all_digits(problem):
 @pytest.mark.parametrize("name", [name for name in programs.PROGRAMS if name != programs.OWN])
 def test_programs_agree(problem, name, monkeypatch):
     cases, own, truths = problem
+    if name.startswith("jax"):
+        pytest.importorskip("jax")
     if name.startswith("numba"):
         monkeypatch.setattr(programs, "_compiled", lambda: programs.loop)  # what numba compiles, as it is
-    if name == "numpy, matrices" and cases.q.shape[1] == 100:
+    if name == "numpy, matrices" and cases.q.shape[1] >= 100:
         with pytest.raises(programs.NoScheme):
             programs.PROGRAMS[name](cases)
         return
@@ -46,6 +49,8 @@ def test_programs_agree(problem, name, monkeypatch):
 
 @pytest.mark.parametrize("name", [name for name in programs.PROGRAMS if name != programs.OWN])
 def test_what_is_not_settled_is_given_up(name, monkeypatch):
+    if name.startswith("jax"):
+        pytest.importorskip("jax")
     monkeypatch.setattr(programs, "MOST_ROUNDS", 1)
     monkeypatch.setattr(programs, "_compiled", lambda: programs.loop)
     with pytest.raises(programs.NoScheme, match="not settled in 1 rounds"):
@@ -54,13 +59,19 @@ def test_what_is_not_settled_is_given_up(name, monkeypatch):
 
 def test_table(monkeypatch, tmp_path, capsys):
     monkeypatch.setattr(study, "SIZES", {name: study.SIZES[name] for name in ("3 spans", SUPPORTS)})
-    monkeypatch.setattr(study, "PROGRAMS", {name: one for name, one in programs.PROGRAMS.items() if not name.startswith("numba")})
+    compiled = {"numba, loop", "jax, all cases"}
+    monkeypatch.setattr(study, "PROGRAMS", {name: one for name, one in programs.PROGRAMS.items() if name not in compiled})
     monkeypatch.setattr(study, "ROUNDS", 1)
     monkeypatch.setattr(study, "PROCESSES", 1)
+    for module in (study, batch_limits):
+        monkeypatch.setattr(module, "bandwidth", lambda: 1e10)
     rows = list(study.batch(largest=30))
-    assert [row.cases for row in rows] == [30] * 8
+    assert [row.cases for row in rows] == [30] * 12
+    limits = [row for row in rows if row.program.startswith("limit")]
+    assert [row.program for row in limits] == ["limit, memory", "limit, arithmetic"] * 2
+    assert all(0.0 < row.ratio < 1.0 and np.isnan(row.cold) for row in limits)
     assert not any(row.states for row in rows)
-    assert all(row.seconds > 0.0 and 0.0 < row.cold < float("inf") for row in rows)
+    assert all(row.seconds > 0.0 and (0.0 < row.cold < float("inf") or row in limits) for row in rows)
     rows.append(study.Row("100 spans", "numpy, matrices"))
     table = study.table(rows)
     written = list(csv.reader(io.StringIO(study.PAGE.csv(rows))))

@@ -89,6 +89,27 @@ subroutine ystria(n, repeat, a)
     end do
 end subroutine ystria
 
+! TURNS rounds of multiplications and additions, as many at a time as a core can do: OPERAT is how many they were, VALUE is 10
+subroutine yspeak(turns, operat, value)
+    use, intrinsic :: iso_c_binding, only: c_int, c_double
+    implicit none
+    integer, intent(in) :: turns
+    double precision, intent(out) :: operat, value
+    !f2py threadsafe
+    interface
+        ! yardstick_peak.c
+        function peak(rounds, operations) result(answer) bind(c, name="yardstick_peak")
+            import :: c_int, c_double
+            implicit none
+            integer(c_int), intent(in), value :: rounds
+            real(c_double), intent(out) :: operations
+            real(c_double) :: answer
+        end function peak
+    end interface
+
+    value = peak(int(turns, c_int), operat)
+end subroutine yspeak
+
 ! Bytes a node that plain solves keep: by the engine's elimination, by dgbsv, by GBKERN, which eliminates two nodes at once
 subroutine ysbyte(bytes)
     use gapbeam_kernel, only: eliminated_type

@@ -96,7 +96,7 @@ def add_studies(commands: argparse._SubParsersAction) -> None:
     trains.add_argument("--plot", metavar="FILE", help="draw error against run time (.png, .pdf or .svg)")
     trains.set_defaults(command=_study_trains)
     batch = studies.add_parser(
-        "batch", help="cases a second of a prepared scene, beside numpy, scipy and numba", formatter_class=PLAIN,
+        "batch", help="cases a second of a prepared scene, beside numpy, scipy, numba and JAX", formatter_class=PLAIN,
         description="Solve up to 100,000 cases of beams on supports that open by gapbeam, by numpy over cases, and, where they\n"
         "are installed, by loops in scipy and numba; print times, cold and warm, and true errors. Takes a minute and a half.",
     )  # fmt: skip

@@ -1,10 +1,10 @@
-"""Many cases of one beam: gapbeam's prepared scene beside numpy over cases, a loop in scipy, and one compiled by numba."""
+"""Many cases of one beam: gapbeam's prepared scene beside numpy over cases, loops in scipy, numba, JAX, and what a machine can."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from math import inf, nan
+from math import inf, isnan, nan
 from time import perf_counter
 
 import numpy as np
@@ -12,6 +12,7 @@ import numpy as np
 from ..results import formatting as fmt
 from .active_set import NoScheme
 from .batch_cases import SIZES, Batch, Found, make
+from .batch_limits import ARITHMETIC, MEMORY, bandwidth, limits, peak
 from .batch_programs import OWN, PROGRAMS, first_call, given, installed
 from .meshes import mesh
 from .page import Page
@@ -24,17 +25,20 @@ COLUMNS = (
 )  # fmt: skip
 """Headings of the table."""
 WORDS = (
-    "A beam of equal spans, held both ways at its ends and between them on elastic supports that only push, with gaps. 3, 10,",
-    "100 spans: every case has another random load on every span (work A of reference problem P6). Random gaps: 12 supports, a",
+    "A beam of equal spans, held both ways at its ends and between them on elastic supports that only push, with gaps. 3 to",
+    "1,000 spans: every case has another random load on every span (work A of reference problem P6). Random gaps: 12 supports, a",
     "gap and a settlement of each in every case. All programs go from Python's arrays to arrays of deflection, moment, reaction",
     "and state of every support, on one core. gapbeam is `gapbeam.prepare(scene).solve`, refined as always; the others refine",
     "nothing, and switch all wrong supports of a case until it is settled. numpy, all cases: elimination node by node, for",
     "2,000 cases at once; matrices: cases sorted by working scheme, with a matrix for each scheme from loads and levels to all",
     "results, where there are few enough schemes (products may take further cores); scipy, loop: banded Cholesky, case by case;",
-    "numba, loop, where it is installed: the same elimination in scalars, compiled. first call: in a process of its own once",
-    "numpy is imported, with import, preparation, compilation and all cases, the least of three processes. time a case: the",
-    "least of several rounds in which all take their turn, over the cases. gapbeam is faster: how many times, without the first",
-    "call. Errors are the worst of 20 cases against decimals of 80 digits, relative to the largest value of the case; states",
+    "numba, loop, where it is installed: the same elimination in scalars, compiled; jax, all cases: the same, compiled and",
+    "mapped over the cases (jit, vmap), in which settled cases wait for the others. limit, memory: the arrays of a case, read and",
+    "written once, at the bandwidth of a triad; limit, arithmetic: the operations of one working scheme, unrefined (most cases",
+    "need several), as fast as a core multiplies and adds. first call: in a process of its own once numpy is imported, with",
+    "import, preparation, compilation and all cases, the least of three processes. time a case: the least of several rounds in",
+    "which all take their turn, over the cases. gapbeam is faster: how many times, without the first call. Errors are the worst of",
+    "20 cases against decimals of 80 digits, relative to the largest value of the case; states",
     "counts cases, of all, in which a support is in another state than gapbeam finds.",
 )
 """What the table shows."""
@@ -88,7 +92,8 @@ def batch(largest: int = 100_000) -> Iterator[Row]:
     Yields
     ------
     Row
-        One for every problem and program; a program that is not there, or does not take the problem, has one without cases.
+        One for every problem and program; a program that is not there, or does not take the problem, has one without cases. Then
+        the limits, without errors.
     """
     for problem in SIZES:
         yield from _side_by_side(problem, largest)
@@ -126,6 +131,8 @@ def _side_by_side(problem: str, largest: int) -> Iterator[Row]:
         states = int(np.count_nonzero((found.closed != answers[OWN].closed[: cases[name]]).any(axis=1)))
         times = cold[name], seconds[name], 1.0 / seconds[name], seconds[name] / seconds[OWN]
         yield Row(problem, name, cases[name], *times, *errors(found, truths), states)
+    for name, limit in limits(all_cases).items():
+        yield Row(problem, name, len(all_cases.q), nan, limit, 1.0 / limit, limit / seconds[OWN], nan, nan, nan)
 
 
 def _exactly(cases: Batch, found: Found, case: int) -> Truth:
@@ -184,7 +191,8 @@ def findings(rows: Sequence[Row]) -> str:
     """
     said = []
     for problem in dict.fromkeys(row.problem for row in rows):
-        own, *others = [row for row in rows if row.problem == problem and row.cases]
+        own, *others = [row for row in rows if row.problem == problem and row.cases and row.program not in (MEMORY, ARITHMETIC)]
+        share = {row.program: row.ratio for row in rows if row.problem == problem}
         said.append(
             f"{problem[:1].upper()}{problem[1:]}: gapbeam solves {_rounded(own.rate)} cases a second, {own.cases:,} in "
             f"{fmt.duration(own.cases * own.seconds)}, right to {_worst(own):.0e}; beside it "
@@ -192,9 +200,15 @@ def findings(rows: Sequence[Row]) -> str:
                 f"{row.program} takes {_rounded(row.ratio)} times as long, right to {_worst(row):.0e}"
                 for row in others
             )
-            + "."
+            + f". Its arrays alone would take {_share(share[MEMORY])} of gapbeam's time, the operations of one scheme "
+            f"{_share(share[ARITHMETIC])}."
         )
+    said.append(f"This machine's triad moves {bandwidth() / 1e9:.1f} GB/s, and a core does {peak() / 1e9:.1f} Gflop/s.")
     return " ".join(said)
+
+
+def _share(ratio: float) -> str:
+    return f"{100.0 * ratio:.2g} %"
 
 
 def _worst(row: Row) -> float:
@@ -216,13 +230,21 @@ def table(rows: Iterable[Row]) -> list[list[str]]:
     """
     return [
         [
-            row.problem, row.program, f"{row.cases:,}", fmt.duration(row.cold), fmt.duration(row.seconds), _rounded(row.rate),
-            _rounded(row.ratio), f"{row.deflection:.0e}", f"{row.moment:.0e}", f"{row.reaction:.0e}", str(row.states),
+            row.problem, row.program, f"{row.cases:,}", _known(row.cold, fmt.duration),
+            fmt.duration(row.seconds) if row.seconds > 1e-7 else f"{1e9 * row.seconds:.3g} ns", _rounded(row.rate),
+            _rounded(row.ratio) if row.ratio > 0.1 else f"{row.ratio:.2g}",
+            *(_known(error, "{:.0e}".format) for error in (row.deflection, row.moment, row.reaction)),
+            "-" if isnan(row.deflection) else str(row.states),
         ]
         if row.cases
         else [row.problem, row.program, "gives up" if installed(row.program) else "not installed", *["-"] * 8]
         for row in rows
     ]  # fmt: skip
+
+
+def _known(number: float, worded: Callable[[float], str]) -> str:
+    """A number in words, where there is one; limits have no errors and no first call."""
+    return "-" if isnan(number) else worded(number)
 
 
 def _rounded(number: float) -> str:

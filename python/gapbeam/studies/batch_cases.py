@@ -14,7 +14,10 @@ SPAN, EI, STIFFNESS = 6.0, 1e4, 1e5
 """Length of every span, and what bends and gives."""
 SUPPORTS = "random gaps, 12 supports"
 """The problem in which the supports vary."""
-SIZES = {"3 spans": (3, 100_000), "10 spans": (10, 100_000), "100 spans": (100, 10_000), SUPPORTS: (11, 10_000)}
+SIZES = {
+    "3 spans": (3, 100_000), "10 spans": (10, 100_000), "100 spans": (100, 10_000), "1,000 spans": (1000, 200),
+    SUPPORTS: (11, 10_000),
+}  # fmt: skip
 """Spans and most cases of the problems."""
 
 

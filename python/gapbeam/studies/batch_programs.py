@@ -14,6 +14,7 @@ import numpy as np
 
 from .active_set import NoScheme
 from .batch_cases import EI, SPAN, STIFFNESS, Batch, Found, complete, links, make, matrix_of, nodal
+from .batch_jax import by_jax
 from .programs import has
 
 MOST_ROUNDS, TOGETHER = 200, 20
@@ -289,6 +290,11 @@ def _by_numba(batch: Batch) -> Callable[[], Found]:
     return run
 
 
+def _by_jax(batch: Batch) -> Callable[[], Found]:
+    """Let JAX compile the loop of one case, mapped over all cases."""
+    return by_jax(batch, MOST_ROUNDS, TOGETHER)
+
+
 @cache
 def _compiled() -> Callable:
     from numba import njit
@@ -304,6 +310,7 @@ PROGRAMS = {
     "numpy, matrices": _by_matrices,
     "scipy, loop": _by_scipy,
     "numba, loop": _by_numba,
+    "jax, all cases": _by_jax,
 }
 """What makes each ready to run."""
 
