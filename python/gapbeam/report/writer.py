@@ -73,6 +73,8 @@ class Writer:
             last = first + 1
             while last < len(headings) and wide[0] + sum(wide[first : last + 1]) <= self.width:
                 last += 1
+            if first > 1:
+                self.line()
             part = slice(first, last)
             self.table([headings[0], *headings[part]], [[row[0], *row[part]] for row in rows], left=[0])
             first = last
