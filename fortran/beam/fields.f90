@@ -144,6 +144,8 @@ contains
         do k = 1, 4
             bend(k) = share*bend(k)
             bend(k) = bend(k) + margin*(abs(left(k)) + abs(right(k)) + bend(k))
+            far(k) = bend(k) <= huge(1.0_wp)
+            if (.not. far(k)) cycle
             far(k) = max(left(k), right(k)) + bend(k) < known(1, k) .and. min(left(k), right(k)) - bend(k) > known(2, k)
         end do
     end function far_from
