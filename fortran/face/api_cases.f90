@@ -7,7 +7,7 @@ module gapbeam_api_cases
         gapbeam_not_prepared
     use gapbeam_words, only: shown, whole
     use gapbeam_refusal, only: named, of_supports, of_loads
-    use gapbeam_scene, only: support_type, gapbeam_axial, gapbeam_both
+    use gapbeam_scene, only: gapbeam_axial, gapbeam_both
     use gapbeam_lowered, only: lowered_type
     use gapbeam_polyline, only: last_kink
     use gapbeam_solution, only: close_all
@@ -108,7 +108,7 @@ contains
         type(options_type) :: chosen
         integer, allocatable :: codes(:)
         real(wp) :: own_spans(2, 0, 0)
-        integer :: first, last, given, n, stat
+        integer :: supports, nodes, first, last, given, n, i, stat
 
         call require_beam(beam, error)
         if (allocated(error)) return
@@ -119,22 +119,35 @@ contains
         call check_call(1.0_wp, chosen, error)
         if (.not. allocated(error)) call require_cases(beam%lowered, cases, error)
         if (.not. allocated(error)) call check_factors(factors, size(beam%lowered%model%loads), size(status), error)
-        if (.not. allocated(error)) call check_supports(beam%lowered, size(status), settlement, gap, stiffness, error)
-        if (.not. allocated(error)) then
-            call check_results(beam%lowered, size(status), reaction, deflection, moment_left, moment_right, condition, solves, &
-                               error)
-        end if
-        given = 0
-        if (present(settlement) .or. present(gap) .or. present(stiffness)) given = size(beam%lowered%model%supports)
+        supports = size(beam%lowered%model%supports)
+        nodes = size(beam%lowered%node_point)
+        given = merge(supports, 0, present(settlement) .or. present(gap) .or. present(stiffness))
+        if (given > 0) call require_own_supports(beam%lowered, error)
+        if (present(settlement)) call check_values(beam%lowered, size(status), settlement, "settlement", error)
+        if (present(gap)) call check_values(beam%lowered, size(status), gap, "gap", error)
+        if (present(stiffness)) call check_values(beam%lowered, size(status), stiffness, "stiffness", error)
+        if (present(reaction)) call check_shape([supports, size(status)], shape(reaction), error)
+        if (present(deflection)) call check_shape([nodes, size(status)], shape(deflection), error)
+        if (present(moment_left)) call check_shape([nodes, size(status)], shape(moment_left), error)
+        if (present(moment_right)) call check_shape([nodes, size(status)], shape(moment_right), error)
+        if (present(condition)) call check_shape([supports, size(status)], shape(condition), error)
+        if (present(solves)) call check_shape([size(status)], shape(solves), error)
         allocate (codes(min(most, size(status))), stat=stat)
         if (stat /= 0 .and. .not. allocated(error)) call no_memory(error)
         do first = 1, size(status), most
             if (allocated(error)) exit
             last = min(first + most - 1, size(status))
             n = last - first + 1
-            if (given > 0) then
-                call take_values(beam%lowered%model%supports, first, settlement, gap, stiffness, cases%values(:, :, :n))
-            end if
+            do i = 1, merge(n, 0, given > 0)
+                associate (own => beam%lowered%model%supports, values => cases%values(:, :, i), c => first + i - 1)
+                    values(1, :) = own%settlement
+                    values(2, :) = own%gap
+                    values(3, :) = own%stiffness
+                    if (present(settlement)) values(1, :) = settlement(:, c)
+                    if (present(gap)) values(2, :) = gap(:, c)
+                    if (present(stiffness)) values(3, :) = stiffness(:, c)
+                end associate
+            end do
             cases%closed(:, :n) = spread(cases%start, 2, n)
             call solve_in_room(beam%lowered, cases%loads, factors(:, first:last), cases%values(:, :given, :n), own_spans, &
                                chosen%rule, cases%room, cases%closed(:, :n), &
@@ -225,47 +238,54 @@ contains
         end do
     end subroutine check_factors
 
-    !> Refuse numbers that a support cannot have; those of the model are always right
-    subroutine check_supports(lowered, cases, settlement, gap, stiffness, error)
+    !> Refuse other supports by case where they cannot be
+    subroutine require_own_supports(lowered, error)
         type(lowered_type), intent(in) :: lowered
-        integer, intent(in) :: cases
-        real(wp), intent(in), optional :: settlement(:, :), gap(:, :), stiffness(:, :)
-        type(error_type), allocatable, intent(out) :: error
-        integer :: i, k
+        type(error_type), allocatable, intent(inout) :: error
 
-        if (.not. (present(settlement) .or. present(gap) .or. present(stiffness))) return
-        k = size(lowered%model%supports)
-        call check_shape(k, cases, settlement, error)
-        if (.not. allocated(error)) call check_shape(k, cases, gap, error)
-        if (.not. allocated(error)) call check_shape(k, cases, stiffness, error)
         if (allocated(error)) return
-        associate (n => size(lowered%beam%links), first => lowered%beam%first, supports => lowered%model%supports)
+        associate (n => size(lowered%beam%links), first => lowered%beam%first)
             if (any(lowered%with_law) .or. any(first(1:n + 1) - first(0:n) > 1)) then
                 call fatal_error(error, gapbeam_bad_input, "supports cannot vary by case where one has a law, or several "// &
                                  "stand at one place; use combine_loads, or prepare a model for each")
                 error%table = of_supports
-                return
             end if
-            do i = 1, cases
-                do k = 1, size(supports)
-                    if (present(settlement)) call check_number(settlement(k, i), supports(k)%settlement, "settlement", error)
-                    if (present(gap) .and. .not. allocated(error)) then
-                        call check_number(gap(k, i), supports(k)%gap, "gap", error)
-                    end if
-                    if (present(stiffness) .and. .not. allocated(error)) then
-                        call check_number(stiffness(k, i), supports(k)%stiffness, "stiffness", error)
-                    end if
-                    if (allocated(error)) return
-                end do
-            end do
         end associate
+    end subroutine require_own_supports
+
+    !> Refuse numbers that a support cannot have; those of the model are always right
+    subroutine check_values(lowered, cases, values, key, error)
+        type(lowered_type), intent(in) :: lowered
+        integer, intent(in) :: cases
+        !> Shape (nsupport, cases), and what they are
+        real(wp), intent(in) :: values(:, :)
+        character(len=*), intent(in) :: key
+        type(error_type), allocatable, intent(inout) :: error
+        integer :: i, k
+
+        call check_shape([size(lowered%model%supports), cases], shape(values), error)
+        if (allocated(error)) return
+        do i = 1, cases
+            do k = 1, size(lowered%model%supports)
+                associate (s => lowered%model%supports(k))
+                    select case (key)
+                    case ("settlement")
+                        call check_number(values(k, i), s%settlement, error)
+                    case ("gap")
+                        call check_number(values(k, i), s%gap, error)
+                    case default
+                        call check_number(values(k, i), s%stiffness, error)
+                    end select
+                end associate
+                if (allocated(error)) return
+            end do
+        end do
 
     contains
 
         !> One number
-        subroutine check_number(value, own, key, wrong)
+        subroutine check_number(value, own, wrong)
             real(wp), intent(in) :: value, own
-            character(len=*), intent(in) :: key
             type(error_type), allocatable, intent(out) :: wrong
             character(len=:), allocatable :: expected
 
@@ -290,68 +310,18 @@ contains
             end associate
         end subroutine check_number
 
-    end subroutine check_supports
+    end subroutine check_values
 
     !> Refuse an array of another shape
-    subroutine check_shape(rows, cases, values, error)
-        integer, intent(in) :: rows, cases
-        real(wp), intent(in), optional :: values(:, :)
-        type(error_type), allocatable, intent(out) :: error
+    subroutine check_shape(expected, given, error)
+        integer, intent(in) :: expected(:), given(:)
+        type(error_type), allocatable, intent(inout) :: error
+        integer :: k
 
-        if (.not. present(values)) return
-        call require_size(rows, [size(values, 1)], error)
-        if (.not. allocated(error)) call require_size(cases, [size(values, 2)], error)
-    end subroutine check_shape
-
-    !> Refuse arrays for results of another shape
-    subroutine check_results(lowered, cases, reaction, deflection, moment_left, moment_right, condition, solves, error)
-        type(lowered_type), intent(in) :: lowered
-        integer, intent(in) :: cases
-        real(wp), intent(in), optional :: reaction(:, :), deflection(:, :), moment_left(:, :), moment_right(:, :)
-        integer, intent(in), optional :: condition(:, :), solves(:)
-        type(error_type), allocatable, intent(out) :: error
-
-        associate (supports => size(lowered%model%supports), nodes => size(lowered%node_point))
-            call check_shape(supports, cases, reaction, error)
-            if (.not. allocated(error)) call check_shape(nodes, cases, deflection, error)
-            if (.not. allocated(error)) call check_shape(nodes, cases, moment_left, error)
-            if (.not. allocated(error)) call check_shape(nodes, cases, moment_right, error)
-            if (present(condition) .and. .not. allocated(error)) then
-                call require_size(supports, [size(condition, 1)], error)
-                if (.not. allocated(error)) call require_size(cases, [size(condition, 2)], error)
-            end if
-            if (present(solves) .and. .not. allocated(error)) call require_size(cases, [size(solves)], error)
-        end associate
-    end subroutine check_results
-
-    !> Settlement, gap and stiffness of the supports in some cases
-    pure subroutine take_values(supports, first, settlement, gap, stiffness, values)
-        type(support_type), intent(in) :: supports(:)
-        !> The first of the cases
-        integer, intent(in) :: first
-        real(wp), intent(in), optional :: settlement(:, :), gap(:, :), stiffness(:, :)
-        !> Shape (3, nsupport, number of cases)
-        real(wp), intent(out) :: values(:, :, :)
-        integer :: i
-
-        do i = 1, size(values, 3)
-            if (present(settlement)) then
-                values(1, :, i) = settlement(:, first + i - 1)
-            else
-                values(1, :, i) = supports%settlement
-            end if
-            if (present(gap)) then
-                values(2, :, i) = gap(:, first + i - 1)
-            else
-                values(2, :, i) = supports%gap
-            end if
-            if (present(stiffness)) then
-                values(3, :, i) = stiffness(:, first + i - 1)
-            else
-                values(3, :, i) = supports%stiffness
-            end if
+        do k = 1, size(expected)
+            if (.not. allocated(error)) call require_size(expected(k), given(k:k), error)
         end do
-    end subroutine take_values
+    end subroutine check_shape
 
     !> Reactions in the order of the model; of a law the sum of those of its kinks
     pure subroutine give_reactions(lowered, status, found, reaction)
