@@ -68,3 +68,20 @@ def test_a_pile_on_curves_of_growing_strength():
     assert step.reaction == pytest.approx(np.array(laws), rel=1e-12)
     assert step.reaction.sum() == pytest.approx(12.0, rel=1e-12)
     assert (step.reaction * np.arange(10)).sum() == pytest.approx(0.0, abs=1e-11)
+
+
+def test_a_support_that_opens_on_the_curve_only():
+    """On the polyline of the law the end is still held; on the curve it would pull by 0.006, so it is open."""
+    scene = {
+        "beam": {"spans": [4.0, 4.0, 4.0], "EI": 200.0},
+        "supports": [
+            {"node": 0, "side": "below"}, {"node": 3, "side": "below"},
+            {"node": 1, "side": "below", "gap": 0.002, "law": {"type": "tanh", "stiffness": 400.0, "limit": 15.0}},
+            {"node": 2, "law": {"type": "hyperbolic", "stiffness": 400.0, "limit": 15.0}},
+        ],
+        "loads": [{"type": "uniform", "q": 0.5}, *({"type": "force", "x": x, "F": 10.0} for x in (4.8655, 6.3655))],
+    }  # fmt: skip
+    step = gapbeam.solve(scene).steps[-1]
+    assert step.state == ("open", "open", "branch 1", "branch 1")
+    assert step.opening[:2].min() > 0.0
+    assert step.reaction.sum() == pytest.approx(26.0, rel=1e-13)

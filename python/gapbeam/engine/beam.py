@@ -164,11 +164,12 @@ class Beam:
         """
         if np.array_equal(kinks, self.kinks):
             return self
-        handle, status, message = _engine.gblaws(self.handle, np.column_stack((kinks, np.zeros(4))))
+        handle, status, message = _engine.gblaws(self.handle, np.column_stack((kinks, np.zeros(4))), self.pieces)
         check_status(status, message)
         beam = object.__new__(type(self))
         beam.columns, beam.curves, beam._factors = self.columns, self.curves, self._factors
         beam._take(handle)
+        beam.__dict__["laws"] = self.laws  # which kinks they have stays
         return beam
 
     def __reduce__(self) -> tuple:

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..base.errors import EngineError, Status
 from ..engine.arrays import Solution
-from ..engine.beam import GIVEN, Beam
+from ..engine.beam import GIVEN, SOLVED, Beam
 from ..engine.units import scaled
 
 USUAL_TANGENTS, MOST_TANGENTS = 10, 60
@@ -22,6 +22,8 @@ MOST_SHORTENED = 12
 """So often a tangent may lead too far; after that the support has opened."""
 DIGITS = 4 * np.finfo(float).eps
 """Relative change of a displacement below which the last tangent was one at the solution."""
+LAST_DIGIT = np.finfo(float).eps / 2
+"""Share of a force by which a tangent at the solution is beside its curve at most."""
 ROUNDING = 1e-13
 """The same where more tangents bring no more digits."""
 
@@ -47,15 +49,19 @@ class SmoothLaws:
     def __init__(self, beam: Beam):
         self.beam = beam
         self.curves = [curve for _, curve in beam.curves]
-        numbers = np.array([number for number, _ in beam.curves])
-        self.groups = [beam.laws[number][0] for number in numbers.tolist()]
+        self._numbers = np.array([number for number, _ in beam.curves])
+        self.groups = [beam.laws[number][0] for number in self._numbers.tolist()]
         self.nodes = beam.places.support_nodes[[group.start for group in self.groups]]
-        self.side = beam.sides[numbers]
-        self.gap, self.settlement = beam.columns.support[2:4, numbers]
+        self.side = beam.sides[self._numbers]
+        self.gap, self.settlement = beam.columns.support[2:4, self._numbers]
 
     def deflections(self, solution: Solution) -> np.ndarray:
         """Give the deflections there in the scene's units."""
         return scaled(solution.deflection[self.nodes], self.beam.units.deflection)
+
+    def reactions(self, solution: Solution) -> np.ndarray:
+        """Give the reactions there in the scene's units, positive upward."""
+        return solution.at_supports[0, self._numbers]
 
     def past_the_gap(self, deflection: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Give the displacements past the gap, negative where a support is open, and which way they go (1 downward)."""
@@ -101,15 +107,17 @@ class SmoothLaws:
         Beam
         """
         units, kinks = beam.units, beam.kinks.copy()
+        lines = np.array([
+            scaled(deflection, -units.deflection),
+            scaled(force * np.where(self.side == 0, 1, self.side), -units.force),
+            *2 * [scaled(slope, units.deflection - units.force)],
+        ])  # fmt: skip
         for i, group in enumerate(self.groups):
-            # One line on both sides of all kinks
-            kinks[0, group] = scaled(deflection[i], -units.deflection)
-            kinks[1, group] = scaled(np.float64(force[i] * (self.side[i] or 1)), -units.force)
-            kinks[2:, group] = scaled(np.float64(slope[i]), units.deflection - units.force)
+            kinks[:, group] = lines[:, i, None]  # on both sides of all kinks
         return beam.with_kinks(kinks)
 
 
-def solve_on_curves(beam: Beam, factor: float, solution: Solution) -> tuple[Beam, Solution]:
+def solve_on_curves(beam: Beam, factor: float, solution: Solution, rule: str = GIVEN) -> tuple[Beam, Solution]:
     """Go from the polylines of smooth laws to the laws.
 
     Parameters
@@ -120,6 +128,8 @@ def solve_on_curves(beam: Beam, factor: float, solution: Solution) -> tuple[Beam
         Factor of the live loads.
     solution : Solution
         Solved with the polylines.
+    rule : {"given", "block", "single"}
+        How the scheme of the other supports is found.
 
     Returns
     -------
@@ -143,8 +153,10 @@ def solve_on_curves(beam: Beam, factor: float, solution: Solution) -> tuple[Beam
         deflection = laws.deflections(solution)
         moved = deflection - laws.settlement
         d, way = laws.past_the_gap(deflection)
-        forces = [way[i] * float(scaled(solution.reaction[group].sum(), beam.units.force)) for i, group in enumerate(laws.groups)]
-        by_force = [curve.displacement(force) if force > 0.0 else None for curve, force in zip(laws.curves, forces, strict=True)]
+        reached = way * laws.reactions(solution)
+        by_force = [
+            curve.displacement(force) if force > 0.0 else None for curve, force in zip(laws.curves, reached.tolist(), strict=True)
+        ]
         given = np.array([one is not None for one in by_force])
         d = np.where(given, np.array(by_force, dtype=float), d)
         if not np.isfinite(d).all():
@@ -152,6 +164,13 @@ def solve_on_curves(beam: Beam, factor: float, solution: Solution) -> tuple[Beam
         size = np.maximum(np.abs(moved), np.abs(laws.gap))
         if np.all(np.abs(d - before) <= (DIGITS * size if tangents < USUAL_TANGENTS else ROUNDING * size.max())):
             return beam, replace(solution, solves=solves)
+        if tangents and not given.any():
+            # The tangents have met the curves to the last digit: another round would move the displacements by rounding alone
+            force, slope = laws.forces_and_slopes(d)
+            with np.errstate(invalid="ignore"):
+                met = np.abs(force - reached) <= LAST_DIGIT * (np.abs(force) + slope * size)
+            if met.all():
+                return beam, replace(solution, solves=solves)
         # From a flat part of a curve the tangent may lead to its other side: first nearer, on this side
         overshot = (before > 0.0) & ((d <= 0.0) | (way != way_before)) & (np.isfinite(before)) & (shortened < MOST_SHORTENED)
         d, way = np.where(overshot, before / 8, d), np.where(overshot, way_before, way)
@@ -164,8 +183,11 @@ def solve_on_curves(beam: Beam, factor: float, solution: Solution) -> tuple[Beam
         force, slope = laws.forces_and_slopes(d)
         at = np.where(given | overshot | halved, laws.settlement + way * (laws.gap + d), deflection)
         beam = laws.with_lines(beam, at, force * way, slope)
-        solution = beam.solve(factor, GIVEN, closed)
+        solution = beam.solve(factor, rule, closed)
         solves += solution.solves
+        if solution.status != SOLVED:
+            break
+        closed = solution.closed
     raise EngineError("the smooth laws of the supports could not be met: give them as polylines", Status.NOT_CONVERGED)
 
 

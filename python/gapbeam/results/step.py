@@ -50,7 +50,7 @@ class Step(Pickled):
 
     def __init__(
         self, beam: Beam, factor: float, rule: str, start: np.ndarray, known: Known | None = None,
-        settled: bool = False, exact: bool = True,
+        settled: bool = False, exact: bool = True, solution: Solution | None = None,
     ):  # fmt: skip
         self.factor = factor
         self.exact = exact
@@ -60,6 +60,8 @@ class Step(Pickled):
         self._rule = rule
         self._start = start
         self._known = known
+        if solution is not None:
+            self._solved = beam, solution, 0.0
 
     def __eq__(self, other: object) -> bool:
         """Whether beam, load factor and all values are equal."""
@@ -75,7 +77,7 @@ class Step(Pickled):
         beam, solution = self._beam, self._beam.solve(self.factor, self._rule, self._start)
         if beam.curves and solution.status == SOLVED:
             if not self._settled:
-                beam, solution = solve_on_curves(beam, self.factor, solution)
+                beam, solution = solve_on_curves(beam, self.factor, solution, self._rule)
             solution = with_openings(beam, solution)
         return beam, solution, perf_counter() - begin
 
