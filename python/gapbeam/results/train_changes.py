@@ -19,7 +19,7 @@ class Change(NamedTuple):
     Attributes
     ----------
     support, foundation : int or None
-        What changes, a support without a law or a foundation.
+        What changes, a support without a law or with a smooth one, or a foundation.
     x : float
         Its place.
     branch : int
@@ -116,8 +116,8 @@ def _first_change(below: Placed, above: Placed) -> Change | None:
     if below.status != SOLVED or above.status != SOLVED:
         return None
     for k, (was, is_) in enumerate(zip(below.pieces, above.pieces, strict=True)):
-        if was is not None and is_ is not None and was.number != is_.number:
-            return None if k in below.beam.laws else Change(k, None, 0.0, 1, "")
+        if was is not None and is_ is not None and (was.number, was.way) != (is_.number, is_.way):
+            return None if k in below.beam.laws.keys() - below.beam.smooth else Change(k, None, 0.0, 1, "")
     ground, after = below.step.solution.ground, above.step.solution.ground
     if ground is None:
         return None
@@ -130,6 +130,8 @@ def _first_change(below: Placed, above: Placed) -> Change | None:
 
 def _distance(state: Placed, what: Change) -> float:
     """How far a state is from the change, in a measure that goes to 0 linearly with the position; 0 where there is none."""
+    if what.support in state.beam.smooth:
+        return abs(float(state.past[[k for k, _ in state.beam.curves].index(what.support)]))
     if what.support is not None:
         piece = state.pieces[what.support]
         row = 2 if piece is not None and piece.number == 0 else 0

@@ -11,18 +11,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .train_peaks import vertex
+from .train_peaks import ALIKE, NEAREST, highest, vertex
 from .train_states import SHEAR, Placed
 
 if TYPE_CHECKING:
     from .train_search import SearchedWay
 
-NEAREST = 7
-"""States through which a polynomial goes at most."""
 MOST_STEPS = 5
 """Polynomials after which the best state is taken; one or two do."""
-ALIKE = 1e-9
-"""Share of the largest value by which a polynomial may be wrong at its top: the value there is better by half of the digits."""
 
 
 class Lines:
@@ -50,9 +46,11 @@ class Lines:
         self._on_jump = np.isin(x, way.jumps)
         self._passed: dict[float, Placed] = {}
         self._take_limits()
-        for run, table in zip(way.runs, self._tables, strict=True):
-            at = np.array([state.position for state in run.states])
+        positions = [np.array([state.position for state in run.states]) for run in way.runs]
+        for at, table in zip(positions, self._tables, strict=True):
             self._take_all(at, table)
+        # The more is known, the fewer places may have more
+        for run, at, table in sorted(zip(way.runs, positions, self._tables, strict=True), key=lambda one: -np.abs(one[2]).max()):
             self._climb(run.states, at, table)
         self.best[1] *= -1.0
 
@@ -167,7 +165,11 @@ class Lines:
         near = slice(first, first + NEAREST)
         states = dict(zip(at[near].tolist(), (sign * values[near]).tolist(), strict=True))
         left, right, best = float(at[max(j - 1, 0)]), float(at[min(j + 1, len(at) - 1)]), float(at[j])
-        place, height = _top(at[near], sign * values[near], left, right)
+        place, height = highest(at[near], sign * values[near], left, right)
+        if height is not None and len(states) == NEAREST:
+            gain = height - sign * float(values[j])
+            if height + gain < self.best[i, row, k]:
+                return  # even with twice of what the polynomial gains here, the greatest is elsewhere
         for _ in range(MOST_STEPS):
             if place is None or place in states:
                 return
@@ -181,17 +183,3 @@ class Lines:
             states[place] = value
             best = max(best, place, key=states.get)
             place, height = vertex(best, states, left, right)
-
-
-def _top(at: np.ndarray, heights: np.ndarray, left: float, right: float) -> tuple[float | None, float]:
-    """Highest point between bounds of the polynomial through points, if it is a stationary one."""
-    middle, half = (left + right) / 2, (right - left) / 2
-    lowest = heights.min()
-    factors = np.linalg.solve(np.vander((at - middle) / half), heights - lowest)
-    roots = np.roots(np.polyder(factors))
-    places = roots[(np.abs(roots.imag) <= 1e-9) & (np.abs(roots.real) <= 1.0)].real
-    if not len(places):
-        return None, 0.0
-    found = np.polyval(factors, places)
-    best = int(found.argmax())
-    return float(middle + half * places[best]), float(found[best] + lowest)

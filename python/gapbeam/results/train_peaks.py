@@ -20,6 +20,10 @@ EQUAL = 2.0**-40
 """Share of a value by which ties differ at most."""
 MOST_TIES = 16
 """As many are listed."""
+NEAREST = 7
+"""States through which a polynomial goes at most."""
+ALIKE = 1e-9
+"""Share of the largest value by which a polynomial may be wrong at its top: the value there is better by half of the digits."""
 MOST_STEPS = 60
 """Parabolas after which the best state is taken; five or so do."""
 SETTLED = 2.0**-20
@@ -71,22 +75,39 @@ def find_peaks(way: SearchedWay, value: Callable[[Placed], float], further: Sequ
     scale = max(abs(float(np.nanmax(np.abs(table)))) for table in tables if not np.isnan(table).all())
     pairs = list(zip(way.runs, tables, strict=True))
     most = max((float(_bends(run, table).max()) for run, table in pairs if len(table) > 2), default=abs(best))
+    step = _longest_step(way)
     found, promising = list(further), []
+    beside = {(id(one.limit.state), one.limit.side): one.value for one in further if one.limit is not None}
     for run, table in pairs:
         if np.isnan(table).any():
             continue
         found += _tops(run, table, best - EQUAL * max(abs(best), scale))
-        hills = _hills(run, table, most)
+        table = _with_limits(run, table, beside)
+        width = run.states[-1].position - run.states[0].position
+        hills = _hills(run, table, most * min(width / step, 1.0))
         promising += [(float(table[k]) + gain, run, table, k) for k, gain in hills if gain > 2.0**-46 * scale]
     for reach, run, table, k in sorted(promising, key=lambda one: -one[0]):
         if reach < best:
             break
-        top = _climb(way, run, table, k, value)
+        foretold = _foretell(run, table, k)
+        if foretold is not None and foretold.height + foretold.doubt < best - EQUAL * max(abs(best), scale):
+            continue
+        top = _climb(way, run, table, k, value, foretold, ALIKE * scale)
+        if (id(top.state), "right") in beside or (id(top.state), "left") in beside:
+            continue  # it is one of those
         found.append(top)
         best = max(best, top.value)
     slack = EQUAL * max(abs(best), scale)
     ties = sorted((one for one in found if one.value >= best - slack), key=lambda one: one.state.position)
     return _apart(ties, way)[:MOST_TIES]
+
+
+def _with_limits(run: Run, table: np.ndarray, beside: Mapping[tuple[int, str], float]) -> np.ndarray:
+    """Values of a run that tend to a limit at its ends, which is not there when an axle has come."""
+    table = table.copy()
+    for k, side in ((0, "right"), (-1, "left")):
+        table[k] = max(table[k], beside.get((id(run.states[k]), side), -np.inf))
+    return table
 
 
 def _tops(run: Run, table: np.ndarray, least: float) -> list[Peak]:
@@ -123,8 +144,36 @@ def _hills(run: Run, table: np.ndarray, most: float) -> list[tuple[int, float]]:
     return found
 
 
-def _climb(way: SearchedWay, run: Run, table: np.ndarray, k: int, value: Callable[[Placed], float]) -> Peak:
-    """Go to the top near a state by parabolas, or by golden sections where they lead nowhere."""
+class _Foretold(NamedTuple):
+    """Where polynomials through states have their top."""
+
+    place: float
+    height: float
+    doubt: float
+
+
+def _foretell(run: Run, table: np.ndarray, k: int) -> _Foretold | None:
+    """Top near a state of the polynomial through its neighbours; None where that has none."""
+    n = len(table)
+    if n < NEAREST:
+        return None
+    first = min(max(k - NEAREST // 2, 0), n - NEAREST)
+    at = np.array([state.position for state in run.states[first : first + NEAREST]])
+    heights, own = table[first : first + NEAREST], k - first
+    left, right = at[max(own - 1, 0)], at[min(own + 1, NEAREST - 1)]
+    place, height = highest(at, heights, left, right)
+    if place is None:
+        return None
+    fewer = slice(1, -1) if 0 < own < NEAREST - 1 else slice(0, -2) if own == 0 else slice(2, None)
+    _, other = highest(at[fewer], heights[fewer], left, right)
+    return None if other is None else _Foretold(place, height, 4.0 * abs(height - other))
+
+
+def _climb(
+    way: SearchedWay, run: Run, table: np.ndarray, k: int, value: Callable[[Placed], float], foretold: _Foretold | None,
+    alike: float,
+) -> Peak:  # fmt: skip
+    """Go to the top near a state by polynomials, by parabolas, or by golden sections where they lead nowhere."""
     low, high = max(k - 1, 0), min(k + 1, len(table) - 1)
     near = range(max(low - 1, 0), min(high + 2, len(table)))
     heights = {run.states[i].position: float(table[i]) for i in near}
@@ -132,6 +181,18 @@ def _climb(way: SearchedWay, run: Run, table: np.ndarray, k: int, value: Callabl
     left, right = run.states[low].position, run.states[high].position
     width, best, last = right - left, run.states[k].position, np.inf
     acts = run.states[k].acts
+    if foretold is not None and foretold.place not in states:
+        state = way.loads.state(foretold.place, acts)
+        if state.status == run.states[k].status:
+            heights[foretold.place], states[foretold.place] = value(state), state
+            if abs(heights[foretold.place] - foretold.height) <= alike:
+                best = max((best, foretold.place), key=heights.get)
+                return Peak(heights[best], states[best])
+            if heights[foretold.place] >= heights[best]:
+                left, right = (best, right) if foretold.place > best else (left, best)
+                best = foretold.place
+            else:
+                left, right = (left, foretold.place) if foretold.place > best else (foretold.place, right)
     for _ in range(MOST_STEPS):
         place, _ = vertex(best, heights, left, right)
         if place is None and best in (left, right) and len(heights) > 2:
@@ -193,7 +254,7 @@ def vertex(best: float, heights: Mapping[float, float], left: float, right: floa
 
 def _apart(ties: Sequence[Peak], way: SearchedWay) -> list[Peak]:
     """Of ties at neighbouring states the one with the greatest value."""
-    step = max((b.position - a.position for run in way.runs for a, b in zip(run.states, run.states[1:], strict=False)), default=0.0)
+    step = _longest_step(way)
     found: list[Peak] = []
     for one in ties:
         last = found[-1] if found else None
@@ -203,3 +264,40 @@ def _apart(ties: Sequence[Peak], way: SearchedWay) -> list[Peak]:
             continue
         found.append(one)
     return found
+
+
+def _longest_step(way: SearchedWay) -> float:
+    """The longest way between two states that follow each other."""
+    return max((b.position - a.position for run in way.runs for a, b in zip(run.states, run.states[1:], strict=False)), default=0.0)
+
+
+def highest(at: np.ndarray, heights: np.ndarray, left: float, right: float) -> tuple[float | None, float | None]:
+    """Find the highest point between bounds of the polynomial through points, if it is a stationary one.
+
+    Parameters
+    ----------
+    at, heights : numpy.ndarray
+        The points.
+    left, right : float
+        Bounds.
+
+    Returns
+    -------
+    place, height : float
+        None, None where there is none.
+
+    Examples
+    --------
+    >>> highest(np.array([0.0, 1.0, 3.0]), np.array([0.0, 3.0, 3.0]), 1.0, 3.0)
+    (2.0, 4.0)
+    """
+    middle, half = (left + right) / 2, (right - left) / 2
+    lowest = heights.min()
+    factors = np.linalg.solve(np.vander((at - middle) / half), heights - lowest)
+    roots = np.roots(np.polyder(factors))
+    places = roots[(np.abs(roots.imag) <= 1e-9) & (np.abs(roots.real) <= 1.0)].real
+    if not len(places):
+        return None, None
+    found = np.polyval(factors, places)
+    best = int(found.argmax())
+    return float(middle + half * places[best]), float(found[best] + lowest)

@@ -122,6 +122,7 @@ class SearchedWay:
         self._scene, self._name = result.scene, name
         self._neighbours = NEIGHBOURS * result.beam.places.end
         self._read(self._walk())
+        self._fill_short_runs()
         self.solves = self.loads.solves
 
     def member(self, train: TrainResult, combination: str | None) -> Searched:
@@ -205,14 +206,14 @@ class SearchedWay:
             acts = loads.acting(start + (stop - start) / 2)
             if not np.array_equal(acts, here[-1].acts):
                 cells.append(here)
-                here = [loads.state(start, acts)]
+                here = [loads.state(start, acts, of_grid=True)]
                 here[0].take_undecided(cells[-1][-1])
             elif len(here) > 1:
                 cells.append(here)
                 here = here[-1:]
             for k in range(1, parts + 1):
                 at = stop if k == parts else start + (stop - start) * k / parts
-                self._advance(here, loads.state(at, acts))
+                self._advance(here, loads.state(at, acts, of_grid=True))
             on_it = loads.acting(stop)
             if not np.array_equal(on_it, acts):
                 cells.append(here)
@@ -271,6 +272,16 @@ class SearchedWay:
         self.events = events[::-1] if back else events
         if back:
             self.gaps.reverse()
+
+    def _fill_short_runs(self) -> None:
+        """Solve in the middle between two changes with nothing between: two states do not tell how values bend."""
+        for run in self.runs:
+            if len(run.states) == 2 and run.states[1].position - run.states[0].position > 4 * self._neighbours:
+                first, last = run.states
+                middle = self.loads.state(first.position + (last.position - first.position) / 2, first.acts)
+                middle.take_undecided(first)
+                if first.is_like(middle) and middle.is_like(last):
+                    run.states.insert(1, middle)
 
     def _note_gap(self, states: list[Placed]) -> None:
         self.gaps.append(Gap(states[0].position, states[-1].position, states[0].reason, self.course.direction))

@@ -16,7 +16,9 @@ from .following import starting_scheme
 from .ground import FreeSpan, size_of
 from .kinks import Piece, piece_of
 from .motion import SLIDES, describe_motion
+from .smooth import SmoothLaws
 from .step import Step
+from .train_tangents import NearTangents
 from .train_ways import NO_ANSWER
 
 if TYPE_CHECKING:
@@ -39,6 +41,8 @@ class Placed:
         With the train as loads.
     step : Step
         The state, if it is solved.
+    past : numpy.ndarray
+        How far supports with smooth laws are past their gaps.
     status : int
         SOLVED; else as Status, or NOT_UNIQUE.
     reason : str or None
@@ -49,11 +53,11 @@ class Placed:
         Linear solves.
     """
 
-    def __init__(self, position: float, acts: np.ndarray, beam: Beam, rule: str, start: np.ndarray):
-        self.position, self.acts, self.beam = position, acts, beam
-        self.step = Step(beam, 1.0, rule, start)
+    def __init__(self, position: float, acts: np.ndarray, beam: Beam, step: Step):
+        self.position, self.acts, self.beam, self.step = position, acts, beam, step
         self.status, self.reason, self.solves = SOLVED, None, 0
         self.pieces: list[Piece | None] = []
+        self.past = np.zeros(0)
         try:
             solution = self.step.solution
         except EngineError as error:
@@ -78,10 +82,16 @@ class Placed:
         acting = np.zeros(beam.scene_supports, dtype=int)
         np.add.at(acting, beam.numbers, solution.closed)
         found: list[Piece | None] = [Piece(min(count, 1), 0.0, 1) for count in acting.tolist()]
-        for k in beam.laws if beam.has_laws else ():
+        for k in beam.laws.keys() - beam.smooth if beam.has_laws else ():
             found[k] = piece_of(beam, k, solution.closed, beam.kinks)
-            if k in beam.smooth and found[k].number and self.step.reaction[k] == 0.0:
-                found[k] = Piece(0, 0.0, found[k].way)  # acts on the polyline, not on the curve
+        if beam.curves:
+            laws = SmoothLaws(beam)
+            self.past, ways = laws.past_the_gap(laws.deflections(solution))
+            held = (self.past > 0.0) | ((laws.side == 0) & (laws.gap == 0.0))
+            acts = held & (laws.reactions(solution) != 0.0)
+            ways = np.where(laws.side == 0, np.where(held, ways, 1), 1)
+            for (k, _), number, way in zip(beam.curves, acts.tolist(), ways.tolist(), strict=True):
+                found[k] = Piece(int(number), float(number), way)
         for k in set(beam.numbers[solution.undecided == 1].tolist()) - beam.smooth:
             found[k] = None
         return found
@@ -154,6 +164,7 @@ class TrainLoads:
         self.beam, self.rule, self.course, self.near = beam, rule, course, near
         self.start = starting_scheme(beam)
         self.solves = 0
+        self._lines = NearTangents(beam, rule) if beam.curves else None
 
     def acting(self, position: float) -> np.ndarray:
         """Tell which axles act at a position, those at the ends of the beam included."""
@@ -171,7 +182,7 @@ class TrainLoads:
                 found.append((DISTRIBUTED, low, high, q))
         return found
 
-    def state(self, position: float, acts: np.ndarray | None = None) -> Placed:
+    def state(self, position: float, acts: np.ndarray | None = None, of_grid: bool = False) -> Placed:
         """Solve at a position.
 
         Parameters
@@ -180,6 +191,8 @@ class TrainLoads:
             Of the train.
         acts : numpy.ndarray of bool, optional
             Which axles act; default those on the beam.
+        of_grid : bool
+            Whether states on smooth laws are looked for from this one on, if the same axles act.
 
         Returns
         -------
@@ -198,7 +211,15 @@ class TrainLoads:
             np.asfortranarray(np.concatenate((own[:, :-1], new, own[:, -1:]), axis=1))
             for own, new in ((base.load_codes, codes), (base.load, numbers))
         )
-        beam = Beam(replace(base, load_codes=load_codes, load=load), self.beam.curves)
-        placed = Placed(position, acts, beam, self.rule, self.start)
+        found = None if self._lines is None else self._lines.solve(position, acts, load_codes, load)
+        if found is None:
+            beam = Beam(replace(base, load_codes=load_codes, load=load), self.beam.curves)
+            step = Step(beam, 1.0, self.rule, self.start)
+        else:
+            beam, solution = found
+            step = Step(beam, 1.0, self.rule, self.start, settled=True, solution=solution)
+        placed = Placed(position, acts, beam, step)
+        if of_grid and self._lines is not None and placed.status == SOLVED:
+            self._lines.keep(position, acts, beam, step.solution)
         self.solves += placed.solves
         return placed
