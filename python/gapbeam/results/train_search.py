@@ -302,10 +302,20 @@ class SearchedWay:
         if ground is not None:
             _, about, x = before.beam.zone_changes(ground, after.beam, later)
             found += [
-                TrainEvent(at, None, place, EVENTS[event], direction, foundation, branch)
+                TrainEvent(at, None, self._at_end(place), EVENTS[event], direction, foundation, branch)
                 for (foundation, branch, event), place in zip(about.tolist(), x.tolist(), strict=True)
             ]
         return found[::-1] if back else found
+
+    def _at_end(self, x: float) -> float:
+        """A place, or the end of the beam or of a foundation that is as near as neighbouring positions: zones begin there."""
+        return float(min(self._ends, key=lambda end: abs(end - x))) if np.abs(self._ends - x).min() <= 4 * self._neighbours else x
+
+    @cached_property
+    def _ends(self) -> np.ndarray:
+        end = self.loads.beam.places.end
+        stretches = [(item.from_, end if item.to is None else item.to) for item in self._scene.foundation]
+        return np.unique([0.0, end, *np.array(stretches).ravel()])
 
     @cached_property
     def _support_places(self) -> np.ndarray:
