@@ -250,3 +250,13 @@ def test_what_is_refused():
     train = gapbeam.solve(curved).trains["train 1"]
     with pytest.raises(ValueError, match="position: foundation 0 acts by a curve there; influence lines need straight laws"):
         train.influence("moment", x=5.0, position=5.0)
+
+
+def test_each_side_of_an_end_of_a_foundation_is_a_place_of_its_own():
+    """Pressure jumps where the modulus does; an axle there makes on either side what that side's ground takes."""
+    made = rail(supports=[], foundation=[{"k": 60.0, "to": 6.0}, {"k": 15.0, "from": 6.0}],
+                trains=[{"axles": [[0.0, 10.0]], "from": 5.5, "to": 6.5}])  # fmt: skip
+    curves = gapbeam.solve(made).envelope().fields
+    left, right = np.flatnonzero(curves.x == 6.0)
+    largest = curves.largest["pressure"]
+    assert largest[right] == pytest.approx(largest[left] / 4, rel=1e-9)

@@ -107,6 +107,8 @@ class Lines:
             if state.status != states[0].status:
                 continue
             both = state.values(self._x[[k, k]], np.array([False, True]))[self._rows].T
+            of_beam = [row != SHEAR for row in self._rows]  # what jumps there without an axle has two places
+            both[:, of_beam] = both[int(self._left[k]), of_beam]
             if at_end is None:
                 passed[position] = both
             for i, sign in enumerate((1.0, -1.0)):
