@@ -266,8 +266,9 @@ contains
         end do
         if (.not. changed) closed(:) = before
         work%solves = work%solves + ceiling(solves)
-        if (.not. changed) return
+        ! A round in which no part was settled counts too: else parts within parts were tried again after every solve
         search%rounds = search%rounds - 1
+        if (.not. changed) return
         search%margin = (3*search%margin)/2
     end subroutine settle_parts
 
