@@ -1,4 +1,4 @@
-!> Which supports are wrong in a scheme, and which of them a rule changes
+!> Which supports are wrong in a scheme, which of them a rule changes, and whether a scheme has come back
 module gapbeam_rules
     use gapbeam_kinds, only: wp
     use gapbeam_law, only: find_margins, find_wrong_states, find_doubtful_states, largest_violations
@@ -8,9 +8,17 @@ module gapbeam_rules
     private
     public :: find_wrong, find_doubtful, complementarity
     public :: keep_worst_pull, keep_local_worst, keep_least_index, first_width
+    public :: mark_type, set_mark, came_back
 
     !> Rounding errors beyond which a sign counts
     real(wp), parameter :: first_width = 32.0_wp
+
+    !> A scheme to compare later ones with
+    type :: mark_type
+        logical, allocatable :: closed(:)
+        !> Schemes seen since it was set, and how many until it is moved
+        integer :: since = 0, next = 1
+    end type mark_type
 
 contains
 
@@ -166,5 +174,28 @@ contains
         first = findloc(wrong, .true., 1)
         wrong(first + 1:) = .false.
     end subroutine keep_least_index
+
+    !> Begin to watch for a scheme that comes back
+    pure subroutine set_mark(mark, closed)
+        type(mark_type), intent(out) :: mark
+        logical, intent(in) :: closed(:)
+
+        allocate (mark%closed(size(closed)))
+        mark%closed(:) = closed
+    end subroutine set_mark
+
+    !> Is this scheme the marked one? The mark is moved here after 1, 2, 4, ... schemes (Brent 1980), so every cycle is found
+    function came_back(mark, closed) result(again)
+        type(mark_type), intent(inout) :: mark
+        logical, intent(in) :: closed(:)
+        logical :: again
+
+        again = all(closed .eqv. mark%closed)
+        mark%since = mark%since + 1
+        if (mark%since < mark%next) return
+        mark%closed(:) = closed
+        mark%since = 0
+        mark%next = 2*mark%next
+    end function came_back
 
 end module gapbeam_rules

@@ -13,7 +13,8 @@
 !> Why block ends: for a stable beam the problem is a linear complementarity problem with a P-matrix, for which the
 !> least-index rule reaches the solution without repeating a scheme (Murty 1974), so the fewest number of wrong
 !> supports falls after finitely many solves, and it can fall only finitely often (Judice and Pires 1994). The phases
-!> before are bounded by counts, parts by their rounds, which get fewer from beam to part.
+!> before are bounded by counts, parts by their rounds, which get fewer from beam to part. Finite may be very long, so the
+!> least-index rule gives up after so many solves as take some seconds (most_solves).
 module gapbeam_search
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, fatal_error, gapbeam_indeterminate, gapbeam_not_converged
@@ -23,17 +24,17 @@ module gapbeam_search
     use gapbeam_workspace, only: workspace_type
     use gapbeam_system, only: complete_scheme
     use gapbeam_look, only: search_type, look, few
-    use gapbeam_rules, only: keep_worst_pull, keep_local_worst, keep_least_index
+    use gapbeam_rules, only: keep_worst_pull, keep_local_worst, keep_least_index, mark_type, set_mark, came_back
     use gapbeam_reactions, only: find_shears
     use gapbeam_fronts, only: find_base, move_fronts
     use gapbeam_part, only: next_stretch, cut_out, least_margin
     use gapbeam_interior_point, only: interior_type, start_interior, step_interior, product_of
     implicit none
     private
-    public :: settle, refuse_scheme, rule_block, rule_single
+    public :: settle, refuse_scheme, rule_block, rule_single, rule_least_index
 
-    !> The two rules
-    integer, parameter :: rule_block = 0, rule_single = 1
+    !> The two rules, and the last phase of block alone
+    integer, parameter :: rule_block = 0, rule_single = 1, rule_least_index = 2
     !> Solves that need not make the number of wrong supports fall: directly from all supports closed, directly from another
     !> scheme, after a guess, between least-index phases
     integer, parameter :: patience = 4, warm_patience = 12, polish_patience = 3, last_patience = 2
@@ -53,12 +54,6 @@ module gapbeam_search
     !> Signs are decided beyond first_width rounding errors; widened where they still flicker, up to a limit
     real(wp), parameter :: last_width = 1e7_wp
 
-    !> A scheme to compare later ones with
-    type :: mark_type
-        logical, allocatable :: closed(:)
-        !> Schemes seen since it was set, and how many until it is moved
-        integer :: since = 0, next = 1
-    end type mark_type
 
 contains
 
@@ -66,7 +61,7 @@ contains
     recursive subroutine settle(beam, rule, may_float, closed, work, settled, error, rounds, carefully)
         !> The beam
         type(beam_type), intent(in) :: beam
-        !> rule_block or rule_single
+        !> rule_block, rule_single or rule_least_index
         integer, intent(in) :: rule
         !> Give up (settled is false) at a mechanism, and before the least-index rule
         logical, intent(in) :: may_float
@@ -83,6 +78,7 @@ contains
         !> Refine wherever few are wrong, however clearly (default: not what is solved from both ends, where little cancels)
         logical, intent(in), optional :: carefully
         type(search_type) :: search
+        character(len=12) :: text
 
         allocate (search%wrong(size(closed)))
         search%rounds = part_rounds
@@ -97,11 +93,13 @@ contains
         if (.not. (search%with_laws .or. allocated(beam%ground))) search%margin = least_margin(beam)
         settled = .false.
         if (rule == rule_single) call change_single(beam, closed, work, search, settled)
-        if (.not. settled .and. search%state == band_ok) then
-            search%fewest = huge(0)
+        search%fewest = huge(0)
+        if (rule == rule_least_index) then
+            search%rounds = 0
+        else if (.not. settled .and. search%state == band_ok) then
             call change_all(beam, merge(patience, warm_patience, all(closed)), closed, work, search, settled)
         end if
-        if (.not. settled .and. search%state /= band_mechanism .and. .not. search%with_laws) then
+        if (.not. (settled .or. search%state == band_mechanism .or. search%with_laws .or. rule == rule_least_index)) then
             call change_by_interior_point(beam, closed, work, search, settled)
         end if
         if (settled .or. may_float) return
@@ -109,6 +107,10 @@ contains
         if (settled) return
         if (search%state /= band_ok) then
             call refuse_scheme(beam, search%state, search%place, error)
+        else if (work%solves > work%most_solves) then
+            write (text, "(i0)") work%solves
+            call fatal_error(error, gapbeam_not_converged, "the working scheme was not found within "//trim(text)//" solves: "// &
+                             "follow the load by steps, or give supports and pieces of the beam stiffnesses that differ less")
         else
             call fatal_error(error, gapbeam_not_converged, "the signs of some reactions or openings cannot be told from "// &
                              "rounding errors in double precision")
@@ -153,29 +155,6 @@ contains
             if (search%with_laws) call open_beyond(beam%supports, closed)
         end if
     end subroutine change
-
-    !> Begin to watch for a scheme that comes back
-    pure subroutine set_mark(mark, closed)
-        type(mark_type), intent(out) :: mark
-        logical, intent(in) :: closed(:)
-
-        allocate (mark%closed(size(closed)))
-        mark%closed(:) = closed
-    end subroutine set_mark
-
-    !> Is this scheme the marked one? The mark is moved here after 1, 2, 4, ... schemes (Brent 1980), so every cycle is found
-    function came_back(mark, closed) result(again)
-        type(mark_type), intent(inout) :: mark
-        logical, intent(in) :: closed(:)
-        logical :: again
-
-        again = all(closed .eqv. mark%closed)
-        mark%since = mark%since + 1
-        if (mark%since < mark%next) return
-        mark%closed(:) = closed
-        mark%since = 0
-        mark%next = 2*mark%next
-    end function came_back
 
     !> Change what is wrong, in parts or all at once, until the number of wrong supports did not fall for some solves.
     !> Where few are wrong, a step without progress is followed by one of the paper's rule in every neighbourhood

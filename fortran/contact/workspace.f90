@@ -12,6 +12,9 @@ module gapbeam_workspace
     public :: workspace_type, reach_type, new_workspace, set_loads, apply_scheme
     public :: method_mixed, method_three_moment, method_pivoting
 
+    !> Nodes at which a search may solve, all its solves together, and solves it may take in any beam: some seconds
+    integer, parameter :: most_nodes = merge(2*10**7, 10**6, precision(1.0_wp) < 20), least_limit = 1000
+
     !> Which system was solved last
     integer, parameter :: method_mixed = 0, method_three_moment = 1, method_pivoting = 2
 
@@ -62,7 +65,7 @@ module gapbeam_workspace
         !> Linear solves so far, those of parts of the beam by their share of it, and the system solved last
         integer :: solves = 0
         !> Solves after which the least-index rule, which may take very many, gives up
-        integer :: most_solves = huge(0)
+        integer :: most_solves = least_limit
         !> Did the paper's rule come back to a scheme that it had seen
         logical :: came_back = .false.
         integer :: method = method_mixed
@@ -99,6 +102,7 @@ contains
         work%inverse = beam%links%inverse
         work%reach = max(beam%links%bending, beam%links%faa + beam%links%fbb)*beam%links%length
         work%may_soften = has_laws(beam%supports)
+        work%most_solves = max(least_limit, most_nodes/(n + 1))
         if (allocated(beam%ground)) then
             allocate (work%end_shear(2, n), work%end_shear_error(2, n))
         else if (is_plain(beam%links, beam%kind)) then
