@@ -1,10 +1,11 @@
 !> Working schemes: the paper's beam from every start, cycling, floating beams, free motions
 program test_scheme
     use testing, only: check, check_close, finish
+    use beams, only: sample_type, make_beam, draw, draw_magnitude
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_indeterminate
     use gapbeam_link, only: piece_type, piece_load_type, condense_link
-    use gapbeam_band, only: restrained
+    use gapbeam_band, only: hinge, restrained
     use gapbeam_model, only: beam_type, node_support_type, order_supports, below, above, both
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_search, only: rule_block, rule_single
@@ -17,6 +18,7 @@ program test_scheme
     call plank()
     call rigid_plank()
     call fronts()
+    call parts_that_cannot_be_settled()
     call finish(status)
     if (status /= 0) stop 1, quiet=.true.
 
@@ -204,5 +206,52 @@ contains
             end do
         end do
     end subroutine fronts
+
+    !> A beam in pieces between hinges that nothing stops: no part of it can be settled, and the whole is known to have no
+    !> equilibrium after some solves (5,000, when rounds without a settled part did not count)
+    subroutine parts_that_cannot_be_settled()
+        type(beam_type) :: beam
+        type(workspace_type) :: work
+        type(outcome_type) :: outcome
+        type(error_type), allocatable :: error
+        logical, allocatable :: closed(:)
+
+        call hinged_beam(500, 558000, beam)
+        allocate (closed(size(beam%supports)))
+        closed(:) = .true.
+        call new_workspace(beam, work)
+        call set_loads(beam, 1.0_wp, work)
+        call find_scheme(beam, 1.0_wp, rule_block, closed, work, outcome, error)
+        call check(.not. allocated(error), "parts that cannot be settled: an error")
+        call check(outcome%status == gapbeam_no_equilibrium, "parts that cannot be settled: equilibrium")
+        call check(work%solves < 600, "parts that cannot be settled: solves")
+    end subroutine parts_that_cannot_be_settled
+
+    !> A long beam with a hinge at every fifth node, with springs of any stiffness above and below most nodes
+    subroutine hinged_beam(n, start, beam)
+        integer, intent(in) :: n, start
+        type(beam_type), intent(out) :: beam
+        type(sample_type) :: sample
+        type(node_support_type) :: supports(n + 1)
+        real(wp) :: load(n)
+        integer :: i, m, seed
+
+        seed = start
+        m = 0
+        do i = 0, n
+            if (draw(seed) < 0.07_wp) cycle
+            m = m + 1
+            supports(m) = node_support_type(i, merge(below, above, draw(seed) < 0.7_wp), draw_magnitude(seed, 0.0_wp, 9.0_wp), &
+                                            0.1_wp*(draw(seed) - 0.3_wp))
+        end do
+        do i = 1, n
+            load(i) = 35*draw(seed) - 10
+        end do
+        call make_beam(spread(6.0_wp, 1, n), spread(1e4_wp, 1, n), load, spread(0.0_wp, 1, n), supports(:m), sample)
+        beam = sample%beam
+        do i = 1, n - 1
+            if (draw(seed) < 0.2_wp) beam%kind(i) = hinge
+        end do
+    end subroutine hinged_beam
 
 end program test_scheme
