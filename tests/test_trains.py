@@ -541,3 +541,23 @@ def test_light_trains_beside_great_loads():
     assert 0.0 < moment["max"].value - 9 / 128 * 6e11 * 6.0**2 < (60.0 + 80.0) * 6.0 / 4
     for position in (-1.0, 0.0, 1.3, 2.7, 6.0, 8.9, 12.0):
         assert max(train.at(position).extremes()["moment"]["max"]) <= moment["max"].value * (1 + 4e-15)
+
+
+def test_the_end_of_the_beam_as_the_sum_of_its_spans() -> None:
+    """A sum that rounding puts beyond the end is at the end, as it is for `at`."""
+    spans = [7.29, 6.17, 6.01]
+    scene = {
+        "beam": {"spans": spans, "EI": 1e4},
+        "supports": [{"node": node} for node in range(4)],
+        "loads": [{"type": "uniform", "q": 1.0}],
+        "trains": [{"name": "axle", "axles": [[0.0, 1.0]]}],
+    }
+    result = gapbeam.solve(scene)
+    end = gapbeam.prepare(scene | {"trains": []}).node_x[-1]
+    beyond = np.nextafter(end, 99.0)
+    assert result.at(beyond).moment == pytest.approx(0.0, abs=1e-12)
+    assert result.envelope(x=[end]).fields.largest["shear"] == result.envelope(x=[beyond]).fields.largest["shear"]
+    line = result.trains["axle"].influence("moment", x=beyond, position=3.0, places=[beyond])
+    assert line.values == pytest.approx(0.0, abs=1e-12)
+    with pytest.raises(ValueError, match=r"x: the beam goes from 0 to 19\.47, got 19\.5"):
+        result.envelope(x=[19.5])

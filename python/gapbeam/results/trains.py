@@ -250,8 +250,7 @@ class TrainResult:
         if what not in (has_lines := (*fields_of(beam), "reaction")):
             raise ValueError(f"what: expected {choice(shown(name) for name in has_lines)}, got {shown(what)}")
         state = self.at(position, direction)
-        x = finite("x", x)
-        places_given(beam, [x], "x")
+        x = float(places_given(beam, [finite("x", x)])[0])
         places = places_along(beam) if places is None else places_given(beam, places, "places")
         at = self._result.scene.positions(self._result.scene.supports)
         chosen = (np.abs(at - x) <= way.near) & beam.across
