@@ -5,6 +5,9 @@
 !> every step of the recursion is a sum of terms that are not negative as long as beta L < 2.365; beyond that the only terms that
 !> change sign are below 1/40 of the others. Where ground pushes back less the more it is pressed, the sums are of mixed
 !> sign, and a pivot that is not positive says that the state is not stable.
+!>
+!> A pivot is zero where a rigid link goes on from a node whose deflection and rotation are known, as at a clamp. Then so is the
+!> deflection at its other end, and the moment follows from equilibrium there on the way back.
 module gapbeam_foundation_chain
     use gapbeam_kinds, only: wp
     use gapbeam_require, only: checked, require
@@ -14,6 +17,9 @@ module gapbeam_foundation_chain
     implicit none
     private
     public :: factor_foundation_chain, solve_foundation_chain
+
+    !> One more way to eliminate a node: the rigid link behind it tells the deflection at the next one
+    integer, parameter :: w_ahead = 7
 
 contains
 
@@ -30,7 +36,7 @@ contains
         !> Node at which a state other than band_ok was found
         integer, intent(out) :: place
         real(wp) :: phi, beta, delta, divisor, next(3)
-        logical :: floating
+        logical :: floating, held
         integer :: i, n
 
         n = size(links)
@@ -66,16 +72,22 @@ contains
                     state = band_mechanism
                     return
                 end if
+                held = is_placed(pivots, i)
+                if (held .and. node%held) then
+                    state = band_needs_pivoting
+                    return
+                end if
+                held = held .or. node%held
                 p%c = delta + node%stiffness
                 if (i == n) then
-                    call factor_last(node, p, phi, beta, floating, state)
+                    call factor_last(node, held, p, phi, beta, floating, state)
                     return
                 end if
                 associate (link => links(i + 1), carried => p%c)
                     p%a = phi + link%faa
                     p%b = beta + link%pa
                     if (floating .or. node%kind == hinge) then
-                        if (node%held) then
+                        if (held) then
                             p%kind = both_known
                             next = [link%fbb, link%pb, link%gbb]
                         else if (carried + link%gaa > 0.0_wp) then
@@ -88,7 +100,11 @@ contains
                             next = 0.0_wp
                         end if
                         floating = p%kind == statics
-                    else if (node%held) then
+                    else if (held .and. .not. max(abs(phi), abs(link%faa)) > 0.0_wp) then
+                        p%kind = w_ahead
+                        p%reciprocal = 1/link%p1
+                        next = [link%fbb, link%pb, link%gbb]
+                    else if (held) then
                         p%kind = w_known
                         if (.not. p%a > 0.0_wp) then
                             state = band_needs_pivoting
@@ -116,6 +132,16 @@ contains
         end do
     end subroutine factor_foundation_chain
 
+    !> Is the deflection of a node known from the rigid link before it
+    pure function is_placed(pivots, i) result(placed)
+        type(pivot_type), intent(in) :: pivots(0:)
+        integer, intent(in) :: i
+        logical :: placed
+
+        placed = i > 0
+        if (placed) placed = pivots(i - 1)%kind == w_ahead
+    end function is_placed
+
     !> phi, beta, delta behind a link before which nothing is known (docs/method.md, section 12)
     pure function passed_on(link, phi, beta, carried, pivot) result(next)
         type(stretch_link_type), intent(in) :: link
@@ -133,8 +159,10 @@ contains
     end function passed_on
 
     !> The right end of the beam: no link follows
-    pure subroutine factor_last(node, pivot, phi, beta, floating, state)
+    pure subroutine factor_last(node, held, pivot, phi, beta, floating, state)
         type(node_type), intent(in) :: node
+        !> Is its deflection known
+        logical, intent(in) :: held
         type(pivot_type), intent(inout) :: pivot
         real(wp), intent(in) :: phi, beta
         logical, intent(in) :: floating
@@ -143,9 +171,9 @@ contains
         pivot%kind = end_of_beam
         pivot%a = phi
         pivot%b = beta
-        if (.not. (node%held .or. pivot%c > 0.0_wp)) state = band_mechanism
+        if (.not. (held .or. pivot%c > 0.0_wp)) state = band_mechanism
         if (floating .and. node%kind /= restrained) state = band_mechanism
-        if (.not. node%held .and. state == band_ok) pivot%reciprocal = 1/pivot%c
+        if (.not. held .and. state == band_ok) pivot%reciprocal = 1/pivot%c
     end subroutine factor_last
 
     !> Solve with a factor
@@ -170,7 +198,7 @@ contains
     end subroutine solve_foundation_chain
 
     !> Forward: rhs(i)%left becomes the e that the left side passes to node i, rhs(i)%right and %shear the right-hand sides E and
-    !> G of its pivot; moments known by statics go into the answers at once
+    !> G of its pivot; moments known by statics go into the answers at once, deflections that rigid links tell into the next rhs
     pure subroutine eliminate(nodes, links, lengths, pivots, rhs, answers)
         type(node_type), intent(in) :: nodes(0:)
         type(stretch_link_type), intent(in) :: links(:)
@@ -216,6 +244,10 @@ contains
                     case (w_known)
                         m = (v%b*r%deflection - r%right)*v%reciprocal
                         w = r%deflection
+                    case (w_ahead)
+                        m = 0.0_wp
+                        w = r%deflection
+                        rhs(i + 1)%deflection = (v%b*w - r%right)*v%reciprocal
                     case (m_known)
                         answers(i)%moment_right = m
                         w = (g - link%pa*m)*v%reciprocal
@@ -253,18 +285,19 @@ contains
         !> Right-hand side as it was, and eliminated
         type(rhs_type), intent(in) :: given(0:), rhs(0:)
         type(answer_type), intent(inout) :: answers(0:)
-        real(wp) :: m_next, w_next, m, w, psi_right, turn, push
+        real(wp) :: m_next, w_next, m, w, psi_right, shear_right, turn, push
         integer :: i
 
         m_next = 0.0_wp
         w_next = 0.0_wp
         psi_right = 0.0_wp
+        shear_right = 0.0_wp
         do i = size(links), 0, -1
             associate (node => nodes(i), v => pivots(i), r => rhs(i))
                 if (v%kind == end_of_beam) then
                     m = 0.0_wp
                     w = r%deflection
-                    if (.not. node%held) w = r%shear*v%reciprocal
+                    if (.not. (node%held .or. is_placed(pivots, i))) w = r%shear*v%reciprocal
                 else
                     associate (link => links(i + 1))
                         turn = link%p1*w_next + link%fab*m_next
@@ -277,6 +310,9 @@ contains
                             w = (v%b*(r%right + turn) + v%a*(r%shear + push))*v%reciprocal
                         case (w_known)
                             m = (v%b*w - r%right - turn)*v%reciprocal
+                        case (w_ahead)
+                            m = (link%pb*m_next + link%gab*w + (link%gbb + nodes(i + 1)%stiffness)*w_next &
+                                 - given(i + 1)%shear - shear_right)*v%reciprocal
                         case (m_known)
                             if (is_weak(v, link) .and. nodes(i + 1)%kind == plain .and. pivots(i + 1)%kind /= end_of_beam) then
                                 ! What next to nothing carries is known better from the slope of what follows
@@ -291,6 +327,7 @@ contains
                             continue
                         end select
                         psi_right = turn - link%pa*w + link%faa*m
+                        shear_right = push - link%pa*m - link%gaa*w
                     end associate
                 end if
                 if (.not. v%floating) then
