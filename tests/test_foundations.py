@@ -333,3 +333,40 @@ def test_many_axles_on_a_rail_take_few_rounds(seed):
     )
     assert result.steps[-1].solves < 20
     assert sum(zone.resultant for zone in result.steps[-1].contact) == pytest.approx(30 * 120.0 + 180.0, rel=1e-14)
+
+
+@pytest.mark.parametrize("side", ["both", "below"])
+@pytest.mark.parametrize(
+    ("supports", "rigid"),
+    [
+        ([{"node": 0, "rotation": "fixed"}, {"node": 1, "rotation": "fixed"}], [(0, 1), (3, 4)]),
+        (
+            [{"node": 0, "rotation": "fixed"}, {"x": 2.0, "rotation": 300.0, "stiffness": 200.0, "settlement": 0.01}],
+            [(0, 1.5), (1.5, 3)],
+        ),
+        ([{"node": 0}, {"x": 1.0, "settlement": 0.01}, {"node": 1, "stiffness": 50.0}], [(0, 2)]),
+        ([{"node": 0}, {"x": 1.0}, {"x": 1.5, "side": "below", "gap": 0.01}], [(0, 2)]),
+    ],
+)
+def test_a_rigid_stretch_whose_place_is_known_is_the_limit_of_stiff_ones(side, supports, rigid):
+    def solved(stiffness):
+        sections = [{"from": a, "to": b, "EI": stiffness} for a, b in rigid]
+        loads = [{"type": "uniform", "q": 3.0}, {"type": "force", "x": 0.7, "F": 9.0}, {"type": "force", "x": 2.2, "F": -20.0}]
+        made = {"beam": {"spans": [4.0], "EI": 1e3}, "loads": loads, "supports": supports, "sections": sections}
+        return gapbeam.solve({**made, "foundation": [{"k": 500.0, "side": side}]})
+
+    exact, stiff = solved(math.inf), solved(1e13)
+    assert exact.status == "solved"
+    assert exact.steps[-1].solves < 20
+    assert close(exact.steps[-1].reaction, stiff.steps[-1].reaction, 1e-7)
+    x = np.linspace(0.0, 4.0, 17)
+    for name in ("deflection", "moment"):
+        assert close(getattr(exact.at(x), name), getattr(stiff.at(x), name), 1e-7), name
+
+
+def test_too_many_rigid_supports_are_refused_without_springs():
+    made = {"beam": {"spans": [1.0, 1.0, 1.0], "EI": math.inf}, "foundation": [{"k": 500.0, "side": "below"}]}
+    supports = [{"node": i} for i in range(4)]
+    # Of a few nodes, not of thousands
+    with pytest.raises(gapbeam.EngineError, match=r"near node \d of \d rests on more rigid supports"):
+        gapbeam.solve({**made, "supports": supports, "loads": [{"type": "uniform", "q": 3.0}]})

@@ -6,7 +6,7 @@
 module gapbeam_ground_solver
     use gapbeam_kinds, only: wp, qp
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_not_converged, &
-        gapbeam_not_finite, gapbeam_no_memory
+        gapbeam_not_finite, gapbeam_no_memory, gapbeam_indeterminate
     use gapbeam_foundation, only: stretch_ends_type
     use gapbeam_memory, only: reserve_memory, for_solving, for_ground
     use gapbeam_ground, only: ground_type, zones_type, grounded_type, full_contact
@@ -15,7 +15,7 @@ module gapbeam_ground_solver
     use gapbeam_springs, only: search_springs
     use gapbeam_workspace, only: workspace_type
     use gapbeam_scheme, only: outcome_type
-    use gapbeam_law, only: is_blocked
+    use gapbeam_law, only: both, is_blocked
     use gapbeam_referee, only: detail_type, refine_beam, fine_piece, fine_load
     use gapbeam_layers, only: layer_type, law_piece_type
     use gapbeam_layers_quad, only: fine_layer_type => layer_type, fine_law_piece_type => law_piece_type, has_curves
@@ -126,6 +126,8 @@ contains
             solution%solves = solution%solves + work%solves
             if (allocated(error)) then
                 if (error%code == gapbeam_no_memory) return
+                ! Supports that hold both ways are as many on any zones
+                if (error%code == gapbeam_indeterminate .and. all(ground%beam%supports%side == both)) return
             end if
             if (allocated(error) .or. outcome%status /= gapbeam_solved) cycle
             ! Where it all but touches, only quadruple precision tells where; from full contact that is not worth while
