@@ -26,6 +26,8 @@ module gapbeam_look
         !> Which are wrong in the scheme solved last, how many, and the least number so far
         logical, allocatable :: wrong(:)
         integer :: wrong_now = 0, fewest = 0
+        !> The scheme in which that was so
+        logical, allocatable :: best(:)
         !> Has any support a law; do laws go on by one piece at a time
         logical :: with_laws = .false., by_pieces = .false.
         !> Is everything refined where few are wrong

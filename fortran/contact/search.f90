@@ -8,7 +8,7 @@
 !>          rest does to it as loads, and solve the whole again (domain decomposition after Schwarz); fronts
 !>          are moved by statics first. Otherwise change every wrong support at once while their number keeps
 !>          falling within a few solves. If it does not, guess the scheme by interior points and go on from there. If
-!>          that fails too, change the wrong support of least index until fewer are wrong than ever before, and so on.
+!>          that fails too, change in the best scheme so far the wrong support of least index until fewer are wrong, and so on.
 !>
 !> Why block ends: for a stable beam the problem is a linear complementarity problem with a P-matrix, for which the
 !> least-index rule reaches the solution without repeating a scheme (Murty 1974), so the fewest number of wrong
@@ -80,7 +80,8 @@ contains
         type(search_type) :: search
         character(len=12) :: text
 
-        allocate (search%wrong(size(closed)))
+        allocate (search%wrong(size(closed)), search%best(size(closed)))
+        search%best(:) = closed
         search%rounds = part_rounds
         if (present(rounds)) search%rounds = rounds
         search%in_part = present(rounds)
@@ -182,6 +183,7 @@ contains
             end if
             if (search%wrong_now < search%fewest) then
                 search%fewest = search%wrong_now
+                search%best(:) = closed
                 idle = 0
             else
                 idle = idle + 1
@@ -331,6 +333,8 @@ contains
         do
             call change_all(beam, last_patience, closed, work, search, settled)
             if (settled .or. search%state /= band_ok) return
+            ! Where all were changed at once last, many more may be wrong, from which this rule takes very long to come back
+            closed(:) = search%best
             call set_mark(mark, closed)
             do
                 call look(beam, closed, .false., work, search, settled)
