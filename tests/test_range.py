@@ -360,3 +360,14 @@ def test_laws_far_from_one_stay_when_loads_are_lowered_anew(power):
     np.testing.assert_array_equal(again.reaction, step.reaction)
     np.testing.assert_array_equal(again.deflection, step.deflection)
     assert step.reaction[1] / scale == pytest.approx(60.96, abs=0.01)
+
+
+def test_reactions_are_not_lost_beside_a_great_lack_of_fit():
+    """A support 1e30 too high: quadruple precision tells its reaction no more, and nothing may be said of it."""
+    supports = [at(i, side="below") for i in range(6)]
+    made = scene([6.0] * 5, supports, [uniform(2.0), force(3.0, 100.0), force(16.0, 50.0)], EI=1e4)
+    supports[1]["gap"] = -1e25
+    assert gapbeam.solve(made).steps[-1].reaction.tolist() == pytest.approx([0.0, 1075.0 / 6, 0.0, 0.0, 0.0, 185.0 / 6])
+    supports[1]["gap"] = -1e30
+    with pytest.raises(EngineError, match="so great that reactions to the loads are lost"):
+        gapbeam.solve(made)

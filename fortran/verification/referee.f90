@@ -46,6 +46,8 @@ module gapbeam_referee
     integer, parameter :: most_examined = 64
     !> Rounding error of a reaction, relative to the largest, from which on quadruple precision is worth its time
     real(wp), parameter :: worst_digits = 1e-8_wp
+    !> What rounding hides of reactions is a smaller share of the largest load
+    real(qp), parameter :: most_hidden = 2.0_qp**(-10)
 
     !> What links are made of: the scene's own numbers
     type :: detail_type
@@ -231,6 +233,7 @@ contains
         type(fine_beam_type) :: fine
         type(fine_workspace_type) :: fine_work
         type(fine_outcome_type) :: found
+        real(qp), allocatable :: reaction(:)
         integer :: try
 
         undecided(:) = .false.
@@ -253,10 +256,28 @@ contains
             outcome%motion = real(found%motion, wp)
             return
         end if
+        allocate (reaction(size(closed)))
+        reaction(:) = fine_work%reaction
         call find_undecided(fine, real(factor, qp), closed, fine_work, undecided)
+        call refuse_hidden(reaction, fine_work, error)
+        if (allocated(error)) return
         if (.not. outcome%indifferent) outcome%indifferent = fine_held_by_ties(fine, closed, undecided)
         call take_rounded(fine_work, work)
     end subroutine refer
+
+    !> Refuse a state in which reactions that rounding hides are more than next to nothing beside the loads
+    subroutine refuse_hidden(reaction, work, error)
+        !> Before what is nothing but rounding was left out, and the solution after
+        real(qp), intent(in) :: reaction(:)
+        type(fine_workspace_type), intent(in) :: work
+        type(error_type), allocatable, intent(out) :: error
+        real(qp) :: load
+
+        load = maxval(work%load_size)
+        if (.not. load > 0.0_qp .or. all(abs(reaction - work%reaction) <= most_hidden*load)) return
+        call fatal_error(error, gapbeam_not_converged, "gaps, lacks of fit or settlements are so great that reactions to the "// &
+                         "loads are lost in rounding errors: check their numbers and units")
+    end subroutine refuse_hidden
 
     !> Did a search end at a rigid stretch over more rigid supports than statics can tell apart
     pure function statics_cannot_tell(error) result(ended)

@@ -215,6 +215,8 @@ class Prepared(Pickled):
     ) -> Varied:
         """Numbers that differ from those of the scene, movements of supports among their settlements."""
         varied = vary(self.scene, self._beam.columns, given, count)
+        if not isinstance(settlements, Mapping | None):
+            raise ValueError(f"settlements: expected a mapping, as {{1: 0.01}} by number or name of a support; got {settlements!r}")
         if not settlements:
             return varied
         moves = self._movements(settlements, count)

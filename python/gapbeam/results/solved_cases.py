@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -270,7 +270,14 @@ class Cases:
         -------
         dict
             As of `extremes`.
+
+        Raises
+        ------
+        ValueError
+            There is no such field.
         """
+        if wrong := [name for name in names if name not in FIELDS]:
+            raise ValueError(f"names: expected some of {', '.join(FIELDS)}; got {wrong[0]!r}")
         shape = self._shape
         solutions = self._solutions()
         there = solutions and case_extremes(*solutions, names)
@@ -337,7 +344,7 @@ def wanted_names(want: str | Collection[str] | None) -> tuple[str, ...]:
     if want is None:
         return WANTED
     known = (*NAMES, "moment")
-    names = (want,) if isinstance(want, str) else tuple(want)
+    names = (want,) if isinstance(want, str) or not isinstance(want, Iterable) else tuple(want)
     wrong = [name for name in names if name not in known]
     if wrong:
         raise ValueError(f"want: expected some of {', '.join(known)}; got {wrong[0]!r}")
