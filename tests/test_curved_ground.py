@@ -18,7 +18,7 @@ SEEDS = [3, 202, 208, 257]
 def kinks_of(scene, result):
     """Places, foundations, sides and numbers of the kinks of laws."""
     end, found = scene["beam"]["spans"][0], {}
-    layers = [(run, run.from_) for run in result.steps[-1]._runs] + [(run, run.to) for run in result.steps[-1]._runs]
+    layers = [(run, run.from_) for run in result.steps[-1].runs] + [(run, run.to) for run in result.steps[-1].runs]
     for run, x in layers:
         ground = scene["foundation"][run.foundation]
         if min(abs(x - ground.get("from", 0.0)), abs(x - ground.get("to", end))) > 1e-12:

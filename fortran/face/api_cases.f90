@@ -268,14 +268,13 @@ contains
         do i = 1, cases
             do k = 1, size(lowered%model%supports)
                 associate (s => lowered%model%supports(k))
-                    select case (key)
-                    case ("settlement")
+                    if (key == "settlement") then
                         call check_number(values(k, i), s%settlement, error)
-                    case ("gap")
+                    else if (key == "gap") then
                         call check_number(values(k, i), s%gap, error)
-                    case default
+                    else
                         call check_number(values(k, i), s%stiffness, error)
-                    end select
+                    end if
                 end associate
                 if (allocated(error)) return
             end do

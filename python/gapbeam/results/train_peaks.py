@@ -235,7 +235,7 @@ def vertex(best: float, heights: Mapping[float, float], left: float, right: floa
 
     Examples
     --------
-    >>> vertex(2.0, {0.0: 0.0, 2.0: 8.0, 3.0: 6.0}, 0.0, 3.0)
+    >>> vertex(2.0, {0.0: 2.0, 2.0: 8.0, 3.0: 5.0}, 0.0, 3.0)
     (1.75, 8.125)
     """
     if len(heights) < 3:
