@@ -1,6 +1,6 @@
-!> Passes over the beams of eight cases whose ends are held, with the arithmetic of sweep_both_ends (gapbeam_lane_sweeps), number by
-!> number: the scheme is applied on the way inward, signs are looked at on the way back, and a right-hand side can be solved for
-!> with the elimination of the pass before
+!> Passes over the beams of eight cases, each end with a support that acts, without couples and hinges; with the arithmetic of
+!> gapbeam_kernel, number by number: the bits are its. The scheme is applied on the way inward, signs are looked at on the way
+!> back, and a right-hand side can be solved for with the elimination of the pass before
 module gapbeam_lane_passes
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes, lane_beam_type
@@ -59,7 +59,7 @@ contains
         call go_back(n, middle, room, w, m)
     end subroutine pass_both_ends
 
-    !> Inward from an end, as sweep_inward
+    !> Inward from an end
     pure subroutine go_inward(beam, n, way, first, last, step, turn, shear, stiffness, rigid, contact, change, closed, room, phi, &
                               beta, delta, e, p)
         type(lane_beam_type), intent(in) :: beam

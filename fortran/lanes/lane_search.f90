@@ -7,7 +7,7 @@
 module gapbeam_lane_search
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type, by_both_ends, by_three_moments, by_chain
-    use gapbeam_lane_sweeps, only: sweep_both_ends, sweep_three_moments, sweep_chain
+    use gapbeam_lane_sweeps, only: sweep_three_moments, sweep_chain
     use gapbeam_lane_passes, only: pass_both_ends, find_wrong_between, correct_both_ends
     use gapbeam_lane_residual, only: find_rest
     use gapbeam_lane_reactions, only: complete
@@ -289,51 +289,52 @@ contains
 
         n = beam%n
         moves(:) = 0.0_wp
-        if (pack%is_solved) then
-            call copy_moments(n, pack%ml, pack%mr)
-        else
+        if (.not. pack%is_solved) then
             call apply_scheme(n, pack%shear, pack%stiffness, pack%rigid, pack%contact, pack%closed, pack%held, pack%known, &
                               pack%spring, pack%force)
-            call solve(beam, n, method, pack%left, pack%right, pack%force, pack%couple, pack%held, pack%known, pack%spring, &
-                       pack%turn, pack%room, pack%w, pack%ml, pack%mr, moves)
+            if (method == by_both_ends) then
+                pack%turn(:, :) = pack%left + pack%right
+                pack%turn_rest(:, :) = 0.0_wp   ! no support is to be changed
+                call pass_both_ends(beam, n, pack%turn, pack%shear, pack%stiffness, pack%rigid, pack%contact, pack%turn_rest, &
+                                    pack%closed, pack%room, pack%w, pack%ml)
+            else
+                call solve(beam, n, method, pack%left, pack%right, pack%force, pack%couple, pack%held, pack%known, pack%spring, &
+                           pack%room, pack%w, pack%ml, pack%mr, moves)
+            end if
         end if
+        if (method == by_both_ends) call copy_moments(n, pack%ml, pack%mr)
         call find_rest(beam, n, pack%left, pack%right, pack%force, pack%held, pack%known, pack%spring, pack%w, pack%ml, pack%mr, &
                        pack%turn_rest, pack%force_rest, pack%known_rest)
-        if (pack%is_solved) then
+        if (method == by_both_ends) then
             call correct_both_ends(beam, n, pack%turn_rest, pack%force_rest, pack%held, pack%known_rest, pack%room, pack%dw, &
                                    pack%dl)
             call copy_moments(n, pack%dl, pack%dr)
         else
             pack%nothing(:, :) = 0.0_wp
             call solve(beam, n, method, pack%nothing, pack%turn_rest, pack%force_rest, pack%nothing, pack%held, pack%known_rest, &
-                       pack%spring, pack%turn, pack%room, pack%dw, pack%dl, pack%dr, moves)
+                       pack%spring, pack%room, pack%dw, pack%dl, pack%dr, moves)
         end if
         call add_correction(n, pack%dw, pack%dl, pack%dr, pack%w, pack%ml, pack%mr)
         call complete(beam, n, pack, doubt)
         doubtful = doubt + moves > 0.5_wp
     end subroutine finish_pack
 
-    !> One of the three ways
-    pure subroutine solve(beam, n, method, left, right, force, couple, held, known, spring, turn, room, w, ml, mr, moves)
+    !> The ways but that from both ends
+    pure subroutine solve(beam, n, method, left, right, force, couple, held, known, spring, room, w, ml, mr, moves)
         type(lane_beam_type), intent(in) :: beam
         integer, intent(in) :: n, method
         real(wp), intent(in), dimension(lanes, 0:n) :: left, right, force, couple, held, known, spring
-        real(wp), intent(inout), dimension(lanes, 0:n) :: turn, w, ml, mr
+        real(wp), intent(inout), dimension(lanes, 0:n) :: w, ml, mr
         real(wp), intent(inout) :: room(lanes, 0:n, 10)
         !> 1 for mechanisms
         real(wp), intent(out) :: moves(lanes)
 
         moves(:) = 0.0_wp
-        select case (method)
-        case (by_both_ends)
-            turn(:, :) = left + right
-            call sweep_both_ends(beam, n, turn, force, held, known, spring, room, w, ml)
-            call copy_moments(n, ml, mr)
-        case (by_three_moments)
+        if (method == by_three_moments) then
             call sweep_three_moments(beam, n, left, right, force, couple, held, known, room, w, ml, mr)
-        case default
+        else
             call sweep_chain(beam, n, left, right, force, couple, held, known, spring, room, w, ml, mr, moves)
-        end select
+        end if
     end subroutine solve
 
     !> Solutions refined
