@@ -6,12 +6,11 @@ program lane_widths
     use, intrinsic :: iso_fortran_env, only: int64
     use, intrinsic :: iso_c_binding, only: c_int, c_intptr_t, c_ptr, c_null_ptr, c_funptr, c_funloc, c_loc, c_f_pointer
     use testing, only: check, finish
+    use lane_beams, only: make_beam, draw_cases, random, bits
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_equilibrium
-    use gapbeam_scene, only: span_type, support_type, uniform_load, point_force, gapbeam_both, gapbeam_infinity
     use gapbeam_units, only: moment_unit
     use gapbeam_lowered, only: lowered_type
-    use gapbeam_lower, only: lower_model
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, new_workspace
     use gapbeam_search, only: rule_block
@@ -119,10 +118,12 @@ contains
         integer(c_intptr_t) :: thread(threads)
         integer(c_int) :: code
         integer :: bounds(0:threads), i, t, level
+        logical :: varied
 
-        call make_beam(seed, spans, lowered)
+        call make_beam(seed, spans, spans >= 299, lowered)
         call split_loads(lowered, loads, error)
-        call draw_cases(seed, lowered, cases, factors, values)
+        varied = random(seed) < 0.5_wp
+        call draw_cases(seed, lowered, cases, varied, factors, values)
         call share_cases(lowered, loads, factors, values, together)
         call solve_share(together, room)
         unsolved = unsolved + count(together%status == gapbeam_no_equilibrium)
@@ -232,14 +233,6 @@ contains
                 .and. bits(a%mr(:, i)) == bits(b%mr(:, k)))
     end function same
 
-    !> The bits of a number: zeros of both signs are two
-    elemental function bits(number)
-        real(wp), intent(in) :: number
-        integer(int64) :: bits
-
-        bits = transfer(number, bits)
-    end function bits
-
     !> Compare with the engine that knows no lanes
     subroutine compare_engine(together, seen, wrong)
         type(share_type), intent(in) :: together
@@ -269,83 +262,5 @@ contains
             end do
         end associate
     end subroutine compare_engine
-
-    !> A beam of so many spans on supports of all kinds, now and then one missing, now and then a hinge
-    subroutine make_beam(seed, spans, lowered)
-        integer(int64), intent(inout) :: seed
-        integer, intent(in) :: spans
-        type(lowered_type), intent(out) :: lowered
-        type(error_type), allocatable :: error
-        type(support_type), allocatable :: supports(:)
-        real(wp) :: x
-        integer :: i, k, m
-
-        associate (model => lowered%model)
-            x = random(seed)
-            k = merge(1, 0, spans < 299 .and. x < 0.3_wp)
-            allocate (model%spans(spans), model%hinges(k), model%sections(0), model%law(0), model%foundations(0), model%ground(0), &
-                      model%ground_law(0), supports(spans + 1), model%loads(4))
-            do i = 1, spans
-                model%spans(i) = span_type(2.0_wp + 4*random(seed), EI=10.0_wp**(3 + 2*random(seed)))
-            end do
-            m = 0
-            do i = 0, spans
-                x = random(seed)
-                if (x < 0.1_wp .and. i > 0 .and. i < spans .and. spans < 299) cycle
-                m = m + 1
-                supports(m) = support_type(node=i, settlement=0.01_wp*(random(seed) - 0.5_wp))
-                if (random(seed) < 0.4_wp) supports(m)%stiffness = 10.0_wp**(1 + 4*random(seed))
-                if (x < 0.4_wp) cycle
-                supports(m)%side = merge(1, -1, random(seed) < 0.8_wp)
-                if (random(seed) < 0.6_wp) supports(m)%gap = 0.01_wp*(random(seed) - 0.2_wp)
-            end do
-            allocate (model%supports(m))
-            model%supports(:) = supports(:m)
-            x = sum(model%spans%length)
-            if (k > 0) model%hinges(:) = x*(0.2_wp + 0.6_wp*random(seed))
-            model%loads(1) = uniform_load(10.0_wp, 0.0_wp, x)
-            model%loads(2) = uniform_load(20*random(seed), 0.3_wp*x*random(seed), x*(0.5_wp + 0.5_wp*random(seed)))
-            model%loads(3) = point_force(40*random(seed), node=int((spans + 1)*random(seed)))
-            model%loads(4) = uniform_load(20*random(seed), x*(0.6_wp + 0.2_wp*random(seed)), x*(0.9_wp + 0.1_wp*random(seed)))
-        end associate
-        call lower_model(lowered, error)
-        if (allocated(error)) error stop "no beam"
-    end subroutine make_beam
-
-    !> Factors, and for every second beam settlements, gaps and stiffnesses by case
-    subroutine draw_cases(seed, lowered, cases, factors, values)
-        integer(int64), intent(inout) :: seed
-        type(lowered_type), intent(in) :: lowered
-        integer, intent(in) :: cases
-        real(wp), allocatable, intent(out) :: factors(:, :), values(:, :, :)
-        integer :: i, k
-
-        associate (given => lowered%model%supports)
-            allocate (factors(size(lowered%model%loads), cases))
-            allocate (values(3, merge(size(given), 0, random(seed) < 0.5_wp), cases))
-            do i = 1, cases
-                do k = 1, size(factors, 1)
-                    factors(k, i) = 3*random(seed) - 1
-                end do
-                do k = 1, size(values, 2)
-                    values(:, k, i) = [given(k)%settlement + 0.01_wp*(random(seed) - 0.5_wp), given(k)%gap, given(k)%stiffness]
-                    if (given(k)%side /= gapbeam_both) values(2, k, i) = 0.01_wp*(random(seed) - 0.2_wp)
-                    if (random(seed) < 0.2_wp) values(3, k, i) = 10.0_wp**(1 + 4*random(seed))
-                    if (random(seed) < 0.1_wp) values(3, k, i) = gapbeam_infinity
-                end do
-            end do
-        end associate
-    end subroutine draw_cases
-
-    !> From 0 to 1 (Marsaglia 2003)
-    function random(seed) result(x)
-        integer(int64), intent(inout) :: seed
-        real(wp) :: x
-
-        seed = ieor(seed, shiftl(seed, 13))
-        seed = ieor(seed, shiftr(seed, 7))
-        seed = ieor(seed, shiftl(seed, 17))
-        x = real(shiftr(seed, 11), wp)*2.0_wp**(-53)
-    end function random
 
 end program lane_widths

@@ -2,13 +2,11 @@
 program test_lanes
     use, intrinsic :: iso_fortran_env, only: int64
     use testing, only: check, finish
+    use lane_beams, only: make_beam, draw_cases, random, bits
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_not_finite
-    use gapbeam_scene, only: model_type, span_type, support_type, point_force, point_couple, uniform_load, gapbeam_both, &
-        gapbeam_infinity
     use gapbeam_units, only: moment_unit
     use gapbeam_lowered, only: lowered_type, piece_length
-    use gapbeam_lower, only: lower_model
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, new_workspace
     use gapbeam_search, only: rule_block
@@ -18,7 +16,8 @@ program test_lanes
     use gapbeam_case_extremes, only: extremes_of_cases
     implicit none
 
-    !> Cases of a beam; beams, the last of which are long: alone their solution is kept up to date, with other last digits
+    !> Cases of a beam; beams of 2 to 40 spans, the last ones of 300 to 700, whose solution alone is kept up to date, with
+    !> other last digits
     integer, parameter :: cases = 20, beams = 240, long_beams = 2
     integer :: status
 
@@ -47,7 +46,7 @@ contains
         type(found_type) :: all_cases, alone, back
         real(wp), allocatable :: factors(:, :), values(:, :, :)
         integer(int64) :: seed
-        integer :: b, i, level, left, other_level, other_lane, other_bits, total, missed
+        integer :: b, i, n, level, left, other_level, other_lane, other_bits, total, missed
 
         seed = 2463534242_int64
         left = 0
@@ -57,10 +56,12 @@ contains
         other_bits = 0
         missed = 0
         do b = 1, beams
-            call make_beam(seed, b > beams - long_beams, lowered)
+            n = 2 + int(39*random(seed)**3)
+            if (b > beams - long_beams) n = 300 + int(400*random(seed))
+            call make_beam(seed, n, .false., lowered)
             call split_loads(lowered, loads, error)
             if (.not. fits_lanes(lowered)) cycle
-            call draw_cases(seed, lowered, b, factors, values)
+            call draw_cases(seed, lowered, cases, modulo(b, 2) == 0, factors, values)
             call solve(lowered, loads, factors, values, best_level(), all_cases)
             total = total + cases
             left = left + count(.not. all_cases%done)
@@ -117,14 +118,6 @@ contains
                                [0.0_wp, piece_length(lowered, size(lowered%pieces))], found%fields, status, level)
         found%done = found%done .and. status == gapbeam_solved
     end subroutine solve
-
-    !> The bits of a number: zeros of both signs are two
-    elemental function bits(number)
-        real(wp), intent(in) :: number
-        integer(int64) :: bits
-
-        bits = transfer(number, bits)
-    end function bits
 
     !> Are cases the same, to the last bit
     pure function same(a, b, number) result(equal)
@@ -188,86 +181,5 @@ contains
             number = number + 1
         end do
     end subroutine compare
-
-    !> A beam of 2 to 40 spans; at its ends and inside supports of all kinds, or none, and hinges
-    subroutine make_beam(seed, long, lowered)
-        integer(int64), intent(inout) :: seed
-        !> Of 300 to 700 spans
-        logical, intent(in) :: long
-        type(lowered_type), intent(out) :: lowered
-        type(error_type), allocatable :: error
-        type(support_type), allocatable :: supports(:)
-        real(wp) :: x
-        integer :: i, k, m, n
-
-        n = 2 + int(39*random(seed)**3)
-        if (long) n = 300 + int(400*random(seed))
-        associate (model => lowered%model)
-            x = random(seed)
-            k = merge(1, 0, n > 3 .and. x < 0.3_wp)
-            allocate (model%spans(n), model%hinges(k), model%sections(0), model%law(0), model%foundations(0), model%ground(0), &
-                      model%ground_law(0), supports(n + 1))
-            do i = 1, n
-                model%spans(i) = span_type(2.0_wp + 4*random(seed), EI=10.0_wp**(3 + 2*random(seed)))
-            end do
-            m = 0
-            do i = 0, n
-                x = random(seed)
-                if (x < 0.15_wp .and. i > 0) cycle
-                m = m + 1
-                supports(m) = support_type(node=i, settlement=0.01_wp*(random(seed) - 0.5_wp))
-                if (random(seed) < 0.4_wp) supports(m)%stiffness = 10.0_wp**(1 + 4*random(seed))
-                if (x < 0.4_wp) cycle
-                supports(m)%side = merge(1, -1, x < 0.85_wp)
-                if (random(seed) < 0.6_wp) supports(m)%gap = 0.01_wp*(random(seed) - 0.2_wp)
-            end do
-            allocate (model%supports(m), model%loads(4))
-            model%supports(:) = supports(:m)
-            x = sum(model%spans%length)
-            if (k > 0) model%hinges(:) = x*(0.2_wp + 0.6_wp*random(seed))
-            model%loads(1) = uniform_load(10.0_wp, 0.0_wp, x)
-            model%loads(2) = uniform_load(20*random(seed), 0.3_wp*x*random(seed), x*(0.5_wp + 0.5_wp*random(seed)))
-            model%loads(3) = point_force(40*random(seed), x=x*random(seed))
-            model%loads(4) = point_force(40*random(seed), node=int((n + 1)*random(seed)))
-            if (random(seed) < 0.3_wp) model%loads(4) = point_couple(20*random(seed), node=int((n + 1)*random(seed)))
-        end associate
-        call lower_model(lowered, error)
-    end subroutine make_beam
-
-    !> Factors, and for every second beam supports that differ from case to case
-    subroutine draw_cases(seed, lowered, beam, factors, values)
-        integer(int64), intent(inout) :: seed
-        type(lowered_type), intent(in) :: lowered
-        integer, intent(in) :: beam
-        real(wp), allocatable, intent(out) :: factors(:, :), values(:, :, :)
-        integer :: i, k
-
-        associate (given => lowered%model%supports)
-            allocate (factors(size(lowered%model%loads), cases))
-            allocate (values(3, merge(size(given), 0, modulo(beam, 2) == 0), cases))
-            do i = 1, cases
-                do k = 1, size(factors, 1)
-                    factors(k, i) = 3*random(seed) - 1
-                end do
-                do k = 1, size(values, 2)
-                    values(:, k, i) = [given(k)%settlement + 0.01_wp*(random(seed) - 0.5_wp), given(k)%gap, given(k)%stiffness]
-                    if (given(k)%side /= gapbeam_both) values(2, k, i) = 0.01_wp*(random(seed) - 0.2_wp)
-                    if (random(seed) < 0.2_wp) values(3, k, i) = 10.0_wp**(1 + 4*random(seed))
-                    if (random(seed) < 0.1_wp) values(3, k, i) = gapbeam_infinity
-                end do
-            end do
-        end associate
-    end subroutine draw_cases
-
-    !> From 0 to 1 (Marsaglia 2003)
-    function random(seed) result(x)
-        integer(int64), intent(inout) :: seed
-        real(wp) :: x
-
-        seed = ieor(seed, shiftl(seed, 13))
-        seed = ieor(seed, shiftr(seed, 7))
-        seed = ieor(seed, shiftl(seed, 17))
-        x = real(shiftr(seed, 11), wp)*2.0_wp**(-53)
-    end function random
 
 end program test_lanes
