@@ -7,7 +7,7 @@
 module gapbeam_fronts
     use gapbeam_kinds, only: wp
     use gapbeam_band, only: plain
-    use gapbeam_law, only: find_single
+    use gapbeam_law_forms, only: find_single
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type
     implicit none

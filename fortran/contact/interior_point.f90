@@ -9,7 +9,7 @@
 module gapbeam_interior_point
     use gapbeam_kinds, only: wp
     use gapbeam_band, only: band_ok
-    use gapbeam_law, only: find_pairs
+    use gapbeam_law_forms, only: find_pairs
     use gapbeam_model, only: beam_type, softest
     use gapbeam_workspace, only: workspace_type
     use gapbeam_system, only: solve_deflections

@@ -3,7 +3,8 @@ module gapbeam_part
     use gapbeam_kinds, only: wp, dp
     use gapbeam_require, only: checked, require
     use gapbeam_band, only: plain
-    use gapbeam_law, only: node_support_type, stiffness_of_changing, hold_both_ways
+    use gapbeam_law, only: node_support_type
+    use gapbeam_law_forms, only: stiffness_of_changing, hold_both_ways
     use gapbeam_model, only: beam_type, order_supports
     use gapbeam_workspace, only: workspace_type, new_workspace
     implicit none

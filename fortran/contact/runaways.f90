@@ -2,7 +2,8 @@
 module gapbeam_runaways
     use gapbeam_kinds, only: wp, dp
     use gapbeam_band, only: hinge, restrained
-    use gapbeam_law, only: below, above, find_level_forces, outermost, is_blocked
+    use gapbeam_law, only: below, above
+    use gapbeam_law_motions, only: find_level_forces, outermost, is_blocked
     use gapbeam_model, only: beam_type
     use gapbeam_kinematics, only: free_motions, motion_type, work_of_loads
     implicit none

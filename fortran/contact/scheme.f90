@@ -11,7 +11,9 @@ module gapbeam_scheme
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_no_equilibrium, &
         gapbeam_indeterminate, gapbeam_not_converged, gapbeam_not_finite
     use gapbeam_band, only: band_ok, band_needs_pivoting
-    use gapbeam_law, only: always_closed, separate_rigid_pairs, limit_stiffness, has_laws, is_blocked, distance_to_contact
+    use gapbeam_law, only: always_closed, separate_rigid_pairs, has_laws
+    use gapbeam_law_motions, only: is_blocked, distance_to_contact
+    use gapbeam_law_forms, only: limit_stiffness
     use gapbeam_model, only: beam_type, softest
     use gapbeam_kinematics, only: free_motions, motion_type
     use gapbeam_runaways, only: runaway_type, find_runaways, prefer_tipping, no_speed
