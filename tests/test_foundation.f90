@@ -3,10 +3,12 @@ program test_foundation
     use testing, only: check, check_close, finish
     use gapbeam_kinds, only: wp, qp
     use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_link_type, stretch_ends_type, &
-        condense_stretch, load_stretch, fields_at, decay_lengths
+        condense_stretch, load_stretch, decay_lengths
+    use gapbeam_foundation_fields, only: fields_at
     use gapbeam_foundation_quad, only: stretch_quad => stretch_type, load_quad => stretch_load_type, &
         link_quad => stretch_link_type, ends_quad => stretch_ends_type, &
-        condense_quad => condense_stretch, loads_quad => load_stretch, fields_quad => fields_at
+        condense_quad => condense_stretch, loads_quad => load_stretch
+    use gapbeam_foundation_fields_quad, only: fields_quad => fields_at
     implicit none
     integer :: status
 

@@ -3,7 +3,8 @@ program test_foundation_roots
     use, intrinsic :: iso_fortran_env, only: int64
     use testing, only: check, check_close, finish
     use gapbeam_kinds, only: wp, qp
-    use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type, fields_at
+    use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type
+    use gapbeam_foundation_fields, only: fields_at
     use gapbeam_foundation_roots, only: find_crossings, find_peaks
     use gapbeam_foundation_quad, only: stretch_quad => stretch_type, load_quad => stretch_load_type, &
         ends_quad => stretch_ends_type

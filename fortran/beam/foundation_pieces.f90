@@ -2,7 +2,8 @@
 module gapbeam_foundation_pieces
     use gapbeam_kinds, only: wp
     use gapbeam_foundation_taylor, only: expand, terms_of, most_terms
-    use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type, fields_at, decay_lengths
+    use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type, decay_lengths
+    use gapbeam_foundation_fields, only: fields_at
     use gapbeam_curved, only: curved_type, order, expand_curved, curved_fields
     implicit none
     private

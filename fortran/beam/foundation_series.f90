@@ -8,7 +8,7 @@ module gapbeam_foundation_series
     use gapbeam_kinds, only: wp
     implicit none
     private
-    public :: end_functions_type, triple_type, response_type, short_ends, short_response
+    public :: end_functions_type, triple_type, response_type, short_ends, short_response, is_short
 
     !> Functions of a stretch's ends, all without unit: X coth X = a + c X**2, X/sinh X = b - e X**2
     type :: end_functions_type
@@ -273,5 +273,14 @@ contains
 
         y = triple_type(factor*x%a, factor*x%b/4, factor*(x%a + ring%sigma*x%b))
     end function triple
+
+    !> Are power series good for a stretch: they are for every one on softening ground, that is cut short
+    pure function is_short(sigma, tau) result(short)
+        !> K L**2/GA and K L**4/EI
+        real(wp), intent(in) :: sigma, tau
+        logical :: short
+
+        short = sigma <= 8.0_wp .and. tau <= 64.0_wp
+    end function is_short
 
 end module gapbeam_foundation_series

@@ -9,6 +9,7 @@ module gapbeam_foundation_taylor
     private
     public :: stretch_type, stretch_load_type, half_type
     public :: half_link, half_of_transfer, advance, expand, terms_of, most_terms
+    public :: mirrored, turned, is_sloped
 
     !> A prismatic stretch on elastic ground
     type :: stretch_type
@@ -176,5 +177,33 @@ contains
         if (abs(stretch%modulus_b - stretch%modulus_a) > 0.0_wp) n = n + n/merge(2, 4, stretch%shear_flexibility > 0.0_wp)
         n = min(n + 6, most_terms)
     end function terms_of
+
+    !> A stretch seen from the other side
+    pure function mirrored(stretch) result(other)
+        type(stretch_type), intent(in) :: stretch
+        type(stretch_type) :: other
+
+        other = stretch
+        other%modulus_a = stretch%modulus_b
+        other%modulus_b = stretch%modulus_a
+    end function mirrored
+
+    !> Its load seen from there
+    elemental function turned(load) result(other)
+        type(stretch_load_type), intent(in) :: load
+        type(stretch_load_type) :: other
+
+        other = load
+        other%qa = load%qb
+        other%qb = load%qa
+    end function turned
+
+    !> Does the modulus change along the stretch
+    pure function is_sloped(stretch) result(sloped)
+        type(stretch_type), intent(in) :: stretch
+        logical :: sloped
+
+        sloped = abs(stretch%modulus_b - stretch%modulus_a) > 0.0_wp
+    end function is_sloped
 
 end module gapbeam_foundation_taylor

@@ -2,7 +2,8 @@
 !> certainty, and what acts between them is judged anew
 module gapbeam_find_zones
     use gapbeam_kinds, only: wp
-    use gapbeam_foundation, only: stretch_load_type, fields_at
+    use gapbeam_foundation, only: stretch_load_type
+    use gapbeam_foundation_fields, only: fields_at
     use gapbeam_foundation_roots, only: find_crossings, find_limits
     use gapbeam_curved, only: curved_type, curved_fields
     use gapbeam_layers, only: pieces_of_law, has_curves, law_by_points, law_cubic, parameters_of_law

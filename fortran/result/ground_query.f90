@@ -2,7 +2,8 @@
 module gapbeam_ground_query
     use gapbeam_kinds, only: wp
     use gapbeam_element, only: field_type
-    use gapbeam_foundation, only: stretch_ends_type, fields_at, decay_lengths
+    use gapbeam_foundation, only: stretch_ends_type, decay_lengths
+    use gapbeam_foundation_fields, only: fields_at
     use gapbeam_foundation_roots, only: find_peaks
     use gapbeam_layers, only: law_piece_type, law_piece, is_curve, law_by_points
     use gapbeam_law_series, only: curve_force

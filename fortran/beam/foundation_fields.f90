@@ -1,0 +1,169 @@
+!> The fields inside a prismatic stretch of beam on elastic ground, from its load and what is at its ends; units and signs as in
+!> gapbeam_foundation
+module gapbeam_foundation_fields
+    use gapbeam_kinds, only: wp
+    use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type
+    use gapbeam_foundation_taylor, only: half_type, half_link, advance, mirrored, turned, is_sloped
+    use gapbeam_foundation_series, only: triple_type, response_type, short_response, is_short
+    use gapbeam_foundation_long, only: long_type, long_of, decay_type, long_response
+    implicit none
+    private
+    public :: fields_at
+
+contains
+
+    !> Fields anywhere in a stretch in equilibrium
+    pure subroutine fields_at(stretch, load, ends, xi, w, psi, moment, shear)
+        !> The stretch, its load, deflections and moments of its ends
+        type(stretch_type), intent(in) :: stretch
+        type(stretch_load_type), intent(in) :: load
+        type(stretch_ends_type), intent(in) :: ends
+        !> The place, 0..1
+        real(wp), intent(in) :: xi
+        !> Deflection, rotation, moment, shear
+        real(wp), intent(out) :: w, psi, moment, shear
+        type(response_type) :: r
+        type(decay_type) :: decay
+        type(long_type) :: long
+        type(stretch_ends_type) :: over
+        real(wp) :: sigma, tau, eta, l, f, k, y(4)
+
+        if (is_sloped(stretch)) then
+            call sloped_fields(stretch, load, ends, xi, w, psi, moment, shear)
+            return
+        end if
+        l = stretch%length
+        f = stretch%flexibility
+        k = stretch%modulus_a
+        sigma = k*l**2*stretch%shear_flexibility
+        tau = k*l**4*f
+        eta = 1 - xi
+        if (is_short(sigma, tau)) then
+            ! The chord, and the answer to the load that is left: the ground's under the chord taken off
+            r = short_response(sigma, tau, xi, eta)
+            associate (e => ends, c => load)
+                y(1) = eta*e%w_a + xi*e%w_b
+                y(3) = eta*e%moment_a + xi*e%moment_b
+                y(4) = (e%moment_b - e%moment_a)/l
+                y(2) = (e%w_b - e%w_a)/l - stretch%shear_flexibility*y(4)
+                call respond(stretch, r%even, r%even_slope, f*((e%moment_a + e%moment_b)/2) - c%kappa, &
+                             (c%qa + c%qb)/2 - k*((e%w_a + e%w_b)/2), y)
+                call respond(stretch, r%odd, r%odd_slope, f*((e%moment_b - e%moment_a)/2), &
+                             (c%qb - c%qa)/2 - k*((e%w_b - e%w_a)/2), y)
+                if (abs(c%qc) > 0.0_wp) call respond(stretch, r%bubble, r%bubble_slope, 0.0_wp, c%qc, y)
+            end associate
+        else
+            long = long_of(sigma, tau)
+            call long_response(long, xi, decay, r)
+            over = ends
+            y = 0.0_wp
+            if (long%apart) then
+                call respond(stretch, r%even, r%even_slope, -load%kappa, (load%qa + load%qb)/2, y)
+                call respond(stretch, r%odd, r%odd_slope, 0.0_wp, (load%qb - load%qa)/2, y)
+                call respond(stretch, r%bubble, r%bubble_slope, 0.0_wp, load%qc, y)
+            else
+                ! Far from the ends the ground bears the load where it stands
+                y(1) = (load%qa*eta + load%qb*xi + load%qc*xi*eta)/k
+                y(2) = (load%qb - load%qa + load%qc*(eta - xi))/(k*l)
+                y(3) = (load%kappa + 2*load%qc/(k*l**2))/f
+                over%w_a = ends%w_a - load%qa/k
+                over%w_b = ends%w_b - load%qb/k
+                over%moment_a = ends%moment_a - y(3)
+                over%moment_b = ends%moment_b - y(3)
+            end if
+            call fade(stretch, decay%left, decay%left_slope, over%w_a, over%moment_a, y)
+            call fade(stretch, decay%right, decay%right_slope, over%w_b, over%moment_b, y)
+        end if
+        w = y(1)
+        psi = y(2)
+        moment = y(3)
+        shear = y(4)
+    end subroutine fields_at
+
+    !> Add the answer to a curvature and a load per length
+    pure subroutine respond(stretch, value, slope, curvature, q, y)
+        type(stretch_type), intent(in) :: stretch
+        !> The answer and its slope
+        type(triple_type), intent(in) :: value, slope
+        real(wp), intent(in) :: curvature, q
+        !> Deflection, rotation, moment, shear
+        real(wp), intent(inout) :: y(4)
+        real(wp) :: bent, pressed, f, k
+
+        associate (l => stretch%length, g => stretch%shear_flexibility)
+            f = l**2*stretch%flexibility
+            k = l**2*stretch%modulus_a
+            bent = l**2*curvature
+            pressed = l**2*q
+            y(1) = y(1) + (value%ga*bent + (g*value%ga - f*value%be)*pressed)
+            y(2) = y(2) + (slope%al*bent - f*slope%be*pressed)/l
+            y(3) = y(3) + (k*value%be*bent + value%ga*pressed)
+            y(4) = y(4) + (k*slope%be*bent + slope%ga*pressed)/l
+        end associate
+    end subroutine respond
+
+    !> Add what the deflection and moment of an end make. Rotations without shear go with w - M/GA
+    pure subroutine fade(stretch, value, slope, w, moment, y)
+        type(stretch_type), intent(in) :: stretch
+        !> How they fade and the slope of it
+        type(triple_type), intent(in) :: value, slope
+        real(wp), intent(in) :: w, moment
+        !> Deflection, rotation, moment, shear
+        real(wp), intent(inout) :: y(4)
+        real(wp) :: f, k
+
+        associate (l => stretch%length, g => stretch%shear_flexibility)
+            f = l**2*stretch%flexibility
+            k = l**2*stretch%modulus_a
+            y(1) = y(1) + (value%ga*w - f*value%be*moment)
+            y(2) = y(2) + (slope%al*(w - g*moment) - f*slope%be*moment)/l
+            y(3) = y(3) + (k*value%be*w + value%al*moment)
+            y(4) = y(4) + (k*slope%be*w + slope%al*moment)/l
+        end associate
+    end subroutine fade
+
+    !> Fields where the modulus changes along the stretch, from its nearer end
+    pure subroutine sloped_fields(stretch, load, ends, xi, w, psi, moment, shear)
+        type(stretch_type), intent(in) :: stretch
+        type(stretch_load_type), intent(in) :: load
+        type(stretch_ends_type), intent(in) :: ends
+        real(wp), intent(in) :: xi
+        real(wp), intent(out) :: w, psi, moment, shear
+        type(half_type) :: h
+        real(wp) :: y(4), v_a, v_b, by_load(2)
+
+        v_a = ends%w_a - stretch%shear_flexibility*ends%moment_a
+        v_b = ends%w_b - stretch%shear_flexibility*ends%moment_b
+        if (xi <= 0.5_wp) then
+            call half_link(stretch, [load], h, by_load(1:1), by_load(2:2))
+            call advance(stretch, load, 0.0_wp, start_of(stretch, h, by_load, v_a, v_b, ends%moment_a, ends%moment_b), xi, y)
+        else
+            call half_link(mirrored(stretch), [turned(load)], h, by_load(1:1), by_load(2:2))
+            call advance(mirrored(stretch), turned(load), 0.0_wp, &
+                         start_of(stretch, h, by_load, v_b, v_a, ends%moment_b, ends%moment_a), 1 - xi, y)
+            y = [y(1), -y(2), y(3), -y(4)]
+        end if
+        w = y(1) + stretch%shear_flexibility*y(3)
+        psi = y(2)
+        moment = y(3)
+        shear = y(4)
+    end subroutine sloped_fields
+
+    !> v = w - M/GA, psi, M and V at the left end from v and M at both
+    pure function start_of(stretch, half, by_load, v_a, v_b, moment_a, moment_b) result(y)
+        type(stretch_type), intent(in) :: stretch
+        type(half_type), intent(in) :: half
+        !> Rotation and shear by the load
+        real(wp), intent(in) :: by_load(2)
+        real(wp), intent(in) :: v_a, v_b, moment_a, moment_b
+        real(wp) :: y(4)
+
+        y(1) = v_a
+        y(2) = (half%p1*v_b - half%pa*v_a) + (half%faa*moment_a + half%fab*moment_b) + by_load(1)
+        y(3) = moment_a
+        ! The moment's factor in V_a beside p2 is pa + gaa/GA, as V knows w only
+        y(4) = (half%p2*moment_b - (half%pa + stretch%shear_flexibility*half%gaa)*moment_a) &
+            - (half%gaa*v_a + half%gab*v_b) + by_load(2)
+    end function start_of
+
+end module gapbeam_foundation_fields
