@@ -20,7 +20,9 @@ program test_ground
     use gapbeam_lower, only: lower_model
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_state, only: solve_state, ground_of
-    use gapbeam_ground_query, only: ground_values, ground_extremes, ground_pressure, pressure_extremes, largest_ways
+    use gapbeam_ground_query, only: ground_values, ground_extremes
+    use gapbeam_ground_pressure, only: ground_pressure, pressure_extremes
+    use gapbeam_ground_distance, only: largest_ways
     implicit none
     real(wp), parameter :: pi = acos(-1.0_wp)
     integer :: status

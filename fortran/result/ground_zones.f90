@@ -10,7 +10,7 @@ module gapbeam_ground_zones
     use gapbeam_lowered, only: lowered_type, point_x
     use gapbeam_layers, only: layer_type
     use gapbeam_ground_solver, only: ground_solution_type
-    use gapbeam_ground_query, only: largest_ways, is_shallow
+    use gapbeam_ground_distance, only: largest_ways, is_shallow
     use gapbeam_pieces, only: gapbeam_closed, gapbeam_bilateral, gapbeam_touching, gapbeam_branch
     implicit none
     private

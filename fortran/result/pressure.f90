@@ -6,7 +6,7 @@ module gapbeam_pressure
     use gapbeam_refusal, only: refuse_range
     use gapbeam_lowered, only: lowered_type, point_x
     use gapbeam_ground_solver, only: ground_solution_type
-    use gapbeam_ground_query, only: ground_pressure, pressure_extremes
+    use gapbeam_ground_pressure, only: ground_pressure, pressure_extremes
     implicit none
     private
     public :: pressure_in_pieces, extremes_of_pressure

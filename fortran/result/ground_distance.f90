@@ -1,0 +1,136 @@
+!> How far a solved beam is from the ground, and where it touches the ground without pressing it
+module gapbeam_ground_distance
+    use gapbeam_kinds, only: wp
+    use gapbeam_element, only: field_type
+    use gapbeam_curved, only: curved_type
+    use gapbeam_ground_laws, only: contact_line, along
+    use gapbeam_ground_solver, only: ground_solution_type
+    use gapbeam_lowered, only: lowered_type
+    use gapbeam_ground_query, only: values_in, curved_in, peaks_in
+    implicit none
+    private
+    public :: largest_ways, is_shallow
+
+    !> Distances between beam and ground of so many roundings of what they are made of are none
+    real(wp), parameter :: touching = 32*epsilon(1.0_wp)
+
+contains
+
+    !> Where the distance between the beam and the line at which a layer begins to act is stationary inside a stretch: their
+    !> difference is the deflection under the load less what the ground would take of it along the line
+    subroutine peaks_beside(lowered, solution, i, k, xi, number)
+        type(lowered_type), intent(in) :: lowered
+        type(ground_solution_type), intent(in) :: solution
+        !> Stretch and layer
+        integer, intent(in) :: i, k
+        real(wp), allocatable, intent(out) :: xi(:)
+        integer, intent(out) :: number
+        type(curved_type), allocatable :: curved
+        real(wp) :: line(2)
+
+        call curved_in(lowered, solution, i, curved)
+        line(:) = contact_line(lowered%layers(k), [solution%from(i), solution%to(i)], lowered%pieces(solution%piece(i))%length)
+        call peaks_in(solution, i, 1, (line(2) - line(1))/solution%stretches(i)%length, curved, xi, number)
+    end subroutine peaks_beside
+
+    !> Largest distance of the beam from every layer under its stretches, and where it touches one without pressing it
+    subroutine largest_ways(lowered, solution, way, touch)
+        !> The beam, and its solution
+        type(lowered_type), intent(in) :: lowered
+        type(ground_solution_type), intent(in) :: solution
+        !> In the engine's units, 0 where the layer acts all along, shape (most layers, stretches)
+        real(wp), intent(out) :: way(:, :)
+        !> The at most two places of each that are nearest to the ground, if they touch it, as shares of the stretch, ascending;
+        !> none: -1. Shape (2, most layers, stretches)
+        real(wp), intent(out) :: touch(:, :, :)
+        real(wp), allocatable :: xi(:)
+        integer :: i, j, k, number
+
+        way(:, :) = 0.0_wp
+        touch(:, :, :) = -1.0_wp
+        do i = 1, size(solution%piece)
+            associate (first => lowered%layer_first(solution%piece(i)), last => lowered%layer_first(solution%piece(i) + 1) - 1)
+                do k = first, last
+                    if (solution%acts(k - first + 1, i) > 0) cycle
+                    call peaks_beside(lowered, solution, i, k, xi, number)
+                    call look_at(0.0_wp)
+                    do j = 1, number
+                        call look_at(xi(j))
+                    end do
+                    call look_at(1.0_wp)
+                end do
+            end associate
+        end do
+
+    contains
+
+        !> Ask for the distance at a place of the stretch
+        subroutine look_at(at)
+            real(wp), intent(in) :: at
+            real(wp) :: distance, rounding
+
+            call distance_at(lowered, solution, i, k, at, distance, rounding)
+            associate (most => way(k - lowered%layer_first(solution%piece(i)) + 1, i), &
+                       places => touch(:, k - lowered%layer_first(solution%piece(i)) + 1, i))
+                most = max(most, distance)
+                if (abs(distance) > touching*rounding) return
+                if (places(1) < 0.0_wp) then
+                    places(1) = at
+                else
+                    places(2) = at
+                end if
+            end associate
+        end subroutine look_at
+
+    end subroutine largest_ways
+
+    !> Distance between the beam and the line at which a layer begins to act, and the size of what it is the difference of, which
+    !> times the rounding unit bounds its error (N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2002, section 3.1)
+    pure subroutine distance_at(lowered, solution, i, k, at, distance, rounding)
+        !> As for largest_ways
+        type(lowered_type), intent(in) :: lowered
+        type(ground_solution_type), intent(in) :: solution
+        !> Stretch, layer, and share of the stretch
+        integer, intent(in) :: i, k
+        real(wp), intent(in) :: at
+        !> Positive where there is no contact; size of its terms
+        real(wp), intent(out) :: distance, rounding
+        type(field_type) :: field
+        real(wp) :: line, moment, q, square
+
+        associate (layer => lowered%layers(k), s => solution%stretches(i), ends => solution%ends(i), load => solution%loads(i))
+            call values_in(lowered, solution, i, at, field)
+            line = contact_line(layer, along(solution%from(i), solution%to(i), at, 1.0_wp), &
+                                lowered%pieces(solution%piece(i))%length)
+            distance = layer%side*(line - field%deflection)
+            moment = max(abs(ends%moment_a), abs(ends%moment_b))
+            q = max(abs(load%qa), abs(load%qb))
+            ! What moment and load bend a simple beam by; on elastic ground what is farther away than 1/beta is not felt
+            square = s%length**2/8
+            if (s%modulus_a > 0.0_wp .and. s%flexibility > 0.0_wp) then
+                square = min(square, 1/sqrt(s%modulus_a)/sqrt(s%flexibility))
+            end if
+            rounding = max(abs(ends%w_a), abs(ends%w_b)) + abs(line) &
+                + square*(s%flexibility*(moment + square*q) + abs(load%kappa)) + s%shear_flexibility*(moment + square*q)
+        end associate
+    end subroutine distance_at
+
+    !> Is a stretch in which a layer acts pressed into it by nothing but rounding
+    pure function is_shallow(lowered, solution, i, k) result(shallow)
+        !> As for largest_ways
+        type(lowered_type), intent(in) :: lowered
+        type(ground_solution_type), intent(in) :: solution
+        !> Stretch and layer
+        integer, intent(in) :: i, k
+        logical :: shallow
+        real(wp) :: distance, rounding
+        integer :: j
+
+        shallow = .true.
+        do j = 0, 4
+            call distance_at(lowered, solution, i, k, j/4.0_wp, distance, rounding)
+            shallow = shallow .and. abs(distance) <= touching*rounding
+        end do
+    end function is_shallow
+
+end module gapbeam_ground_distance

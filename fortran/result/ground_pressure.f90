@@ -1,0 +1,197 @@
+!> The pressure of the ground on a solved beam, anywhere along it, and its extremes
+module gapbeam_ground_pressure
+    use gapbeam_kinds, only: wp
+    use gapbeam_element, only: field_type
+    use gapbeam_layers, only: law_piece_type, law_piece, is_curve, law_by_points
+    use gapbeam_law_series, only: curve_force
+    use gapbeam_curved, only: curved_type
+    use gapbeam_ground_laws, only: contact_line, slope_of_layer, offset_of_layer, parameters_at, along
+    use gapbeam_ground_solver, only: ground_solution_type
+    use gapbeam_lowered, only: lowered_type
+    use gapbeam_ground_query, only: stretch_of, share_of, values_in, peaks_in
+    implicit none
+    private
+    public :: ground_pressure, pressure_extremes
+
+contains
+
+    !> Pressure of all ground on the beam at distances from the left ends of pieces, force per length, up
+    pure subroutine ground_pressure(lowered, solution, piece, distance, pressure)
+        !> The beam, and its solution
+        type(lowered_type), intent(in) :: lowered
+        type(ground_solution_type), intent(in) :: solution
+        !> As for ground_values
+        integer, intent(in) :: piece(:)
+        real(wp), intent(in) :: distance(:)
+        !> In the engine's units, shape (n)
+        real(wp), intent(out) :: pressure(:)
+        integer :: i, k
+
+        do k = 1, size(piece)
+            i = stretch_of(solution, piece(k), distance(k))
+            pressure(k) = pressure_in(lowered, solution, i, share_of(solution, i, distance(k)))
+        end do
+    end subroutine ground_pressure
+
+    !> Pressure of all layers inside a stretch
+    pure function pressure_in(lowered, solution, i, xi) result(pressure)
+        type(lowered_type), intent(in) :: lowered
+        type(ground_solution_type), intent(in) :: solution
+        integer, intent(in) :: i
+        real(wp), intent(in) :: xi
+        real(wp) :: pressure, place, push
+        type(field_type) :: field
+        type(law_piece_type) :: law
+        integer :: k, acts
+
+        pressure = 0.0_wp
+        call values_in(lowered, solution, i, xi, field)
+        associate (j => solution%piece(i))
+            place = along(solution%from(i), solution%to(i), xi, 1.0_wp)
+            do k = lowered%layer_first(j), lowered%layer_first(j + 1) - 1
+                acts = solution%acts(k - lowered%layer_first(j) + 1, i)
+                if (acts == 0) cycle
+                associate (layer => lowered%layers(k), length => lowered%pieces(j)%length)
+                    law = law_piece(layer, lowered%law_pieces, acts)
+                    if (is_curve(layer, acts)) then
+                        push = layer%side*curve_force(layer%law, parameters_at(layer, place, length), &
+                                                      layer%side*(field%deflection - contact_line(layer, place, length)))
+                    else
+                        push = layer%side*offset_of_layer(layer, law, acts, place, length) &
+                            + slope_of_layer(layer, law, acts, place, length) &
+                            *(field%deflection - contact_line(layer, place, length))
+                    end if
+                    ! At an end of a zone it is zero but for rounding
+                    if (layer%side /= 0) push = layer%side*max(0.0_wp, layer%side*push)
+                    pressure = pressure + push
+                end associate
+            end do
+        end associate
+    end function pressure_in
+
+    !> Where the pressure of all layers is stationary inside a stretch in which no modulus varies: it is the sum of the moduli by
+    !> the distance of the deflection from the mean of the lines at which the layers begin to act, weighted by these
+    subroutine peaks_of_pressure(lowered, solution, i, xi, number)
+        type(lowered_type), intent(in) :: lowered
+        type(ground_solution_type), intent(in) :: solution
+        !> Stretch
+        integer, intent(in) :: i
+        real(wp), allocatable, intent(out) :: xi(:)
+        integer, intent(out) :: number
+        type(curved_type), allocatable :: none
+        real(wp) :: modulus, rise, slope, line(2)
+        integer :: k, acts
+
+        modulus = 0.0_wp
+        rise = 0.0_wp
+        associate (j => solution%piece(i))
+            do k = lowered%layer_first(j), lowered%layer_first(j + 1) - 1
+                acts = solution%acts(k - lowered%layer_first(j) + 1, i)
+                if (acts == 0) cycle
+                associate (layer => lowered%layers(k), length => lowered%pieces(j)%length)
+                    slope = slope_of_layer(layer, law_piece(layer, lowered%law_pieces, acts), acts, solution%from(i), length)
+                    line(:) = contact_line(layer, [solution%from(i), solution%to(i)], length)
+                end associate
+                modulus = modulus + slope
+                rise = rise + slope*(line(2) - line(1))
+            end do
+        end associate
+        number = 0
+        if (modulus > 0.0_wp) call peaks_in(solution, i, 1, rise/modulus/solution%stretches(i)%length, none, xi, number)
+    end subroutine peaks_of_pressure
+
+    !> Is the pressure in a stretch more than multiples of the deflection beside lines
+    pure function varies(lowered, solution, i)
+        type(lowered_type), intent(in) :: lowered
+        type(ground_solution_type), intent(in) :: solution
+        integer, intent(in) :: i
+        logical :: varies
+
+        associate (j => solution%piece(i))
+            associate (layers => lowered%layers(lowered%layer_first(j):lowered%layer_first(j + 1) - 1))
+                varies = any(solution%acts(:size(layers), i) > 0 .and. (layers%law /= law_by_points .or. &
+                                                                        abs(layers%modulus_a - layers%modulus_b) > 0.0_wp))
+            end associate
+        end associate
+    end function varies
+
+    !> Largest and smallest pressure, and where it is: at an end of a stretch, or where the deflection is extreme beside the ground
+    subroutine pressure_extremes(lowered, solution, values, piece, distance)
+        type(lowered_type), intent(in) :: lowered
+        type(ground_solution_type), intent(in) :: solution
+        !> Maximum (1) and minimum (2), their pieces and distances, shape (2)
+        real(wp), intent(out) :: values(2), distance(2)
+        integer, intent(out) :: piece(2)
+        real(wp), allocatable :: xi(:)
+        real(wp) :: pressure
+        integer :: i, j, number
+
+        values = [-huge(1.0_wp), huge(1.0_wp)]
+        piece = 1
+        distance = 0.0_wp
+        do i = 1, size(solution%piece)
+            call consider(0.0_wp)
+            call consider(1.0_wp)
+            if (varies(lowered, solution, i)) then
+                call consider(peak_where_it_varies(1))
+                call consider(peak_where_it_varies(-1))
+                cycle
+            end if
+            call peaks_of_pressure(lowered, solution, i, xi, number)
+            do j = 1, number
+                call consider(xi(j))
+            end do
+        end do
+
+    contains
+
+        !> Where the modulus varies, the pressure is a product whose peak no derivative of the fields tells: stretches are short
+        !> there, and one peak lies beside the best of some places (golden section)
+        function peak_where_it_varies(way) result(at)
+            !> 1: largest, -1: smallest
+            integer, intent(in) :: way
+            real(wp) :: at
+            integer, parameter :: places = 16, halvings = 60
+            real(wp), parameter :: golden = (sqrt(5.0_wp) - 1)/2
+            real(wp) :: found(0:places), low, high, inner(2)
+            integer :: n
+
+            do n = 0, places
+                found(n) = way*pressure_in(lowered, solution, i, real(n, wp)/places)
+            end do
+            n = maxloc(found, 1) - 1
+            low = max(n - 1, 0)/real(places, wp)
+            high = min(n + 1, places)/real(places, wp)
+            do n = 1, halvings
+                inner = [high - golden*(high - low), low + golden*(high - low)]
+                if (way*pressure_in(lowered, solution, i, inner(1)) > way*pressure_in(lowered, solution, i, inner(2))) then
+                    high = inner(2)
+                else
+                    low = inner(1)
+                end if
+            end do
+            at = low + (high - low)/2
+        end function peak_where_it_varies
+
+        !> Compare with the extremes so far
+        subroutine consider(at)
+            real(wp), intent(in) :: at
+
+            pressure = pressure_in(lowered, solution, i, at)
+            if (pressure > values(1)) call keep(1, at)
+            if (pressure < values(2)) call keep(2, at)
+        end subroutine consider
+
+        !> Note an extreme
+        subroutine keep(which, at)
+            integer, intent(in) :: which
+            real(wp), intent(in) :: at
+
+            values(which) = pressure
+            piece(which) = solution%piece(i)
+            distance(which) = along(solution%from(i), solution%to(i), at, 1.0_wp)
+        end subroutine keep
+
+    end subroutine pressure_extremes
+
+end module gapbeam_ground_pressure
