@@ -98,11 +98,13 @@ contains
         type(held_type) :: now, then, below, above
         logical, allocatable :: start(:)
         real(wp) :: at, next, low, high
+        logical :: yields, levels_off
         integer :: k
 
         allocate (start(size(state%closed)), path%events(8), path%segment(8))
         start(:) = state%closed
         path%beyond = factor
+        call find_limits(lowered, yields, levels_off)
         do k = 1, size(begin_powers)
             at = factor*2.0_wp**begin_powers(k)
             if (allocated(trouble)) deallocate (trouble)
@@ -135,7 +137,7 @@ contains
                 if (.not. above%stands) then
                     path%last = low
                     call prove_end(low, high)
-                    path%at_limit = yields(lowered) .and. low > 0.0_wp
+                    path%at_limit = yields .and. low > 0.0_wp
                     return
                 end if
                 call note_changes(high, below, above)
@@ -191,7 +193,7 @@ contains
             logical :: found
             integer :: k
 
-            if (.not. levels_off(lowered)) return
+            if (.not. levels_off) return
             bears = low
             beyond = high
             call limit_on_ground(ground_of(lowered), detail_of(lowered), bears, beyond, found)
@@ -233,7 +235,7 @@ contains
                 if (middle <= low .or. middle >= high) exit
                 if (.not. above%stands) then
                     if (allocated(trouble) .and. high - low <= near*high) exit
-                    if (levels_off(lowered) .and. high - low <= near_on_curves*high) exit
+                    if (levels_off .and. high - low <= near_on_curves*high) exit
                 end if
                 call hold(middle, between)
                 if (allocated(error)) return
@@ -260,7 +262,7 @@ contains
 
             path%beyond = last
             if (.not. allocated(trouble)) then
-                if (levels_off(lowered)) path%beyond = above
+                if (levels_off) path%beyond = above
                 call hold(above, held)
                 return
             end if
@@ -375,30 +377,21 @@ contains
         if (same) same = same_zones(held%zones, other%zones)
     end function alike
 
-    !> Are there curves that come to a limit
-    pure function levels_off(lowered) result(does)
+    !> Does some ground carry no more than so much, and does it come to that on a curve
+    pure subroutine find_limits(lowered, yields, levels_off)
         type(lowered_type), intent(in) :: lowered
-        logical :: does
+        logical, intent(out) :: yields, levels_off
         integer :: k
 
-        does = .false.
+        yields = .false.
+        levels_off = .false.
         do k = 1, size(lowered%layers)
             associate (layer => lowered%layers(k))
-                does = does .or. (has_curves(layer) .and. has_limit(layer, lowered%law_pieces))
+                if (.not. has_limit(layer, lowered%law_pieces)) cycle
+                yields = .true.
+                levels_off = levels_off .or. has_curves(layer)
             end associate
         end do
-    end function levels_off
-
-    !> Does some ground carry no more than so much
-    pure function yields(lowered) result(capped)
-        type(lowered_type), intent(in) :: lowered
-        logical :: capped
-        integer :: k
-
-        capped = .false.
-        do k = 1, size(lowered%layers)
-            capped = capped .or. has_limit(lowered%layers(k), lowered%law_pieces)
-        end do
-    end function yields
+    end subroutine find_limits
 
 end module gapbeam_ground_path
