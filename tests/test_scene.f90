@@ -20,7 +20,8 @@ program test_scene
     use gapbeam_lower_supports, only: contact_level
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_state, only: solve_state
-    use gapbeam_query, only: support_values, fields_at_places, node_places
+    use gapbeam_support_values, only: support_values
+    use gapbeam_query, only: fields_at_places, node_places
     use gapbeam_cases, only: case_loads_type, split_loads, solve_case, take_case
     use gapbeam_combinations, only: combination_type, combine, solve_combination, values_of_combination
     use gapbeam_search, only: rule_block

@@ -20,7 +20,8 @@ module gapbeam_api
     use gapbeam_certificate, only: found_type => certificate_type
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_state, only: event_type, solve_state, certify_state, follow_events
-    use gapbeam_query, only: support_values, find_undecided, fields_at_places, extremes_of_fields, motion_of_nodes, field_count
+    use gapbeam_support_values, only: support_values, find_undecided
+    use gapbeam_query, only: fields_at_places, extremes_of_fields, motion_of_nodes, field_count
     implicit none
     private
     public :: prepared_type, options_type, result_type, certificate_type

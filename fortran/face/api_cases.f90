@@ -346,7 +346,7 @@ contains
         end do
     end subroutine give_reactions
 
-    !> Conditions in the order of the model, as support_values of gapbeam_query has them
+    !> Conditions in the order of the model, as gapbeam_support_values has them
     pure subroutine give_conditions(lowered, status, closed, condition)
         type(lowered_type), intent(in) :: lowered
         integer, intent(in) :: status(:), closed(:, :)

@@ -7,7 +7,7 @@ subroutine gbsolv(beam, nl, ns, nm, nb, factor, rule, closed, undec, w, ml, mr, 
     use gapbeam_handle, only: handle_type, handle_of, report, keep_ground
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_state, only: solve_state
-    use gapbeam_query, only: support_values
+    use gapbeam_support_values, only: support_values
     implicit none
     integer(8), intent(in) :: beam
     integer, intent(in) :: nl, ns, nm, nb

@@ -9,7 +9,8 @@ module gapbeam_combinations
     use gapbeam_lower_loads, only: lower_loads
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_state, only: solve_state
-    use gapbeam_query, only: support_values, extremes_of_fields, fields_in_pieces, make_starts, field_count
+    use gapbeam_support_values, only: support_values
+    use gapbeam_query, only: extremes_of_fields, fields_in_pieces, make_starts, field_count
     use gapbeam_pressure, only: pressure_in_pieces, extremes_of_pressure
     implicit none
     private

@@ -17,7 +17,7 @@ module gapbeam_train_samples
     use gapbeam_lowered, only: lowered_type
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_state, only: solve_along_axis
-    use gapbeam_query, only: support_values
+    use gapbeam_support_values, only: support_values
     use gapbeam_train, only: train_type, track_type, degree_of
     use gapbeam_train_reaches, only: reach_type, enter_reach
     use gapbeam_train_loads, only: place_train
