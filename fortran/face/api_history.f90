@@ -5,17 +5,15 @@ module gapbeam_api_history
         ieee_set_rounding_mode, ieee_nearest, ieee_all, ieee_is_finite
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input, gapbeam_not_converged, gapbeam_not_prepared
-    use gapbeam_polyline, only: last_kink
     use gapbeam_referee, only: rule_given
     use gapbeam_words, only: shown, whole
     use gapbeam_lowered, only: lowered_type
-    use gapbeam_pieces, only: acting_type, acting_piece, what_happens, nothing, gapbeam_turns, gapbeam_opens, &
-        gapbeam_closes
     use gapbeam_state, only: event_type, solve_state, name_range
     use gapbeam_history, only: path_type => history_type, found_type => stretch_type, follow_path_through => follow_history, &
         gapbeam_limit_stop => at_limit_stop, gapbeam_limit_jump => at_limit_jump, gapbeam_limit_follow => at_limit_follow, &
         gapbeam_limit_point => limit_point, gapbeam_bifurcation => bifurcation, gapbeam_mechanism => mechanism, &
         gapbeam_path_ended => ended, gapbeam_arrived => no_limit, cut_off
+    use gapbeam_history_events, only: find_events
     use gapbeam_query, only: node_places
     use gapbeam_api, only: prepared_type, result_type, require_beam, require_no_ground, make_state, summarise
     implicit none
@@ -273,7 +271,7 @@ contains
             history%ending = path%ending
             history%solves = path%solves
             history%fingerprint = lowered%fingerprint
-            allocate (history%stretches(path%number), history%limits(size(path%limits)), history%events(0), stat=stat)
+            allocate (history%stretches(path%number), history%limits(size(path%limits)), stat=stat)
             if (stat /= 0) return
             do k = 1, path%number
                 associate (s => path%stretches(k))
@@ -296,138 +294,8 @@ contains
                 call node_places(lowered, history%x)
                 history%motion(:) = path%motion
             end if
+            call find_events(lowered, path, history%events, stat)
         end associate
-        call find_events(lowered, history, stat)
     end subroutine describe
-
-    !> What happens to the supports from stretch to stretch
-    subroutine find_events(lowered, history, stat)
-        type(lowered_type), intent(in) :: lowered
-        type(history_type), intent(inout) :: history
-        !> Not 0 where memory is at an end
-        integer, intent(out) :: stat
-        type(event_type), allocatable :: events(:)
-        integer :: k, j, number, pending
-        logical :: begins
-
-        stat = 0
-        number = 0
-        allocate (events(16), stat=stat)
-        ! Events from here on are passed in a jump and happen where it begins
-        pending = 0
-        associate (s => history%stretches, path => history%path)
-            do k = 1, size(s)
-                if (stat /= 0) return
-                if (s(k)%skipped) then
-                    if (k > 1) call note_changes(k - 1, k)
-                    cycle
-                end if
-                if (s(k)%direction == 0 .and. k < size(s) .and. s(k)%leg > 0) then
-                    j = findloc(path%stretches(k + 1)%closed .and. .not. path%stretches(k)%closed, .true., 1)
-                    if (j > 0) call add(event_type(s(k)%from, lowered%normal(j), gapbeam_turns, gapbeam_turns, k))
-                end if
-                if (s(k)%leg == 0) cycle
-                begins = .false.
-                if (k > 1) begins = s(k)%leg == 1 .and. s(k - 1)%leg == 0 .and. .not. abs(s(k)%from) > 0.0_wp
-                if (begins) then
-                    ! What happens under the dead loads is no event
-                    number = number - pending
-                else if (k > 1) then
-                    call note_changes(k - 1, k)
-                    do j = number - pending + 1, number
-                        events(j)%factor = s(k)%from
-                        events(j)%stretch = k
-                    end do
-                end if
-                pending = 0
-            end do
-            if (stat /= 0) return
-            if (pending > 0) call end_at_limit()
-        end associate
-        if (stat /= 0) return
-        deallocate (history%events)
-        allocate (history%events(number), stat=stat)
-        if (stat == 0) history%events(:) = events(:number)
-
-    contains
-
-        !> What happens to every support between two stretches
-        subroutine note_changes(one, other)
-            integer, intent(in) :: one, other
-            type(acting_type) :: before, after
-            integer :: i, first, change
-
-            associate (a => history%path%stretches(one), b => history%path%stretches(other))
-                do i = 1, size(lowered%model%supports)
-                    first = lowered%beam_support(i)
-                    if (first == 0) cycle
-                    associate (last => last_kink(lowered%beam%supports, first))
-                        if (all(a%closed(first:last) .eqv. b%closed(first:last))) cycle
-                    end associate
-                    before = acts_on(a, i)
-                    after = acts_on(b, i)
-                    change = nothing
-                    if (lowered%beam%supports(first)%kink > 0) then
-                        change = what_happens(before, after)
-                    else
-                        change = merge(gapbeam_closes, gapbeam_opens, b%closed(first))
-                    end if
-                    if (change == nothing) cycle
-                    pending = pending + 1
-                    call add(event_type(history%stretches(other)%from, i, after%condition, change, other))
-                end do
-            end associate
-        end subroutine note_changes
-
-        !> What acts of a support of the model on a stretch
-        pure function acts_on(stretch, support) result(acting)
-            type(found_type), intent(in) :: stretch
-            integer, intent(in) :: support
-            type(acting_type) :: acting
-            integer :: first, last
-
-            first = lowered%beam_support(support)
-            last = last_kink(lowered%beam%supports, first)
-            associate (side => lowered%model%supports(support)%side)
-                if (allocated(stretch%laws)) then
-                    acting = acting_piece(stretch%laws(first:last), side, stretch%closed(first:last))
-                else
-                    acting = acting_piece(lowered%beam%supports(first:last), side, stretch%closed(first:last))
-                end if
-            end associate
-        end function acts_on
-
-        !> Keep an event
-        subroutine add(event)
-            type(event_type), intent(in) :: event
-            type(event_type), allocatable :: longer(:)
-
-            if (stat /= 0) return
-            if (number == size(events)) then
-                allocate (longer(2*number), stat=stat)
-                if (stat /= 0) return
-                longer(:number) = events
-                call move_alloc(longer, events)
-            end if
-            number = number + 1
-            events(number) = event
-        end subroutine add
-
-        !> The path ends at a limit: what happens there is all that happens
-        subroutine end_at_limit()
-            integer :: before, j
-
-            number = number - pending
-            pending = 0
-            if (size(history%limits) == 0) return
-            before = history%limits(size(history%limits))%stretch
-            if (before < 1 .or. before >= size(history%stretches)) return
-            call note_changes(before, before + 1)
-            do j = number - pending + 1, number
-                events(j)%factor = history%limits(size(history%limits))%factor
-            end do
-        end subroutine end_at_limit
-
-    end subroutine find_events
 
 end module gapbeam_api_history
