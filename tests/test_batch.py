@@ -105,6 +105,27 @@ def test_prepared_beams_give_what_scenes_give():
     assert seen == {b"solved", b"no-equilibrium", b"refused"}
 
 
+@pytest.mark.parametrize(
+    ("analysis", "is_prepared"), [({"steps": 1}, True), ({"steps": 8}, True), ({"follow": "events"}, False)]
+)
+def test_cases_that_cannot_stand_before_all_loads_act(analysis, is_prepared):
+    """An overhang tips the beam off its first support until enough of the live load holds it down."""
+    scene = {
+        "beam": {"spans": [4.0, 2.0], "EI": 1e4},
+        "supports": [{"node": 0, "side": "below"}, {"node": 1, "side": "below"}],
+        "loads": [{"type": "force", "x": 6.0, "F": 10.0, "case": "dead"}, {"type": "force", "x": 1.0, "F": 1.0}],
+        "analysis": analysis,
+    }
+    columns = {"loads[1].F": [40.0, 100.0, 6.0]}
+    made = job(scene, columns)
+    assert made.is_prepared == is_prepared
+    found = made.solve(Arrays(columns).rows(0, 3), 0)
+    scenes = [with_values(made.scene, made.paths, [force]) for force in columns["loads[1].F"]]
+    assert [one.decode() for one in found["status"].tolist()] == [gapbeam.solve(one).status for one in scenes]
+    held = job({**scene, "supports": [{"node": 0}, {"node": 1}]}, columns)
+    assert held.is_prepared
+
+
 def test_what_is_kept(tmp_path):
     want = ["reaction", "shear", "couple"]
     done = gapbeam.batch(SCENE, table(50), tmp_path / "out", want=want)

@@ -7,11 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from ..base.errors import GapbeamError, Status
+from ..base.errors import GapbeamError, SceneError, Status
 from ..results.cases import prepare
+from ..results.stepping import solve
 from ..results.varied import OF_SPANS
 from ..scene.columns import SIDES
 from ..scene.combinations import VALUES
+from ..scene.names import DEAD
 from .paths import KeyPath, with_values
 
 ROWS = {"reaction": 0, "opening": 2, "couple": 3}
@@ -59,6 +61,15 @@ def _varies(scene: dict[str, Any], path: KeyPath) -> bool:
     return head == "factors" or (head == "supports" and rest[1] == "settlement")
 
 
+def _is_held(scene: dict[str, Any]) -> bool:
+    """Whether what holds both ways keeps the beam from moving, so that it can stand under any loads."""
+    kept = {key: [one for one in scene[key] if one["side"] == "both" and one["law"] is None] for key in ("supports", "foundation")}
+    try:
+        return not solve({**scene, **kept, "loads": [], "analysis": {}}).steps[-1].indifferent
+    except GapbeamError:
+        return False
+
+
 class PreparedRoad:
     """A scene prepared for the columns of a table: what varies by case is 1 or 0 in it, so that the digits are those of the table.
 
@@ -79,6 +90,13 @@ class PreparedRoad:
         values = [0.0 if path.parts[0] == "supports" and path.parts[2] != "stiffness" else 1.0 for path in paths]
         scene = with_values(scene, paths, values)
         self._beam = prepare(scene)
+        # Shares of the live loads at which a case has to stand before all of them act
+        self._before: list[float] = []
+        analysis = scene["analysis"]
+        if (analysis["steps"] > 1 or analysis["follow"] == "events") and not _is_held(scene):
+            if analysis["follow"] == "events":
+                raise SceneError("analysis.follow", "the beam may lose its hold at any share of the loads")
+            self._before = [k / analysis["steps"] for k in range(1, analysis["steps"])]
         self._paths = paths
         self._cases = np.array([load["case"] for load in scene["loads"]], dtype=object)
         held = scene["supports"]
@@ -105,8 +123,9 @@ class PreparedRoad:
         -------
         float
         """
+        steps = 1 + len(self._before)
         if self._beam.scene.foundation:
-            return 2e-2
+            return 2e-2 * steps
         # From the solutions at the nodes, which are not found again for it
         known = {"input", "reaction", "opening"}
         stiffnesses = 0.0
@@ -115,7 +134,7 @@ class PreparedRoad:
         else:
             known |= {"deflection", "rotation", "moment", "shear"}
         is_known = self._is_simple and set(want) <= known
-        return stiffnesses + (3e-6 + 4e-7 * nodes if is_known else 2e-5 + 3e-6 * nodes)
+        return steps * (stiffnesses + (3e-6 + 4e-7 * nodes if is_known else 2e-5 + 3e-6 * nodes))
 
     def solve(
         self, values: np.ndarray, want: Sequence[str], numbers: dict[str, np.ndarray], supports: Sequence[str]
@@ -152,6 +171,9 @@ class PreparedRoad:
         fields = [name for name in rest if name not in ROWS]
         found = self._beam.solve(factors, want=("reaction", "deflection", *(("moment",) if fields else ())), **given)
         solved = fine & (found.status == Status.SOLVED)
+        for share in self._before:
+            part = factors * np.where(self._cases == DEAD, 1.0, share)
+            solved &= self._beam.solve(part, want=(), **given).status == Status.SOLVED
         if self._is_simple:
             for k, one in enumerate(supports):
                 if "reaction" in want:
