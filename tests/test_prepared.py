@@ -274,6 +274,7 @@ def test_mistakes_in_supports_by_case():
         ({"gap": {1: 0.0, "pier": 0.1}}, "gap: a support stands there twice"),
         ({"gap": {np.int64(7): 0.0}}, "gap.7: there is no support 7; their numbers go from 0 to 2"),
         ({"gap": {1.0: 0.0}}, 'gap."1.0": expected the name of a support, or its number from 0, got 1.0'),
+        ({"gap": {None: 0.0}}, "gap.None: expected the name of a support, or its number from 0, got None"),
         ({"settlements": {True: 0.0}}, "settlements.True: expected the name of a support, or its number from 0, got True"),
     ):
         with pytest.raises(ValueError, match=words):

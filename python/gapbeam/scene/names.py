@@ -117,7 +117,7 @@ def find(items: Sequence[Any], key: str | int, place: str, noun: str) -> int:
         There is no such entry.
     """
     names = names_of(items)
-    if key in names:
+    if isinstance(key, str) and key in names:  # None is no name
         return names.index(key)
     if isinstance(key, bool | np.bool_) or not isinstance(key, str | int | np.integer):
         raise SceneError(place, f"expected the name of a {noun}, or its number from 0, got {key!r}")
