@@ -67,6 +67,8 @@ def test_latin_hypercube():
         (lambda: sample.draw(2, GAPS, method="sobol"), 'method: expected "random" or "latin-hypercube", got "sobol"'),
         (lambda: sample.draw(2, GAPS, correlation={("factors.wind", "x"): 0.1}), "correlation: expected pairs of columns"),
         (lambda: sample.draw(2, dict.fromkeys("abc", sample.normal(0, 1)),
+                             correlation={("a", "b"): 1.0, ("b", "c"): 0.5, ("a", "c"): -0.5}), "correlation: no numbers have all"),
+        (lambda: sample.draw(2, dict.fromkeys("abc", sample.normal(0, 1)),
                              correlation={("a", "b"): 0.9, ("b", "c"): 0.9, ("a", "c"): -0.9}), "correlation: no numbers have all"),
     ],
 )  # fmt: skip

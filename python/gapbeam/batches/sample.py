@@ -307,6 +307,8 @@ def _factor(names: list[str], correlation: Mapping[tuple[str, str], float]) -> n
                 if rest < -1e-12:
                     raise ValueError(f"correlation: no numbers have all of these, up to those of {shown(names[i])}; take less")
                 factor[i, i] = math.sqrt(max(rest, 0.0))
-            else:
-                factor[i, j] = rest / factor[j, j] if factor[j, j] > 1e-8 else 0.0
+            elif factor[j, j] > 1e-8:
+                factor[i, j] = rest / factor[j, j]
+            elif abs(rest) > 1e-8:  # column j follows from those before it, and so does what it has in common with i
+                raise ValueError(f"correlation: no numbers have all of these, up to those of {shown(names[i])}; take less")
     return factor
