@@ -153,6 +153,24 @@ def test_a_case_that_fails_is_a_row_with_its_reason(tmp_path):
     assert done.failed_chunks() == [0]
 
 
+def test_a_stiffness_of_one_span_where_the_scene_has_one_for_all(tmp_path):
+    """The other spans keep the scene's number, on both roads."""
+    columns = {"beam.EI[1]": [2e4, 5e3], "beam.GA[0]": [1e4, 1e5]}
+    alone = job(SCENE, columns)
+    alone.__dict__["prepared"] = None
+    rows = Arrays(columns).rows(0, 2)
+    for one in (job(SCENE, columns), alone):
+        found = one.solve(rows, 0)
+        for case in range(2):
+            EI, GA = (column[case] for column in columns.values())
+            beam = {"spans": [6.0, 5.0, 6.0], "EI": [1e4, EI, 1e4], "GA": [GA, np.inf, np.inf]}
+            step = gapbeam.solve({**SCENE, "beam": beam}).steps[-1]
+            assert [found[f"reaction.{k}"][case] for k in range(4)] == pytest.approx(step.reaction)
+    for columns in (["beam.EI", "beam.EI[0]"], ["beam.EI[0]", "beam.EI"]):
+        with pytest.raises(gapbeam.SceneError, match=r'^column "beam.EI\[0\]": is one of the spans of column "beam.EI"; leave one'):
+            find_paths(gapbeam.read_scene(SCENE), columns)
+
+
 def test_envelopes_of_combinations_and_trains(tmp_path):
     storm = {"name": "storm", "factors": {"dead": 1.0, "wind": 1.0, "crane": 1.0}, "settlements": {"R-101": 0.01}}
     combinations = [{"name": "calm", "factors": {"dead": 1.0}}, storm]

@@ -30,6 +30,8 @@ HEADS = ("beam", "sections", "supports", "foundation", "loads", "trains", "combi
 """What of a scene has numbers that may vary by row."""
 OPTIONAL = {"x", "to", "k", "EI", "GA", "EA"}
 """Keys that hold a number where they are given."""
+OF_SPANS = ("EI", "GA", "EA")
+"""Keys of the beam that hold one number for all spans, or one for each."""
 NAMES = (*NAMED, "trains")
 MOST = 20_000
 """Numbers of a scene among which a similar one is looked for."""
@@ -107,6 +109,11 @@ def find_paths(scene: Scene, names: Sequence[str]) -> tuple[KeyPath, ...]:
             raise SceneError(f"column {shown(path.text)}", f"is the same number as column {shown(found[path.parts].text)}; leave "
                              "one of them out")  # fmt: skip
         found[path.parts] = path
+    for parts, path in found.items():
+        if parts[0] == "beam" and parts[:2] != parts and parts[:2] in found:
+            of_all = shown(found[parts[:2]].text)
+            raise SceneError(f"column {shown(path.text)}", f"is one of the spans of column {of_all}; leave one out, or give "
+                             "each span a column")  # fmt: skip
     return tuple(found.values())
 
 
@@ -133,7 +140,7 @@ def with_values(data: Mapping[str, Any], paths: Sequence[KeyPath], values: Seque
         if path.parts[0] == "factors":
             factors[path.parts[1]] = value
         else:
-            scene = _put(scene, path.parts, value)
+            scene = _put(_by_span(scene, path.parts), path.parts, value)
     if factors:
         scene["loads"] = [_times(load, factors[load["case"]]) if load["case"] in factors else load for load in scene["loads"]]
         scene["trains"] = [
@@ -141,6 +148,14 @@ def with_values(data: Mapping[str, Any], paths: Sequence[KeyPath], values: Seque
             for train in scene["trains"]
         ]
     return scene
+
+
+def _by_span(scene: dict[str, Any], parts: tuple[str | int, ...]) -> dict[str, Any]:
+    """The same with a number for every span where one span gets its own, and there was one number for all."""
+    beam = scene["beam"]
+    if parts[0] != "beam" or len(parts) < 3 or isinstance(beam[parts[1]], list):
+        return scene
+    return {**scene, "beam": {**beam, parts[1]: [beam[parts[1]]] * len(beam["spans"])}}
 
 
 def _put(old: Any, parts: tuple[str | int, ...], value: float) -> Any:
@@ -172,6 +187,8 @@ def _resolve(scene: Scene, data: dict[str, Any], name: str) -> tuple[str | int, 
     value: Any = data
     parts: list[str | int] = []
     for piece in pieces:
+        if len(parts) == 2 and parts[0] == "beam" and parts[1] in OF_SPANS and not isinstance(value, list):
+            value = [value] * len(data["beam"]["spans"])
         if isinstance(value, dict) and piece in value:
             key: str | int = piece
         elif isinstance(value, list) and (k := _entry(value, piece, len(parts) == 1 and parts[0] in NAMES)) is not None:
