@@ -171,6 +171,18 @@ def test_a_stiffness_of_one_span_where_the_scene_has_one_for_all(tmp_path):
             find_paths(gapbeam.read_scene(SCENE), columns)
 
 
+def test_numbers_too_large_for_a_double_are_a_reason(tmp_path):
+    """They are not taken to be infinite; what is written as inf is."""
+    text = "beam.GA,loads[1].F\n1e400,1.0\n1e4,-1e999\n1e4,inf\ninf,1.0\nInfinity,2.0\n1e4,2.0\n"
+    (tmp_path / "table.csv").write_text(text)
+    found = gapbeam.batch(SCENE, tmp_path / "table.csv", tmp_path / "out").read()
+    assert found["status"].tolist() == 3 * ["refused"] + 3 * ["solved"]
+    assert found["reason"][0].startswith("beam.GA: 1e400 is beyond the largest number of double precision, 1.8e308; ")
+    assert found["reason"][1].startswith("loads[1].F: -1e999 is beyond ")
+    assert found["reason"][2] == "loads[1].F: expected a finite number, got inf"
+    assert np.isnan(found["reaction.2"]).tolist() == 3 * [True] + 3 * [False]
+
+
 def test_envelopes_of_combinations_and_trains(tmp_path):
     storm = {"name": "storm", "factors": {"dead": 1.0, "wind": 1.0, "crane": 1.0}, "settlements": {"R-101": 0.01}}
     combinations = [{"name": "calm", "factors": {"dead": 1.0}}, storm]

@@ -7,13 +7,14 @@ import hashlib
 import io
 from dataclasses import dataclass
 from itertools import islice
+from math import isinf
 from pathlib import Path
 from warnings import catch_warnings, simplefilter
 
 import numpy as np
 
 from ..base.errors import SceneError
-from ..scene.wording import shown
+from ..scene.wording import beyond, shown
 
 BLOCK = 2**22
 """Bytes that are looked through at a time."""
@@ -40,7 +41,8 @@ class CsvRows:
             with catch_warnings():
                 simplefilter("ignore")  # of no rows
                 found = np.loadtxt(io.StringIO(text), delimiter=",", ndmin=2, comments=None)
-            if found.shape == (self.count, len(self.names)):
+            # What is infinite has to be written so, not as 1e400
+            if found.shape == (self.count, len(self.names)) and np.isinf(found).sum() == self.text.lower().count(b"inf"):
                 return np.ascontiguousarray(found.T), {}
         except ValueError:
             pass
@@ -56,9 +58,14 @@ class CsvRows:
                 continue
             for k, cell in enumerate(cells):
                 try:
-                    values[k, row] = float(cell.replace("_", "x"))  # Python's own digits 1_000 are nobody else's
+                    value = float(cell.replace("_", "x"))  # Python's own digits 1_000 are nobody else's
                 except ValueError:
                     problems.setdefault(row, f"{self.names[k]}: expected a number, got {shown(cell)}")
+                    continue
+                if isinf(value) and "inf" not in cell.lower():
+                    problems.setdefault(row, f"{self.names[k]}: {beyond(cell.strip())}")
+                else:
+                    values[k, row] = value
         return values, problems
 
 
@@ -101,7 +108,7 @@ class CsvTable:
         if not self.cases:
             raise SceneError(str(path), "the table has no row; give a case a line below the names of the columns")
         problems = self.rows(0, 1).columns()[1]
-        if problems and not problems[0].endswith(' got ""'):  # a missing number is a mistake of its case alone
+        if problems and not problems[0].endswith((' got ""', beyond(""))):  # these are mistakes of the case alone
             raise SceneError(f"{path}, first case", f"{problems[0]}; separate values by commas, and write numbers with a point")
 
     def rows(self, first: int, stop: int) -> CsvRows:

@@ -7,12 +7,14 @@ import json
 import re
 import sys
 import tomllib
+from dataclasses import dataclass
+from math import isinf
 from pathlib import Path
 from typing import Any, NoReturn
 
 from ..base.errors import SceneError
 from .typed import TOO_DEEP
-from .wording import shown
+from .wording import beyond, key_of, shown
 
 STANDARD_INPUT = "standard input"
 LONG_KEY = re.compile(r"""(?<![\w.-])(?:(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+){100}""")
@@ -90,8 +92,20 @@ def _parse(text: str, kind: str, name: str) -> dict[str, Any]:
     """Parse a text of the kind .toml or .json that came from a place with a name."""
     if kind == ".toml" and LONG_KEY.search(text):
         raise SceneError(name, TOO_DEEP)
+    far: list[_Far] = []
+
+    def number(word: str) -> Any:
+        value = float(word)
+        if isinf(value) and word[-1] != "f":  # that is inf itself
+            far.append(_Far(word))
+            return far[-1]
+        return value
+
     try:
-        data = tomllib.loads(text) if kind == ".toml" else json.loads(text, object_pairs_hook=_table)
+        if kind == ".toml":
+            data = tomllib.loads(text, parse_float=number)
+        else:
+            data = json.loads(text, parse_float=number, object_pairs_hook=_table)
     except tomllib.TOMLDecodeError as error:
         found = re.search(r"\(at line (\d+), column (\d+)\)", str(error))
         end = text.count("\n") + 1, len(text.rpartition("\n")[2]) + 1
@@ -105,9 +119,30 @@ def _parse(text: str, kind: str, name: str) -> dict[str, Any]:
         raise SceneError(name, str(error)) from None
     except ValueError:
         raise SceneError(name, f"a number has more than {sys.get_int_max_str_digits()} digits") from None
+    if far:
+        raise SceneError(_place(data, far[0]) or name, beyond(far[0].word))
     if not isinstance(data, dict):
         raise SceneError("the scene", f"expected a table, got {shown(data)}")
     return data
+
+
+@dataclass(eq=False)
+class _Far:
+    """A number that is beyond the range of doubles, as it is written."""
+
+    word: str
+
+
+def _place(data: Any, far: _Far) -> str:
+    """Key path of such a number."""
+    rest = [("", data)]
+    while rest[-1][1] is not far:
+        at, one = rest.pop()
+        if isinstance(one, dict):
+            rest += [(f"{at}.{key_of(key)}".lstrip("."), value) for key, value in one.items()]
+        elif isinstance(one, list):
+            rest += [(f"{at}[{k}]", value) for k, value in enumerate(one)]
+    return rest[-1][0]
 
 
 class _TwiceError(ValueError):

@@ -109,6 +109,26 @@ def number(value: float) -> str:
     return f"{value:.15g}"
 
 
+def beyond(word: str) -> str:
+    """Say of a number as it is written that no double is so large.
+
+    Parameters
+    ----------
+    word : str
+        The number.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> beyond("1e400")
+    '1e400 is beyond the largest number of double precision, 1.8e308; take other units, or inf if that is meant'
+    """
+    return f"{_short(word)} is beyond the largest number of double precision, 1.8e308; take other units, or inf if that is meant"
+
+
 def choice(words: Iterable[str], last: str = "or") -> str:
     """Join words to a list in a sentence.
 
@@ -172,7 +192,10 @@ def explain(error: msgspec.ValidationError, source: Any, struct: type) -> SceneE
     if re.fullmatch(r"trains\[\d+\]\.together\[\d+\]\[1\]", place) and isinstance(value, list):
         problem = f"expected one distance, got {shown(value)}: where it may vary, give a train with together for every distance"
         return SceneError(place, problem)
-    return SceneError(place or "the scene", f"expected {_described(kind)}, got {shown(value)}")
+    expected = _described(kind)
+    if isinstance(value, int) and abs(value) > sys.float_info.max and "number" in expected and "whole" not in expected:
+        return SceneError(place, beyond(as_text(value)))
+    return SceneError(place or "the scene", f"expected {expected}, got {shown(value)}")
 
 
 def _place(path: str) -> str:
