@@ -6,31 +6,28 @@
 module gapbeam_train_envelope
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved
-    use gapbeam_bernstein, only: to_coefficients, value_of, highest_degree
+    use gapbeam_bernstein, only: to_coefficients, highest_degree
     use gapbeam_patch, only: patch_type, greatest_on_patch, most_along
     use gapbeam_element, only: field_type
     use gapbeam_units, only: moment_unit, rotation_unit
     use gapbeam_lowered, only: lowered_type
-    use gapbeam_train, only: train_type, track_type, degree_of, least_distance
-    use gapbeam_train_cells, only: cell_type, cell_ends, x_in_cell
+    use gapbeam_train, only: train_type, track_type, degree_of
+    use gapbeam_train_cells, only: cell_type
     use gapbeam_train_passage, only: passage_type
     use gapbeam_train_samples, only: samples_type, new_samples, sample_stretch, sample_supports, along_cell, bound_fields, &
         load_degree, lebesgue
     use gapbeam_train_columns, only: set_scheme
     use gapbeam_train_view, only: look_type, show_stretch, look_at_link
     use gapbeam_train_support_bounds, only: watch_scheme
-    use gapbeam_train_candidates, only: candidate_type, candidates_type, equal, least_of, raise, upper_bound, offer
-    use gapbeam_train_levels, only: keep_level
-    use gapbeam_train_ties, only: tie_type, extreme_type, add_tie, drop_rounding
+    use gapbeam_train_candidates, only: candidates_type, equal, least_of, raise, offer
+    use gapbeam_train_levels, only: keep_levels
+    use gapbeam_train_ties, only: extreme_type, drop_rounding
+    use gapbeam_train_extremes, only: find_extreme, ends_of
     use gapbeam_train_bounds, only: bounds_type, find_bounds, slack, most_lost
     implicit none
     private
     public :: envelope_type, find_envelope
 
-    !> How far inside a stretch that does not hold at its first or last position, in least distances
-    real(wp), parameter :: inside(0:2) = [0.0_wp, 2.0_wp, -2.0_wp]
-    !> What values that are the same differ by, as a share of the largest
-    real(wp), parameter :: rounding = 2.0_wp**(-46)
     !> Stretches on which it is tried whether bounds are to be trusted
     integer, parameter :: trials = 8
 
@@ -117,13 +114,16 @@ contains
         end associate
         do f = 1, 4
             do i = 1, 2
-                call find_extreme(of_fields(i, f), i, powers(f), f == 1, envelope%fields(i, f))
+                call find_extreme(lowered, track, train, passage, samples%cells, of_fields(i, f), i, powers(f), f == 1, &
+                                  envelope%fields(i, f))
                 do c = 1, m
-                    call find_extreme(of_supports(i, f, c), i, 0, .false., envelope%supports(i, f, c))
+                    call find_extreme(lowered, track, train, passage, samples%cells, of_supports(i, f, c), i, 0, .false., &
+                                      envelope%supports(i, f, c))
                     if (f <= 2) call drop_rounding(f == 1, lowered%model%supports(c)%side, &
                                                    equal*of_supports(i, f, c)%largest, envelope%supports(i, f, c))
-                    if (f == 3) call keep_levels(lowered%node_of_point(lowered%support_point(c)), &
-                                                 equal*of_supports(i, f, c)%largest, envelope%supports(i, f, c))
+                    if (f == 3) call keep_levels(track%beam, lowered%node_of_point(lowered%support_point(c)), &
+                                                 lowered%units%deflection, equal*of_supports(i, f, c)%largest, &
+                                                 envelope%supports(i, f, c))
                 end do
             end do
         end do
@@ -212,7 +212,8 @@ contains
                     if (max(high(field), -low(field)) < candidates%known) cycle
                     call make_patch(j, field, patch)
                     if (way == 2) patch%b(:, 0:n) = -patch%b(:, 0:n)
-                    call greatest_on_patch(patch, candidates%known, value, v, u, ends_of(samples%cells%cells(j), k))
+                    call greatest_on_patch(patch, candidates%known, value, v, u, &
+                                           ends_of(track, passage, samples%cells, samples%cells%cells(j), k))
                     candidates%known = max(candidates%known, value)
                 end do
             end associate
@@ -254,18 +255,6 @@ contains
                 end do
             end do
         end subroutine begin_scheme
-
-        !> Ends of a cell at the first and the last position of a stretch
-        pure function ends_of(cell, stretch) result(ends)
-            type(cell_type), intent(in) :: cell
-            integer, intent(in) :: stretch
-            real(wp) :: ends(2, 2)
-
-            ends(:, :) = 0.0_wp
-            if (cell%piece == 0) return
-            call cell_ends(track, samples%cells, cell, passage%from(stretch), ends(1, 1), ends(2, 1))
-            call cell_ends(track, samples%cells, cell, passage%to(stretch), ends(1, 2), ends(2, 2))
-        end function ends_of
 
         !> Coefficients of a field in a cell
         subroutine make_patch(c, field, patch)
@@ -328,144 +317,6 @@ contains
             patch%b(0, 0:patch%across) = -patch%b(0, 0:patch%across)
             call offer(of_supports(2, what, i), patch, cell_type(), k, k)
         end subroutine add_support
-
-        !> The largest value among candidates, and where it is
-        subroutine find_extreme(candidates, which, power, of_deflection, extreme)
-            type(candidates_type), intent(in) :: candidates
-            !> 1 largest, 2 smallest
-            integer, intent(in) :: which
-            !> Exponent of the unit
-            integer, intent(in) :: power
-            !> Of the beam's deflection
-            logical, intent(in) :: of_deflection
-            type(extreme_type), intent(out) :: extreme
-            type(tie_type) :: tie
-            real(wp) :: best, value, v, u
-            real(wp) :: found(3, candidates%number), upper(candidates%number)
-            integer :: q, next, step
-
-            best = candidates%known
-            do q = 1, candidates%number
-                upper(q) = upper_bound(candidates%list(q)%patch)
-            end do
-            found(1, :) = -huge(1.0_wp)
-            do step = 1, candidates%number
-                next = maxloc(upper, 1)
-                if (upper(next) < best - equal*candidates%largest) exit
-                associate (one => candidates%list(next))
-                    call greatest_on_patch(one%patch, best - equal*candidates%largest, value, v, u, ends_of(one%cell, one%stretch))
-                end associate
-                found(:, next) = [value, v, u]
-                best = max(best, value)
-                upper(next) = -huge(1.0_wp)
-            end do
-            ! In their order, but that what is greater on the beam by more than rounding comes first
-            next = 1
-            if (candidates%number > 0) next = maxloc(found(1, :), 1)
-            do step = 0, candidates%number
-                q = step
-                if (step == 0) then
-                    if (candidates%number == 0) return
-                    if (candidates%list(next)%cell%piece == 0) cycle
-                    if (.not. any(found(1, :next - 1) >= best - equal*candidates%largest .and. &
-                                  found(1, :next - 1) < found(1, next) - rounding*candidates%largest)) cycle
-                    q = next
-                end if
-                if (found(1, q) < best - equal*candidates%largest) cycle
-                tie%value = merge(found(1, q), -found(1, q), which == 1)
-                if (of_deflection) call keep_level(track%beam, node_at(candidates%list(q)%cell, found(2, q)), &
-                                                   equal*candidates%largest, tie%value)
-                tie%value = scale(tie%value, power)
-                call place_tie(candidates%list(q), found(2, q), found(3, q), equal*candidates%largest, tie)
-                call add_tie(extreme, tie)
-            end do
-            do q = 1, extreme%number
-                extreme%ties(q)%position = extreme%ties(q)%position + inside(extreme%ties(q)%limit)*least_distance(track, train)
-            end do
-        end subroutine find_extreme
-
-        !> Deflections of a rigid support, in the user's units
-        subroutine keep_levels(node, rounding, extreme)
-            integer, intent(in) :: node
-            real(wp), intent(in) :: rounding
-            type(extreme_type), intent(inout) :: extreme
-            real(wp) :: deflection
-            integer :: q
-
-            associate (power => lowered%units%deflection)
-                do q = 1, extreme%number
-                    deflection = scale(extreme%ties(q)%value, -power)
-                    call keep_level(track%beam, node, scale(rounding, -power), deflection)
-                    extreme%ties(q)%value = scale(deflection, power)
-                end do
-            end associate
-        end subroutine keep_levels
-
-        !> Node at an end of a cell, -1 if there is none
-        pure function node_at(cell, v) result(node)
-            type(cell_type), intent(in) :: cell
-            real(wp), intent(in) :: v
-            integer :: node
-
-            node = -1
-            if (v <= 0.0_wp .and. cell%left == 0) node = lowered%node_of_point(cell%piece - 1)
-            if (v >= 1.0_wp .and. cell%right == 0) node = lowered%node_of_point(cell%piece)
-        end function node_at
-
-        !> Where a value is
-        subroutine place_tie(candidate, v, share, slack, tie)
-            type(candidate_type), intent(in) :: candidate
-            real(wp), intent(in) :: v, share
-            !> Values that differ by less are equal
-            real(wp), intent(in) :: slack
-            type(tie_type), intent(inout) :: tie
-            real(wp) :: value, u, from, to
-            logical :: flat
-            integer :: j
-
-            u = share
-            associate (whole => passage%to(candidate%stretch) - passage%from(candidate%stretch))
-                if (u*whole <= least_distance(track, train)) u = 0.0_wp
-                if ((1 - u)*whole <= least_distance(track, train) .and. u > 0.0_wp) u = 1.0_wp
-            end associate
-            value = value_of([(value_of(candidate%patch%b(0:candidate%patch%along, j), v), j=0, candidate%patch%across)], u)
-            associate (q => candidate%stretch, reach => passage%reaches(passage%reach(candidate%stretch)), &
-                       cell => candidate%cell, patch => candidate%patch)
-                flat = .true.
-                do j = 0, patch%across
-                    flat = flat .and. abs(value_of(patch%b(0:patch%along, j), v) - value) <= slack
-                end do
-                if (flat) u = 0.0_wp
-                call place_value(q, cell, v, u, tie%x, tie%position)
-                call place_value(candidate%last, cell, v, merge(1.0_wp, u, flat), tie%x_end, tie%position_end)
-                tie%limit = 0
-                if (u >= 1.0_wp .and. passage%to(q) >= reach%to .and. .not. reach%holds_to) tie%limit = 2
-                if (u <= 0.0_wp .and. passage%from(q) <= reach%from .and. .not. reach%holds_from) tie%limit = 1
-                tie%side = 0
-                if (cell%piece == 0) return
-                if (v >= 1.0_wp) tie%side = 1
-                if (v <= 0.0_wp) tie%side = 2
-                ! Between a support and an axle that comes to it there is a shear that neither has when it is there
-                call cell_ends(track, samples%cells, cell, tie%position, from, to)
-                if (to - from > least_distance(track, train)) return
-                if (u <= 0.0_wp) tie%limit = 1
-                if (u >= 1.0_wp) tie%limit = 2
-            end associate
-        end subroutine place_tie
-
-        !> x and position of a place in a cell
-        subroutine place_value(q, cell, v, u, x, position)
-            integer, intent(in) :: q
-            type(cell_type), intent(in) :: cell
-            real(wp), intent(in) :: v, u
-            real(wp), intent(out) :: x, position
-
-            x = 0.0_wp
-            position = passage%from(q) + u*(passage%to(q) - passage%from(q))
-            if (u >= 1.0_wp) position = passage%to(q)
-            if (cell%piece == 0) return
-            x = x_in_cell(track, samples%cells, cell, position, v)
-        end subroutine place_value
 
     end subroutine find_envelope
 

@@ -3,9 +3,10 @@ module gapbeam_train_levels
     use gapbeam_kinds, only: wp
     use gapbeam_law, only: is_rigid
     use gapbeam_model, only: beam_type
+    use gapbeam_train_ties, only: extreme_type
     implicit none
     private
-    public :: keep_level
+    public :: keep_level, keep_levels
 
 contains
 
@@ -27,5 +28,25 @@ contains
             end associate
         end do
     end subroutine keep_level
+
+    !> The same of extremes in the user's units
+    pure subroutine keep_levels(beam, node, power, rounding, extreme)
+        !> As for keep_level
+        type(beam_type), intent(in) :: beam
+        integer, intent(in) :: node
+        !> Exponent of the unit
+        integer, intent(in) :: power
+        !> How much is rounding, in the user's units
+        real(wp), intent(in) :: rounding
+        type(extreme_type), intent(inout) :: extreme
+        real(wp) :: deflection
+        integer :: q
+
+        do q = 1, extreme%number
+            deflection = scale(extreme%ties(q)%value, -power)
+            call keep_level(beam, node, scale(rounding, -power), deflection)
+            extreme%ties(q)%value = scale(deflection, power)
+        end do
+    end subroutine keep_levels
 
 end module gapbeam_train_levels
