@@ -15,7 +15,7 @@ module gapbeam_api_cases
     use gapbeam_cases, only: case_loads_type, split_loads
     use gapbeam_many_cases, only: case_room_type, solve_in_room => solve_cases
     use gapbeam_query, only: node_places
-    use gapbeam_api, only: prepared_type, options_type, require_beam, require_no_path, require_size, check_call
+    use gapbeam_api_objects, only: prepared_type, options_type, require_beam, require_no_path, require_size, check_call
     implicit none
     private
     public :: cases_type, prepare_cases, solve_cases, get_nodes

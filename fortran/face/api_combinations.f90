@@ -8,7 +8,7 @@ module gapbeam_api_combinations
     use gapbeam_check, only: check_loads
     use gapbeam_scene, only: load_type, gapbeam_axial
     use gapbeam_combinations, only: combination_type, combine
-    use gapbeam_api, only: prepared_type, require_beam, require_size
+    use gapbeam_api_objects, only: prepared_type, require_beam, require_size
     implicit none
     private
     public :: combine_loads

@@ -15,7 +15,7 @@ module gapbeam_api_history
         gapbeam_path_ended => ended, gapbeam_arrived => no_limit, cut_off
     use gapbeam_history_events, only: find_events
     use gapbeam_query, only: node_places
-    use gapbeam_api, only: prepared_type, result_type, require_beam, require_no_ground, make_state, summarise
+    use gapbeam_api_objects, only: prepared_type, result_type, require_beam, require_no_ground, make_state, summarise
     implicit none
     private
     public :: history_type, stretch_type, limit_type, follow_history, solve_on_path

@@ -26,7 +26,7 @@ module gapbeam_api_trains
     use gapbeam_train_ties, only: extreme_type
     use gapbeam_train_envelope, only: envelope_type, find_envelope
     use gapbeam_train_curves, only: find_curves
-    use gapbeam_api, only: prepared_type, require_beam, require_no_path, require_size
+    use gapbeam_api_objects, only: prepared_type, require_beam, require_no_path, require_size
     implicit none
     private
     public :: moving_train_type, passing_type, train_event_type, train_gap_type, train_extreme_type, gapbeam_moves_freely
