@@ -70,7 +70,7 @@ def test_nothing_is_kept_between_calls(installed):
     listing = installed.run("nm", installed.prefix / "lib" / "libgapbeam.a").stdout
     writable = set(re.findall(r" [bBdDcC] (\S+)", listing))
     kept = {name for name in writable if not re.search(r"___(vtab|def_init)_", name)}
-    assert kept <= {f"__gapbeam_capi_MOD_{name}" for name in ("texts", "no_text", "version", "i_text")}
+    assert kept <= {f"__gapbeam_capi_library_MOD_{name}" for name in ("texts", "no_text", "version", "i_text")}
 
 
 @pytest.mark.parametrize("name", PROGRAMS)

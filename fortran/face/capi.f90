@@ -1,27 +1,20 @@
 !> The C interface: marshalling only. include/gapbeam.h says what every function does.
 module gapbeam_capi
-    use, intrinsic :: iso_c_binding, only: c_int, c_double, c_char, c_size_t, c_ptr, c_loc, c_f_pointer, c_associated, &
-        c_null_ptr, c_null_char, c_sizeof
-    use gapbeam_error, only: error_type, fatal_error, no_memory, status_codes, status_texts, unknown_status, &
-        gapbeam_solved, gapbeam_bad_input, gapbeam_no_memory, gapbeam_not_prepared, gapbeam_other_version
-    use gapbeam_version, only: gapbeam_version_major, gapbeam_version_minor, gapbeam_version_patch, gapbeam_version_string
-    use gapbeam_scene, only: model_type, load_type, gapbeam_inf => gapbeam_infinity
+    use, intrinsic :: iso_c_binding, only: c_int, c_double, c_char, c_size_t, c_ptr, c_loc, c_null_ptr, c_sizeof
+    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_bad_input, gapbeam_no_memory, &
+        gapbeam_not_prepared, gapbeam_other_version
+    use gapbeam_scene, only: model_type, load_type
     use gapbeam_state, only: event_type
     use gapbeam_api, only: prepared_type, options_type, result_type, certificate_type, prepare_model, replace_loads, &
         count_supports, count_nodes, solve_beam, follow_load, get_supports, get_fields, get_extremes, get_motion, get_certificate
     use gapbeam_capi_model, only: c_model, is_model_size, empty_model, model_from_c, loads_from_c
+    use gapbeam_capi_objects, only: c_options, beam_handle, state_handle, get_beam, get_state, get_both, read_options, &
+        check_points, report
     implicit none
     private
-    public :: c_options, c_info, c_certificate
-    ! For gapbeam_capi_history and gapbeam_capi_ground
-    public :: beam_handle, state_handle, get_beam, get_both, read_options, check_points, report
+    public :: c_info, c_certificate
 
     !> Mirrors of the header's structures; tests/test_capi.c compares their sizes
-    type, bind(c) :: c_options
-        integer(c_size_t) :: size
-        integer(c_int) :: rule, reserved
-    end type c_options
-
     type, bind(c) :: c_info
         integer(c_size_t) :: size
         real(c_double) :: factor
@@ -35,59 +28,7 @@ module gapbeam_capi
         integer(c_int) :: known, reserved
     end type c_certificate
 
-    !> What the handles point to; the tag tells the kinds of handle apart, and those of the library from others
-    integer, parameter :: beam_tag = 1195528258, state_tag = 1195528275
-    type :: beam_handle
-        integer :: tag = beam_tag
-        type(prepared_type) :: beam
-    end type beam_handle
-    type :: state_handle
-        integer :: tag = state_tag
-        type(result_type) :: result
-    end type state_handle
-
-    !> Constants whose addresses C is given, never written to; and what counts them where they are listed
-    integer :: i_text
-    character(len=len(status_texts) + 1), target :: texts(size(status_texts)) = [character(len=len(status_texts) + 1) :: &
-        (trim(status_texts(i_text))//c_null_char, i_text=1, size(status_texts))]
-    character(len=len(unknown_status) + 1), target :: no_text = unknown_status//c_null_char
-    character(len=len(gapbeam_version_string) + 1), target :: version = gapbeam_version_string//c_null_char
-
 contains
-
-    !> See the header
-    subroutine c_get_version(major, minor, patch) bind(c, name="gapbeam_get_version")
-        integer(c_int), intent(out), optional :: major, minor, patch
-
-        if (present(major)) major = gapbeam_version_major
-        if (present(minor)) minor = gapbeam_version_minor
-        if (present(patch)) patch = gapbeam_version_patch
-    end subroutine c_get_version
-
-    !> See the header
-    function c_version_text() result(text) bind(c, name="gapbeam_version_text")
-        type(c_ptr) :: text
-
-        text = c_loc(version)
-    end function c_version_text
-
-    !> See the header
-    function c_status_message(status) result(text) bind(c, name="gapbeam_status_message")
-        integer(c_int), intent(in), value :: status
-        type(c_ptr) :: text
-        integer :: i
-
-        i = findloc(status_codes, int(status), 1)
-        text = c_loc(no_text)
-        if (i > 0) text = c_loc(texts(i))
-    end function c_status_message
-
-    !> See the header
-    function c_infinity() result(value) bind(c, name="gapbeam_infinity")
-        real(c_double) :: value
-
-        value = gapbeam_inf
-    end function c_infinity
 
     !> See the header
     function c_model_init(model, size) result(status) bind(c, name="gapbeam_model_init")
@@ -488,94 +429,5 @@ contains
         call report(error, status, message, message_size)
         if (.not. allocated(error)) status = result%status
     end function c_solve_model
-
-    !> The beam behind a handle
-    subroutine get_beam(handle, beam)
-        type(c_ptr), intent(in) :: handle
-        !> Null where it is no handle of a beam
-        type(beam_handle), pointer, intent(out) :: beam
-
-        nullify (beam)
-        if (.not. c_associated(handle)) return
-        call c_f_pointer(handle, beam)
-        if (beam%tag /= beam_tag) nullify (beam)
-    end subroutine get_beam
-
-    !> The state behind a handle
-    subroutine get_state(handle, state)
-        type(c_ptr), intent(in) :: handle
-        !> Null where it is no handle of a state
-        type(state_handle), pointer, intent(out) :: state
-
-        nullify (state)
-        if (.not. c_associated(handle)) return
-        call c_f_pointer(handle, state)
-        if (state%tag /= state_tag) nullify (state)
-    end subroutine get_state
-
-    !> Both, refused where one is missing
-    subroutine get_both(beam, state, prepared, solved, error)
-        type(c_ptr), intent(in) :: beam, state
-        type(beam_handle), pointer, intent(out) :: prepared
-        type(state_handle), pointer, intent(out) :: solved
-        type(error_type), allocatable, intent(out) :: error
-
-        call get_beam(beam, prepared)
-        call get_state(state, solved)
-        if (.not. associated(prepared)) then
-            call fatal_error(error, gapbeam_not_prepared, "beam is no prepared beam")
-        else if (.not. associated(solved)) then
-            call fatal_error(error, gapbeam_not_prepared, "state is no state: make one with gapbeam_new_state")
-        end if
-    end subroutine get_both
-
-    !> Options, or the defaults
-    subroutine read_options(options, chosen, error)
-        type(c_options), intent(in), optional :: options
-        type(options_type), intent(out) :: chosen
-        type(error_type), allocatable, intent(out) :: error
-
-        if (.not. present(options)) return
-        if (options%size /= c_sizeof(options)) then
-            call fatal_error(error, gapbeam_other_version, "options: size is not the library's; use gapbeam_options_init")
-        else
-            chosen%rule = options%rule
-        end if
-    end subroutine read_options
-
-    !> Refuse a number of places that makes no sense
-    subroutine check_points(count, given, what, error)
-        integer(c_int), intent(in) :: count
-        !> Are the arrays there, and their names
-        logical, intent(in) :: given
-        character(len=*), intent(in) :: what
-        type(error_type), allocatable, intent(out) :: error
-
-        if (count < 0) then
-            call fatal_error(error, gapbeam_bad_input, "count is negative")
-        else if (count > 0 .and. .not. given) then
-            call fatal_error(error, gapbeam_bad_input, what//" is NULL")
-        end if
-    end subroutine check_points
-
-    !> Status and message for C
-    subroutine report(error, status, message, message_size)
-        type(error_type), allocatable, intent(in) :: error
-        integer(c_int), intent(out) :: status
-        character(kind=c_char), intent(inout), optional :: message(*)
-        integer(c_size_t), intent(in), optional :: message_size
-        integer(c_size_t) :: i, length
-
-        status = gapbeam_solved
-        if (allocated(error)) status = error%code
-        if (.not. present(message) .or. .not. present(message_size)) return
-        if (message_size < 1) return
-        length = 0
-        if (allocated(error)) length = min(len(error%message, c_size_t), message_size - 1)
-        do i = 1, length
-            message(i) = error%message(i:i)
-        end do
-        message(length + 1) = c_null_char
-    end subroutine report
 
 end module gapbeam_capi

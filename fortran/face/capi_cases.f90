@@ -4,11 +4,11 @@ module gapbeam_capi_cases
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input, gapbeam_not_prepared
     use gapbeam_api, only: options_type, count_supports, count_nodes
     use gapbeam_api_cases, only: cases_type, prepare_cases, solve_cases, get_nodes
-    use gapbeam_capi, only: c_options, beam_handle, get_beam, read_options, report
+    use gapbeam_capi_objects, only: c_options, beam_handle, get_beam, read_options, report
     implicit none
     private
 
-    !> What the handle points to; the tag as in gapbeam_capi
+    !> What the handle points to; the tag as in gapbeam_capi_objects
     integer, parameter :: cases_tag = 1195528259
     type :: cases_handle
         integer :: tag = cases_tag

@@ -3,7 +3,7 @@ module gapbeam_capi_combinations
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_char, c_size_t, c_ptr, c_null_ptr, c_loc
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input, gapbeam_not_prepared
     use gapbeam_api_combinations, only: combine_loads
-    use gapbeam_capi, only: beam_handle, get_beam, report
+    use gapbeam_capi_objects, only: beam_handle, get_beam, report
     implicit none
     private
 

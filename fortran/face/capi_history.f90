@@ -5,7 +5,7 @@ module gapbeam_capi_history
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_bad_input, gapbeam_not_prepared, &
         gapbeam_other_version
     use gapbeam_api_history, only: history_type, follow_history, solve_on_path
-    use gapbeam_capi, only: beam_handle, state_handle, get_beam, get_both, report
+    use gapbeam_capi_objects, only: beam_handle, state_handle, get_beam, get_both, report
     implicit none
     private
     public :: c_history_info

@@ -5,7 +5,7 @@ module gapbeam_capi_trains
     use gapbeam_api, only: count_supports
     use gapbeam_api_trains, only: moving_train_type, passing_type, train_extreme_type, follow_train, get_train_extremes, &
         get_train_curves
-    use gapbeam_capi, only: beam_handle, get_beam, check_points, report
+    use gapbeam_capi_objects, only: beam_handle, get_beam, check_points, report
     implicit none
     private
 

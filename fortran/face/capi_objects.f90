@@ -1,0 +1,119 @@
+!> What users of the C interface hold: handles of beams and states; options, errors and messages of all its functions
+module gapbeam_capi_objects
+    use, intrinsic :: iso_c_binding, only: c_int, c_char, c_size_t, c_ptr, c_f_pointer, c_associated, c_null_char, c_sizeof
+    use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_bad_input, gapbeam_not_prepared, &
+        gapbeam_other_version
+    use gapbeam_api, only: prepared_type, options_type, result_type
+    implicit none
+    private
+    public :: c_options, beam_handle, state_handle, get_beam, get_state, get_both, read_options, check_points, report
+
+    !> Mirror of the header's structure
+    type, bind(c) :: c_options
+        integer(c_size_t) :: size
+        integer(c_int) :: rule, reserved
+    end type c_options
+
+    !> What the handles point to; the tag tells the kinds of handle apart, and those of the library from others
+    integer, parameter :: beam_tag = 1195528258, state_tag = 1195528275
+    type :: beam_handle
+        integer :: tag = beam_tag
+        type(prepared_type) :: beam
+    end type beam_handle
+    type :: state_handle
+        integer :: tag = state_tag
+        type(result_type) :: result
+    end type state_handle
+
+contains
+
+    !> The beam behind a handle
+    subroutine get_beam(handle, beam)
+        type(c_ptr), intent(in) :: handle
+        !> Null where it is no handle of a beam
+        type(beam_handle), pointer, intent(out) :: beam
+
+        nullify (beam)
+        if (.not. c_associated(handle)) return
+        call c_f_pointer(handle, beam)
+        if (beam%tag /= beam_tag) nullify (beam)
+    end subroutine get_beam
+
+    !> The state behind a handle
+    subroutine get_state(handle, state)
+        type(c_ptr), intent(in) :: handle
+        !> Null where it is no handle of a state
+        type(state_handle), pointer, intent(out) :: state
+
+        nullify (state)
+        if (.not. c_associated(handle)) return
+        call c_f_pointer(handle, state)
+        if (state%tag /= state_tag) nullify (state)
+    end subroutine get_state
+
+    !> Both, refused where one is missing
+    subroutine get_both(beam, state, prepared, solved, error)
+        type(c_ptr), intent(in) :: beam, state
+        type(beam_handle), pointer, intent(out) :: prepared
+        type(state_handle), pointer, intent(out) :: solved
+        type(error_type), allocatable, intent(out) :: error
+
+        call get_beam(beam, prepared)
+        call get_state(state, solved)
+        if (.not. associated(prepared)) then
+            call fatal_error(error, gapbeam_not_prepared, "beam is no prepared beam")
+        else if (.not. associated(solved)) then
+            call fatal_error(error, gapbeam_not_prepared, "state is no state: make one with gapbeam_new_state")
+        end if
+    end subroutine get_both
+
+    !> Options, or the defaults
+    subroutine read_options(options, chosen, error)
+        type(c_options), intent(in), optional :: options
+        type(options_type), intent(out) :: chosen
+        type(error_type), allocatable, intent(out) :: error
+
+        if (.not. present(options)) return
+        if (options%size /= c_sizeof(options)) then
+            call fatal_error(error, gapbeam_other_version, "options: size is not the library's; use gapbeam_options_init")
+        else
+            chosen%rule = options%rule
+        end if
+    end subroutine read_options
+
+    !> Refuse a number of places that makes no sense
+    subroutine check_points(count, given, what, error)
+        integer(c_int), intent(in) :: count
+        !> Are the arrays there, and their names
+        logical, intent(in) :: given
+        character(len=*), intent(in) :: what
+        type(error_type), allocatable, intent(out) :: error
+
+        if (count < 0) then
+            call fatal_error(error, gapbeam_bad_input, "count is negative")
+        else if (count > 0 .and. .not. given) then
+            call fatal_error(error, gapbeam_bad_input, what//" is NULL")
+        end if
+    end subroutine check_points
+
+    !> Status and message for C
+    subroutine report(error, status, message, message_size)
+        type(error_type), allocatable, intent(in) :: error
+        integer(c_int), intent(out) :: status
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), intent(in), optional :: message_size
+        integer(c_size_t) :: i, length
+
+        status = gapbeam_solved
+        if (allocated(error)) status = error%code
+        if (.not. present(message) .or. .not. present(message_size)) return
+        if (message_size < 1) return
+        length = 0
+        if (allocated(error)) length = min(len(error%message, c_size_t), message_size - 1)
+        do i = 1, length
+            message(i) = error%message(i:i)
+        end do
+        message(length + 1) = c_null_char
+    end subroutine report
+
+end module gapbeam_capi_objects
