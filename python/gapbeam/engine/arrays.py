@@ -334,3 +334,8 @@ class Places(Record):
     couple: np.ndarray
     support_nodes: np.ndarray
     levels: np.ndarray
+
+
+def extended(closed: np.ndarray) -> np.ndarray:
+    """Copy a scheme, with one entry more."""
+    return np.append(closed, 0).astype(np.int32)

@@ -10,7 +10,7 @@ import numpy as np
 from ..base.errors import Status, check_status
 from ..base.records import read_only
 from . import calls as _engine  # the compiled layer itself, but for Ctrl-C
-from .arrays import Columns, Ground, GroundChanges, History, Places, Solution, Stretch
+from .arrays import Columns, Ground, Places, Solution, extended
 from .units import Units, scaled
 
 SOLVED, NO_EQUILIBRIUM = Status.SOLVED, Status.NO_EQUILIBRIUM
@@ -21,11 +21,6 @@ GIVEN = "given"
 """Instead of a rule: the scheme is known, as along a path."""
 RULE_GIVEN = 2
 """Its code, as in gapbeam_referee."""
-AT_LIMIT = {"stop": 0, "jump": 1, "follow": 2}
-ENDINGS = ("", "limit", "bifurcation", "mechanism", "ended", "cut off")
-"""Ways to go on at a limit and how a path ends, as in gapbeam_history."""
-TURNS = 3
-"""The event in which the beam turns, as in gapbeam_path; others change the scheme."""
 METHODS = ("block tridiagonal mixed", "three-moment", "mixed with pivoting")
 """What was solved, as in gapbeam_system."""
 HINGE, RESTRAINED = 1, 2
@@ -266,7 +261,7 @@ class Beam:
             Where no unique solution exists for another reason, with the engine's message.
         """
         m, n = self.supports, max(self.bars, 0)
-        scheme = _scheme(closed)
+        scheme = extended(closed)
         undecided, w, left, right, shear, reaction, motion, u, tension, values, counts, ground, status, message = _engine.gbsolv(
             self.handle, self.links, self.scene_supports, n, factor, RULES.get(rule, RULE_GIVEN), scheme
         )
@@ -276,99 +271,6 @@ class Beam:
         return Solution(
             status, scheme[:m], undecided[:m], w, left, right, shear, reaction[:m], motion, u, tension[:n], values.T[:, :-1],
             solves, method, bool(indifferent), bool(came_back), bool(slides), under,
-        )  # fmt: skip
-
-    def follow(self, factor: float, closed: np.ndarray, marginal: np.ndarray, most: int) -> Stretch:
-        """Follow the load from a factor to 1, from event to event.
-
-        Parameters
-        ----------
-        factor, closed
-            As for `solve`; `closed` is the scheme at the factor.
-        marginal : numpy.ndarray of int
-            1 for the supports at zero there.
-        most : int
-            Number of events after which it stops short of 1.
-
-        Returns
-        -------
-        Stretch
-            The events on the way.
-
-        Raises
-        ------
-        EngineError
-            Where no unique solution exists on the way, with the engine's message.
-        """
-        m = self.supports
-        closed, marginal, at = _scheme(closed), _scheme(marginal), np.array(factor)
-        count, factors, which, what, motion, solves, nodes, status, message = _engine.gbpath(
-            most, self.handle, self.links, 1.0, at, closed, marginal
-        )
-        factor = float(at)
-        check_status(status, message, f"at load factor {factor:.15g}: ")
-        events = factors[:count], which[:count] - 1, what[:count]
-        return Stretch(status, factor, closed[:m], marginal[:m], *events, motion, solves, nodes)
-
-    def follow_history(self, factors: np.ndarray, at_limit: str, most: int) -> History:
-        """Put on the dead loads and go through load factors in turn, by the path itself.
-
-        Parameters
-        ----------
-        factors : numpy.ndarray
-            Load factors.
-        at_limit : {"stop", "jump", "follow"}
-            What to do where the load cannot go on.
-        most : int
-            Stretches after which the path is cut off.
-
-        Returns
-        -------
-        History
-
-        Raises
-        ------
-        EngineError
-            More kinks at one factor than can be tried, or numbers out of range.
-        """
-        sizes, status, message = _engine.gbhist(self.handle, factors, AT_LIMIT[at_limit], most)
-        check_status(status, message)
-        count, limits, others, ending, solves = sizes.tolist()
-        along, about, closed, kinks, where, which, motion, ways, schemes = _engine.gbhget(
-            self.handle, self.links, self.supports + 1, count + 1, limits + 1, others + 1
-        )
-        return History(
-            along.T[:count], about.T[:count], closed.T[:count, :-1], np.moveaxis(kinks, 2, 0)[:count, :, :-1], where[:limits],
-            which.T[:limits], ways.T[:others], schemes.T[:others, :-1], ENDINGS[ending], motion if motion.any() else None, solves,
-        )  # fmt: skip
-
-    def follow_on_ground(self, rule: str, closed: np.ndarray) -> GroundChanges:
-        """Follow the load of a beam on the ground from factor 0 to 1.
-
-        Parameters
-        ----------
-        rule : {"block", "single"}
-            How schemes of the supports are found.
-        closed : numpy.ndarray of int
-            Where every search starts.
-
-        Returns
-        -------
-        GroundChanges
-
-        Raises
-        ------
-        EngineError
-            A state that cannot be settled, or numbers out of range.
-        """
-        sizes, ends, motion, status, message = _engine.gbgpth(self.handle, self.links, RULES[rule], _scheme(closed))
-        check_status(status, message)
-        events, segments, solves, at_limit, slides = sizes.tolist()
-        at, which, begins, schemes = _engine.gbgpte(self.handle, self.supports + 1, events + 1, segments + 1)
-        at, which = at[:, :events], which[:, :events]
-        return GroundChanges(
-            at[0], at[1], which[0] - 1, which[1] - 1, which[2], which[3], begins[:segments], schemes.T[:segments, :-1],
-            float(ends[0]), float(ends[1]), bool(at_limit), status, motion, bool(slides), solves,
         )  # fmt: skip
 
     def recover(self, factor: float, solution: Solution) -> np.ndarray:
@@ -547,67 +449,6 @@ class Beam:
         """Whether some foundation acts one way only, or by a law."""
         return bool(self.columns.foundation_sides[:-1].any()) or len(self.columns.ground_law_foundations) > 1
 
-    def ground_runs(self, ground: Ground) -> tuple[np.ndarray, np.ndarray]:
-        """Join stretches beside each other in which a layer of ground does the same.
-
-        Parameters
-        ----------
-        ground : Ground
-            A solution.
-
-        Returns
-        -------
-        about : numpy.ndarray of int
-            Foundation, side (1 below, -1 above, 0 both), pieces of its law (0: linear), the piece on which it acts (0: no
-            contact), 1 where it only touches, of every run, runs by 5: by foundation, below before above, from left to right.
-        values : numpy.ndarray
-            Its ends, the force on the beam (up) and the largest distance between beam and ground, runs by 4, in the scene's
-            units.
-
-        Raises
-        ------
-        EngineError
-            There is no memory.
-        """
-        number, about, values, status, message = _engine.gbgrun(self.handle, ground.values)
-        check_status(status, message)
-        return about.T[:number], values.T[:number]
-
-    def zone_changes(self, ground: Ground, other: Beam, after: Ground) -> tuple[bool, np.ndarray, np.ndarray]:
-        """Tell how zones of contact become those of another state, on the same ground.
-
-        Parameters
-        ----------
-        ground : Ground
-            A solution.
-        other : Beam
-            The same under other loads.
-        after : Ground
-            A solution of that.
-
-        Returns
-        -------
-        same : bool
-            Whether there are the same zones, but for where they are.
-        about : numpy.ndarray of int
-            Foundation, branch of its law, what happens (gapbeam_pieces), changes by 3.
-        x : numpy.ndarray
-            Their places.
-
-        Raises
-        ------
-        EngineError
-            There is no memory.
-        """
-        room, number = 0, 8
-        while number > room:
-            room = number
-            same, number, which, x, status, message = _engine.gbgdif(room, self.handle, ground.values, other.handle, after.values)
-            check_status(status, message)
-        about = which.T[:number].copy()
-        about[:, 0] -= 1
-        return bool(same), about, x[:number]
-
 
 def _made_of(
     columns: Columns, curves: tuple[tuple[int, Curve], ...], factors: np.ndarray | None, kinks: np.ndarray | None
@@ -622,10 +463,4 @@ def _state(factor: float, solution: Solution) -> tuple[Any, ...]:
     """Collect what the layer needs of a solved state."""
     s = solution
     reaction = np.append(s.reaction, 0.0)
-    return factor, _scheme(s.closed), s.deflection, s.moment_left, s.moment_right, s.shear, reaction
-
-
-def _scheme(closed: np.ndarray) -> np.ndarray:
-    """Copy a scheme, with one entry more."""
-    return np.append(closed, 0).astype(np.int32)
-
+    return factor, extended(s.closed), s.deflection, s.moment_left, s.moment_right, s.shear, reaction

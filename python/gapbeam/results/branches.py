@@ -12,7 +12,8 @@ import numpy as np
 from ..base.errors import EngineError, Status
 from ..base.records import Pickled, read_only
 from ..engine.arrays import History
-from ..engine.beam import ENDINGS, GIVEN, Beam
+from ..engine.beam import GIVEN, Beam
+from ..engine.paths import ENDINGS, follow_history
 from .curved import CurvedPath
 from .energy import bulge, work_of_loads
 from .kinks import piece_of, what_happens
@@ -377,12 +378,12 @@ def follow_branches(result: Result) -> BranchPath:
     factors = np.asarray(analysis.history, dtype=float)
     stops = analysis.at_limit == "stop"
     at_limit = "jump" if stops and result.beam.curves else analysis.at_limit
-    history = result.beam.follow_history(factors, at_limit, MOST_STRETCHES)
+    history = follow_history(result.beam, factors, at_limit, MOST_STRETCHES)
     curved = CurvedPath(result.beam, history, factors[-1], stops) if result.beam.curves else None
     if curved is not None and curved.unreached == len(factors):
         # The limit load that keeps it from there lies beyond on the polylines
         further = np.append(factors[:-1], factors[-1] + BEYOND * (factors[-1] - np.append(0.0, factors)[-2]))
-        history = result.beam.follow_history(further, at_limit, MOST_STRETCHES)
+        history = follow_history(result.beam, further, at_limit, MOST_STRETCHES)
         curved = CurvedPath(result.beam, history, factors[-1], stops)
     if curved is not None and curved.unreached is not None:
         which = f"load factor {factors[curved.unreached - 1]:g} is" if curved.unreached else "the dead loads are"

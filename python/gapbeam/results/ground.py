@@ -9,6 +9,7 @@ import numpy as np
 
 from ..engine.arrays import Ground
 from ..engine.beam import Beam
+from ..engine.ground import ground_runs
 from ..engine.units import scaled
 
 TOUCHING = "touching"
@@ -109,7 +110,7 @@ def find_runs(beam: Beam, ground: Ground | None) -> tuple[Run, ...]:
     """
     if ground is None:
         return ()
-    about, values = beam.ground_runs(ground)
+    about, values = ground_runs(beam, ground)
     return tuple(
         Run(*codes, *numbers, bool(touches)) for (*codes, touches), numbers in zip(about.tolist(), values.tolist(), strict=True)
     )

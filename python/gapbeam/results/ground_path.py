@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..engine.beam import NO_EQUILIBRIUM, Beam
+from ..engine.paths import follow_ground
 from .branches import Limit
 from .kinks import EVENTS
 from .motion import describe_motion
@@ -82,7 +83,7 @@ class GroundPath:
     def __init__(self, beam: Beam, rule: str, closed: np.ndarray):
         begin = perf_counter()
         self._beam, self._rule = beam, rule
-        found = beam.follow_on_ground(rule, closed)
+        found = follow_ground(beam, rule, closed)
         self._schemes = found.closed
         self.solves = found.solves
         self.beyond = found.beyond

@@ -10,7 +10,8 @@ import numpy as np
 
 from ..base.records import read_only
 from ..engine.arrays import Stretch
-from ..engine.beam import GIVEN, NO_EQUILIBRIUM, TURNS, Beam
+from ..engine.beam import GIVEN, NO_EQUILIBRIUM, Beam
+from ..engine.paths import TURNS, follow_stretch
 from .kinks import EVENTS, piece_of, what_happens
 from .smooth import factor_on_curves
 from .step import Step
@@ -230,7 +231,7 @@ def follow(result: Result, rule: str, closed: np.ndarray) -> Path | None:
         return None
     factor, scheme, marginal, stretches = 0.0, solution.closed, solution.undecided, []
     while factor < 1.0:
-        piece = beam.follow(factor, scheme, marginal, EVENTS_AT_A_TIME)
+        piece = follow_stretch(beam, factor, scheme, marginal, EVENTS_AT_A_TIME)
         stretches.append(piece)
         factor, scheme, marginal = piece.factor, piece.closed, piece.marginal
         if piece.status == NO_EQUILIBRIUM:

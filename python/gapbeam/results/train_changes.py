@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from ..engine.beam import SOLVED
+from ..engine.ground import zone_changes
 from .kinks import EVENTS
 from .train_states import Placed, TrainLoads
 
@@ -121,7 +122,7 @@ def _first_change(below: Placed, above: Placed) -> Change | None:
     ground, after = below.step.solution.ground, above.step.solution.ground
     if ground is None:
         return None
-    _, about, x = below.beam.zone_changes(ground, above.beam, after)
+    _, about, x = zone_changes(below.beam, ground, above.beam, after)
     if not len(about):
         return None
     foundation, branch, event = about[0].tolist()

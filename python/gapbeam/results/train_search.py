@@ -16,6 +16,7 @@ import numpy as np
 
 from ..base.errors import EngineError, SceneError, Status
 from ..engine.beam import SOLVED, Beam
+from ..engine.ground import zone_changes
 from ..scene.ground_laws import CubicGround
 from ..scene.structs import ForceLoad, Scene
 from ..scene.trains import LEFT, Course
@@ -300,7 +301,7 @@ class SearchedWay:
                 found.append(TrainEvent(at, k, float(self._support_places[k]), words, direction))
         ground, later = before.step.solution.ground, after.step.solution.ground
         if ground is not None:
-            _, about, x = before.beam.zone_changes(ground, after.beam, later)
+            _, about, x = zone_changes(before.beam, ground, after.beam, later)
             found += [
                 TrainEvent(at, None, self._at_end(place), EVENTS[event], direction, foundation, branch)
                 for (foundation, branch, event), place in zip(about.tolist(), x.tolist(), strict=True)

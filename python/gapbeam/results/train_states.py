@@ -10,6 +10,7 @@ import numpy as np
 
 from ..base.errors import WITHOUT_ANSWER, EngineError, Status
 from ..engine.beam import NO_EQUILIBRIUM, SOLVED, Beam
+from ..engine.ground import zone_changes
 from ..engine.trains import NOT_UNIQUE
 from ..scene.columns import BY_X, DISTRIBUTED, FORCE
 from .following import starting_scheme
@@ -109,7 +110,7 @@ class Placed:
             if one is not None and two is not None and (one.number, one.way) != (two.number, two.way):
                 return False
         ground, after = self.step.solution.ground, other.step.solution.ground
-        return ground is None or self.beam.zone_changes(ground, other.beam, after)[0]
+        return ground is None or zone_changes(self.beam, ground, other.beam, after)[0]
 
     @cached_property
     def extremes(self) -> tuple[np.ndarray, np.ndarray]:

@@ -1,0 +1,77 @@
+"""Zones in which the ground acts on a solved beam, from the compiled layer."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..base.errors import check_status
+from . import calls as _engine
+from .arrays import Ground
+from .beam import Beam
+
+
+def ground_runs(beam: Beam, ground: Ground) -> tuple[np.ndarray, np.ndarray]:
+    """Join stretches beside each other in which a layer of ground does the same.
+
+    Parameters
+    ----------
+    beam : Beam
+        The beam.
+    ground : Ground
+        A solution.
+
+    Returns
+    -------
+    about : numpy.ndarray of int
+        Foundation, side (1 below, -1 above, 0 both), pieces of its law (0: linear), the piece on which it acts (0: no
+        contact), 1 where it only touches, of every run, runs by 5: by foundation, below before above, from left to right.
+    values : numpy.ndarray
+        Its ends, the force on the beam (up) and the largest distance between beam and ground, runs by 4, in the scene's
+        units.
+
+    Raises
+    ------
+    EngineError
+        There is no memory.
+    """
+    number, about, values, status, message = _engine.gbgrun(beam.handle, ground.values)
+    check_status(status, message)
+    return about.T[:number], values.T[:number]
+
+
+def zone_changes(beam: Beam, ground: Ground, other: Beam, after: Ground) -> tuple[bool, np.ndarray, np.ndarray]:
+    """Tell how zones of contact become those of another state, on the same ground.
+
+    Parameters
+    ----------
+    beam : Beam
+        The beam.
+    ground : Ground
+        A solution.
+    other : Beam
+        The same under other loads.
+    after : Ground
+        A solution of that.
+
+    Returns
+    -------
+    same : bool
+        Whether there are the same zones, but for where they are.
+    about : numpy.ndarray of int
+        Foundation, branch of its law, what happens (gapbeam_pieces), changes by 3.
+    x : numpy.ndarray
+        Their places.
+
+    Raises
+    ------
+    EngineError
+        There is no memory.
+    """
+    room, number = 0, 8
+    while number > room:
+        room = number
+        same, number, which, x, status, message = _engine.gbgdif(room, beam.handle, ground.values, other.handle, after.values)
+        check_status(status, message)
+    about = which.T[:number].copy()
+    about[:, 0] -= 1
+    return bool(same), about, x[:number]
