@@ -9,10 +9,12 @@ from .batches.run import batch
 from .results.cases import Prepared, prepare
 from .results.combined import CombinedResult
 from .results.envelope import Envelope
-from .results.result import Fields, Result, System
+from .results.fields import Fields
+from .results.result import Result
 from .results.solved_cases import Cases
 from .results.step import Step
 from .results.stepping import solve
+from .results.system import System
 from .scene import (
     Analysis,
     AxialLoad,

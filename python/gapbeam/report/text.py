@@ -17,7 +17,7 @@ from ..base.memory import refuse_beyond
 from ..engine.calls import parts
 from ..results import formatting as fmt
 from ..results.data import result_data, step_data
-from ..results.result import Fields
+from ..results.fields import Fields
 from ..results.step import BOUNDED
 from ..scene.names import label, labels
 from .combined import write_combined

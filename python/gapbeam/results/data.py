@@ -7,9 +7,10 @@ from typing import Any
 
 from ..scene.structs import Scene
 from .branches import BranchPath
+from .fields import Fields
 from .ground_path import GroundEvent
 from .path import Event
-from .result import Fields, Result
+from .result import Result
 from .step import Step
 from .train_data import trains_data
 

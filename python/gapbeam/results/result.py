@@ -7,25 +7,26 @@ axial forces in tension, axial displacements to the right.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import asdict, dataclass, fields
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..base.errors import WITHOUT_ANSWER, EngineError, Status
+from ..base.errors import WITHOUT_ANSWER, EngineError
 from ..base.memory import refuse_beyond
-from ..base.records import Pickled, Record
+from ..base.records import Pickled
 from ..engine.arrays import Solution
-from ..engine.beam import METHODS, Beam
+from ..engine.beam import Beam
 from ..scene.names import label
 from ..scene.structs import Scene
 from ..scene.wording import shown
 from .arguments import finite, numbers, whole
+from .fields import Fields, find_places
 from .ground import with_ends_of_zones
 from .motion import SLIDES, describe_motion
 from .step import Step, solve_step
 from .steps import LoadSteps, Steps
+from .system import System, system_of
 
 if TYPE_CHECKING:
     from .branches import BranchPath, Limit
@@ -39,123 +40,6 @@ if TYPE_CHECKING:
 
 BYTES_PER_PLACE = 120
 """Memory that a row of a table of fields takes while it is made."""
-
-
-@dataclass(frozen=True)
-class System:
-    """What the system of equations consisted of.
-
-    Attributes
-    ----------
-    nodes : int
-        Nodes: beam ends, supports, hinges; with foundations also the ends of the zones of contact in the last step.
-    unknowns : int
-        Unknowns of the bending system of the last step.
-    half_bandwidth : int
-        Its half bandwidth.
-    method : str
-        How it was solved in the last step.
-    axial_unknowns : int
-        Unknowns of the separate axial system.
-    left_out : tuple of str
-        What the scene did not need.
-    """
-
-    nodes: int
-    unknowns: int
-    half_bandwidth: int
-    method: str
-    axial_unknowns: int
-    left_out: tuple[str, ...]
-
-    def asdict(self) -> dict[str, Any]:
-        """As plain data.
-
-        Returns
-        -------
-        dict
-            By the names of the attributes.
-        """
-        return asdict(self) | {"left_out": list(self.left_out)}
-
-
-@dataclass(frozen=True, eq=False)
-class Fields(Record):
-    """Fields along the beam, read-only arrays of equal length.
-
-    Attributes
-    ----------
-    x, deflection, rotation, moment, shear : numpy.ndarray
-        Place and values; rotation is that of the section.
-    axial_force, axial_displacement : numpy.ndarray or None
-        Only with axial loads.
-    pressure : numpy.ndarray or None
-        Of all foundations on the beam, force per length, positive upward; only with foundations.
-    """
-
-    x: np.ndarray
-    deflection: np.ndarray
-    rotation: np.ndarray
-    moment: np.ndarray
-    shear: np.ndarray
-    axial_force: np.ndarray | None = None
-    axial_displacement: np.ndarray | None = None
-    pressure: np.ndarray | None = None
-
-    def to_dict(self) -> dict[str, list[float]]:
-        """As lists by name, what is not there left out.
-
-        Returns
-        -------
-        dict
-            Lists of floats.
-        """
-        return {name: column.tolist() for name, column in self.columns().items()}
-
-    def columns(self) -> dict[str, np.ndarray]:
-        """As arrays by name, what is not there left out.
-
-        Returns
-        -------
-        dict
-        """
-        return {f.name: getattr(self, f.name) for f in fields(self) if getattr(self, f.name) is not None}
-
-
-def find_places(beam: Beam, x: np.ndarray, side: str) -> tuple[np.ndarray, np.ndarray]:
-    """Find places along a beam.
-
-    Parameters
-    ----------
-    beam : Beam
-        The beam.
-    x : numpy.ndarray
-        The places.
-    side : {"right", "left"}
-        Which side is meant where a field jumps.
-
-    Returns
-    -------
-    piece : numpy.ndarray of int
-        Pieces, from 1.
-    distance : numpy.ndarray
-        Distances from their left ends.
-
-    Raises
-    ------
-    ValueError
-        A place outside the beam; another side.
-    """
-    if not isinstance(side, str) or side not in ("right", "left"):
-        raise ValueError(f'side: expected "right" or "left", got {shown(side)}')
-    try:
-        return beam.find(x, side == "left")
-    except EngineError as error:
-        if error.status != Status.BAD_INPUT:
-            raise
-        end = beam.places.end
-        off = x[~((x >= 0) & (x <= end))].flat[0]
-        raise ValueError(f"x: the beam goes from 0 to {end:g}, got {off:g}") from None
 
 
 class Result(Pickled):
@@ -329,28 +213,7 @@ class Result(Pickled):
     @cached_property
     def system(self) -> System:
         """What the system of equations consisted of."""
-        beam = self.beam
-        method = self.steps[-1].solution.method if self.steps else 0
-        ground = self.steps[-1].solution.ground if self.steps else None
-        nodes = 1 + (beam.links if ground is None else ground.stretches)
-        three_moment = METHODS[method] == "three-moment"
-        needed = {
-            "axial": beam.bars >= 0,
-            "shear": beam.has_shear,
-            "foundation": beam.ground_layers > 0,
-            "hinges": beam.has_hinges,
-            "rotational restraints": beam.has_restraints,
-            "iteration": beam.is_one_sided or beam.has_one_sided_ground,
-            "deflections": not three_moment,
-        }
-        return System(
-            nodes=nodes,
-            unknowns=nodes if three_moment else 2 * nodes,
-            half_bandwidth=1 if three_moment else 3,
-            method=METHODS[method],
-            axial_unknowns=2 * beam.bars + 1 if beam.bars >= 0 else 0,
-            left_out=tuple(name for name, used in needed.items() if not used),
-        )
+        return system_of(self)
 
     def _chosen(self, step: int | None, factor: float | None = None) -> Step:
         """Give a step by its number, or the state at a load factor, whichever the caller asks for."""

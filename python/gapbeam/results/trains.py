@@ -40,7 +40,8 @@ from .train_members import Member, fields_of
 from .train_ways import Gap, TrainEvent, TrainWay
 
 if TYPE_CHECKING:
-    from .result import Fields, Result
+    from .fields import Fields
+    from .result import Result
     from .train_search import SearchedWay
 
 
