@@ -8,7 +8,7 @@ import pickle
 import gapbeam
 import numpy as np
 import pytest
-from gapbeam.report.text import report_text, to_csv
+from gapbeam.report import report_text, to_csv
 from scenes import at, force, scene, uniform
 
 

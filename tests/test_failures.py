@@ -38,7 +38,7 @@ def ended(capsys, *arguments):
 PLACES = [
     ("gapbeam.scene.reading.read_scene", ["check", "scene.json"]),
     ("gapbeam.results.stepping.solve", ["run", "scene.json"]),
-    ("gapbeam.report.text.json_parts", ["run", "scene.json", "--json", "a.json"]),
+    ("gapbeam.report.json_csv.json_parts", ["run", "scene.json", "--json", "a.json"]),
     ("gapbeam.plots.result.figure", ["run", "scene.json", "--plot", "a.png"]),
     ("gapbeam.report.text.print_report", ["run", "scene.json"]),
     ("gapbeam.scene.schema.scene_schema", ["schema"]),

@@ -205,7 +205,7 @@ def test_a_permanent_set():
 
 def test_what_goes_out_as_data():
     result = gapbeam.solve(snap(at_limit="follow"))
-    data = json.loads(gapbeam.report.text.to_json(result, points=2))
+    data = json.loads(gapbeam.report.to_json(result, points=2))
     assert data["limit"]["kind"] == "limit"
     assert data["limit"]["landing"]["supports"][1]["deflection"] == pytest.approx(3.25, rel=1e-12)
     assert [(s["stable"], round(s["path"], 12)) for s in data["steps"]] == [(True, 0.5), (False, 0.65), (True, 1.3)]

@@ -200,7 +200,7 @@ def test_a_balance_with_two_softening_tips():
     rough = [segment for segment in followed.segments if not segment.exact]
     assert rough
     assert "Known on the polylines of the smooth laws only" in gapbeam.report.text.report_text(followed)
-    data = json.loads(gapbeam.report.text.to_json(followed, points=2))
+    data = json.loads(gapbeam.report.to_json(followed, points=2))
     assert sum("exact" in step for step in data["steps"]) == len(rough)
 
 

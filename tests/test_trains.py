@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from gapbeam.cli import main
 from gapbeam.plots.train_envelope import train_envelope_figure
-from gapbeam.report.text import report_text, to_csv, to_json
+from gapbeam.report import report_text, to_csv, to_json
 from scenes import at, scene, uniform
 
 

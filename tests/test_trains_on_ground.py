@@ -10,7 +10,7 @@ import oracle_foundation
 import pytest
 from gapbeam.cli import main
 from gapbeam.plots.train_envelope import train_envelope_figure
-from gapbeam.report.text import report_text, to_csv, to_json
+from gapbeam.report import report_text, to_csv, to_json
 from test_trains import loads_of
 
 STIFFNESS, MODULUS, FORCE = 100.0, 6.4, 8.0

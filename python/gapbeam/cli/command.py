@@ -232,7 +232,8 @@ def _run(arguments: argparse.Namespace) -> int:
                          "of them in Python (gapbeam.plots.plot_path)")  # fmt: skip
     result = solve(scene)
     solved, lost = result.status == "solved", _lost_position(result)
-    from ..report.text import csv_parts, json_parts, print_report, to_json
+    from ..report.json_csv import csv_parts, json_parts, to_json
+    from ..report.text import print_report
 
     contents: dict[str, bytes | Iterable[str]] = {}
     if "--json" in outputs:
