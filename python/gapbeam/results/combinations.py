@@ -18,8 +18,8 @@ from ..scene.combinations import Plan
 from ..scene.names import labels, names_in_errors
 from ..scene.refusals import refusal
 from ..scene.wording import shown
-from .envelope import at_full_load
 from .following import follow_load, starting_scheme
+from .full_load import at_full_load
 from .result import Result
 from .tables import KINDS, extremes_while_trains_pass
 

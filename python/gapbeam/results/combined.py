@@ -19,7 +19,8 @@ from ..scene.names import label
 from ..scene.structs import Scene
 from ..scene.wording import shown
 from .combinations import Combinations
-from .envelope import Envelope, Source, at_full_load, fields_on_sides
+from .envelope import Envelope, Source
+from .full_load import at_full_load, fields_on_sides
 from .result import Result
 from .train_envelope import TrainEnvelope, places_given
 from .train_members import Member, Standing

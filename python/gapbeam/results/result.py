@@ -349,7 +349,7 @@ class Result(Pickled):
         ValueError
             The beam is not solved, or a place is outside the beam.
         """
-        from .envelope import envelope_of_one
+        from .full_load import envelope_of_one
         from .train_envelope import TrainEnvelope, places_given
 
         places = places_given(self.beam, x)
