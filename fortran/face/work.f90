@@ -8,6 +8,7 @@ module gapbeam_work
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_scene, only: model_type, gapbeam_elastic
     use gapbeam_api, only: prepared_type, result_type, prepare_model
+    use gapbeam_api_objects, only: summarise
     use gapbeam_layers, only: parameters_of_law
     use gapbeam_refusal, only: of_foundations, not_expected
     use gapbeam_arrays, only: model_from_arrays, foundations_from_arrays
@@ -272,14 +273,7 @@ contains
             call no_memory(error)
             return
         end if
-        associate (state => result%state)
-            result%status = state%status
-            result%factor = state%factor
-            result%solves = state%solves
-            result%method = state%method
-            result%indifferent = state%indifferent
-            result%slides = state%slides
-        end associate
+        call summarise(result)
     end subroutine take_result
 
     !> What GBSOLV and GBEVNT begin with: the beam, checks, and the answer to a query. The arguments stand at the places 1, 2, 3,
