@@ -88,7 +88,7 @@ end subroutine gbprlw
 ! or GBPRGL for their lengths with that. States solved before belong to the old loads, and are not taken until solved anew. Where
 ! places of loads change, so may the lengths of states (ask GBSOLV again) and the number of nodes in GBMOTN
 subroutine gbload(nload, iload, aload, work, lwork, iwork, liwork, info)
-    use gapbeam_error, only: error_type, gapbeam_no_memory, gapbeam_bad_input
+    use gapbeam_error, only: error_type, gapbeam_bad_input
     use gapbeam_scene, only: load_type
     use gapbeam_api, only: prepared_type, replace_loads
     use gapbeam_arrays, only: loads_from_arrays
@@ -112,11 +112,8 @@ subroutine gbload(nload, iload, aload, work, lwork, iwork, liwork, info)
     info = 0
     if (nload < 0) info = -1
     if (info /= 0) return
-    call take_beam(work, iwork, beam, error)
-    if (allocated(error)) then
-        info = merge(error%code, -4, error%code == gapbeam_no_memory)
-        return
-    end if
+    call take_beam(work, iwork, 4, beam, info)
+    if (info /= 0) return
     call loads_from_arrays(iload(:, 1:nload), aload(:, 1:nload), loads, error)
     if (.not. allocated(error)) call replace_loads(beam, loads, error)
     if (allocated(error)) then
@@ -129,7 +126,7 @@ end subroutine gbload
 
 ! Solve at one load factor
 subroutine gbsolv(work, iwork, factor, rule, start, state, lstate, istate, listat, info)
-    use gapbeam_error, only: error_type, gapbeam_bad_input, gapbeam_no_memory
+    use gapbeam_error, only: error_type, gapbeam_bad_input
     use gapbeam_api, only: prepared_type, result_type, options_type, solve_beam
     use gapbeam_work, only: begin_result, put_result, take_result
     implicit none
@@ -156,11 +153,8 @@ subroutine gbsolv(work, iwork, factor, rule, start, state, lstate, istate, lista
     call begin_result(work, iwork, factor, rule, state, lstate, istate, listat, beam, info)
     if (start /= 0 .and. start /= 1) info = -5
     if (info /= 0 .or. lstate == -1 .or. listat == -1) return
-    if (start == 1) call take_result(state, istate, result, error)
-    if (allocated(error)) then
-        info = merge(error%code, -6, error%code == gapbeam_no_memory)
-        return
-    end if
+    if (start == 1) call take_result(state, istate, 6, result, info)
+    if (info /= 0) return
     call solve_beam(beam, factor, options_type(rule), result, error)
     if (allocated(error)) then
         info = merge(-1, error%code, error%code == gapbeam_bad_input)
@@ -223,7 +217,6 @@ end subroutine gbevnt
 
 ! What a state says in a few numbers
 subroutine gbinfo(state, istate, factor, ninfo, info)
-    use gapbeam_error, only: error_type, gapbeam_no_memory
     use gapbeam_api, only: result_type
     use gapbeam_work, only: take_result
     implicit none
@@ -237,14 +230,9 @@ subroutine gbinfo(state, istate, factor, ninfo, info)
     ! -1: nothing solved; 15
     integer, intent(out) :: info
     type(result_type) :: result
-    type(error_type), allocatable :: error
 
-    info = 0
-    call take_result(state, istate, result, error)
-    if (allocated(error)) then
-        info = merge(error%code, -1, error%code == gapbeam_no_memory)
-        return
-    end if
+    call take_result(state, istate, 1, result, info)
+    if (info /= 0) return
     factor = result%factor
     ninfo = [result%status, result%solves, result%method, merge(1, 0, result%indifferent), merge(1, 0, result%slides)]
 end subroutine gbinfo

@@ -3,7 +3,7 @@
 ! Solve NCASE cases in one call, eight side by side. In each all loads act, dead or live, every one times a factor of its own. The
 ! digits are those of each case alone
 subroutine gbmany(work, iwork, ncase, factor, nvary, supval, rule, istat, react, icond, defl, bmleft, bmrigt, info)
-    use gapbeam_error, only: error_type, gapbeam_bad_input, gapbeam_no_memory
+    use gapbeam_error, only: error_type, gapbeam_bad_input
     use gapbeam_refusal, only: of_loads, of_supports
     use gapbeam_api, only: prepared_type, count_supports, count_nodes
     use gapbeam_work, only: take_beam
@@ -40,11 +40,8 @@ subroutine gbmany(work, iwork, ncase, factor, nvary, supval, rule, istat, react,
     if (nvary /= 0 .and. nvary /= 1) info = -5
     if (ncase < 0) info = -3
     if (info /= 0) return
-    call take_beam(work, iwork, beam, error)
-    if (allocated(error)) then
-        info = merge(error%code, -1, error%code == gapbeam_no_memory)
-        return
-    end if
+    call take_beam(work, iwork, 1, beam, info)
+    if (info /= 0) return
     loads = size(beam%lowered%model%loads)
     supports = count_supports(beam)
     call solve_shaped(beam, loads, supports, count_nodes(beam), ncase, factor, nvary == 1, supval, rule, istat, react, icond, &

@@ -5,7 +5,7 @@
 ! path: through every event, past limits of the load, with supports that soften, break or keep a set
 subroutine gbhist(work, iwork, nfact, factor, limit, maxst, stfact, istrch, maxev, evfact, ievent, maxlim, lmfact, ilimit, &
                   number, info)
-    use gapbeam_error, only: error_type, gapbeam_bad_input, gapbeam_no_memory
+    use gapbeam_error, only: error_type, gapbeam_bad_input
     use gapbeam_api, only: prepared_type
     use gapbeam_api_history, only: history_type, follow_history
     use gapbeam_work, only: take_beam, check_history
@@ -49,11 +49,8 @@ subroutine gbhist(work, iwork, nfact, factor, limit, maxst, stfact, istrch, maxe
     if (maxev < 0) info = -9
     if (maxlim < 0) info = -12
     if (info /= 0) return
-    call take_beam(work, iwork, beam, error)
-    if (allocated(error)) then
-        info = merge(error%code, -1, error%code == gapbeam_no_memory)
-        return
-    end if
+    call take_beam(work, iwork, 1, beam, info)
+    if (info /= 0) return
     call follow_history(beam, factor(1:nfact), limit, history, error)
     if (allocated(error)) then
         info = merge(-1, error%code, error%code == gapbeam_bad_input)

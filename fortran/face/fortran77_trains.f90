@@ -15,7 +15,7 @@
 ! Prepare another beam: every load times a factor, dead ones too, and supports that have moved further. It has a scheme of its own:
 ! results cannot be added up
 subroutine gbcmbn(work, iwork, factor, settle, cwork, lcwork, icwork, licwrk, info)
-    use gapbeam_error, only: error_type, gapbeam_bad_input, gapbeam_no_memory
+    use gapbeam_error, only: error_type, gapbeam_bad_input
     use gapbeam_api, only: prepared_type
     use gapbeam_api_combinations, only: combine_loads
     use gapbeam_work, only: take_beam, put_beam
@@ -37,12 +37,8 @@ subroutine gbcmbn(work, iwork, factor, settle, cwork, lcwork, icwork, licwrk, in
     type(error_type), allocatable :: error
     integer :: short
 
-    info = 0
-    call take_beam(work, iwork, beam, error)
-    if (allocated(error)) then
-        info = merge(error%code, -1, error%code == gapbeam_no_memory)
-        return
-    end if
+    call take_beam(work, iwork, 1, beam, info)
+    if (info /= 0) return
     if (lcwork == -1 .or. licwrk == -1) then
         cwork(1) = iwork(2)
         icwork(1) = iwork(3)

@@ -3,7 +3,7 @@ module gapbeam_work
     use, intrinsic :: iso_fortran_env, only: int64
     use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input, gapbeam_no_memory, gapbeam_not_prepared
+    use gapbeam_error, only: error_type, no_memory, gapbeam_bad_input, gapbeam_no_memory
     use gapbeam_search, only: rule_block, rule_single
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_scene, only: model_type, gapbeam_elastic
@@ -198,27 +198,25 @@ contains
     end subroutine put_beam
 
     !> Take a prepared beam out of work arrays
-    subroutine take_beam(work, iwork, beam, error)
+    subroutine take_beam(work, iwork, place, beam, info)
         real(wp), intent(in), target :: work(*)
         integer, intent(in), target :: iwork(*)
+        !> Of WORK among the arguments
+        integer, intent(in) :: place
         type(prepared_type), intent(out) :: beam
-        !> Nothing prepared in there, or no memory
-        type(error_type), allocatable, intent(out) :: error
+        !> 0; -place: nothing prepared in there; or gapbeam_no_memory
+        integer, intent(out) :: info
         type(tape_type) :: tape
         integer :: stat
 
-        if (iwork(1) /= beam_mark) then
-            call fatal_error(error, gapbeam_not_prepared, "no beam in the work arrays")
-            return
-        end if
+        info = -place
+        if (iwork(1) /= beam_mark) return
+        info = gapbeam_no_memory
         allocate (beam%lowered, stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) return
         call start(tape, reading, work, int(iwork(2), int64), iwork, int(iwork(3), int64))
         call exchange_beam(tape, beam%lowered)
-        if (tape%stat /= 0) call no_memory(error)
+        if (tape%stat == 0) info = 0
     end subroutine take_beam
 
     !> Put a result into work arrays, and set INFO of GBSOLV, GBEVNT
@@ -249,31 +247,27 @@ contains
     end subroutine put_result
 
     !> Take a result out of work arrays
-    subroutine take_result(work, iwork, result, error)
+    subroutine take_result(work, iwork, place, result, info)
         real(wp), intent(in), target :: work(*)
         integer, intent(in), target :: iwork(*)
+        !> Of the first one among the arguments
+        integer, intent(in) :: place
         type(result_type), intent(out) :: result
-        !> Nothing solved in there, or no memory
-        type(error_type), allocatable, intent(out) :: error
+        !> 0; -place: nothing solved in there; or gapbeam_no_memory
+        integer, intent(out) :: info
         type(tape_type) :: tape
         integer :: stat
 
-        if (iwork(1) /= state_mark) then
-            call fatal_error(error, gapbeam_not_prepared, "no state in the work arrays")
-            return
-        end if
+        info = -place
+        if (iwork(1) /= state_mark) return
+        info = gapbeam_no_memory
         allocate (result%state, stat=stat)
-        if (stat == 0) then
-            call start(tape, reading, work, int(iwork(2), int64), iwork, int(iwork(3), int64))
-            call exchange_state(tape, result%state)
-        else
-            tape%stat = stat
-        end if
-        if (tape%stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) return
+        call start(tape, reading, work, int(iwork(2), int64), iwork, int(iwork(3), int64))
+        call exchange_state(tape, result%state)
+        if (tape%stat /= 0) return
         call summarise(result)
+        info = 0
     end subroutine take_result
 
     !> What GBSOLV and GBEVNT begin with: the beam, checks, and the answer to a query. The arguments stand at the places 1, 2, 3,
@@ -290,12 +284,8 @@ contains
         type(error_type), allocatable :: error
         integer(int64) :: reals, integers
 
-        info = 0
-        call take_beam(work, iwork, beam, error)
-        if (allocated(error)) then
-            info = merge(error%code, -1, error%code == gapbeam_no_memory)
-            return
-        end if
+        call take_beam(work, iwork, 1, beam, info)
+        if (info /= 0) return
         call sizes_of_state(beam, reals, integers, error)
         if (allocated(error)) then
             info = error%code
@@ -343,16 +333,10 @@ contains
         type(result_type), intent(out) :: result
         !> 0, -1, -3, or gapbeam_no_memory
         integer, intent(out) :: info
-        type(error_type), allocatable :: error
 
-        info = 0
-        call take_beam(work, iwork, beam, error)
-        if (allocated(error)) then
-            info = merge(error%code, -1, error%code == gapbeam_no_memory)
-            return
-        end if
-        call take_result(state, istate, result, error)
-        if (allocated(error)) info = merge(error%code, -3, error%code == gapbeam_no_memory)
+        call take_beam(work, iwork, 1, beam, info)
+        if (info /= 0) return
+        call take_result(state, istate, 3, result, info)
     end subroutine take_both
 
     !> A tape over two work arrays, just behind the header

@@ -37,11 +37,8 @@ contains
             if (.not. (axle(1, k) >= 0.0_wp .and. axle(1, k) <= huge(q) .and. abs(axle(2, k)) <= huge(q))) info = -4
         end do
         if (info /= 0) return
-        call take_beam(work, iwork, beam, error)
-        if (allocated(error)) then
-            info = merge(error%code, -1, error%code == gapbeam_no_memory)
-            return
-        end if
+        call take_beam(work, iwork, 1, beam, info)
+        if (info /= 0) return
         allocate (train%distance(naxle), train%force(naxle), stat=stat)
         if (stat /= 0) then
             info = gapbeam_no_memory
