@@ -360,6 +360,23 @@ def test_the_report_says_the_limit_first():
     assert "The next stable state along the path at this load factor (dynamics may lead elsewhere): support 1 branch 3" in text
 
 
+@pytest.mark.parametrize("force", [2.0**-12, 1.0])
+def test_a_reaction_at_a_kink_of_its_law(force):
+    """Statics alone tell it, right of the hinge, and either piece is right: it was said to be zero, or refused."""
+    scene = {
+        "beam": {"spans": [4.0, 4.0, 4.0], "EI": 0.5, "hinges": [4.0]},
+        "supports": [
+            {"node": 0, "rotation": "fixed"},
+            {"node": 2, "side": "above", "gap": -1.0, "law": [[0.5, force], [1.5, 4.0 * force]]},
+            {"x": 6.0, "side": "below"},
+        ],
+        "loads": [{"type": "force", "x": 6.0, "F": -2.0 * force}, {"type": "force", "x": 2.0, "F": -1.0}],
+    }
+    step = gapbeam.solve(scene).steps[-1]
+    assert step.reaction.tolist() == [-1.0 - force, -force, 0.0]
+    assert step.undecided == (1,)
+
+
 @pytest.mark.parametrize("EI", [math.inf, 10.0])
 @pytest.mark.parametrize("count", [2, 5, 40])
 def test_the_limit_of_a_pile_on_plastic_springs(count, EI):

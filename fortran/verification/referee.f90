@@ -298,7 +298,7 @@ contains
         logical, intent(out) :: undecided(:)
         type(sensitivity_type) :: sensitivity
         real(qp), allocatable :: margin(:), rounding(:)
-        real(qp) :: movement, least_way
+        real(qp) :: movement, least_way, least_force
         integer :: k
 
         allocate (margin(size(closed)), rounding(size(closed)))
@@ -311,9 +311,12 @@ contains
             if (.not. is_watched_in(fine%supports, closed, k)) cycle
             if (.not. closed(k) .and. fine%supports(k)%kink == 0) rounding(k) = max(rounding(k), least_way/fine_width)
             ! What is held stiffly beside a soft spring may move it by rounding
-            if (closed(k)) rounding(k) = max(rounding(k), epsilon(1.0_qp)*work%shear_size(fine%supports(k)%node))
+            least_force = epsilon(1.0_qp)*work%shear_size(fine%supports(k)%node)
+            if (closed(k)) rounding(k) = max(rounding(k), least_force)
             undecided(k) = abs(margin(k)) <= first_width*rounding(k)*(epsilon(1.0_wp)/epsilon(1.0_qp))
-            if (closed(k) .and. abs(margin(k)) <= fine_width*rounding(k)) work%reaction(k) = 0.0_qp
+            ! At a kink of a law the margin may be zero, and the reaction is not
+            if (closed(k) .and. abs(work%reaction(k)) <= fine_width*max(work%reaction_error(k), least_force)) &
+                work%reaction(k) = 0.0_qp
         end do
         if (.not. any(undecided) .or. count(undecided) > most_examined) return
         call prepare_sensitivity(fine, factor, work, sensitivity)
