@@ -269,13 +269,25 @@ def test_tables_of_all_kinds_are_one(tmp_path):
 
 
 def test_lines_that_are_no_numbers(tmp_path):
-    (tmp_path / "t.csv").write_text("supports[1].gap,factors.wind\n,1\n0.01,1\nabc,1\n0.01\n,2\n0.02,1\n")
+    (tmp_path / "t.csv").write_bytes(b"supports[1].gap,factors.wind\n,1\n0.01,1\nabc,1\n0.01\n,2\n1\r2,1\n0.02,1\n")
     found = gapbeam.batch(SCENE, tmp_path / "t.csv", tmp_path / "out").read(["status", "reason"])
-    assert found["status"].tolist() == ["refused", "solved", "refused", "refused", "refused", "solved"]
-    assert found["reason"].tolist()[2:5] == [
+    assert found["status"].tolist() == ["refused", "solved", "refused", "refused", "refused", "refused", "solved"]
+    assert found["reason"].tolist()[2:6] == [
         'supports[1].gap: expected a number, got "abc"', "the line has 1 values, and the table 2 columns",
-        'supports[1].gap: expected a number, got ""',
+        'supports[1].gap: expected a number, got ""', "the line holds a carriage return that ends no line",
     ]  # fmt: skip
+    (tmp_path / "t.csv").write_bytes(b"supports[1].gap\r0.01\r0.02\r")
+    with pytest.raises(gapbeam.SceneError, match="first line: holds a carriage return that ends no line; write each case"):
+        take_table(tmp_path / "t.csv")
+
+
+def test_whole_numbers_that_doubles_do_not_hold(tmp_path):
+    pyarrow = pytest.importorskip("pyarrow")
+    from pyarrow import parquet
+
+    parquet.write_table(pyarrow.table({"beam.EI": [2**53 + 1, 1, None]}), tmp_path / "t.parquet")
+    values, _ = take_table(tmp_path / "t.parquet").rows(0, 3).columns()
+    assert np.array_equal(values, [[2.0**53, 1.0, np.nan]], equal_nan=True)
 
 
 def test_cells_over_two_lines_are_refused(tmp_path):

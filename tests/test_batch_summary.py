@@ -130,6 +130,12 @@ def test_summary_of_the_command(done, tmp_path, capsys):
     assert main(["batch", "--plot", "s.svg", "scene.toml", "t.csv", "--out", "x"]) == 2
 
 
+def test_infinite_numbers_have_no_distribution(tmp_path):
+    done = gapbeam.batch(SCENE, {"beam.EI": [1e4, np.inf]}, tmp_path / "out")
+    with pytest.raises(gapbeam.SceneError, match=r'column "beam\.EI" holds infinite numbers, which have no distribution'):
+        done.summary(limits={"beam.EI": 1.0})
+
+
 def test_long_names_stay_whole(tmp_path):
     """In a terminal of 80 characters."""
     long = "anchor block of the riser, north"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import hashlib
 import io
+from contextlib import suppress
 from dataclasses import dataclass
 from itertools import islice
 from math import isinf
@@ -20,6 +21,7 @@ BLOCK = 2**22
 """Bytes that are looked through at a time."""
 EVERY = 1024
 """Every so many lines their place in the file is kept."""
+RETURN = "a carriage return that ends no line"
 
 
 @dataclass(frozen=True)
@@ -52,7 +54,11 @@ class CsvRows:
         values, problems = np.full((len(self.names), self.count), np.nan), {}
         lines = (line for line in text.split("\n") if line.rstrip("\r"))
         for row, line in enumerate(lines):
-            cells = next(csv.reader([line.rstrip("\r")]), [])
+            try:
+                cells = next(csv.reader([line.rstrip("\r")]), [])
+            except csv.Error:
+                problems[row] = f"the line holds {RETURN}"
+                continue
             if len(cells) != len(self.names):
                 problems[row] = f"the line has {len(cells)} values, and the table {len(self.names)} columns"
                 continue
@@ -126,6 +132,8 @@ class CsvTable:
             cells = next(csv.reader([line.decode("utf-8-sig").strip()]), [])
         except UnicodeDecodeError:
             raise SceneError(f"{self._path}, first line", "not a text in UTF-8") from None
+        except csv.Error:
+            raise SceneError(f"{self._path}, first line", f"holds {RETURN}; write each case on a line of its own") from None
         self._refuse_broken_cell(1, line)
         if not cells:
             raise SceneError(f"{self._path}, first line", "expected the names of the columns, such as supports.R-104.gap")
@@ -138,8 +146,10 @@ class CsvTable:
                 self._refuse_broken_cell(number, line)
 
     def _refuse_broken_cell(self, number: int, line: bytes) -> None:
-        if line.count(b'"') % 2 and len(list(csv.reader([line.decode("utf-8-sig", "replace"), "next"]))) == 1:
-            raise SceneError(f"{self._path}, line {number}", "a quoted cell goes on in the next line; write each case on one line")
+        with suppress(csv.Error):  # which is told where the line is read
+            if line.count(b'"') % 2 and len(list(csv.reader([line.decode("utf-8-sig", "replace"), "next"]))) == 1:
+                problem = "a quoted cell goes on in the next line; write each case on one line"
+                raise SceneError(f"{self._path}, line {number}", problem)
 
     def _count(self, place: int, block: bytes) -> tuple[int, bytes]:
         """Count whole lines that are not empty; give the place of the first line that goes on, and its beginning."""

@@ -144,6 +144,8 @@ def summarize(
     counters = {name: _Counter(wanted.get(name, []), [float(share) for share in shares], bins) for name in names}
     for part in batch.chunks(names):
         for name, counter in counters.items():
+            if np.isinf(part[name]).any():
+                raise SceneError(str(batch.path), f"column {shown(name)} holds infinite numbers, which have no distribution")
             counter.range(part[name])
     for counter in counters.values():
         counter.divide()

@@ -176,7 +176,8 @@ class ParquetTable:
 
     def _batches(self, groups: range) -> Iterator[np.ndarray]:
         for part in self._file.iter_batches(65_536, row_groups=list(groups)):
-            yield np.array([column.cast("float64").to_numpy(zero_copy_only=False) for column in part.columns])
+            # Whole numbers beyond 2**53 are rounded, as those of other tables are
+            yield np.array([column.cast("float64", safe=False).to_numpy(zero_copy_only=False) for column in part.columns])
 
 
 @dataclass(frozen=True)
