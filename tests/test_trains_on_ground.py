@@ -252,6 +252,16 @@ def test_what_is_refused():
         train.influence("moment", x=5.0, position=5.0)
 
 
+def test_without_its_trains_a_beam_has_no_unique_answer():
+    """The message is about the beam that stays, of which a train may know nothing."""
+    beam = {"spans": [2.0, 2.0, 4.0], "EI": float("inf")}
+    supports = [{"node": 0}, {"node": 1, "side": "below"}, {"node": 2, "side": "below"}]
+    made = {"beam": beam, "supports": supports, "loads": [{"type": "uniform", "q": 0.1, "to": 4.0}],
+            "trains": [{"axles": [[0.0, 10.0]], "from": 6.0, "to": 7.0}]}  # fmt: skip
+    with pytest.raises(gapbeam.EngineError, match=r"^without its trains a rigid stretch .* finite stiffness$"):
+        gapbeam.solve(made)
+
+
 def test_each_side_of_an_end_of_a_foundation_is_a_place_of_its_own():
     """Pressure jumps where the modulus does; an axle there makes on either side what that side's ground takes."""
     made = rail(supports=[], foundation=[{"k": 60.0, "to": 6.0}, {"k": 15.0, "from": 6.0}],

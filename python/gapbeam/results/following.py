@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..base.errors import SceneError
+from ..base.errors import WITHOUT_ANSWER, EngineError, SceneError, Status
 from ..engine.beam import RULES, Beam
 from ..scene.structs import Scene
 from ..scene.wording import shown
@@ -48,8 +48,22 @@ def follow_load(scene: Scene, beam: Beam, rule: str, closed: np.ndarray) -> Resu
     if beam.ground_layers:
         _refuse_on_ground(scene, beam)
     refuse_trains(scene, beam)
-    if scene.trains:
-        result.trains.pass_all()
+    if not scene.trains:
+        return _follow(result, closed)
+    result.trains.pass_all()
+    try:
+        return _follow(result, closed)
+    except EngineError as error:
+        if error.status not in WITHOUT_ANSWER:
+            raise
+        advice = "; or give it loads that stay, such as its own weight, and have them in every combination"
+        more = advice if error.status == Status.NOT_CONVERGED else ""
+        raise EngineError(f"without its trains {error}{more}", error.status) from None
+
+
+def _follow(result: Result, closed: np.ndarray) -> Result:
+    """Follow the load of a beam without its trains."""
+    scene, beam, rule = result.scene, result.beam, result.rule
     if beam.depends_on_path or scene.analysis.history != [1.0]:
         return _on_path(result)
     if scene.analysis.follow == "events":
