@@ -48,7 +48,7 @@ subroutine gbcase(beam, room, nw, nl, nr, nt, ns, nd, nv, np, nc, vc, pc, factor
     implicit none
     ! The beam, and room of its own (GBROOM)
     integer(8), intent(in) :: beam, room
-    ! One more than there are supports of the engine, loads; cases
+    ! One more than there are supports of the engine; loads, at least 1; cases
     integer, intent(in) :: ns, nd, nc
     ! One more than there are supports of the scene, or 1 where they are those of the scene
     integer, intent(in) :: nv
@@ -60,12 +60,13 @@ subroutine gbcase(beam, room, nw, nl, nr, nt, ns, nd, nv, np, nc, vc, pc, factor
     integer, intent(in) :: nw, nl, nr, nt
     ! Factor of every load in every case; settlement, gap and stiffness of every support, of supports without laws; EI and GA of
     ! every span
-    double precision, intent(in) :: factor(nd, nc), supp(3, nv, vc), span(2, np, pc)
+    double precision, intent(in) :: factor(nd, nc), span(2, np, pc)
+    double precision, intent(in), target :: supp(3, nv, vc)
     integer, intent(in) :: rule
     ! Schemes: start in, working scheme out; of a case that is not solved all open, and its results are not numbers
     integer, intent(inout) :: closed(ns, nc)
     ! In the scene's units: deflections and moments left and right of the nodes, reactions
-    double precision, intent(inout) :: w(nw, nc), ml(nl, nc), mr(nr, nc), react(nt, nc)
+    double precision, intent(inout), target :: w(nw, nc), ml(nl, nc), mr(nr, nc), react(nt, nc)
     ! Where memory ends all STATUS say so
     integer, intent(inout) :: solves(nc), status(nc)
     !f2py threadsafe
@@ -82,12 +83,24 @@ subroutine gbcase(beam, room, nw, nl, nr, nt, ns, nd, nv, np, nc, vc, pc, factor
     !f2py integer, intent(hide), depend(react) :: nt = shape(react, 0)
     type(handle_type), pointer :: handle
     type(case_room_type), pointer :: kept
+    double precision, target :: not_wanted(0, nc), own(3, 0, vc)
+    double precision, pointer, contiguous :: w_wanted(:, :), ml_wanted(:, :), mr_wanted(:, :), reactions(:, :), values(:, :, :)
 
     handle => handle_of(beam)
     kept => room_of(room)
-    call solve_cases(handle%lowered, handle%cases, factor(:nd - 1, :), supp(:, :nv - 1, :), span(:, :np - 1, :), rule, kept, &
-                     closed(:ns - 1, :), w(:merge(nw, 0, nw > 1), :), ml(:merge(nl, 0, nl > 1), :), mr(:merge(nr, 0, nr > 1), :), &
-                     react(:nt - 1, :), solves, status)
+    ! By pointers, as sections would be copied
+    w_wanted => not_wanted
+    ml_wanted => not_wanted
+    mr_wanted => not_wanted
+    reactions => not_wanted
+    values => own
+    if (nw > 1) w_wanted => w
+    if (nl > 1) ml_wanted => ml
+    if (nr > 1) mr_wanted => mr
+    if (nt > 1) reactions => react
+    if (nv > 1) values => supp
+    call solve_cases(handle%lowered, handle%cases, factor, values, span(:, :np - 1, :), rule, kept, closed, w_wanted, ml_wanted, &
+                     mr_wanted, reactions, solves, status)
 end subroutine gbcase
 
 ! Solve one case of a beam with loads, every search from all supports closed, at the least cost of a call
@@ -111,7 +124,7 @@ subroutine gbone(beam, room, nd, nv, nb, factor, supp, rule, block, status)
     !f2py integer, intent(hide), depend(block) :: nb = shape(block, 0)
     type(handle_type), pointer :: handle
     type(case_room_type), pointer :: kept
-    double precision, pointer :: w(:, :), ml(:, :), mr(:, :), react(:, :)
+    double precision, pointer, contiguous :: w(:, :), ml(:, :), mr(:, :), react(:, :)
     integer, allocatable :: closed(:, :)
     double precision :: factors(nd, 1), values(3, nv - 1, 1), spans(2, 0, 1)
     integer :: n, m, at, stat, solves(1), found(1)

@@ -4,10 +4,13 @@ module gapbeam_lane_levels
     use, intrinsic :: iso_c_binding, only: c_int
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes, lane_beam_type, lane_pieces_type, pack_type, piece_pack_type
+    use gapbeam_lane_columns, only: take_columns, take_numbers, give_pack
     use gapbeam_lane_search, only: search_pack, finish_pack
     use gapbeam_lane_extremes, only: extremes_of_pack
     use gapbeam_lane_values, only: fields_of_pack
 #ifdef GAPBEAM_LEVELS
+    use gapbeam_lane_columns_v3, only: take_columns_v3 => take_columns, take_numbers_v3 => take_numbers, give_pack_v3 => give_pack
+    use gapbeam_lane_columns_v4, only: take_columns_v4 => take_columns, take_numbers_v4 => take_numbers, give_pack_v4 => give_pack
     use gapbeam_lane_search_v3, only: search_pack_v3 => search_pack, finish_pack_v3 => finish_pack
     use gapbeam_lane_search_v4, only: search_pack_v4 => search_pack, finish_pack_v4 => finish_pack
     use gapbeam_lane_extremes_v3, only: extremes_of_pack_v3 => extremes_of_pack
@@ -17,7 +20,8 @@ module gapbeam_lane_levels
 #endif
     implicit none
     private
-    public :: best_level, least_level, search_pack_at, finish_pack_at, extremes_of_pack_at, fields_of_pack_at
+    public :: best_level, least_level, take_columns_at, take_numbers_at, give_pack_at, search_pack_at, finish_pack_at, &
+        extremes_of_pack_at, fields_of_pack_at
 
     !> Level of what every processor has
     integer, parameter :: least_level = 2
@@ -45,9 +49,77 @@ contains
 #endif
     end function best_level
 
-    !> search_pack at a level that the processor has
-    subroutine search_pack_at(level, beam, factors, pack, solves, method)
+    !> take_columns at a level that the processor has
+    subroutine take_columns_at(level, rows, cases, columns, numbers, to)
         !> From least_level to best_level()
+        integer, intent(in) :: level
+        !> As for take_columns
+        integer, intent(in) :: rows, cases, numbers(lanes)
+        real(wp), intent(in) :: columns(rows, cases)
+        real(wp), intent(out) :: to(lanes, rows)
+
+        select case (level)
+#ifdef GAPBEAM_LEVELS
+        case (4)
+            call take_columns_v4(rows, cases, columns, numbers, to)
+        case (3)
+            call take_columns_v3(rows, cases, columns, numbers, to)
+#endif
+        case default
+            call take_columns(rows, cases, columns, numbers, to)
+        end select
+    end subroutine take_columns_at
+
+    !> take_numbers likewise
+    subroutine take_numbers_at(level, beam, units, values, numbers, turned, pack, lost)
+        integer, intent(in) :: level
+        !> As for take_numbers
+        type(lane_beam_type), intent(in) :: beam
+        real(wp), intent(in) :: units(2)
+        real(wp), intent(in), contiguous :: values(:, :, :)
+        integer, intent(in) :: numbers(lanes)
+        real(wp), intent(inout), contiguous :: turned(:, :)
+        type(pack_type), intent(inout) :: pack
+        logical, intent(out) :: lost
+
+        select case (level)
+#ifdef GAPBEAM_LEVELS
+        case (4)
+            call take_numbers_v4(beam, units, values, numbers, turned, pack, lost)
+        case (3)
+            call take_numbers_v3(beam, units, values, numbers, turned, pack, lost)
+#endif
+        case default
+            call take_numbers(beam, units, values, numbers, turned, pack, lost)
+        end select
+    end subroutine take_numbers_at
+
+    !> give_pack likewise
+    subroutine give_pack_at(level, beam, units, pack, numbers, turned, closed, w, ml, mr, reaction)
+        integer, intent(in) :: level
+        !> As for give_pack
+        type(lane_beam_type), intent(in) :: beam
+        real(wp), intent(in) :: units(3)
+        type(pack_type), intent(in) :: pack
+        integer, intent(in) :: numbers(lanes)
+        real(wp), intent(inout), contiguous :: turned(:, :)
+        integer, intent(inout), contiguous :: closed(:, :)
+        real(wp), intent(inout), contiguous :: w(:, :), ml(:, :), mr(:, :), reaction(:, :)
+
+        select case (level)
+#ifdef GAPBEAM_LEVELS
+        case (4)
+            call give_pack_v4(beam, units, pack, numbers, turned, closed, w, ml, mr, reaction)
+        case (3)
+            call give_pack_v3(beam, units, pack, numbers, turned, closed, w, ml, mr, reaction)
+#endif
+        case default
+            call give_pack(beam, units, pack, numbers, turned, closed, w, ml, mr, reaction)
+        end select
+    end subroutine give_pack_at
+
+    !> search_pack likewise
+    subroutine search_pack_at(level, beam, factors, pack, solves, method)
         integer, intent(in) :: level
         !> As for search_pack
         type(lane_beam_type), intent(in) :: beam

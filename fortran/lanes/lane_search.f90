@@ -101,7 +101,8 @@ contains
         integer, intent(out) :: solves(lanes)
         !> Which cases are given up
         logical, intent(out) :: lost(lanes)
-        real(wp), dimension(lanes) :: wrong, fewest, idle, moves, alive, looked_at, ease
+        real(wp), dimension(lanes) :: wrong, fewest, idle, moves, alive, looked_at, ease, count
+        real(wp) :: left, longest
         integer :: solve
         logical :: is_easy
 
@@ -112,11 +113,11 @@ contains
         idle(:) = 0.0_wp
         alive(:) = 1.0_wp
         ease(:) = 0.0_wp
-        solves(:) = 0
+        count(:) = 0.0_wp
         do solve = 1, most_solves
             pack%is_solved = is_easy
             if (pack%is_solved) pack%is_solved = ends_hold(pack, n)
-            solves(:) = solves + nint(alive)
+            count(:) = count + alive
             if (pack%is_solved) then
                 call pass_both_ends(beam, n, pack%turn, pack%shear, pack%stiffness, pack%rigid, pack%contact, pack%turn_rest, &
                                     pack%closed, pack%room, pack%w, pack%ml)
@@ -137,16 +138,38 @@ contains
                 where (moves > 0.5_wp) wrong = huge(1.0_wp)
                 is_easy = is_easy .and. .not. any(moves > 0.5_wp)
             end if
-            ! What has settled stays as it is
-            alive(:) = alive*merge(1.0_wp, 0.0_wp, wrong > 0.5_wp)
-            if (.not. sum(alive) > 0.5_wp) exit
-            idle(:) = merge(0.0_wp, idle + 1.0_wp, wrong < fewest)
-            fewest(:) = merge(wrong, fewest, wrong < fewest)
-            if (solve < patience) cycle
-            if (any(alive*idle > patience)) call keep_every_other(n, solve, idle, pack%turn_rest)
+            call note_progress(wrong, alive, fewest, idle, left, longest)
+            if (.not. left > 0.5_wp) exit
+            if (longest > patience) call keep_every_other(n, solve, idle, pack%turn_rest)
         end do
+        solves(:) = nint(count)
         lost = alive > 0.5_wp
     end subroutine search
+
+    !> What has settled stays as it is; how long have the others made no progress
+    pure subroutine note_progress(wrong, alive, fewest, idle, left, longest)
+        !> How many supports are wrong
+        real(wp), intent(in) :: wrong(lanes)
+        !> Which cases have not settled, how many were wrong at the least, and solves without progress since
+        real(wp), intent(inout), dimension(lanes) :: alive, fewest, idle
+        !> How many have not settled, and the most solves without progress of them
+        real(wp), intent(out) :: left, longest
+        real(wp) :: least, waits
+        integer :: l
+
+        left = 0.0_wp
+        longest = 0.0_wp
+        !$omp simd private(least, waits) reduction(+:left) reduction(max:longest)
+        do l = 1, lanes
+            alive(l) = merge(alive(l), 0.0_wp, wrong(l) > 0.5_wp)
+            left = left + alive(l)
+            least = fewest(l)
+            waits = merge(0.0_wp, idle(l) + 1.0_wp, wrong(l) < least)
+            fewest(l) = merge(wrong(l), least, wrong(l) < least)
+            idle(l) = waits
+            longest = max(longest, alive(l)*waits)
+        end do
+    end subroutine note_progress
 
     !> Nodes as the scheme sees them
     pure subroutine apply_scheme(n, shear, stiffness, rigid, contact, closed, held, known, spring, force)

@@ -23,6 +23,8 @@ module gapbeam_lane_types
         real(wp), allocatable :: fixity(:)
         !> Deflection that a moment of 1 makes (find_own_sizes of gapbeam_reactions)
         real(wp), allocatable :: reach(:)
+        !> Node of every support, and its number in the scene
+        integer, allocatable :: place(:), number(:)
         !> 1 below, -1 above, 0 both or none
         real(wp), allocatable :: side(:)
         !> Is there a support, may it change

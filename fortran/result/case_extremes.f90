@@ -7,7 +7,7 @@ module gapbeam_case_extremes
     use gapbeam_link, only: piece_load_type
     use gapbeam_law, only: has_laws
     use gapbeam_scene, only: gapbeam_force, gapbeam_couple, gapbeam_axial_force
-    use gapbeam_units, only: moment_unit, rotation_unit
+    use gapbeam_units, only: moment_unit, rotation_unit, stiffness_unit
     use gapbeam_lowered, only: lowered_type, is_stretch, point_x
     use gapbeam_lower_loads, only: spread_load
     use gapbeam_lower_units, only: load_in_units
@@ -16,8 +16,8 @@ module gapbeam_case_extremes
     use gapbeam_cases, only: case_loads_type
     use gapbeam_combinations, only: combination_type, varied_type, combine, solve_combination
     use gapbeam_lane_types, only: lanes, lane_beam_type, lane_pieces_type, pack_type, piece_pack_type, new_pack, new_piece_pack
-    use gapbeam_lane_levels, only: extremes_of_pack_at, fields_of_pack_at, best_level
-    use gapbeam_lane_cases, only: prepare_lanes, take_supports, take_values, take_starts
+    use gapbeam_lane_levels, only: take_columns_at, take_numbers_at, extremes_of_pack_at, fields_of_pack_at, best_level
+    use gapbeam_lane_cases, only: prepare_lanes, take_supports, take_starts, units_of_supports
     implicit none
     private
     public :: has_lane_extremes, extremes_of_cases
@@ -40,7 +40,7 @@ contains
             yes = .not. (allocated(beam%ground) .or. has_laws(beam%supports) .or. allocated(lowered%axial%point)) &
                 .and. all(beam%first(1:n + 1) - beam%first(0:n) <= 1) &
                 .and. max(abs(units%deflection), abs(units%force), abs(units%length), abs(moment_unit(units)), &
-                          abs(rotation_unit(units))) < most_power
+                          abs(rotation_unit(units)), abs(stiffness_unit(units))) < most_power
         end associate
     end function has_lane_extremes
 
@@ -50,7 +50,7 @@ contains
         type(lowered_type), intent(in) :: lowered
         !> As for solve_in_lanes
         type(case_loads_type), intent(in) :: loads
-        real(wp), intent(in) :: factors(:, :), values(:, :, :)
+        real(wp), intent(in), contiguous :: factors(:, :), values(:, :, :)
         !> rule_block or rule_single of gapbeam_search
         integer, intent(in) :: rule
         !> Solutions: working schemes, deflections and moments as solve_in_lanes gives them
@@ -75,7 +75,7 @@ contains
         type(piece_pack_type) :: along
         type(combination_type) :: combined
         integer, allocatable :: solved(:)
-        real(wp), allocatable :: factors_of(:, :), at_places(:, :, :)
+        real(wp), allocatable :: factors_of(:, :), at_places(:, :, :), turned(:, :)
         real(wp) :: found(lanes, 6, 4), poor(lanes)
         integer :: first, i, k, l, number, stat, at_level, case_of(lanes)
         logical :: lost, made, fits
@@ -88,7 +88,7 @@ contains
         if (made) call new_piece_pack(size(pieces%length), along, made)
         stat = 0
         if (made) allocate (solved(count(status == gapbeam_solved)), factors_of(lanes, size(factors, 1)), &
-                            at_places(lanes, size(piece), 4), stat=stat)
+                            at_places(lanes, size(piece), 4), turned(lanes, 3*size(values, 2)), stat=stat)
         if (.not. made .or. stat /= 0) then
             status(:) = gapbeam_no_memory
             return
@@ -105,16 +105,13 @@ contains
             ! The last lanes repeat the last case
             case_of = [(solved(min(first + l, number)), l=0, lanes - 1)]
             lost = .false.
-            do l = 1, lanes
-                i = case_of(l)
-                factors_of(l, :) = factors(:, i)
-                if (size(values, 2) > 0 .and. .not. lost) call take_values(lowered, values(:, :, i), l, pack, lost)
-                do k = 1, beam%n + 1
-                    pack%w(l, k - 1) = w(k, i)
-                    pack%ml(l, k - 1) = ml(k, i)
-                    pack%mr(l, k - 1) = mr(k, i)
-                end do
-            end do
+            if (size(values, 2) > 0) then
+                call take_numbers_at(at_level, beam, units_of_supports(lowered), values, case_of, turned, pack, lost)
+            end if
+            call take_columns_at(at_level, size(factors, 1), size(factors, 2), factors, case_of, factors_of)
+            call take_columns_at(at_level, beam%n + 1, size(w, 2), w, case_of, pack%w)
+            call take_columns_at(at_level, beam%n + 1, size(ml, 2), ml, case_of, pack%ml)
+            call take_columns_at(at_level, beam%n + 1, size(mr, 2), mr, case_of, pack%mr)
             call take_starts(lowered, closed, case_of, pack)
             pack%w(:, :) = scale(1.0_wp, -lowered%units%deflection)*pack%w
             pack%ml(:, :) = scale(1.0_wp, -moment_unit(lowered%units))*pack%ml

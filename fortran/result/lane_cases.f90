@@ -6,16 +6,16 @@ module gapbeam_lane_cases
     use gapbeam_band, only: plain, hinge
     use gapbeam_model, only: softest
     use gapbeam_law, only: both, is_rigid, has_laws, may_change
-    use gapbeam_units, only: moment_unit
+    use gapbeam_units, only: moment_unit, stiffness_unit
     use gapbeam_lowered, only: lowered_type
-    use gapbeam_lower_units, only: support_in_units
     use gapbeam_cases, only: case_loads_type, split_loads
     use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type, new_pack
-    use gapbeam_lane_levels, only: search_pack_at, finish_pack_at, best_level
+    use gapbeam_lane_levels, only: take_columns_at, take_numbers_at, give_pack_at, search_pack_at, finish_pack_at, &
+        best_level
     implicit none
     private
     public :: lane_room_type, fits_lanes, solve_in_lanes, find_schemes
-    public :: prepare_lanes, take_supports, take_values, take_starts
+    public :: prepare_lanes, take_supports, take_starts, units_of_supports
 
     !> Most links: eight cases of longer beams leave the processor's memory, and a case alone is solved faster by itself. From 300
     !> links on gapbeam_search keeps a solution up to date, so that the last digits of solve_case may be others
@@ -43,6 +43,8 @@ module gapbeam_lane_cases
         type(queue_type) :: queues(ways)
         !> Factor of every load, shape (lanes, nload)
         real(wp), allocatable :: factors(:, :)
+        !> Room for columns that are turned
+        real(wp), allocatable :: turned(:, :)
     end type lane_room_type
 
 contains
@@ -60,24 +62,25 @@ contains
             fits = all(beam%kind == plain .or. beam%kind == hinge) &
                 .and. all(beam%links%faa > 0.0_wp .and. beam%links%fbb > 0.0_wp) &
                 .and. all(beam%first(1:n + 1) - beam%first(0:n) <= 1) .and. .not. has_laws(beam%supports) &
-                .and. max(abs(units%deflection), abs(units%force), abs(moment_unit(units))) < most_power
+                .and. max(abs(units%deflection), abs(units%force), abs(moment_unit(units)), abs(stiffness_unit(units))) &
+                < most_power
         end associate
     end function fits_lanes
 
     !> Solve cases of a beam that fits
     subroutine solve_in_lanes(lowered, loads, factors, values, room, closed, w, ml, mr, reaction, solves, done, level)
         type(lowered_type), intent(in) :: lowered
-        !> By split_loads, and the factor of every load, shape (nload, ncase)
+        !> By split_loads, and the factor of every load, shape (at least nload, ncase)
         type(case_loads_type), intent(in) :: loads
-        real(wp), intent(in) :: factors(:, :)
-        !> Settlement, gap and stiffness of every support of the scene, shape (3, nsupport, ncase); nsupport 0: their own
-        real(wp), intent(in) :: values(:, :, :)
+        real(wp), intent(in), contiguous :: factors(:, :)
+        !> Settlement, gap and stiffness of every support of the scene, shape (3, at least nsupport, ncase); nsupport 0: their own
+        real(wp), intent(in), contiguous :: values(:, :, :)
         !> Empty, or of earlier cases of this beam
         type(lane_room_type), intent(inout) :: room
         !> Starts in, working schemes out, where a case is done; 1 closed, shape (at least size(beam%supports), ncase)
         integer, intent(inout), contiguous :: closed(:, :)
-        !> In the scene's units: deflections, moments left and right of the nodes, shape (n + 1, ncase); reactions. Not wanted:
-        !> without rows
+        !> In the scene's units: deflections, moments left and right of the nodes, shape (n + 1, ncase); reactions, shape (at least
+        !> size(beam%supports), ncase). Not wanted: without rows
         real(wp), intent(inout), contiguous :: w(:, :), ml(:, :), mr(:, :), reaction(:, :)
         integer, intent(inout) :: solves(:)
         !> Which cases are done; the others are as they were
@@ -91,7 +94,7 @@ contains
         done(:) = .false.
         at_level = best_level()
         if (present(level)) at_level = level
-        if (.not. room%made) call make_room(lowered, loads, size(factors, 1), room)
+        if (.not. room%made) call make_room(lowered, loads, size(factors, 1), room)   ! as many in every call for the beam
         if (.not. room%made) return
         if (size(values, 2) > 0) room%with_own_supports = .false.
         if (.not. room%with_own_supports) call take_supports(lowered, room%pack)
@@ -100,12 +103,11 @@ contains
         do first = 1, size(done), lanes
             ! The last lanes repeat the last case
             case_of = [(min(first + l, size(done)), l=0, lanes - 1)]
-            lost = .false.
-            do l = 1, lanes
-                room%factors(l, :) = factors(:, case_of(l))
-                if (size(values, 2) > 0 .and. .not. lost) call take_values(lowered, values(:, :, case_of(l)), l, room%pack, lost)
-            end do
-            if (lost) cycle
+            call take_columns_at(at_level, size(factors, 1), size(factors, 2), factors, case_of, room%factors)
+            if (size(values, 2) > 0) then
+                call take_numbers_at(at_level, room%beam, units_of_supports(lowered), values, case_of, room%turned, room%pack, lost)
+                if (lost) cycle
+            end if
             call take_starts(lowered, closed, case_of, room%pack)
             call search_pack_at(at_level, room%beam, room%factors, room%pack, solves_of, method)
             solves(case_of) = solves_of
@@ -152,18 +154,26 @@ contains
         subroutine finish(way, numbers, schemes)
             integer, intent(in) :: way, numbers(lanes)
             type(pack_type), intent(inout) :: schemes
-            real(wp) :: largest(lanes)
+            real(wp) :: most, largest(lanes)
             logical :: doubtful(lanes)
             integer :: k
 
             call finish_pack_at(at_level, room%beam, way, schemes, doubtful)
-            largest(:) = largest_values(schemes%w, schemes%ml, schemes%mr, schemes%reaction)
+            most = maxval(units)
+            if (most > 1.0_wp) then
+                largest(:) = largest_values(schemes%w, schemes%ml, schemes%mr, schemes%reaction)
+                doubtful = doubtful .or. .not. largest <= huge(1.0_wp)/most
+            end if
+            if (.not. any(doubtful) .and. all(numbers(lanes) /= numbers([1, lanes - 1]))) then   ! no case is repeated
+                done(numbers) = .true.
+                call give_pack_at(at_level, room%beam, units, schemes, numbers, room%turned, closed, w, ml, mr, reaction)
+                return
+            end if
             do k = 1, lanes
                 if (doubtful(k) .or. (k > 1 .and. numbers(k) == numbers(max(k - 1, 1)))) cycle
                 associate (i => numbers(k))
-                    done(i) = largest(k) <= huge(1.0_wp)/max(maxval(units), 1.0_wp)
-                    if (done(i)) call give_case(lowered, units, schemes, k, closed(:, i), w(:, i), ml(:, i), mr(:, i), &
-                                                reaction(:, i))
+                    done(i) = .true.
+                    call give_case(lowered, units, schemes, k, closed(:, i), w(:, i), ml(:, i), mr(:, i), reaction(:, i))
                 end associate
             end do
         end subroutine finish
@@ -224,7 +234,8 @@ contains
         call prepare_lanes(lowered, loads, room%beam, room%made)
         if (room%made) call new_pack(room%beam%n, room%pack, room%made)
         if (.not. room%made) return
-        allocate (room%factors(lanes, number), stat=stat)
+        allocate (room%factors(lanes, number), &
+                  room%turned(lanes, max(3*size(lowered%model%supports) + 3, size(lowered%beam%supports))), stat=stat)
         room%made = stat == 0
     end subroutine make_room
 
@@ -263,6 +274,7 @@ contains
         allocate (lane_beam%length(n), lane_beam%inverse(n), lane_beam%faa(n), lane_beam%fab(n), lane_beam%fbb(n), &
                   lane_beam%sum_a(n), lane_beam%sum_b(n), lane_beam%bending(n), lane_beam%determinant(n), lane_beam%fixity(n), &
                   lane_beam%reach(n), lane_beam%side(0:n), lane_beam%there(0:n), lane_beam%changes(0:n), lane_beam%hinge(0:n), &
+                  lane_beam%place(size(lowered%beam%supports)), lane_beam%number(size(lowered%beam%supports)), &
                   lane_beam%link_load(m), &
                   lane_beam%link(m), lane_beam%to_link(6, m), lane_beam%node_load(k), lane_beam%node(k), &
                   lane_beam%to_node(2, k), stat=stat)
@@ -286,8 +298,10 @@ contains
             to%changes(:) = 0.0_wp
             to%hinge(:) = merge(1.0_wp, 0.0_wp, lowered%beam%kind == hinge)
             to%with_hinges = any(lowered%beam%kind == hinge)
+            to%number(:) = lowered%normal
             do k = 1, size(lowered%beam%supports)
                 associate (s => lowered%beam%supports(k))
+                    to%place(k) = s%node
                     to%there(s%node) = 1.0_wp
                     to%side(s%node) = s%side
                     if (may_change(s)) to%changes(s%node) = 1.0_wp
@@ -331,29 +345,13 @@ contains
         end do
     end subroutine take_supports
 
-    !> The supports as they are in one case, see replace_supports of gapbeam_cases
-    pure subroutine take_values(lowered, values, l, pack, lost)
+    !> What levels and stiffnesses of supports are multiplied by in the engine's units
+    pure function units_of_supports(lowered) result(units)
         type(lowered_type), intent(in) :: lowered
-        real(wp), intent(in) :: values(:, :)
-        integer, intent(in) :: l
-        type(pack_type), intent(inout) :: pack
-        !> Is a number out of range
-        logical, intent(out) :: lost
-        real(wp) :: stiffness
-        integer :: k
-        logical :: lost_stiffness, lost_level
+        real(wp) :: units(2)
 
-        lost = .false.
-        do k = 1, size(lowered%beam%supports)
-            associate (s => lowered%beam%supports(k), given => values(:, lowered%normal(k)), i => lowered%beam%supports(k)%node)
-                call support_in_units(lowered%units, given(3), given(1) + s%side*given(2), stiffness, pack%contact(l, i), &
-                                      lost_stiffness, lost_level)
-                lost = lost .or. lost_stiffness .or. lost_level
-                pack%rigid(l, i) = merge(1.0_wp, 0.0_wp, given(3) > huge(1.0_wp))
-                pack%stiffness(l, i) = merge(0.0_wp, stiffness, given(3) > huge(1.0_wp))
-            end associate
-        end do
-    end subroutine take_values
+        units = scale(1.0_wp, [-lowered%units%deflection, -stiffness_unit(lowered%units)])
+    end function units_of_supports
 
     !> Where the searches of cases start
     pure subroutine take_starts(lowered, closed, case_of, pack)
@@ -406,7 +404,7 @@ contains
         do k = 1, size(mr)
             mr(k) = pack%mr(l, k - 1)*units(2)
         end do
-        do k = 1, size(reaction)
+        do k = 1, merge(size(lowered%beam%supports), 0, size(reaction) > 0)
             reaction(k) = pack%reaction(l, lowered%beam%supports(k)%node)*units(3)
         end do
         do k = 1, size(lowered%beam%supports)

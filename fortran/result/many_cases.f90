@@ -37,21 +37,22 @@ contains
         type(lowered_type), intent(in) :: lowered
         !> By split_loads, and the factor of every load, shape (at least nload, ncase)
         type(case_loads_type), intent(in) :: loads
-        real(wp), intent(in) :: factors(:, :)
-        !> Settlement, gap and stiffness of every support of the scene, none of which has a law, shape (3, nsupport, ncase);
-        !> nsupport 0: their own
-        real(wp), intent(in) :: values(:, :, :)
+        real(wp), intent(in), contiguous :: factors(:, :)
+        !> Settlement, gap and stiffness of every support of the scene, none of which has a law, shape (3, at least nsupport,
+        !> ncase); nsupport 0: their own
+        real(wp), intent(in), contiguous :: values(:, :, :)
         !> EI and GA of every span, shape (2, nspan, ncase); nspan 0: their own
         real(wp), intent(in) :: spans(:, :, :)
         !> rule_block or rule_single of gapbeam_search
         integer, intent(in) :: rule
         !> Empty, or of earlier cases of this beam
         type(case_room_type), intent(inout) :: room
-        !> Starts in, working schemes out, 1 closed; of a case that is not solved all open
-        integer, intent(inout) :: closed(:, :)
-        !> In the scene's units: deflections, moments left and right of the nodes, reactions; without rows: not wanted. Those of a
-        !> case that is not solved are not numbers
-        real(wp), intent(inout) :: w(:, :), ml(:, :), mr(:, :), reaction(:, :)
+        !> Starts in, working schemes out, 1 closed; of a case that is not solved all open; shape (at least size(beam%supports),
+        !> ncase). Contiguous, as gfortran would copy all cases before it handed them on
+        integer, intent(inout), contiguous :: closed(:, :)
+        !> In the scene's units: deflections, moments left and right of the nodes, reactions, as many rows as of the schemes at
+        !> least; without rows: not wanted. Those of a case that is not solved are not numbers
+        real(wp), intent(inout), contiguous :: w(:, :), ml(:, :), mr(:, :), reaction(:, :)
         !> Linear solves; gapbeam_solved, gapbeam_no_equilibrium or the code of an error. Where memory ends all say so
         integer, intent(out) :: solves(:), status(:)
         logical, allocatable :: acting(:), done(:)

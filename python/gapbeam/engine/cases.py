@@ -73,8 +73,7 @@ def solve_cases(
         (not-a-number where a case is not solved), schemes (all open where there is none), solves and status.
     """
     cases, m, n = len(factors), beam.supports, beam.links + 1
-    shares = np.zeros((cases, factors.shape[1] + 1))
-    shares[:, :-1] = factors
+    shares = np.ascontiguousarray(factors) if factors.shape[1] else np.zeros((cases, 1))
     supports, spans = NONE, NONE[:2]
     if varied is not None and varied.supports is not None:
         supports = varied.supports.T

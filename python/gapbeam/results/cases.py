@@ -174,7 +174,7 @@ class Prepared(Pickled):
         """Solve any number of cases, arguments as for `solve`, factors checked."""
         count = len(factors) if factors.ndim == 2 else cases_in(given)
         # What is asked later is about these
-        many = np.array(factors, ndmin=2) if count is None else np.array(np.broadcast_to(factors, (count, factors.shape[-1])))
+        many = np.array(factors if count is None else np.broadcast_to(factors, (count, factors.shape[-1])), order="C", ndmin=2)
         if start is None:
             closed = self._start
         else:
