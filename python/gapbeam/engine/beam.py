@@ -69,6 +69,8 @@ class Beam:
         The engine's.
     rooms : list
         Those of calls for cases that are not in use now.
+    spare : list
+        Memory of results of cases that nobody has any more.
     has_hinges, has_restraints, has_shear, is_one_sided : bool
         What of that there is; a one-sided support that can carry.
     ground_layers : int
@@ -105,6 +107,7 @@ class Beam:
         """Keep a handle, and what it says of itself."""
         self.handle = _engine.Handle(handle)
         self.rooms: list[_engine.Room] = []
+        self.spare: list[np.ndarray] = []
         sizes, units = _engine.gbsize(handle)
         self.pieces, self.links, self.supports, self.scene_supports, self.bars, *has, self.ground_layers = sizes.tolist()
         self.has_hinges, self.has_restraints, self.has_shear, self.is_one_sided, self.has_laws, self.depends_on_path = map(

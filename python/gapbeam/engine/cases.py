@@ -9,6 +9,7 @@ import numpy as np
 from ..base.errors import Status, check_status
 from . import calls as _engine
 from .beam import RULES, Beam
+from .blocks import block_of, new_block
 from .combinations import Varied
 
 WANTED = ("deflection", "moment_left", "moment_right", "reaction")
@@ -79,32 +80,25 @@ def solve_cases(
         supports = varied.supports.T
     if varied is not None and varied.spans is not None:
         spans = varied.spans.T
-    if into is None:
-        widths = (n, n, n, m + 1)
-        made = [np.empty((cases, width if name in want else 1)) for name, width in zip(WANTED, widths, strict=True)]
-        schemes = np.zeros((cases, m + 1), np.int32)
-        solves, status = np.zeros(cases, np.int32), np.zeros(cases, np.int32)
-    else:
-        made = [_whole(into[name]) if name in want else np.empty((cases, 1)) for name in WANTED]
-        schemes, solves, status = _whole(into["closed"]), into["solves"], into["status"]
+    shapes = [((cases, width), float) for name, width in zip(WANTED, (n, n, n, m + 1), strict=True) if name in want]
+    shapes += [((cases, m + 1), np.int32), ((cases,), np.int32), ((cases,), np.int32)]
+    numbers = sum(shape[1] for shape, _ in shapes[:-3])
+    block = new_block(beam.spare, cases * (8 * numbers + 4 * (m + 3))) if into is None else block_of(into["status"])
+    *made, schemes, solves, status = block.arrays(shapes)
+    found = dict(zip((name for name in WANTED if name in want), made, strict=True))
     schemes[:, :m] = closed
     if cases:
         room = _room(beam)
         _engine.gbcase(
-            beam.handle, room, shares.T, supports, spans, RULES[rule], schemes.T, *(values.T for values in made), solves, status
+            beam.handle, room, shares.T, supports, spans, RULES[rule], schemes.T,
+            *(found[name].T if name in found else np.empty((cases, 1)).T for name in WANTED), solves, status,
         )
         beam.rooms.append(room)
         if status[0] == Status.NO_MEMORY:  # then all are
             check_status(Status.NO_MEMORY)
-    found = {name: values for name, values in zip(WANTED, made, strict=True) if name in want}
-    if "reaction" in want:
+    if "reaction" in found:
         found["reaction"] = found["reaction"][:, :m]
     return {**found, "closed": schemes[:, :m], "solves": solves, "status": status}
-
-
-def _whole(values: np.ndarray) -> np.ndarray:
-    """The array of which these are the first columns, or all."""
-    return values if values.base is None else values.base
 
 
 class OneCase:
