@@ -106,7 +106,9 @@ def vary(scene: Scene, columns: Columns, given: Mapping[str, Given], count: int)
                 if supports is None:
                     supports = np.broadcast_to(base_values(columns), (count, len(scene.supports) + 1, 3)).copy()
                 of_key = supports[:, :, OF_SUPPORTS.index(key)]
-                _check_supports(columns, key, _take(key, values, scene.supports, "support", of_key), of_key)
+                which = _take(key, values, scene.supports, "support", of_key)
+                if not (isinstance(values, np.ndarray) and _are_right(columns, key, values)):
+                    _check_supports(columns, key, which, of_key)
             elif key in OF_SPANS:
                 if spans is None:
                     spans = np.broadcast_to(columns.span[[1, 2]].T, (count, columns.span.shape[1], 2)).copy()
@@ -161,6 +163,22 @@ def _check_supports(columns: Columns, key: str, which: list[int], values: np.nda
             _refuse(bad, found, [f"supports[{k}].{key}" for k in which], problem)
 
 
+def _are_right(columns: Columns, key: str, values: np.ndarray) -> bool:
+    """Whether the numbers of all supports, in one array, are right at a glance, as nearly always."""
+    which = _staying(columns)[OF_SUPPORTS.index(key)]
+    with np.errstate(over="ignore", invalid="ignore"):
+        fine = (values > 0.0).all() if key == "stiffness" else isfinite(np.add.reduce(values, None))
+    return bool(fine and (values[..., which] == base_values(columns)[which, OF_SUPPORTS.index(key)]).all())
+
+
+def _staying(columns: Columns) -> tuple[np.ndarray, ...]:
+    """Supports that mostly have the scene's own number in all cases, by `OF_SUPPORTS`."""
+    side, direction = columns.support_codes[:2, :-1]
+    with_law = np.isin(np.arange(1, len(side) + 1), columns.law_supports[:-1])
+    idle = with_law | ~(columns.support[1, :-1] > 0.0)
+    return np.zeros(0, int), np.flatnonzero((side == 0) | (direction != 0)), np.flatnonzero(idle)
+
+
 def _mistakes(columns: Columns, key: str, which: np.ndarray, found: np.ndarray) -> list[tuple[np.ndarray, str]]:
     side, direction = columns.support_codes[:2, which]
     with_law = np.isin(which + 1, columns.law_supports[:-1])
@@ -207,11 +225,7 @@ class SupportArrays:
         self.base = base_values(columns)
         self.shape = (len(self.base) - 1,)
         self.may_vary = may_vary
-        side, direction = columns.support_codes[:2, :-1]
-        without_gap = np.flatnonzero((side == 0) | (direction != 0))
-        idle = np.flatnonzero(~(columns.support[1, :-1] > 0.0))
-        stays = np.zeros(0, int), without_gap, idle
-        self.stays = [(which, self.base[which, j].tolist()) for j, which in enumerate(stays)]
+        self.stays = [(which, self.base[which, j].tolist()) for j, which in enumerate(_staying(columns))]
 
     def take(self, *given: Given) -> np.ndarray | None:
         """Put the numbers of a case together.
