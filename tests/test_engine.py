@@ -24,7 +24,7 @@ def test_no_single_precision(name):
 def test_all_routines_are_there():
     names = (
         "gbmake gbcopy gbdrop gbsize gbnumb gbplac gbsolv gbpath gbhist gbhget gblaws gbcert gbreco gbfind gbvalu gbextr gblarg "
-        "gbshar gbroom gbleav gbcase gbone gbgget gbgval gbgext gbgrun gbgdif gbgpth gbgpte gbcomb gbcext "
+        "gbshar gbroom gbleav gbcase gbone gbgget gbgval gbgext gbgrun gbgdif gbgpth gbgpte gbcomb gbcext gbccrt "
         "gbtmak gbtget gbtdro gbtenv gbtcur gbtinf"
     )
     assert set(ROUTINES) == set(names.split())

@@ -7,7 +7,7 @@ module gapbeam_lane_fields
     use gapbeam_lane_reactions, only: find_shears
     implicit none
     private
-    public :: recover_pack
+    public :: recover_pack, find_rotations
 
     !> Rounding error of a shear, relative to the largest, from which on it has too few digits; worst_digits of gapbeam_referee,
     !> with a digit to spare

@@ -3,11 +3,12 @@
 module gapbeam_lane_levels
     use, intrinsic :: iso_c_binding, only: c_int
     use gapbeam_kinds, only: wp
-    use gapbeam_lane_types, only: lanes, lane_beam_type, lane_pieces_type, pack_type, piece_pack_type
+    use gapbeam_lane_types, only: lanes, lane_beam_type, lane_pieces_type, lane_rounding_type, pack_type, piece_pack_type
     use gapbeam_lane_columns, only: take_columns, take_numbers, give_pack
     use gapbeam_lane_search, only: search_pack, finish_pack
     use gapbeam_lane_extremes, only: extremes_of_pack
     use gapbeam_lane_values, only: fields_of_pack
+    use gapbeam_lane_certificate, only: certify_pack
 #ifdef GAPBEAM_LEVELS
     use gapbeam_lane_columns_v3, only: take_columns_v3 => take_columns, take_numbers_v3 => take_numbers, give_pack_v3 => give_pack
     use gapbeam_lane_columns_v4, only: take_columns_v4 => take_columns, take_numbers_v4 => take_numbers, give_pack_v4 => give_pack
@@ -17,11 +18,13 @@ module gapbeam_lane_levels
     use gapbeam_lane_values_v3, only: fields_of_pack_v3 => fields_of_pack
     use gapbeam_lane_extremes_v4, only: extremes_of_pack_v4 => extremes_of_pack
     use gapbeam_lane_values_v4, only: fields_of_pack_v4 => fields_of_pack
+    use gapbeam_lane_certificate_v3, only: certify_pack_v3 => certify_pack
+    use gapbeam_lane_certificate_v4, only: certify_pack_v4 => certify_pack
 #endif
     implicit none
     private
     public :: best_level, least_level, take_columns_at, take_numbers_at, give_pack_at, search_pack_at, finish_pack_at, &
-        extremes_of_pack_at, fields_of_pack_at
+        extremes_of_pack_at, fields_of_pack_at, certify_pack_at
 
     !> Level of what every processor has
     integer, parameter :: least_level = 2
@@ -210,5 +213,28 @@ contains
             call fields_of_pack(beam, pieces, factors, pack, fields, piece, distance, values, poor)
         end select
     end subroutine fields_of_pack_at
+
+    !> certify_pack likewise
+    subroutine certify_pack_at(level, beam, rounding, factors, pack, moves, found, poor)
+        integer, intent(in) :: level
+        !> As for certify_pack
+        type(lane_beam_type), intent(in) :: beam
+        type(lane_rounding_type), intent(in) :: rounding
+        real(wp), intent(in), contiguous :: factors(:, :)
+        type(pack_type), intent(inout) :: pack
+        real(wp), intent(inout), contiguous :: moves(:, 0:, :)
+        real(wp), intent(out) :: found(lanes, 8), poor(lanes)
+
+        select case (level)
+#ifdef GAPBEAM_LEVELS
+        case (4)
+            call certify_pack_v4(beam, rounding, factors, pack, moves, found, poor)
+        case (3)
+            call certify_pack_v3(beam, rounding, factors, pack, moves, found, poor)
+#endif
+        case default
+            call certify_pack(beam, rounding, factors, pack, moves, found, poor)
+        end select
+    end subroutine certify_pack_at
 
 end module gapbeam_lane_levels

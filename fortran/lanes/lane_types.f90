@@ -5,6 +5,7 @@ module gapbeam_lane_types
     implicit none
     private
     public :: lanes, lane_beam_type, pack_type, new_pack, lane_pieces_type, piece_pack_type, new_piece_pack
+    public :: lane_rounding_type
     public :: by_both_ends, by_three_moments, by_chain
 
     !> Cases side by side, whatever the processor's registers hold, so that results do not depend on it
@@ -80,6 +81,17 @@ module gapbeam_lane_types
         integer, allocatable :: load(:), piece(:)
         real(wp), allocatable :: to_piece(:, :)
     end type lane_pieces_type
+
+    !> What is rounded in all cases
+    type :: lane_rounding_type
+        !> Of the loads, relative to their sizes (load_size, turn_size)
+        real(wp) :: of_loads = 0.0_wp
+        !> Of the flexibilities of links, of their lengths relative to these, and of fields where pieces begin inside them relative
+        !> to the sizes of their terms, shape (n)
+        real(wp), allocatable, dimension(:) :: flexibility, length, of_fields
+        !> Deflection by shear that a shear of 1 makes along a link, shape (n)
+        real(wp), allocatable :: slip(:)
+    end type lane_rounding_type
 
     !> Pieces of eight cases
     type :: piece_pack_type

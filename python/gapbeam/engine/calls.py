@@ -213,6 +213,7 @@ gbextr = interruptible(_engine.gbextr, lambda beam, factor, starts, *_: starts.s
 gblarg = interruptible(_engine.gblarg, lambda beam, factor, starts, *_: starts.shape[1])
 gbcomb = interruptible(_engine.gbcomb)
 gbcext = interruptible(_engine.gbcext, lambda beam, factors, *_: SHORT * (factors.shape[1] > FEW_CASES))
+gbccrt = interruptible(_engine.gbccrt)
 gbshar = interruptible(lambda beam, _: _engine.gbshar(beam), lambda beam, count: count)
 gbtmak = interruptible(_engine.gbtmak)
 gbtget = _engine.gbtget

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from ..base.errors import Status
 from ..base.records import Record
 from ..engine.beam import FIELDS, Beam
+from ..engine.case_certificates import BOUNDED, case_certificates, relative_certificate
 from ..engine.case_extremes import HERE, case_extremes, case_fields
 from ..engine.cases import ALWAYS, WANTED, OneCase, solve_cases, split_loads
 from ..engine.combinations import Combined, Varied, all_combinations
@@ -288,6 +289,67 @@ class Cases:
             name: {kind: (values[:, row].reshape(shape), x[:, row].reshape(shape)) for row, kind in enumerate(("max", "min"))}
             for name, (values, x) in there.items()
         }
+
+    def error_bounds(self) -> dict[str, np.ndarray]:
+        """Largest errors of deflections, rotations, moments and shears anywhere along the beam, and of the reactions.
+
+        Computed when asked for, as `Step.error_bounds` of each case (see docs/cases.md for how near to those).
+
+        Returns
+        -------
+        dict
+            By kind an array with an entry for every case, in the scene's units; not-a-number where a case is not solved, and for
+            deflections and rotations where the beam is free to move.
+
+        Examples
+        --------
+        >>> import gapbeam
+        >>> beam = gapbeam.prepare({"beam": {"spans": [4.0, 4.0], "EI": 1.0}, "supports": [{"node": i} for i in range(3)],
+        ...                         "loads": [{"type": "uniform", "q": 1.0}]})
+        >>> bool(beam.solve([[1.0], [3.0]]).error_bounds()["reaction"].max() < 1e-13)
+        True
+        """
+        found, _ = self._certified()
+        return {kind: found[kind].reshape(self._shape) for kind in BOUNDED}
+
+    def certificate(self) -> dict[str, np.ndarray]:
+        """How good every case is: what `Step.certificate` has, by name an array with an entry for every case.
+
+        Returns
+        -------
+        dict
+            Relative residuals, and bounds of the errors relative to the largest value of each kind; not-a-number where a case is
+            not solved or has no such bound.
+
+        Examples
+        --------
+        >>> import gapbeam
+        >>> beam = gapbeam.prepare({"beam": {"spans": [4.0, 4.0], "EI": 1.0}, "supports": [{"node": i} for i in range(3)],
+        ...                         "loads": [{"type": "uniform", "q": 1.0}]})
+        >>> bool(beam.solve([[1.0], [3.0]]).certificate()["error_bound"].max() < 1e-13)
+        True
+        """
+        found, reaction = self._certified()
+        extremes = self.extremes_of(BOUNDED[:-1])
+        largest = {kind: np.maximum(*(np.abs(values).ravel() for values, _ in pair.values())) for kind, pair in extremes.items()}
+        largest["reaction"] = np.abs(reaction).max(axis=1, initial=0.0)
+        return {name: values.reshape(self._shape) for name, values in relative_certificate(found, largest).items()}
+
+    def _certified(self) -> tuple[dict[str, np.ndarray], np.ndarray]:
+        """Residuals and bounds, and the reactions to which they belong."""
+        asked, states = self._asked, self._asked.states
+        status = np.atleast_1d(self.status)
+        about = asked.beam, asked.rule, asked.factors, asked.closed
+        if asked.beam.ground_layers or states is not None:
+            return case_certificates(*about, status, asked.varied, None), asked.solve().at_supports[:, 0]
+        whole = set(WANTED) <= set(self._names) and not asked.beam.has_laws
+        if whole and np.atleast_2d(self.reaction).shape[1] == asked.beam.supports:
+            found = {name: np.atleast_2d(getattr(self, name)) for name in WANTED}
+        else:
+            found = solve_cases(*about, asked.varied)
+            status = np.where(status == Status.SOLVED, found["status"], status)
+        solutions = tuple(found[name] for name in WANTED)
+        return case_certificates(*about, status, asked.varied, solutions), found["reaction"]
 
 
 def cases_of(arrays: dict[str, np.ndarray] | None, question: Asked | None, single: bool) -> Cases:

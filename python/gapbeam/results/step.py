@@ -14,6 +14,7 @@ import numpy as np
 from ..base.records import Pickled, read_only
 from ..engine.arrays import Solution
 from ..engine.beam import SOLVED, Beam
+from ..engine.case_certificates import BOUNDED
 from ..engine.units import bound_in_scene, scaled
 from .ground import Contact, FreeSpan, Run, find_contact, find_free_spans, find_runs
 from .kinks import piece_of
@@ -21,8 +22,6 @@ from .smooth import solve_on_curves, with_openings
 
 PLASTIC = 1
 """Unloading, as in gapbeam_scene."""
-BOUNDED = ("deflection", "rotation", "moment", "shear", "reaction")
-"""What has error bounds."""
 
 
 class Known(NamedTuple):

@@ -1,0 +1,390 @@
+!> How good the solutions of eight cases are: gapbeam_certificate side by side. Where that compares with a solution in quadruple
+!> precision and estimates movements, residuals in twice the working precision are taken here as one more thing by which the rows
+!> are off, and all movements are bounds (gapbeam_lane_movements). Both are bounds of the same errors, none always the smaller.
+module gapbeam_lane_certificate
+    use gapbeam_kinds, only: wp
+    use gapbeam_lane_types, only: lanes, lane_beam_type, lane_rounding_type, pack_type
+    use gapbeam_lane_search, only: add_loads, apply_scheme
+    use gapbeam_lane_residual, only: find_rest
+    use gapbeam_lane_reactions, only: complete
+    use gapbeam_lane_fields, only: find_rotations
+    use gapbeam_lane_movements, only: find_movements, kinds_of_movement, of_deflection, of_moment, of_shear, of_rotation
+    implicit none
+    private
+    public :: certify_pack
+
+    !> As safety and roundings of gapbeam_certificate
+    real(wp), parameter :: unit = 4*epsilon(1.0_wp)
+    !> What is off is of first order only, so long as bounds are smaller shares of what they bound
+    real(wp), parameter :: largest_share = 2.0_wp**(-20), second_order = 1 + 2.0_wp**(-16)
+    !> Numbers beyond these leave too little room for their squares
+    real(wp), parameter :: greatest = 1e70_wp, smallest = 1e-70_wp
+
+contains
+
+    !> Certify eight solved cases
+    pure subroutine certify_pack(beam, rounding, factors, pack, moves, found, poor)
+        !> What the cases have in common
+        type(lane_beam_type), intent(in) :: beam
+        type(lane_rounding_type), intent(in) :: rounding
+        !> Factor of every load, shape (lanes, nload)
+        real(wp), intent(in), contiguous :: factors(:, :)
+        !> Supports, working schemes and solutions with reactions
+        type(pack_type), intent(inout) :: pack
+        !> Room, shape (lanes, 0:n, kinds_of_movement)
+        real(wp), intent(inout), contiguous :: moves(:, 0:, :)
+        !> Relative residuals of compatibility and equilibrium; largest errors of deflections of the nodes and of reactions; of
+        !> deflections, rotations, moments, shears along the beam
+        real(wp), intent(out) :: found(lanes, 8)
+        !> 1 for cases that are not certified here: an end that no support holds, a sign within its rounding error, few digits
+        real(wp), intent(out) :: poor(lanes)
+        integer :: n
+
+        n = beam%n
+        call add_loads(beam, n, factors, pack%left, pack%right, pack%shear, pack%couple, pack%load_size, pack%turn_size, &
+                       pack%room, pack%force)
+        call apply_scheme(n, pack%shear, pack%stiffness, pack%rigid, pack%contact, pack%closed, pack%held, pack%known, &
+                          pack%spring, pack%force)
+        pack%nothing(:, :) = pack%reaction
+        call complete(beam, n, pack, poor)
+        call find_rest(beam, n, pack%left, pack%right, pack%force, pack%held, pack%known, pack%spring, pack%w, pack%ml, pack%mr, &
+                       pack%turn_rest, pack%force_rest, pack%known_rest)
+        call look_at_ends(n, pack%held, pack%spring, pack%known_rest, poor)
+        call find_sizes(beam, n, rounding, pack%left, pack%right, pack%force, pack%couple, pack%load_size, pack%turn_size, &
+                        pack%held, pack%spring, pack%w, pack%ml, pack%mr, pack%turn_rest, pack%force_rest, pack%dl, pack%dr, &
+                        found)
+        call look_at_range(n, pack%dl, pack%dr, poor)
+        call find_movements(beam, n, pack%held, pack%spring, pack%dl, pack%dr, moves)
+        call find_rotations(beam, n, pack%left, pack%right, pack%w, pack%ml, pack%mr, pack%room)
+        call bound_links(beam, n, rounding, pack%right, pack%turn_size, pack%held, pack%spring, pack%force, pack%w, &
+                         pack%ml, pack%mr, pack%couple, pack%room, moves)
+        call bound_nodes(beam, n, rounding, pack, moves, found, poor)
+        call bound_fields(beam, n, rounding, pack%load_size, pack%turn_size, pack%w, pack%ml, pack%mr, pack%room, moves, found)
+    end subroutine certify_pack
+
+    !> Cases with an end that nothing holds, or with a known deflection that is another
+    pure subroutine look_at_ends(n, held, spring, known_rest, poor)
+        integer, intent(in) :: n
+        real(wp), intent(in), dimension(lanes, 0:n) :: held, spring, known_rest
+        real(wp), intent(inout) :: poor(lanes)
+        integer :: i, l
+
+        do i = 0, n
+            !$omp simd
+            do l = 1, lanes
+                poor(l) = poor(l) + merge(1.0_wp, 0.0_wp, abs(known_rest(l, i)) > 0.0_wp)
+            end do
+        end do
+        do l = 1, lanes
+            if (.not. min(held(l, 0) + spring(l, 0), held(l, n) + spring(l, n)) > 0.0_wp) poor(l) = poor(l) + 1.0_wp
+        end do
+    end subroutine look_at_ends
+
+    !> Relative residuals, and by how much the rows are off: residuals, rounding of coefficients, last digits of the data
+    pure subroutine find_sizes(beam, n, rounding, left, right, force, couple, load_size, turn_size, held, spring, w, ml, mr, &
+                               turn_rest, force_rest, turn_off, force_off, found)
+        type(lane_beam_type), intent(in) :: beam
+        integer, intent(in) :: n
+        type(lane_rounding_type), intent(in) :: rounding
+        real(wp), intent(in), dimension(lanes, 0:n) :: left, right, force, couple, load_size, turn_size, held, spring, w, ml, mr
+        real(wp), intent(in), dimension(lanes, 0:n) :: turn_rest, force_rest
+        !> Of compatibility, 0 at the ends; of equilibrium, at nodes that are held what it does to the reaction there
+        real(wp), intent(out), dimension(lanes, 0:n) :: turn_off, force_off
+        real(wp), intent(out) :: found(lanes, 8)
+        real(wp) :: h, faa, fab, fbb, soft, long, slope, step, a, b, size_of_turn, size_of_shear, both, of_load, couple_size
+        real(wp), dimension(lanes) :: largest_turn, largest_shear, turn, shear
+        integer :: i, k, l
+
+        turn_off(:, :) = 0.0_wp
+        force_off(:, :) = 0.0_wp
+        largest_turn(:) = tiny(1.0_wp)
+        largest_shear(:) = tiny(1.0_wp)
+        turn(:) = 0.0_wp
+        shear(:) = 0.0_wp
+        of_load = larger(unit, epsilon(1.0_wp) + rounding%of_loads)
+        ! Sums of the absolute values of the terms, first without those of loads
+        do k = 1, n
+            h = beam%inverse(k)
+            faa = beam%faa(k)
+            fab = beam%fab(k)
+            fbb = beam%fbb(k)
+            !$omp simd private(a, b, slope, step)
+            do l = 1, lanes
+                a = abs(mr(l, k - 1))
+                b = abs(ml(l, k))
+                slope = h*(abs(w(l, k) - w(l, k - 1)) + epsilon(1.0_wp)*(abs(w(l, k)) + abs(w(l, k - 1))) &
+                           + (held(l, k - 1)*abs(w(l, k - 1)) + held(l, k)*abs(w(l, k)))/8)
+                step = h*(abs(ml(l, k) - mr(l, k - 1)) + epsilon(1.0_wp)*(a + b))
+                turn_off(l, k - 1) = turn_off(l, k - 1) + (slope + faa*a + abs(fab)*b)
+                turn_off(l, k) = turn_off(l, k) + (slope + abs(fab)*a + fbb*b)
+                force_off(l, k - 1) = force_off(l, k - 1) + step
+                force_off(l, k) = force_off(l, k) + step
+                largest_turn(l) = larger(largest_turn(l), h*(abs(w(l, k)) + abs(w(l, k - 1))))
+                largest_shear(l) = larger(largest_shear(l), h*(a + b))
+            end do
+        end do
+        do i = 0, n
+            both = merge(1.0_wp, 0.0_wp, i > 0 .and. i < n)
+            !$omp simd private(size_of_turn, size_of_shear)
+            do l = 1, lanes
+                size_of_turn = both*(turn_off(l, i) + abs(left(l, i)) + abs(right(l, i)))
+                size_of_shear = force_off(l, i) + abs(force(l, i)) + abs(spring(l, i)*w(l, i))
+                largest_turn(l) = larger(largest_turn(l), size_of_turn)
+                largest_shear(l) = larger(largest_shear(l), size_of_shear)
+                turn(l) = larger(turn(l), abs(turn_rest(l, i)))
+                shear(l) = larger(shear(l), abs(force_rest(l, i)))
+                turn_off(l, i) = unit*size_of_turn + abs(turn_rest(l, i))
+                force_off(l, i) = unit*size_of_shear + of_load*load_size(l, i) + abs(force_rest(l, i))
+            end do
+        end do
+        found(:, 1) = turn/largest_turn
+        found(:, 2) = shear/largest_shear
+        do k = 1, n
+            h = beam%inverse(k)
+            soft = rounding%flexibility(k)
+            long = rounding%length(k)*h
+            !$omp simd private(a, b)
+            do l = 1, lanes
+                a = of_load*turn_size(l, k) + soft*(abs(mr(l, k - 1)) + abs(ml(l, k))) + long*abs(w(l, k) - w(l, k - 1))
+                b = long*abs(ml(l, k) - mr(l, k - 1))
+                turn_off(l, k - 1) = turn_off(l, k - 1) + a
+                turn_off(l, k) = turn_off(l, k) + a
+                force_off(l, k - 1) = force_off(l, k - 1) + b
+                force_off(l, k) = force_off(l, k) + b
+            end do
+        end do
+        if (beam%with_couples) then
+            ! Couples are steps of the moment: what one side of a step does to its link is as uncertain
+            do i = 0, n
+                k = min(i + 1, n)
+                faa = merge(beam%faa(k), abs(beam%fab(k)), i < n)
+                fbb = merge(abs(beam%fab(k)), beam%fbb(k), i < n)
+                h = beam%inverse(k)
+                !$omp simd private(couple_size)
+                do l = 1, lanes
+                    couple_size = of_load*abs(couple(l, i))
+                    turn_off(l, k - 1) = turn_off(l, k - 1) + faa*couple_size
+                    turn_off(l, k) = turn_off(l, k) + fbb*couple_size
+                    force_off(l, k - 1) = force_off(l, k - 1) + h*couple_size
+                    force_off(l, k) = force_off(l, k) + h*couple_size
+                end do
+            end do
+        end if
+        turn_off(:, 0) = 0.0_wp
+        turn_off(:, n) = 0.0_wp
+        turn_off(:, :) = second_order*turn_off
+        force_off(:, :) = second_order*force_off
+    end subroutine find_sizes
+
+    !> Numbers too far from 1 for their squares
+    pure subroutine look_at_range(n, turn_off, force_off, poor)
+        integer, intent(in) :: n
+        real(wp), intent(inout), dimension(lanes, 0:n) :: turn_off, force_off
+        real(wp), intent(inout) :: poor(lanes)
+        real(wp), dimension(lanes) :: turn, force
+        real(wp) :: keep
+        integer :: i, l
+
+        turn(:) = 0.0_wp
+        force(:) = 0.0_wp
+        do i = 0, n
+            !$omp simd
+            do l = 1, lanes
+                turn(l) = turn(l) + turn_off(l, i)
+                force(l) = force(l) + force_off(l, i)
+            end do
+        end do
+        do l = 1, lanes
+            keep = merge(1.0_wp, 0.0_wp, min(turn(l), force(l)) >= smallest .and. max(turn(l), force(l)) <= greatest)
+            if (keep > 0.5_wp) cycle
+            poor(l) = poor(l) + 1.0_wp
+            turn_off(l, :) = 0.0_wp
+            force_off(l, :) = 0.0_wp
+        end do
+    end subroutine look_at_range
+
+    !> Errors of the shears and rotations of links as they are found for fields: by their own ends, or through a neighbour
+    pure subroutine bound_links(beam, n, rounding, right, turn_size, held, spring, force, w, ml, mr, couple, room, moves)
+        type(lane_beam_type), intent(in) :: beam
+        integer, intent(in) :: n
+        type(lane_rounding_type), intent(in) :: rounding
+        real(wp), intent(in), dimension(lanes, 0:n) :: right, turn_size, held, spring, force, w, ml, mr, couple
+        !> Rotations (1), how much they change along the link (2), shears (5) in; out how far shears (7) and rotations (8) are from
+        !> those that the ends of the link make out
+        real(wp), intent(inout) :: room(lanes, 0:n, 10)
+        !> Movements of the exact fields in, errors out
+        real(wp), intent(inout) :: moves(lanes, 0:n, kinds_of_movement)
+        real(wp) :: h, faa, fab, bending, sum_a, sum_b, soft, long, of_load, own, size, other, e, v, by_spring, far
+        integer :: i, k, l, from, to, way
+
+        of_load = larger(unit, epsilon(1.0_wp) + rounding%of_loads)
+        if (beam%with_couples) moves(:, :, of_moment) = moves(:, :, of_moment) + of_load*abs(couple)
+        do k = 1, n
+            h = beam%inverse(k)
+            faa = beam%faa(k)
+            fab = beam%fab(k)
+            soft = rounding%flexibility(k)
+            long = h*rounding%length(k)
+            !$omp simd private(own, size)
+            do l = 1, lanes
+                own = (ml(l, k) - mr(l, k - 1))*h
+                room(l, k, 7) = abs(room(l, k, 5) - own) + 2*epsilon(1.0_wp)*abs(own) + long*abs(ml(l, k) - mr(l, k - 1))
+                moves(l, k, of_shear) = moves(l, k, of_shear) + room(l, k, 7) &
+                    + of_load*h*(abs(couple(l, k - 1)) + abs(couple(l, k)))
+                own = (w(l, k) - w(l, k - 1))*h + (faa*mr(l, k - 1) + fab*ml(l, k)) + right(l, k - 1)
+                size = abs(w(l, k) - w(l, k - 1))*h + (faa*abs(mr(l, k - 1)) + abs(fab*ml(l, k))) + abs(right(l, k - 1))
+                room(l, k, 8) = abs(room(l, k, 1) - own) + 3*epsilon(1.0_wp)*size &
+                    + soft*(abs(mr(l, k - 1)) + abs(ml(l, k))) + long*abs(w(l, k) - w(l, k - 1))
+                moves(l, k, of_rotation) = moves(l, k, of_rotation) + room(l, k, 8) + of_load*turn_size(l, k)
+            end do
+        end do
+        do way = 1, -1, -2
+            from = merge(1, n, way == 1)
+            to = merge(n - 1, 2, way == 1)
+            do i = from, to, way
+                ! From link i to link k, across the node between them
+                k = i + way
+                associate (j => merge(i, k, way == 1))
+                    sum_a = beam%sum_a(j)
+                    sum_b = beam%sum_b(j)
+                    far = rounding%flexibility(j)
+                    bending = beam%bending(j)
+                    !$omp simd private(other, e, v, by_spring, size)
+                    do l = 1, lanes
+                        by_spring = spring(l, j)*w(l, j)
+                        v = room(l, j + 1, 5) - room(l, j, 5) - (by_spring - force(l, j))
+                        other = moves(l, i, of_shear) + abs(v) + spring(l, j)*moves(l, j, of_deflection) &
+                            + of_load*(abs(by_spring) + abs(force(l, j)) + abs(room(l, j, 5)) + abs(room(l, j + 1, 5)))
+                        e = moves(l, k, of_shear)
+                        moves(l, k, of_shear) = merge(other, e, other < e .and. held(l, j) < 0.5_wp)
+                        v = room(l, j + 1, 1) - room(l, j, 1) + room(l, j, 2)
+                        size = abs(mr(l, j - 1)) + abs(ml(l, j))
+                        other = moves(l, i, of_rotation) + abs(v) &
+                            + sum_a*moves(l, j - 1, of_moment) + sum_b*moves(l, j, of_moment) &
+                            + unit*(abs(room(l, j + 1, 1)) + abs(room(l, j, 1)) + bending*size) + 2*far*size &
+                            + 2*of_load*turn_size(l, j)
+                        e = moves(l, k, of_rotation)
+                        moves(l, k, of_rotation) = merge(other, e, other < e)
+                    end do
+                end associate
+            end do
+        end do
+    end subroutine bound_links
+
+    !> Errors of deflections at the nodes, and of reactions
+    pure subroutine bound_nodes(beam, n, rounding, pack, moves, found, poor)
+        type(lane_beam_type), intent(in) :: beam
+        integer, intent(in) :: n
+        type(lane_rounding_type), intent(in) :: rounding
+        type(pack_type), intent(in) :: pack
+        real(wp), intent(in) :: moves(lanes, 0:n, kinds_of_movement)
+        real(wp), intent(inout) :: found(lanes, 8), poor(lanes)
+        real(wp) :: of_load, there, left, right, left_error, right_error, own, error, other
+        real(wp), dimension(lanes) :: deflection, moment, reaction, straight, largest_w, largest_m, largest_r
+        integer :: i, l, after
+
+        deflection(:) = 0.0_wp
+        moment(:) = 0.0_wp
+        reaction(:) = 0.0_wp
+        straight(:) = 0.0_wp
+        largest_w(:) = 0.0_wp
+        largest_m(:) = 0.0_wp
+        largest_r(:) = 0.0_wp
+        of_load = larger(unit, epsilon(1.0_wp) + rounding%of_loads)
+        do i = 0, n
+            there = beam%there(i)
+            after = min(i + 1, n)
+            !$omp simd private(left, right, left_error, right_error, own, error, other)
+            do l = 1, lanes
+                left = merge(pack%room(l, i, 5), 0.0_wp, i > 0)
+                left_error = merge(moves(l, i, of_shear), 0.0_wp, i > 0)
+                right = merge(pack%room(l, after, 5), 0.0_wp, i < n)
+                right_error = merge(moves(l, after, of_shear), 0.0_wp, i < n)
+                own = pack%shear(l, i) - (left - right)
+                error = left_error + right_error + abs(pack%nothing(l, i) - own) + of_load*pack%load_size(l, i) &
+                    + unit*(abs(pack%shear(l, i)) + abs(left) + abs(right))
+                own = pack%stiffness(l, i)*(pack%w(l, i) - pack%contact(l, i))
+                other = pack%stiffness(l, i)*moves(l, i, of_deflection) + abs(pack%nothing(l, i) - own) &
+                    + unit*pack%stiffness(l, i)*(abs(pack%w(l, i)) + abs(pack%contact(l, i)))
+                other = merge(other, error, other < error .and. pack%rigid(l, i) < 0.5_wp)
+                reaction(l) = larger(reaction(l), there*pack%closed(l, i)*other)
+                straight(l) = larger(straight(l), there*pack%held(l, i)*pack%dr(l, i))
+                deflection(l) = larger(deflection(l), moves(l, i, of_deflection))
+                moment(l) = larger(moment(l), moves(l, i, of_moment))
+                largest_w(l) = larger(largest_w(l), abs(pack%w(l, i)))
+                largest_m(l) = larger(largest_m(l), larger(abs(pack%ml(l, i)), abs(pack%mr(l, i))))
+                largest_r(l) = larger(largest_r(l), there*abs(pack%nothing(l, i)))
+            end do
+        end do
+        do l = 1, lanes
+            found(l, 3) = deflection(l) + epsilon(1.0_wp)*largest_w(l)
+            ! What loads and shears may be off where the deflection is known goes straight into the reaction
+            reaction(l) = reaction(l) + straight(l)
+            found(l, 4) = reaction(l) + epsilon(1.0_wp)*largest_r(l)
+            found(l, 7) = moment(l)
+            if (.not. (deflection(l) <= largest_share*largest_w(l) .and. moment(l) <= largest_share*largest_m(l) &
+                       .and. reaction(l) <= largest_share*largest_r(l))) poor(l) = poor(l) + 1.0_wp
+        end do
+    end subroutine bound_nodes
+
+    !> Errors of the fields along the beam: by how much the exact ones move, and what rounding makes of them from the left end of a
+    !> piece on, wherever it begins in its link, at most to the end of the link
+    pure subroutine bound_fields(beam, n, rounding, load_size, turn_size, w, ml, mr, room, moves, found)
+        type(lane_beam_type), intent(in) :: beam
+        integer, intent(in) :: n
+        type(lane_rounding_type), intent(in) :: rounding
+        real(wp), intent(in), dimension(lanes, 0:n) :: load_size, turn_size, w, ml, mr
+        real(wp), intent(in) :: room(lanes, 0:n, 10), moves(lanes, 0:n, kinds_of_movement)
+        real(wp), intent(inout) :: found(lanes, 8)
+        real(wp) :: length, soft, bending, slip, share, of_load, p, m, turns, ends, v_error, m_error, turn_error, w_error
+        real(wp), dimension(lanes) :: deflection, rotation, moment, shear
+        integer :: k, l
+
+        deflection(:) = found(:, 3)
+        rotation(:) = 0.0_wp
+        moment(:) = found(:, 7)
+        shear(:) = 0.0_wp
+        of_load = larger(unit, epsilon(1.0_wp) + rounding%of_loads)
+        do k = 1, n
+            length = beam%length(k)
+            bending = beam%bending(k)
+            soft = larger(bending, beam%faa(k) + beam%fbb(k))
+            slip = rounding%slip(k)
+            share = rounding%of_fields(k)
+            !$omp simd private(p, m, turns, ends, v_error, m_error, turn_error, w_error)
+            do l = 1, lanes
+                ! Loads of the link are among those of either node
+                p = merge(load_size(l, k), load_size(l, k - 1), load_size(l, k) < load_size(l, k - 1))
+                m = larger(abs(mr(l, k - 1)), abs(ml(l, k)))
+                turns = soft*m + turn_size(l, k)
+                ends = larger(moves(l, k - 1, of_moment), moves(l, k, of_moment)) + of_load*length*p/2
+                v_error = (unit + share)*(abs(room(l, k, 5)) + p)
+                m_error = unit*abs(mr(l, k - 1)) + share*(m + length*p)
+                turn_error = unit*abs(room(l, k, 1)) + share*turns
+                w_error = unit*abs(w(l, k - 1)) + share*(abs(w(l, k - 1)) + abs(w(l, k)) + length*turns/4)
+                shear(l) = larger(shear(l), moves(l, k, of_shear) + v_error + 2*of_load*p)
+                v_error = v_error + room(l, k, 7)
+                moment(l) = larger(moment(l), ends + m_error + length*(v_error + of_load*p))
+                m_error = m_error + length*(v_error/2 + of_load*p/3)
+                rotation(l) = larger(rotation(l), moves(l, k, of_rotation) + of_load*turn_size(l, k) + turn_error &
+                                     + bending*(ends + m_error))
+                deflection(l) = larger(deflection(l), larger(moves(l, k - 1, of_deflection), moves(l, k, of_deflection)) &
+                                       + length*(soft*ends/4 + of_load*turn_size(l, k)) + w_error &
+                                       + length*(turn_error + room(l, k, 8) + bending*m_error/2) + slip*(v_error + of_load*p))
+            end do
+        end do
+        found(:, 5) = deflection
+        found(:, 6) = rotation
+        found(:, 7) = moment
+        found(:, 8) = shear
+    end subroutine bound_fields
+
+    !> The larger of two
+    elemental function larger(a, b) result(c)
+        real(wp), intent(in) :: a, b
+        real(wp) :: c
+
+        c = merge(a, b, a > b)
+    end function larger
+
+end module gapbeam_lane_certificate
