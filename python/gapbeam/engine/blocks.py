@@ -1,5 +1,7 @@
-"""Memory for the results of many cases, which stays with their beam from call to call: memory that is new costs a quarter of the time
-of a call, as the system clears it page by page."""
+"""Memory for the results of many cases, which stays with their beam from call to call.
+
+New memory costs a quarter of the time of a call, as the system clears it page by page.
+"""
 
 from __future__ import annotations
 
