@@ -6,7 +6,7 @@ module gapbeam_words
     use gapbeam_kinds, only: wp
     implicit none
     private
-    public :: shown, whole
+    public :: shown, whole, pair
 
     !> Room for a number
     integer, parameter :: length = 24
@@ -28,6 +28,14 @@ contains
             text = fifteen_digits(value)
         end if
     end function shown
+
+    !> Two numbers as a point, blanks behind it
+    pure function pair(a, b) result(text)
+        real(wp), intent(in) :: a, b
+        character(len=2*length + 4) :: text
+
+        text = "["//trim(shown(a))//", "//trim(shown(b))//"]"
+    end function pair
 
     !> A number without the noise of its last bits, as C's format %.15g writes it
     pure function fifteen_digits(value) result(text)

@@ -61,7 +61,6 @@ contains
 
         !> Fields at the left ends of the new stretches
         subroutine carry_fields()
-            type(curved_type), allocatable :: curved
             real(wp) :: w, psi, moment, shear, share
             integer :: i, k, of
 
@@ -82,12 +81,7 @@ contains
                         share = 1.0_wp
                     end if
                 end if
-                call take_curved(ground, grounded, zones, factor, work, of, curved)
-                if (allocated(curved)) then
-                    call curved_fields(curved, share, w, psi, moment, shear)
-                else
-                    call fields_at(grounded%stretches(of), load_of(of), ends_of(work, of), share, w, psi, moment, shear)
-                end if
+                call find_fields(of, share, w, psi, moment, shear)
                 found%start(:, k) = [w - grounded%stretches(i)%shear_flexibility*moment, psi, moment, shear]
             end do
         end subroutine carry_fields
@@ -229,13 +223,27 @@ contains
             end do
         end subroutine judge_piece
 
+        !> Fields at a share of a stretch
+        pure subroutine find_fields(i, share, w, psi, moment, shear)
+            integer, intent(in) :: i
+            real(wp), intent(in) :: share
+            real(wp), intent(out) :: w, psi, moment, shear
+            type(curved_type), allocatable :: curved
+
+            call take_curved(ground, grounded, zones, factor, work, i, curved)
+            if (allocated(curved)) then
+                call curved_fields(curved, share, w, psi, moment, shear)
+            else
+                call fields_at(grounded%stretches(i), load_of(i), ends_of(work, i), share, w, psi, moment, shear)
+            end if
+        end subroutine find_fields
+
         !> The piece of its law on which a layer is at a place
         pure function piece_at(k, i, distance) result(acts)
             !> Layer, stretch, and distance from the left end of the piece
             integer, intent(in) :: k, i
             real(wp), intent(in) :: distance
             integer :: acts, before, law
-            type(curved_type), allocatable :: curved
             real(wp) :: w, psi, moment, shear, length, share, past, change
 
             associate (layer => ground%layers(k))
@@ -243,12 +251,7 @@ contains
                 if (layer%side == 0) return
                 length = ground%pieces(zones%piece(i))%length
                 share = (distance - zones%from(i))/(zones%to(i) - zones%from(i))
-                call take_curved(ground, grounded, zones, factor, work, i, curved)
-                if (allocated(curved)) then
-                    call curved_fields(curved, share, w, psi, moment, shear)
-                else
-                    call fields_at(grounded%stretches(i), load_of(i), ends_of(work, i), share, w, psi, moment, shear)
-                end if
+                call find_fields(i, share, w, psi, moment, shear)
                 acts = piece_of_deflection(ground%laws, layer, w, distance, length)
                 before = zones%acts(k - ground%first(zones%piece(i)) + 1, i)
                 if (before <= acts) return

@@ -2,7 +2,7 @@
 module gapbeam_check_foundations
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type
-    use gapbeam_words, only: shown, whole
+    use gapbeam_words, only: shown, whole, pair
     use gapbeam_scene, only: model_type, foundation_type, ground_point_type, ground_law_point_type, gapbeam_both, gapbeam_below, &
         gapbeam_above, gapbeam_unchanged, gapbeam_law_by_points
     use gapbeam_places, only: position_tolerance
@@ -215,13 +215,5 @@ contains
 
         call refuse(error, here%table, here%number, here%count, bad_law, key, "point "//trim(whole(number))//": "//problem, number)
     end subroutine refuse_point
-
-    !> Two numbers as text, blanks behind it; not of deferred length, which gfortran keeps where all threads share it
-    pure function pair(a, b) result(text)
-        real(wp), intent(in) :: a, b
-        character(len=64) :: text
-
-        text = "["//trim(shown(a))//", "//trim(shown(b))//"]"
-    end function pair
 
 end module gapbeam_check_foundations

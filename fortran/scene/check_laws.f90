@@ -2,7 +2,7 @@
 module gapbeam_check_laws
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type
-    use gapbeam_words, only: shown
+    use gapbeam_words, only: shown, pair
     use gapbeam_scene, only: model_type, law_point_type, gapbeam_both, gapbeam_axial, gapbeam_elastic, gapbeam_plastic, &
         gapbeam_broken
     use gapbeam_refusal, only: refuse, of_supports, bad_law
@@ -105,15 +105,15 @@ contains
             do j = 1, size(points)
                 associate (d => points(j)%displacement, f => points(j)%force)
                     if (.not. (abs(d) <= huge(d) .and. abs(f) <= huge(f))) then
-                        call say("expected finite numbers, got "//trim(point(d, f)))
+                        call say("expected finite numbers, got "//trim(pair(d, f)))
                     else if (d < before(1)) then
-                        call say("the displacements go back at "//trim(point(d, f))//", after "//trim(shown(before(1)))// &
+                        call say("the displacements go back at "//trim(pair(d, f))//", after "//trim(shown(before(1)))// &
                                  "; give them in ascending order")
                     else if (f < 0.0_wp) then
-                        call say("the force is below zero at "//trim(point(d, f))//"; a support that pushes cannot pull: "// &
+                        call say("the force is below zero at "//trim(pair(d, f))//"; a support that pushes cannot pull: "// &
                                  "end the law at 0")
                     else if (.not. (abs(d - before(1)) > 0.0_wp .or. abs(f - before(2)) > 0.0_wp)) then
-                        call say("the point "//trim(point(d, f))//" stands there twice, or at the origin; leave it out")
+                        call say("the point "//trim(pair(d, f))//" stands there twice, or at the origin; leave it out")
                     else if (.not. abs(d - before(1)) > 0.0_wp .and. j > 1) then
                         if (is_vertical(points(:j - 1))) call say("there are two vertical pieces at "//trim(shown(d))// &
                                                                   "; give the outer points only")
@@ -125,8 +125,8 @@ contains
                         slope = f - before(2)
                     end if
                     if (j == size(points) .and. slope < 0.0_wp) then
-                        call say("it ends falling, so its force would become negative beyond "//trim(point(d, f))// &
-                                 "; add a point from which on it stays, such as "//trim(point(d + max(d, 1.0_wp), f)))
+                        call say("it ends falling, so its force would become negative beyond "//trim(pair(d, f))// &
+                                 "; add a point from which on it stays, such as "//trim(pair(d + max(d, 1.0_wp), f)))
                         return
                     end if
                     before(:) = [d, f]
@@ -144,14 +144,6 @@ contains
             if (size(points) > 1) before = points(size(points) - 1)%displacement
             vertical = .not. points(size(points))%displacement > before
         end function is_vertical
-
-        !> A point as text, blanks behind it; not of deferred length, which gfortran keeps where all threads share it
-        pure function point(displacement, force) result(text)
-            real(wp), intent(in) :: displacement, force
-            character(len=64) :: text
-
-            text = "["//trim(shown(displacement))//", "//trim(shown(force))//"]"
-        end function point
 
     end subroutine check_laws
 

@@ -164,8 +164,7 @@ contains
                 lowered%section_from(i) = point(at + 2*i - 1)
                 lowered%section_to(i) = point(at + 2*i)
                 if (lowered%section_from(i) < lowered%section_to(i)) cycle
-                call refuse(error, of_sections, i, size(model%sections), no_stretch, "", &
-                            "its stretch has no length; from must be less than to")
+                call refuse_empty(of_sections, i, size(model%sections))
                 return
             end do
             at = at + 2*size(model%sections)
@@ -173,8 +172,7 @@ contains
                 lowered%load_from(i) = point(at + 2*i - 1)
                 lowered%load_to(i) = point(at + 2*i)
                 if (is_stretch(model%loads(i)) .and. lowered%load_from(i) >= lowered%load_to(i)) then
-                    call refuse(error, of_loads, i, size(model%loads), no_stretch, "", &
-                                "its stretch has no length; from must be less than to")
+                    call refuse_empty(of_loads, i, size(model%loads))
                 else if (model%loads(i)%kind == gapbeam_couple .and. lowered%hinged(lowered%load_from(i))) then
                     call refuse(error, of_loads, i, size(model%loads), at_hinge, "", &
                                 "the couple acts exactly at a hinge, so it is open which side takes it; put it on one side "// &
@@ -187,8 +185,7 @@ contains
                 lowered%foundation_from(i) = point(at + 2*i - 1)
                 lowered%foundation_to(i) = point(at + 2*i)
                 if (lowered%foundation_from(i) < lowered%foundation_to(i)) cycle
-                call refuse(error, of_foundations, i, size(model%foundations), no_stretch, "", &
-                            "its stretch has no length; from must be less than to")
+                call refuse_empty(of_foundations, i, size(model%foundations))
                 return
             end do
             at = at + 2*size(model%foundations)
@@ -219,6 +216,13 @@ contains
             x = to
             if (to <= gapbeam_right_end) x = lowered%ends(n)
         end function right_end
+
+        !> Refuse a stretch without length
+        subroutine refuse_empty(table, number, count)
+            integer, intent(in) :: table, number, count
+
+            call refuse(error, table, number, count, no_stretch, "", "its stretch has no length; from must be less than to")
+        end subroutine refuse_empty
 
         !> Mark the hinges
         subroutine find_hinges(points)
