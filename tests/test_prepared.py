@@ -120,7 +120,7 @@ def test_mistakes():
     beam = gapbeam.prepare(scene([1.0], [at(0), at(1)], [uniform(1.0), uniform(2.0)]))
     with pytest.raises(ValueError, match=r"expected 2 numbers a case, one for each load, got shape \(3,\)"):
         beam.solve([1.0, 2.0, 3.0])
-    with pytest.raises(ValueError, match="the factor of load 1 is nan; give a finite number"):
+    with pytest.raises(ValueError, match="factors: case 1, the factor of load 1 is nan; give a finite number"):
         beam.solve([[1.0, 1.0], [1.0, np.nan]])
     with pytest.raises(ValueError, match="expected one case"):
         beam.result([[1.0, 1.0]])
@@ -193,8 +193,20 @@ def test_movements_of_cases_are_checked():
     assert beam.solve([1.0], settlements={"A": 0.5}).deflection[0] == 0.5
     with pytest.raises(gapbeam.SceneError, match=r'settlements\.C: there is no support "C"'):
         beam.solve(settlements={"C": 1.0})
-    with pytest.raises(ValueError, match=r"settlements\.A: expected a finite number, or 1"):
-        beam.solve(settlements={"A": [1.0, 2.0]})
+    assert beam.solve(settlements={"A": [1.0, 2.0]}).deflection[:, 0].tolist() == [1.0, 2.0]
+    with pytest.raises(ValueError, match=r"settlements\.A: expected a finite number, or 3"):
+        beam.solve([[1.0]] * 3, settlements={"A": [1.0, 2.0]})
+
+
+def test_movements_of_nothing_change_no_digit_of_a_case():
+    """Beside cases with movements, supports at one place are solved in another way: so is a case whose movements are all 0."""
+    supports = [at(0, side="below"), at(0, side="above", gap=0.01), at(1, side="below"), at(2)]
+    beam = gapbeam.prepare(scene([2.9, 3.3], supports, [uniform(1.7), force(0.7, 3.1)]))
+    rng = np.random.default_rng(3)
+    factors, moves = rng.uniform(-1.0, 2.0, (40, 2)), rng.uniform(-0.1, 0.1, 40) * (np.arange(40) % 2)
+    cases = beam.solve(factors, settlements={2: moves})
+    for k in range(0, 40, 2):
+        assert (beam.solve(factors[k], settlements={2: 0.0}).reaction == cases.reaction[k]).all()
 
 
 def test_cases_are_those_that_were_solved():

@@ -172,7 +172,7 @@ class Prepared(Pickled):
         given: dict[str, Given], want: str | Collection[str] | None, out: Cases | None,
     ) -> Cases:  # fmt: skip
         """Solve any number of cases, arguments as for `solve`, factors checked."""
-        count = len(factors) if factors.ndim == 2 else cases_in(given)
+        count = len(factors) if factors.ndim == 2 else cases_in({**given, "settlements": settlements})
         # What is asked later is about these
         many = np.array(factors if count is None else np.broadcast_to(factors, (count, factors.shape[-1])), order="C", ndmin=2)
         if start is None:
@@ -220,8 +220,6 @@ class Prepared(Pickled):
         if not settlements:
             return varied
         moves = self._movements(settlements, count)
-        if not moves.any():
-            return varied
         supports = varied.supports
         if supports is None:
             supports = np.broadcast_to(base_values(self._beam.columns), (count, moves.shape[1] + 1, 3))
@@ -308,7 +306,8 @@ class Prepared(Pickled):
             total = np.add.reduce(factors, None)
         if not isfinite(total) and not np.isfinite(factors).all():
             at = np.argwhere(~np.isfinite(factors))[0]
-            raise ValueError(f"factors: the factor of load {at[-1]} is {factors[tuple(at)]}; give a finite number")
+            case = f"case {at[0]}, " if len(at) == 2 else ""
+            raise ValueError(f"factors: {case}the factor of load {at[-1]} is {factors[tuple(at)]}; give a finite number")
         return factors
 
     def result(
@@ -340,7 +339,7 @@ class Prepared(Pickled):
         """
         factors = self._checked(factors)
         given = {"settlement": settlement, "gap": gap, "stiffness": stiffness, "EI": EI, "GA": GA, "k": k}
-        if factors.ndim != 1 or cases_in(given) is not None:
+        if factors.ndim != 1 or cases_in({**given, "settlements": settlements}) is not None:
             raise ValueError(f"{'factors' if factors.ndim != 1 else 'numbers by case'}: expected one case")
         base, scene = self._beam, self.scene
         varied = self._vary(settlements, given, 1)
