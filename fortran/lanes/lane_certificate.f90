@@ -36,8 +36,9 @@ contains
         !> Relative residuals of compatibility and equilibrium; largest errors of deflections of the nodes and of reactions; of
         !> deflections, rotations, moments, shears along the beam
         real(wp), intent(out) :: found(lanes, 8)
-        !> 1 for cases that are not certified here: an end that no support holds, a sign within its rounding error, few digits
+        !> Above 0 for cases that are not certified here: a sign within its rounding error, few digits
         real(wp), intent(out) :: poor(lanes)
+        real(wp) :: lost(lanes)
         integer :: n
 
         n = beam%n
@@ -49,12 +50,13 @@ contains
         call complete(beam, n, pack, poor)
         call find_rest(beam, n, pack%left, pack%right, pack%force, pack%held, pack%known, pack%spring, pack%w, pack%ml, pack%mr, &
                        pack%turn_rest, pack%force_rest, pack%known_rest)
-        call look_at_ends(n, pack%held, pack%spring, pack%known_rest, poor)
+        call look_at_known(n, pack%known_rest, poor)
         call find_sizes(beam, n, rounding, pack%left, pack%right, pack%force, pack%couple, pack%load_size, pack%turn_size, &
                         pack%held, pack%spring, pack%w, pack%ml, pack%mr, pack%turn_rest, pack%force_rest, pack%dl, pack%dr, &
                         found)
         call look_at_range(n, pack%dl, pack%dr, poor)
-        call find_movements(beam, n, pack%held, pack%spring, pack%dl, pack%dr, moves)
+        call find_movements(beam, n, pack%held, pack%spring, pack%dl, pack%dr, moves, lost)
+        poor(:) = poor + lost
         call find_rotations(beam, n, pack%left, pack%right, pack%w, pack%ml, pack%mr, pack%room)
         call bound_links(beam, n, rounding, pack%right, pack%turn_size, pack%held, pack%spring, pack%force, pack%w, &
                          pack%ml, pack%mr, pack%couple, pack%room, moves)
@@ -62,10 +64,10 @@ contains
         call bound_fields(beam, n, rounding, pack%load_size, pack%turn_size, pack%w, pack%ml, pack%mr, pack%room, moves, found)
     end subroutine certify_pack
 
-    !> Cases with an end that nothing holds, or with a known deflection that is another
-    pure subroutine look_at_ends(n, held, spring, known_rest, poor)
+    !> Cases with a known deflection that is another
+    pure subroutine look_at_known(n, known_rest, poor)
         integer, intent(in) :: n
-        real(wp), intent(in), dimension(lanes, 0:n) :: held, spring, known_rest
+        real(wp), intent(in) :: known_rest(lanes, 0:n)
         real(wp), intent(inout) :: poor(lanes)
         integer :: i, l
 
@@ -75,10 +77,7 @@ contains
                 poor(l) = poor(l) + merge(1.0_wp, 0.0_wp, abs(known_rest(l, i)) > 0.0_wp)
             end do
         end do
-        do l = 1, lanes
-            if (.not. min(held(l, 0) + spring(l, 0), held(l, n) + spring(l, n)) > 0.0_wp) poor(l) = poor(l) + 1.0_wp
-        end do
-    end subroutine look_at_ends
+    end subroutine look_at_known
 
     !> Relative residuals, and by how much the rows are off: residuals, rounding of coefficients, last digits of the data
     pure subroutine find_sizes(beam, n, rounding, left, right, force, couple, load_size, turn_size, held, spring, w, ml, mr, &
@@ -88,7 +87,7 @@ contains
         type(lane_rounding_type), intent(in) :: rounding
         real(wp), intent(in), dimension(lanes, 0:n) :: left, right, force, couple, load_size, turn_size, held, spring, w, ml, mr
         real(wp), intent(in), dimension(lanes, 0:n) :: turn_rest, force_rest
-        !> Of compatibility, 0 at the ends; of equilibrium, at nodes that are held what it does to the reaction there
+        !> Of compatibility, 0 at the ends and hinges; of equilibrium, at nodes that are held what it does to the reaction there
         real(wp), intent(out), dimension(lanes, 0:n) :: turn_off, force_off
         real(wp), intent(out) :: found(lanes, 8)
         real(wp) :: h, faa, fab, fbb, soft, long, slope, step, a, b, size_of_turn, size_of_shear, both, of_load, couple_size
@@ -124,7 +123,7 @@ contains
             end do
         end do
         do i = 0, n
-            both = merge(1.0_wp, 0.0_wp, i > 0 .and. i < n)
+            both = merge(1.0_wp - beam%hinge(i), 0.0_wp, i > 0 .and. i < n)
             !$omp simd private(size_of_turn, size_of_shear)
             do l = 1, lanes
                 size_of_turn = both*(turn_off(l, i) + abs(left(l, i)) + abs(right(l, i)))
@@ -170,10 +169,11 @@ contains
                 end do
             end do
         end if
-        turn_off(:, 0) = 0.0_wp
-        turn_off(:, n) = 0.0_wp
-        turn_off(:, :) = second_order*turn_off
-        force_off(:, :) = second_order*force_off
+        do i = 0, n
+            both = merge(1.0_wp - beam%hinge(i), 0.0_wp, i > 0 .and. i < n)
+            turn_off(:, i) = second_order*both*turn_off(:, i)
+            force_off(:, i) = second_order*force_off(:, i)
+        end do
     end subroutine find_sizes
 
     !> Numbers too far from 1 for their squares
@@ -216,6 +216,7 @@ contains
         real(wp), intent(inout) :: moves(lanes, 0:n, kinds_of_movement)
         real(wp) :: h, faa, fab, bending, sum_a, sum_b, soft, long, of_load, own, size, other, e, v, by_spring, far
         integer :: i, k, l, from, to, way
+        logical :: crosses
 
         of_load = larger(unit, epsilon(1.0_wp) + rounding%of_loads)
         if (beam%with_couples) moves(:, :, of_moment) = moves(:, :, of_moment) + of_load*abs(couple)
@@ -249,6 +250,7 @@ contains
                     sum_b = beam%sum_b(j)
                     far = rounding%flexibility(j)
                     bending = beam%bending(j)
+                    crosses = beam%hinge(j) < 0.5_wp
                     !$omp simd private(other, e, v, by_spring, size)
                     do l = 1, lanes
                         by_spring = spring(l, j)*w(l, j)
@@ -264,7 +266,7 @@ contains
                             + unit*(abs(room(l, j + 1, 1)) + abs(room(l, j, 1)) + bending*size) + 2*far*size &
                             + 2*of_load*turn_size(l, j)
                         e = moves(l, k, of_rotation)
-                        moves(l, k, of_rotation) = merge(other, e, other < e)
+                        moves(l, k, of_rotation) = merge(other, e, other < e .and. crosses)
                     end do
                 end associate
             end do

@@ -16,215 +16,258 @@ module gapbeam_lane_movements
 
     !> Results: deflections and moments of the nodes; shears of the links, and rotations at their left ends
     integer, parameter :: of_deflection = 1, of_moment = 2, of_shear = 3, of_rotation = 4
-    !> Arrays for them and for what comes from the right
-    integer, parameter :: kinds_of_movement = 10
-    !> Of what comes from the right: flexibilities as in gapbeam_kernel, and the ellipse
-    integer, parameter :: phi_right = 5, beta_right = 6, delta_right = 7, q11_right = 8, q12_right = 9, q22_right = 10
+    !> Arrays for them and for what comes from the right: flexibilities as in gapbeam_kernel, whether nothing there carries, the
+    !> ellipse with what the node adds
+    integer, parameter :: kinds_of_movement = 11
+    integer, parameter :: phi_right = 5, beta_right = 6, delta_right = 7, floats_right = 8, q11_right = 9, q12_right = 10, &
+        q22_right = 11
+    !> More than any movement: a rotation that is known through the neighbour only
+    real(wp), parameter :: unknown = 1e100_wp
+
+    !> What the part of the beam up to a node passes on to it
+    type :: part_type
+        !> Its flexibilities; does it float (1), for nothing in it carries yet
+        real(wp), dimension(lanes) :: phi = 0.0_wp, beta = 0.0_wp, delta = 0.0_wp, floats = 1.0_wp
+        !> The ellipse: of rotation and force or, where it floats, of moment and force
+        real(wp), dimension(lanes) :: q11 = 0.0_wp, q12 = 0.0_wp, q22 = 0.0_wp
+    end type part_type
+
+    !> A link as it is gone through
+    type :: way_type
+        real(wp) :: length, h, near, far, cross, sum_near, sum_far, bending, determinant
+        !> Is there a hinge (1) at the node before it
+        real(wp) :: hinge
+    end type way_type
+
+    !> How a node and the link behind it are eliminated
+    type :: step_type
+        !> Moment and deflection of the node by what comes to it, and by those of the next one
+        real(wp), dimension(lanes) :: c11, c12, c21, c22, d11, d12, d21, d22
+        !> What is passed on by what comes
+        real(wp), dimension(lanes) :: a11, a12, a21, a22
+        !> The ellipse with what the node adds; is it known by its neighbours only where it is (1)
+        real(wp), dimension(lanes) :: q11, q12, q22, hangs
+    end type step_type
 
 contains
 
-    !> Find the movements of beams that are held at both ends and have no hinges
-    pure subroutine find_movements(beam, n, held, spring, turn, force, moves)
+    !> Find the movements
+    pure subroutine find_movements(beam, n, held, spring, turn, force, moves, lost)
         type(lane_beam_type), intent(in) :: beam
         integer, intent(in) :: n
         !> Is the deflection known (1), and the stiffness of the node, shape (lanes, 0:n)
         real(wp), intent(in), dimension(lanes, 0:n) :: held, spring
-        !> What compatibility (0 at the ends) and equilibrium (0 where the deflection is known) may be off
+        !> What compatibility (0 at the ends and at hinges) and equilibrium may be off; where the deflection is known there is none
         real(wp), intent(in), dimension(lanes, 0:n) :: turn, force
         !> Movements, those of links with no entry at 0
         real(wp), intent(inout) :: moves(lanes, 0:n, kinds_of_movement)
+        !> Above 0: the beam is held by too little
+        real(wp), intent(out) :: lost(lanes)
 
-        call come_from_right(beam, n, held, spring, turn, force, moves)
-        call go_to_right(beam, n, held, spring, turn, force, moves)
+        lost(:) = 0.0_wp
+        call come_from_right(beam, n, held, spring, turn, force, moves, lost)
+        call go_to_right(beam, n, held, spring, turn, force, moves, lost)
     end subroutine find_movements
 
     !> What the parts right of each node pass on
-    pure subroutine come_from_right(beam, n, held, spring, turn, force, moves)
+    pure subroutine come_from_right(beam, n, held, spring, turn, force, moves, lost)
         type(lane_beam_type), intent(in) :: beam
         integer, intent(in) :: n
         real(wp), intent(in), dimension(lanes, 0:n) :: held, spring, turn, force
-        real(wp), intent(inout) :: moves(lanes, 0:n, kinds_of_movement)
-        real(wp) :: h, near, far, cross, sum_near, sum_far, bending, determinant
-        real(wp), dimension(lanes) :: free, a, b, c, r
-        real(wp) :: open, stiff, softness, phi, beta, b_free, q11, q12, q22, c11, c12, c21, c22, a11, a12, a21, a22
-        integer :: i, l
+        real(wp), intent(inout) :: moves(lanes, 0:n, kinds_of_movement), lost(lanes)
+        type(part_type) :: part
+        type(step_type) :: step
+        integer :: i
 
-        h = beam%inverse(n)
-        far = beam%faa(n)
-        moves(:, n, phi_right:q22_right) = 0.0_wp
-        moves(:, n - 1, phi_right:q22_right) = 0.0_wp
-        !$omp simd private(open, stiff, softness)
-        do l = 1, lanes
-            open = 1.0_wp - held(l, n)
-            stiff = spring(l, n)*open + held(l, n)
-            softness = open/(stiff + merge(0.0_wp, 1.0_wp, stiff > 0.0_wp))
-            moves(l, n, q22_right) = open*force(l, n)**2
-            moves(l, n - 1, phi_right) = far + h**2*softness
-            moves(l, n - 1, beta_right) = h
-            moves(l, n - 1, q11_right) = (h*softness*force(l, n))**2
+        do i = n, 1, -1
+            moves(:, i, phi_right) = part%phi
+            moves(:, i, beta_right) = part%beta
+            moves(:, i, delta_right) = part%delta
+            moves(:, i, floats_right) = part%floats
+            call eliminate(way_type(beam%length(i), beam%inverse(i), beam%fbb(i), beam%faa(i), beam%fab(i), beam%sum_b(i), &
+                                    beam%sum_a(i), beam%bending(i), beam%determinant(i), beam%hinge(i)), &
+                           held(:, i), spring(:, i), turn(:, i), force(:, i), held(:, i - 1), part, step, lost)
+            moves(:, i, q11_right) = step%q11
+            moves(:, i, q12_right) = step%q12
+            moves(:, i, q22_right) = step%q22
         end do
-        do i = n - 1, 1, -1
-            h = beam%inverse(i)
-            near = beam%fbb(i)
-            far = beam%faa(i)
-            cross = beam%fab(i)
-            sum_near = beam%sum_b(i)
-            sum_far = beam%sum_a(i)
-            bending = beam%bending(i)
-            determinant = beam%determinant(i)
-            !$omp simd
-            do l = 1, lanes
-                free(l) = 1.0_wp - held(l, i)
-                a(l) = moves(l, i, phi_right) + near
-                b(l) = moves(l, i, beta_right) + h
-                c(l) = free(l)*moves(l, i, delta_right) + (spring(l, i)*free(l) + held(l, i))
-                r(l) = 1/(a(l)*c(l) + free(l)*b(l)**2)
-            end do
-            call add_rows(a, b, c, free, r, turn(:, i), force(:, i), moves(:, i, q11_right), moves(:, i, q12_right), &
-                          moves(:, i, q22_right))
-            !$omp simd private(phi, beta, b_free, q11, q12, q22, c11, c12, c21, c22, a11, a12, a21, a22, open)
-            do l = 1, lanes
-                open = 1.0_wp - held(l, i - 1)
-                phi = moves(l, i, phi_right)
-                beta = moves(l, i, beta_right)
-                b_free = free(l)*b(l)
-                q11 = moves(l, i, q11_right)
-                q12 = moves(l, i, q12_right)
-                q22 = moves(l, i, q22_right)
-                c11 = -c(l)*r(l)
-                c12 = b(l)*r(l)
-                c21 = b_free*r(l)
-                c22 = free(l)*a(l)*r(l)
-                a11 = h*c21 + cross*c11
-                a12 = h*c22 + cross*c12
-                a21 = open*h*c11
-                a22 = open*h*c12
-                moves(l, i - 1, q11_right) = a11*(a11*q11 + 2*a12*q12) + a12**2*q22
-                moves(l, i - 1, q12_right) = a11*(a21*q11 + a22*q12) + a12*(a21*q12 + a22*q22)
-                moves(l, i - 1, q22_right) = a21*(a21*q11 + 2*a22*q12) + a22**2*q22
-                moves(l, i - 1, phi_right) = (free(l)*((phi + bending)*(h*h) + beta*(2*h*sum_far + beta*far)) &
-                                              + c(l)*(phi*far + determinant))*r(l)
-                moves(l, i - 1, beta_right) = (c(l)*h*(phi + sum_near) + b_free*h*beta)*r(l)
-                moves(l, i - 1, delta_right) = c(l)*h*h*r(l)
-            end do
-        end do
+        moves(:, 0, beta_right) = part%beta
+        moves(:, 0, delta_right) = part%delta
+        moves(:, 0, q22_right) = part%q22
     end subroutine come_from_right
 
     !> The same from the left, and at every link what both make of its results
-    pure subroutine go_to_right(beam, n, held, spring, turn, force, moves)
+    pure subroutine go_to_right(beam, n, held, spring, turn, force, moves, lost)
         type(lane_beam_type), intent(in) :: beam
         integer, intent(in) :: n
         real(wp), intent(in), dimension(lanes, 0:n) :: held, spring, turn, force
-        real(wp), intent(inout) :: moves(lanes, 0:n, kinds_of_movement)
-        real(wp) :: h, faa, fab, fbb, sum_a, sum_b, bending, determinant, first, inner
-        real(wp), dimension(lanes) :: phi, beta, delta, p11, p12, p22, free, softness, a_left, b_left, c_left, r_left, at_left
-        real(wp) :: free_b, stiff, a, b, c, b_free, r, q11, q12, q22, s11, s12, s22
-        real(wp) :: c11, c12, c21, c22, d11, d12, d21, d22, a11, a12, a21, a22, b11, b12, b21, b22, next_phi, next_beta, next_delta
-        real(wp) :: m1, m2, w1, w2, n1, n2, n3, n4, u1, u2, u3, u4
-        integer :: k, l
+        real(wp), intent(inout) :: moves(lanes, 0:n, kinds_of_movement), lost(lanes)
+        type(part_type) :: part
+        type(step_type) :: step
+        real(wp) :: at_left(lanes)
+        integer :: k
 
-        phi(:) = 0.0_wp
-        beta(:) = 0.0_wp
-        delta(:) = 0.0_wp
-        p11(:) = 0.0_wp
-        p12(:) = 0.0_wp
-        p22(:) = 0.0_wp
         moves(:, 0, of_moment) = 0.0_wp
         do k = 1, n
-            h = beam%inverse(k)
-            faa = beam%faa(k)
-            fab = beam%fab(k)
-            fbb = beam%fbb(k)
-            sum_a = beam%sum_a(k)
-            sum_b = beam%sum_b(k)
-            bending = beam%bending(k)
-            determinant = beam%determinant(k)
-            first = merge(1.0_wp, 0.0_wp, k == 1)
-            inner = merge(1.0_wp, 0.0_wp, k < n)
-            !$omp simd private(stiff)
-            do l = 1, lanes
-                ! The node on the left
-                free(l) = 1.0_wp - held(l, k - 1)
-                stiff = spring(l, k - 1)*free(l) + held(l, k - 1)
-                softness(l) = first*free(l)/(stiff + merge(0.0_wp, 1.0_wp, stiff > 0.0_wp))
-                a_left(l) = phi(l) + faa
-                b_left(l) = beta(l) + h
-                c_left(l) = free(l)*delta(l) + stiff
-                r_left(l) = 1/(a_left(l)*c_left(l) + free(l)*b_left(l)**2)
-            end do
-            call add_rows(a_left, b_left, c_left, free, r_left, turn(:, k - 1), force(:, k - 1), p11, p12, p22)
-            !$omp simd private(free_b, a, b, c, b_free, r, q11, q12, q22, s11, s12, s22, c11, c12, c21, &
-            !$omp   c22, d11, d12, d21, d22, a11, a12, a21, a22, b11, b12, b21, b22, next_phi, next_beta, next_delta, m1, m2, w1, &
-            !$omp   w2, n1, n2, n3, n4, u1, u2, u3, u4)
-            do l = 1, lanes
-                ! What it passes on
-                free_b = 1.0_wp - held(l, k)
-                a = a_left(l)
-                b = b_left(l)
-                c = c_left(l)
-                b_free = free(l)*b
-                r = (1.0_wp - first)*r_left(l)
-                q11 = p11(l)
-                q12 = p12(l)
-                q22 = p22(l)
-                c11 = -c*r
-                c12 = b*r
-                c21 = b_free*r
-                c22 = free(l)*a*r + softness(l)
-                d11 = (b_free*h - c*fab)*r
-                d12 = -c*h*r
-                d21 = free(l)*(b*fab + a*h)*r + h*softness(l)
-                d22 = b_free*h*r
-                a11 = h*c21 + fab*c11
-                a12 = h*c22 + fab*c12
-                a21 = free_b*h*c11
-                a22 = free_b*h*c12
-                next_phi = (free(l)*((phi(l) + bending)*(h*h) + beta(l)*(2*h*sum_b + beta(l)*fbb)) &
-                            + c*(phi(l)*fbb + determinant))*r + first*(fbb + h**2*softness(l))
-                next_beta = (c*h*(phi(l) + sum_a) + b_free*h*beta(l))*r + first*h
-                next_delta = c*h*h*r
-                phi(l) = next_phi
-                beta(l) = next_beta
-                delta(l) = next_delta
-                p11(l) = a11*(a11*q11 + 2*a12*q12) + a12**2*q22
-                p12(l) = a11*(a21*q11 + a22*q12) + a12*(a21*q12 + a22*q22)
-                p22(l) = a21*(a21*q11 + 2*a22*q12) + a22**2*q22
-                ! The node on the right, where both parts meet; at the end there is no moment
-                a = next_phi + moves(l, k, phi_right)
-                b = next_beta + moves(l, k, beta_right)
-                c = free_b*(next_delta + moves(l, k, delta_right)) + (spring(l, k)*free_b + held(l, k))
-                r = inner/(a*c + free_b*b**2)
-                b11 = -c*r
-                b12 = free_b*b*r
-                b21 = free_b*b*r
-                b22 = free_b*(a*r + (1.0_wp - inner)/(c + merge(0.0_wp, 1.0_wp, c > 0.0_wp)))
-                s11 = moves(l, k, q11_right)
-                s12 = moves(l, k, q12_right)
-                s22 = moves(l, k, q22_right)
-                ! Results by what comes from the left (1, 2) and from the right (3, 4), rotation and force
-                m1 = b11*a11 + b12*a21
-                m2 = b11*a12 + b12*a22
-                w1 = b21*a11 + b22*a21
-                w2 = b21*a12 + b22*a22
-                n1 = c11 + (d11*m1 + d12*w1)
-                n2 = c12 + (d11*m2 + d12*w2)
-                n3 = d11*b11 + d12*b21
-                n4 = d11*b12 + d12*b22
-                u1 = c21 + (d21*m1 + d22*w1)
-                u2 = c22 + (d21*m2 + d22*w2)
-                u3 = d21*b11 + d22*b21
-                u4 = d21*b12 + d22*b22
-                moves(l, k, of_moment) = reach(m1, m2, q11, q12, q22) + reach(b11, b12, s11, s12, s22)
-                moves(l, k, of_deflection) = reach(w1, w2, q11, q12, q22) + reach(b21, b22, s11, s12, s22)
-                moves(l, k, of_shear) = h*(reach(m1 - n1, m2 - n2, q11, q12, q22) + reach(b11 - n3, b12 - n4, s11, s12, s22))
-                moves(l, k, of_rotation) = &
-                    reach(h*(w1 - u1) + (faa*n1 + fab*m1), h*(w2 - u2) + (faa*n2 + fab*m2), q11, q12, q22) &
-                    + reach(h*(b21 - u3) + (faa*n3 + fab*b11), h*(b22 - u4) + (faa*n4 + fab*b12), s11, s12, s22)
-                at_left(l) = reach(u1, u2, q11, q12, q22) + reach(u3, u4, s11, s12, s22)
-            end do
-            if (k == 1) moves(:, 0, of_deflection) = at_left
+            call eliminate(way_type(beam%length(k), beam%inverse(k), beam%faa(k), beam%fbb(k), beam%fab(k), beam%sum_a(k), &
+                                    beam%sum_b(k), beam%bending(k), beam%determinant(k), beam%hinge(k - 1)), &
+                           held(:, k - 1), spring(:, k - 1), turn(:, k - 1), force(:, k - 1), held(:, k), part, step, lost)
+            call find_results(beam%inverse(k), beam%faa(k), beam%fab(k), beam%hinge(k), n, k, held, spring, part, step, moves, &
+                              at_left, lost)
+            if (k > 1) cycle
+            ! The first node, or its tip, which the rest of the beam holds
+            moves(:, 0, of_deflection) = at_left
+            where (step%hangs > 0.5_wp)
+                moves(:, 0, of_deflection) = (force(:, 0) + sqrt(abs(moves(:, 0, q22_right)))) &
+                    /(moves(:, 0, delta_right) + merge(0.0_wp, 1.0_wp, moves(:, 0, delta_right) > 0.0_wp))
+            end where
         end do
     end subroutine go_to_right
+
+    !> Eliminate a node and the link behind it
+    pure subroutine eliminate(way, held, spring, turn, force, held_next, part, step, lost)
+        type(way_type), intent(in) :: way
+        !> At the node; is the deflection of the next one known
+        real(wp), intent(in), dimension(lanes) :: held, spring, turn, force, held_next
+        !> What comes to the node in, what comes to the next one out
+        type(part_type), intent(inout) :: part
+        type(step_type), intent(out) :: step
+        real(wp), intent(inout) :: lost(lanes)
+        real(wp), dimension(lanes) :: a, b, c, free, r, turning, pushing
+        real(wp) :: stiff, carries, starts, goes, soft, phi, beta, b_free, open, given, plain
+        integer :: l
+
+        plain = 1.0_wp - way%hinge
+        !$omp simd private(given)
+        do l = 1, lanes
+            lost(l) = lost(l) + way%hinge*part%floats(l)
+            ! The moment is known beforehand: of statics, or at a hinge
+            given = merge(part%floats(l), 1.0_wp, plain > 0.5_wp)
+            part%floats(l) = given
+            part%q11(l) = part%q11(l)*plain
+            part%q12(l) = part%q12(l)*plain
+            ! Then sizes are by moments at the next node
+            free(l) = merge(1.0_wp, 1.0_wp - held(l), given > 0.5_wp)
+            a(l) = merge(way%length**2, part%phi(l) + way%near, given > 0.5_wp)
+            b(l) = merge(0.0_wp, part%beta(l) + way%h, given > 0.5_wp)
+            c(l) = merge(1.0_wp, (1.0_wp - held(l))*(part%delta(l) + spring(l)) + held(l), given > 0.5_wp)
+            r(l) = 1/(a(l)*c(l) + free(l)*b(l)**2)
+            turning(l) = turn(l)*(1.0_wp - given)
+            pushing(l) = force(l)*(1.0_wp - held(l))
+            step%q11(l) = part%q11(l)
+            step%q12(l) = part%q12(l)
+            step%q22(l) = part%q22(l)
+        end do
+        call add_rows(a, b, c, free, r, turning, pushing, step%q11, step%q12, step%q22)
+        !$omp simd private(stiff, carries, starts, goes, soft, phi, beta, b_free, open, given)
+        do l = 1, lanes
+            open = 1.0_wp - held(l)
+            given = part%floats(l)
+            phi = part%phi(l)
+            beta = part%beta(l)
+            b_free = open*b(l)
+            stiff = open*(part%delta(l) + spring(l)) + held(l)
+            carries = merge(1.0_wp, 0.0_wp, stiff > 0.0_wp)
+            soft = open/(stiff + (1.0_wp - carries))
+            starts = given*carries
+            goes = given - starts
+            r(l) = (1.0_wp - given)*r(l)
+            soft = soft*starts
+            step%hangs(l) = goes
+            step%c11(l) = given - c(l)*r(l)
+            step%c12(l) = b(l)*r(l)
+            step%c21(l) = b_free*r(l) - way%h*soft
+            step%c22(l) = open*a(l)*r(l) + soft
+            step%d11(l) = (b_free*way%h - c(l)*way%cross)*r(l)
+            step%d12(l) = -c(l)*way%h*r(l)
+            step%d21(l) = open*(b(l)*way%cross + a(l)*way%h)*r(l) + way%h*soft
+            step%d22(l) = b_free*way%h*r(l)
+            open = 1.0_wp - held_next(l)
+            ! A part that floats passes on moment and force
+            step%a11(l) = (1.0_wp - goes)*(way%h*step%c21(l) + way%cross*step%c11(l)) + goes
+            step%a12(l) = (1.0_wp - goes)*(way%h*step%c22(l) + way%cross*step%c12(l)) - goes*way%length
+            step%a21(l) = open*(1.0_wp - goes)*way%h*step%c11(l)
+            step%a22(l) = open*((1.0_wp - goes)*way%h*step%c12(l) + goes)
+            part%delta(l) = c(l)*way%h*way%h*r(l)
+            part%phi(l) = ((1.0_wp - held(l))*((phi + way%bending)*way%h**2 + beta*(2*way%h*way%sum_far + beta*way%far)) &
+                           + c(l)*(phi*way%far + way%determinant))*r(l) + starts*way%far + way%h**2*soft
+            part%beta(l) = (c(l)*way%h*(phi + way%sum_near) + b_free*way%h*beta)*r(l) + starts*way%h
+            part%floats(l) = goes
+            part%q11(l) = step%a11(l)*(step%a11(l)*step%q11(l) + 2*step%a12(l)*step%q12(l)) + step%a12(l)**2*step%q22(l)
+            part%q12(l) = step%a11(l)*(step%a21(l)*step%q11(l) + step%a22(l)*step%q12(l)) &
+                + step%a12(l)*(step%a21(l)*step%q12(l) + step%a22(l)*step%q22(l))
+            part%q22(l) = step%a21(l)*(step%a21(l)*step%q11(l) + 2*step%a22(l)*step%q12(l)) + step%a22(l)**2*step%q22(l)
+        end do
+    end subroutine eliminate
+
+    !> Results of link k and the node right of it, and the deflection of the node left of it
+    pure subroutine find_results(h, faa, fab, hinge, n, k, held, spring, part, step, moves, at_left, lost)
+        !> Of the link; is there a hinge at the node right of it
+        real(wp), intent(in) :: h, faa, fab, hinge
+        integer, intent(in) :: n, k
+        real(wp), intent(in), dimension(lanes, 0:n) :: held, spring
+        !> What comes to that node, and how
+        type(part_type), intent(in) :: part
+        type(step_type), intent(in) :: step
+        real(wp), intent(inout) :: moves(lanes, 0:n, kinds_of_movement)
+        real(wp), intent(out) :: at_left(lanes)
+        real(wp), intent(inout) :: lost(lanes)
+        real(wp) :: open, by_left, by_right, both, none, a, b, c, r, soft, q11, q12, q22, s11, s12, s22
+        real(wp) :: l11, l12, l21, l22, r11, r12, r21, r22, m1, m2, w1, w2, n1, n2, n3, n4, u1, u2, u3, u4
+        integer :: l
+
+        !$omp simd private(open, by_left, by_right, both, none, a, b, c, r, soft, q11, q12, q22, s11, s12, s22, l11, l12, l21, &
+        !$omp   l22, r11, r12, r21, r22, m1, m2, w1, w2, n1, n2, n3, n4, u1, u2, u3, u4)
+        do l = 1, lanes
+            open = 1.0_wp - held(l, k)
+            ! Where both parts meet: the moment may be that of the one that floats, or none
+            by_left = (1.0_wp - hinge)*part%floats(l)
+            by_right = (1.0_wp - hinge)*moves(l, k, floats_right)
+            lost(l) = lost(l) + part%floats(l)*moves(l, k, floats_right)
+            both = (1.0_wp - hinge)*(1.0_wp - by_left)*(1.0_wp - by_right)
+            none = 1.0_wp - both
+            a = part%phi(l) + moves(l, k, phi_right) + none
+            b = part%beta(l) + moves(l, k, beta_right)
+            c = open*(part%delta(l) + moves(l, k, delta_right) + spring(l, k)) + held(l, k)
+            r = both*a*c + both*open*b**2
+            r = both/(r + merge(0.0_wp, 1.0_wp, r > 0.0_wp))
+            soft = none*open/(c + merge(0.0_wp, 1.0_wp, c > 0.0_wp))
+            l11 = by_left - c*r
+            l12 = b*r
+            l21 = open*b*r - soft*by_left*moves(l, k, beta_right)
+            l22 = open*a*r + soft
+            r11 = by_right - c*r
+            r12 = b*r
+            r21 = open*b*r - soft*by_right*part%beta(l)
+            r22 = l22
+            q11 = step%q11(l)
+            q12 = step%q12(l)
+            q22 = step%q22(l)
+            s11 = moves(l, k, q11_right)
+            s12 = moves(l, k, q12_right)
+            s22 = moves(l, k, q22_right)
+            ! Results by what comes from the left (1, 2) and from the right (3, 4), rotation or moment, and force
+            m1 = l11*step%a11(l) + l12*step%a21(l)
+            m2 = l11*step%a12(l) + l12*step%a22(l)
+            w1 = l21*step%a11(l) + l22*step%a21(l)
+            w2 = l21*step%a12(l) + l22*step%a22(l)
+            n1 = step%c11(l) + (step%d11(l)*m1 + step%d12(l)*w1)
+            n2 = step%c12(l) + (step%d11(l)*m2 + step%d12(l)*w2)
+            n3 = step%d11(l)*r11 + step%d12(l)*r21
+            n4 = step%d11(l)*r12 + step%d12(l)*r22
+            u1 = step%c21(l) + (step%d21(l)*m1 + step%d22(l)*w1)
+            u2 = step%c22(l) + (step%d21(l)*m2 + step%d22(l)*w2)
+            u3 = step%d21(l)*r11 + step%d22(l)*r21
+            u4 = step%d21(l)*r12 + step%d22(l)*r22
+            moves(l, k, of_moment) = reach(m1, m2, q11, q12, q22) + reach(r11, r12, s11, s12, s22)
+            moves(l, k, of_deflection) = reach(w1, w2, q11, q12, q22) + reach(r21, r22, s11, s12, s22)
+            moves(l, k, of_shear) = h*(reach(m1 - n1, m2 - n2, q11, q12, q22) + reach(r11 - n3, r12 - n4, s11, s12, s22))
+            moves(l, k, of_rotation) = unknown*step%hangs(l) &
+                + reach(h*(w1 - u1) + (faa*n1 + fab*m1), h*(w2 - u2) + (faa*n2 + fab*m2), q11, q12, q22) &
+                + reach(h*(r21 - u3) + (faa*n3 + fab*r11), h*(r22 - u4) + (faa*n4 + fab*r12), s11, s12, s22)
+            at_left(l) = reach(u1, u2, q11, q12, q22) + reach(u3, u4, s11, s12, s22)
+        end do
+    end subroutine find_results
 
     !> Reach of an ellipse in a direction
     elemental function reach(x, y, q11, q12, q22) result(distance)

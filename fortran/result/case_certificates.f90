@@ -185,7 +185,6 @@ contains
 
         call prepare_lanes(lowered, loads, beam, made)
         stat = 0
-        if (made .and. beam%with_hinges) return
         if (made) call new_pack(beam%n, pack, made)
         if (made) call find_rounding(lowered, beam, rounding, made)
         if (.not. made) stat = 1
