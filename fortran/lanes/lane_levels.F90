@@ -9,6 +9,8 @@ module gapbeam_lane_levels
     use gapbeam_lane_extremes, only: extremes_of_pack
     use gapbeam_lane_values, only: fields_of_pack
     use gapbeam_lane_certificate, only: certify_pack
+    use gapbeam_segment_types, only: segment_beam_type, segment_room_type
+    use gapbeam_segment_finish, only: solve_long_beam
 #ifdef GAPBEAM_LEVELS
     use gapbeam_lane_columns_v3, only: take_columns_v3 => take_columns, take_numbers_v3 => take_numbers, give_pack_v3 => give_pack
     use gapbeam_lane_columns_v4, only: take_columns_v4 => take_columns, take_numbers_v4 => take_numbers, give_pack_v4 => give_pack
@@ -20,11 +22,13 @@ module gapbeam_lane_levels
     use gapbeam_lane_values_v4, only: fields_of_pack_v4 => fields_of_pack
     use gapbeam_lane_certificate_v3, only: certify_pack_v3 => certify_pack
     use gapbeam_lane_certificate_v4, only: certify_pack_v4 => certify_pack
+    use gapbeam_segment_finish_v3, only: solve_long_beam_v3 => solve_long_beam
+    use gapbeam_segment_finish_v4, only: solve_long_beam_v4 => solve_long_beam
 #endif
     implicit none
     private
     public :: best_level, least_level, take_columns_at, take_numbers_at, give_pack_at, search_pack_at, finish_pack_at, &
-        extremes_of_pack_at, fields_of_pack_at, certify_pack_at
+        extremes_of_pack_at, fields_of_pack_at, certify_pack_at, solve_segments_at
 
     !> Level of what every processor has
     integer, parameter :: least_level = 2
@@ -236,5 +240,26 @@ contains
             call certify_pack(beam, rounding, factors, pack, moves, found, poor)
         end select
     end subroutine certify_pack_at
+
+    !> solve_long_beam likewise
+    subroutine solve_segments_at(level, beam, room, solves, doubtful)
+        integer, intent(in) :: level
+        !> As for solve_long_beam
+        type(segment_beam_type), intent(in) :: beam
+        type(segment_room_type), intent(inout) :: room
+        integer, intent(out) :: solves
+        logical, intent(out) :: doubtful
+
+        select case (level)
+#ifdef GAPBEAM_LEVELS
+        case (4)
+            call solve_long_beam_v4(beam, room, solves, doubtful)
+        case (3)
+            call solve_long_beam_v3(beam, room, solves, doubtful)
+#endif
+        case default
+            call solve_long_beam(beam, room, solves, doubtful)
+        end select
+    end subroutine solve_segments_at
 
 end module gapbeam_lane_levels

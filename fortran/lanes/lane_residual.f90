@@ -5,8 +5,10 @@ module gapbeam_lane_residual
     use gapbeam_lane_types, only: lanes, lane_beam_type
     implicit none
     private
-    public :: find_rest
+    public :: find_rest, find_rest_along
 
+    !> Nodes of a long beam at a time, in arrays that stay in the first-level cache
+    integer, parameter :: block = 64
     !> Splits a number into two halves of its bits
     real(wp), parameter :: splitter = 2.0_wp**((digits(1.0_wp) + 1)/2) + 1
 
@@ -82,6 +84,78 @@ contains
         turn_rest(:, 0) = 0.0_wp
         turn_rest(:, n) = 0.0_wp
     end subroutine find_rest
+
+    !> The same of one long beam without hinges and couples, of which neighbouring nodes are side by side
+    pure subroutine find_rest_along(n, length, faa, fab, fbb, left, right, force, held, known, spring, w, m, turn_rest, shear_rest)
+        integer, intent(in) :: n
+        !> Links (lane_beam_type)
+        real(wp), intent(in), dimension(n) :: length, faa, fab, fbb
+        !> As for find_rest, shape (0:n); moments at both sides of nodes
+        real(wp), intent(in), dimension(0:n) :: left, right, force, held, known, spring, w, m
+        !> Compatibility; equilibrium, or deflection where it is known
+        real(wp), intent(out), dimension(0:n) :: turn_rest, shear_rest
+        ! Of the links, from that before the first node on: rotations of both ends and shear
+        real(wp), dimension(0:block) :: start_high, start_low, end_high, end_low, shear_high, shear_low
+        real(wp) :: high, low, other_high, other_low
+        integer :: from, to, i, k
+
+        do from = 0, n, block
+            to = min(from + block - 1, n)
+            ! There are no links beyond the ends
+            do k = 0, block, to - from + 1
+                start_high(k) = 0.0_wp
+                start_low(k) = 0.0_wp
+                end_high(k) = 0.0_wp
+                end_low(k) = 0.0_wp
+                shear_high(k) = 0.0_wp
+                shear_low(k) = 0.0_wp
+            end do
+            !$omp simd private(k, high, low, other_high, other_low)
+            do i = max(from, 1), min(to + 1, n)
+                k = i - from
+                high = w(i)
+                low = 0.0_wp
+                call add(high, low, -w(i - 1))
+                call divide(high, low, length(i))
+                other_high = high
+                other_low = low
+                call add_product(high, low, faa(i), m(i - 1))
+                call add_product(high, low, fab(i), m(i))
+                start_high(k) = high
+                start_low(k) = low
+                call add_product(other_high, other_low, -fab(i), m(i - 1))
+                call add_product(other_high, other_low, -fbb(i), m(i))
+                end_high(k) = other_high
+                end_low(k) = other_low
+                high = m(i)
+                low = 0.0_wp
+                call add(high, low, -m(i - 1))
+                call divide(high, low, length(i))
+                shear_high(k) = high
+                shear_low(k) = low
+            end do
+            !$omp simd private(k, high, low)
+            do i = from, to
+                k = i - from
+                high = start_high(k + 1)
+                low = start_low(k + 1)
+                call add(high, low, -end_high(k))
+                call add(high, low, -end_low(k))
+                call add(high, low, left(i))
+                call add(high, low, right(i))
+                turn_rest(i) = high + low
+                high = shear_high(k + 1)
+                low = shear_low(k + 1)
+                call add(high, low, -shear_high(k))
+                call add(high, low, -shear_low(k))
+                call add(high, low, force(i))
+                call add_product(high, low, -spring(i), w(i))
+                shear_rest(i) = (high + low)*(1.0_wp - held(i)) + (known(i) - w(i))*held(i)
+            end do
+        end do
+        turn_rest(0) = 0.0_wp
+        turn_rest(n) = 0.0_wp
+    end subroutine find_rest_along
 
     !> x + y, the rounding error collected in the low part
     elemental subroutine add(high, low, y)

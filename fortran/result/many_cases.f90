@@ -11,14 +11,19 @@ module gapbeam_many_cases
     use gapbeam_lower_loads, only: lower_loads
     use gapbeam_cases, only: case_loads_type, split_loads, solve_case, replace_supports
     use gapbeam_lane_cases, only: lane_room_type, fits_lanes, solve_in_lanes
+    use gapbeam_segment_cases, only: segments_type, fits_segments, solve_in_segments, least_alone
     implicit none
     private
     public :: case_room_type, solve_cases
 
+    !> Fewer cases leave most lanes idle
+    integer, parameter :: few = 4
+
     !> What cases of one beam need, kept from call to call; calls at the same time need one each
     type :: case_room_type
-        logical :: made = .false., fits = .false.
+        logical :: made = .false., fits = .false., is_long = .false.
         type(lane_room_type) :: lanes
+        type(segments_type) :: segments
         !> Of cases one by one: the beam with their loads and supports, where it has been made
         logical :: loaded_is_made = .false.
         type(beam_type) :: loaded
@@ -63,14 +68,23 @@ contains
         status(:) = gapbeam_no_memory
         if (.not. room%made) then
             if (.not. enough_memory(for_solving, size(lowered%beam%links), m, 0)) return
+            room%is_long = fits_segments(lowered)
             room%fits = fits_lanes(lowered)
             room%made = .true.
         end if
         allocate (acting(m), done(size(status)), stat=stat)
         if (stat /= 0) return
         done(:) = .false.
-        if (rule == rule_block .and. room%fits .and. size(spans, 2) == 0) then
-            call solve_in_lanes(lowered, loads, factors, values, room%lanes, closed, w, ml, mr, reaction, solves, done)
+        if (rule == rule_block .and. size(spans, 2) == 0) then
+            if (room%is_long .and. (size(status) < few .or. size(lowered%beam%links) >= least_alone)) then
+                call solve_in_segments(lowered, loads, factors, values, room%segments, closed, w, ml, mr, reaction, solves, done)
+                ! Solves are the same alone and in company
+                do i = 1, size(status)
+                    if (.not. (done(i) .or. .not. room%fits)) call solve_beside(i, i)
+                end do
+            else if (room%fits) then
+                call solve_beside(1, size(status))
+            end if
             where (done) status = gapbeam_solved
             if (all(done)) return
         end if
@@ -102,6 +116,18 @@ contains
         end do
 
     contains
+
+        !> Solve some cases side by side
+        subroutine solve_beside(first, last)
+            integer, intent(in) :: first, last
+            integer :: from, to
+
+            from = merge(first, 1, size(values, 2) > 0)
+            to = merge(last, size(values, 3), size(values, 2) > 0)
+            call solve_in_lanes(lowered, loads, factors(:, first:last), values(:, :, from:to), room%lanes, closed(:, first:last), &
+                                w(:, first:last), ml(:, first:last), mr(:, first:last), reaction(:, first:last), &
+                                solves(first:last), done(first:last))
+        end subroutine solve_beside
 
         !> Solve the case at hand
         subroutine solve(beam, shares)

@@ -1,0 +1,266 @@
+!> The solution of a long beam in segments: refined, with reactions, and whether its scheme is beyond doubt; gapbeam_system,
+!> gapbeam_reactions and gapbeam_law for ordinary supports, one at a node, number by number
+module gapbeam_segment_finish
+    use gapbeam_kinds, only: wp
+    use gapbeam_lane_types, only: lanes
+    use gapbeam_lane_residual, only: find_rest_along
+    use gapbeam_segment_types, only: segment_beam_type, segment_room_type, node_of, half
+    use gapbeam_segment_passes, only: solve_segments
+    use gapbeam_segment_search, only: search_segments
+    implicit none
+    private
+    public :: solve_long_beam
+
+    !> As first_width of gapbeam_rules and worst_digits of gapbeam_referee
+    real(wp), parameter :: width = 32.0_wp, worst_digits = 1e-8_wp
+
+contains
+
+    !> Find the working scheme of a case and its solution
+    pure subroutine solve_long_beam(beam, room, solves, doubtful)
+        type(segment_beam_type), intent(in) :: beam
+        !> Loads, supports and start in; scheme, solution and reactions out, by nodes
+        type(segment_room_type), intent(inout) :: room
+        !> Linear solves
+        integer, intent(out) :: solves
+        !> Has no scheme been found, is a sign wrong or within its rounding error, are digits lost, or numbers not finite
+        logical, intent(out) :: doubtful
+        logical :: found
+
+        call search_segments(beam, room, solves, found)
+        doubtful = .not. found
+        if (found) call finish_segments(beam, room, doubtful)
+    end subroutine solve_long_beam
+
+    !> Refine a solution once, and find reactions
+    pure subroutine finish_segments(beam, room, doubtful)
+        type(segment_beam_type), intent(in) :: beam
+        !> Scheme found and solved in, solution by nodes out
+        type(segment_room_type), intent(inout) :: room
+        !> Is a sign wrong or within its rounding error, are digits lost, or numbers not finite
+        logical, intent(out) :: doubtful
+        integer :: n
+
+        n = beam%n
+        associate (b => room%by_node)
+            call apply_scheme(n, room%shear, room%stiffness, room%rigid, room%contact, room%closed, b(:, 1), b(:, 2), b(:, 3), &
+                              b(:, 4))
+            call take_solution(beam, room, room%m, room%w)
+            call find_rest_along(n, beam%length, beam%faa, beam%fab, beam%fbb, room%left, room%right, b(:n, 4), b(:n, 1), &
+                                 b(:n, 2), b(:n, 3), room%w, room%m, b(:n, 5), b(:n, 6))
+            call put_rows(beam, b(:, 5), b(:, 6), room)
+            call solve_segments(beam, room)
+            call take_solution(beam, room, b(:, 5), b(:, 6))
+            room%m(:) = room%m + b(:n, 5)
+            room%w(:) = room%w + b(:n, 6)
+            call find_sizes(beam, n, b(:, 1), room%contact, room%closed, room%load_size, room%turn_size, room%w, room%m, &
+                            b(:, 5), b(:, 6), b(:, 7), b(:, 8))
+            call find_shears(n, beam%inverse, b(:, 1), b(:, 3), b(:, 4), room%w, room%m, b(:, 7), b(:, 8), b(:, 9), b(:, 10))
+            call find_reactions(beam, n, room%shear, room%load_size, room%stiffness, room%rigid, room%contact, room%closed, &
+                                room%w, room%m, b(:, 5), b(:, 6), b(:, 7), b(:, 8), room%reaction, doubtful)
+        end associate
+    end subroutine finish_segments
+
+    !> Nodes as the scheme sees them
+    pure subroutine apply_scheme(n, shear, stiffness, rigid, contact, closed, held, known, spring, force)
+        integer, intent(in) :: n
+        real(wp), intent(in), dimension(0:n) :: shear, stiffness, rigid, contact, closed
+        !> As in pack_type of gapbeam_lane_types
+        real(wp), intent(inout), dimension(0:n + 1) :: held, known, spring, force
+        integer :: i
+
+        do i = 0, n
+            held(i) = closed(i)*rigid(i)
+            known(i) = held(i)*contact(i)
+            spring(i) = closed(i)*stiffness(i)
+            force(i) = shear(i) + spring(i)*contact(i)
+        end do
+    end subroutine apply_scheme
+
+    !> Moments and deflections by nodes
+    pure subroutine take_solution(beam, room, m, w)
+        type(segment_beam_type), intent(in) :: beam
+        type(segment_room_type), intent(in) :: room
+        real(wp), intent(inout) :: m(0:), w(0:)
+        integer :: l, s, i, step, begin
+
+        do l = 1, lanes
+            call node_of(beam, l, i, step, begin)
+            do s = begin, beam%columns
+                m(i + (s - 1)*step) = room%solution(l, 1, s)
+                w(i + (s - 1)*step) = room%solution(l, 2, s)
+            end do
+        end do
+        m(beam%n/2) = room%middle(1)
+        w(beam%n/2) = room%middle(2)
+    end subroutine take_solution
+
+    !> Other right-hand sides
+    pure subroutine put_rows(beam, turn, shear, room)
+        type(segment_beam_type), intent(in) :: beam
+        real(wp), intent(in) :: turn(0:), shear(0:)
+        type(segment_room_type), intent(inout) :: room
+        integer :: l, s, i, step, begin
+
+        do l = 1, lanes
+            call node_of(beam, l, i, step, begin)
+            do s = begin, beam%columns
+                room%row(l, 3, s) = turn(i + (s - 1)*step)
+                room%row(l, 4, s) = shear(i + (s - 1)*step)
+            end do
+        end do
+        room%middle_row(3) = turn(beam%n/2)
+        room%middle_row(4) = shear(beam%n/2)
+    end subroutine put_rows
+
+    !> Sizes of shears and deflections whose rounding errors reach a node
+    pure subroutine find_sizes(beam, n, held, contact, closed, load_size, turn_size, w, m, shear_size, deflection_size, shear, &
+                               deflection)
+        type(segment_beam_type), intent(in) :: beam
+        integer, intent(in) :: n
+        real(wp), intent(in), dimension(0:n) :: contact, closed, load_size, turn_size, w, m
+        real(wp), intent(in) :: held(0:n + 1)
+        real(wp), intent(inout), dimension(0:n + 1) :: shear_size, deflection_size
+        !> Room: those of the links, and what comes from the left
+        real(wp), intent(inout), dimension(0:n + 1) :: shear, deflection
+        real(wp) :: moment, turn, s, d, share
+        integer :: i
+
+        do i = 0, n + 1, n + 1
+            shear(i) = 0.0_wp
+            deflection(i) = 0.0_wp
+        end do
+        associate (inverse => beam%inverse, fixity => beam%fixity, reach => beam%reach)
+            !$omp simd private(moment, turn)
+            do i = 1, n
+                turn = turn_size(i) + (abs(contact(i))*closed(i) + abs(contact(i - 1))*closed(i - 1))*inverse(i)
+                moment = larger(larger(abs(m(i - 1)), abs(m(i))), turn*fixity(i))
+                shear(i) = 2*moment*inverse(i)
+                deflection(i) = reach(i)*moment
+            end do
+        end associate
+        !$omp simd
+        do i = 0, n
+            shear_size(i) = larger(load_size(i), larger(shear(i), shear(i + 1)))
+            deflection_size(i) = larger(abs(w(i)), larger(deflection(i), deflection(i + 1)))
+        end do
+        s = 0.0_wp
+        d = 0.0_wp
+        do i = 0, n
+            share = 1.0_wp - 0.5_wp*held(i)
+            s = larger(shear_size(i), share*s)
+            d = larger(deflection_size(i), share*d)
+            shear(i) = s
+            deflection(i) = d
+        end do
+        s = 0.0_wp
+        d = 0.0_wp
+        do i = n, 0, -1
+            share = 1.0_wp - 0.5_wp*held(i)
+            s = larger(shear_size(i), share*s)
+            d = larger(deflection_size(i), share*d)
+            shear_size(i) = larger(shear(i), s)
+            deflection_size(i) = larger(deflection(i), d)
+        end do
+    end subroutine find_sizes
+
+    !> Shears of the links and their rounding errors, by the better of two ways
+    pure subroutine find_shears(n, inverse, held, spring, force, w, m, v, e, change, passed)
+        integer, intent(in) :: n
+        real(wp), intent(in) :: inverse(n)
+        real(wp), intent(in), dimension(0:n + 1) :: held, spring, force
+        real(wp), intent(in), dimension(0:n) :: w, m
+        !> Shear and rounding error of link i, 0 beyond the ends
+        real(wp), intent(inout), dimension(0:n + 1) :: v, e
+        !> Room
+        real(wp), intent(inout), dimension(0:n + 1) :: change, passed
+        real(wp) :: by_spring, shear, error
+        logical :: better
+        integer :: i
+
+        do i = 0, n + 1, n + 1
+            v(i) = 0.0_wp
+            e(i) = 0.0_wp
+        end do
+        !$omp simd private(by_spring)
+        do i = 1, n
+            v(i) = (m(i) - m(i - 1))*inverse(i)
+            e(i) = epsilon(1.0_wp)*(abs(m(i)) + abs(m(i - 1)))*inverse(i)
+            by_spring = spring(i)*w(i)
+            change(i) = by_spring - force(i)
+            passed(i) = epsilon(1.0_wp)*(abs(by_spring) + abs(force(i)))
+            ! No way past a rigid support
+            passed(i) = merge(sqrt(huge(1.0_wp)), passed(i), held(i) > 0.5_wp)
+        end do
+        shear = v(1)
+        error = e(1)
+        do i = 2, n
+            better = error + passed(i - 1) < e(i)
+            shear = merge(shear + change(i - 1), v(i), better)
+            error = merge(error + passed(i - 1), e(i), better)
+            v(i) = shear
+            e(i) = error
+        end do
+        do i = n - 1, 1, -1
+            better = error + passed(i) < e(i)
+            shear = merge(shear - change(i), v(i), better)
+            error = merge(error + passed(i), e(i), better)
+            v(i) = shear
+            e(i) = error
+        end do
+    end subroutine find_shears
+
+    !> Reactions, and whether signs and digits are certain
+    pure subroutine find_reactions(beam, n, shear, load_size, stiffness, rigid, contact, closed, w, m, shear_size, &
+                                   deflection_size, v, e, reaction, doubtful)
+        type(segment_beam_type), intent(in) :: beam
+        integer, intent(in) :: n
+        real(wp), intent(in), dimension(0:n) :: shear, load_size, stiffness, rigid, contact, closed, w, m
+        real(wp), intent(in), dimension(0:n + 1) :: shear_size, deflection_size, v, e
+        real(wp), intent(out) :: reaction(0:n)
+        logical, intent(out) :: doubtful
+        real(wp) :: force, error, by_spring, spring_error, r, r_error, margin, rounding, c, bad, largest, worst, wrong
+        integer :: i
+
+        wrong = 0.0_wp
+        largest = 0.0_wp
+        worst = 0.0_wp
+        !$omp simd private(force, error, by_spring, spring_error, r, r_error, margin, rounding, c, bad) &
+        !$omp   reduction(max: largest, worst) reduction(+: wrong)
+        do i = 0, n
+            error = epsilon(1.0_wp)*load_size(i) + e(i) + e(i + 1)
+            force = shear(i) - (v(i) - v(i + 1))
+            error = larger(error, epsilon(1.0_wp)*shear_size(i))
+            by_spring = stiffness(i)*(w(i) - contact(i))
+            spring_error = epsilon(1.0_wp)*stiffness(i)*larger(deflection_size(i), abs(contact(i)))
+            ! The spring's own where that is better; a rigid support has no other way
+            c = larger(merge(1.0_wp, 0.0_wp, error < spring_error), rigid(i))
+            r = merge(force, by_spring, c > 0.5_wp)
+            r_error = merge(error, spring_error, c > 0.5_wp)
+            c = closed(i)*beam%there(i)
+            r = r*c + 0.0_wp   ! no negative zero
+            r_error = r_error*c
+            reaction(i) = r
+            largest = max(largest, abs(r))
+            worst = max(worst, r_error)
+            margin = beam%side(i)*(contact(i) - w(i))
+            rounding = epsilon(1.0_wp)*larger(deflection_size(i), abs(contact(i)))
+            margin = merge(beam%side(i)*r, margin, c > 0.5_wp)
+            rounding = merge(r_error, rounding, c > 0.5_wp)
+            bad = merge(0.0_wp, abs(beam%changing(i)), margin > width*rounding)
+            ! Not a number, or beyond the range
+            bad = merge(bad, 1.0_wp, abs(w(i)) + 2*abs(m(i)) + abs(r) <= huge(1.0_wp))
+            wrong = wrong + bad
+        end do
+        doubtful = wrong > 0.0_wp .or. worst > worst_digits*largest
+    end subroutine find_reactions
+
+    !> The larger of two
+    elemental function larger(a, b) result(c)
+        real(wp), intent(in) :: a, b
+        real(wp) :: c
+
+        c = merge(a, b, a > b)
+    end function larger
+
+end module gapbeam_segment_finish

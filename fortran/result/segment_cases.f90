@@ -1,0 +1,287 @@
+!> Cases of a long beam one by one, each in eight segments side by side (fortran/lanes), where the beam is such. What comes out has
+!> the digits of solve_case of gapbeam_cases, which takes the other beams, and the cases that are doubtful here
+module gapbeam_segment_cases
+    use gapbeam_kinds, only: wp
+    use gapbeam_band, only: plain
+    use gapbeam_law, only: both, is_rigid, has_laws, may_change
+    use gapbeam_units, only: moment_unit
+    use gapbeam_lowered, only: lowered_type
+    use gapbeam_lower_units, only: support_in_units
+    use gapbeam_cases, only: case_loads_type
+    use gapbeam_lane_types, only: lanes
+    use gapbeam_segment_types, only: segment_beam_type, segment_room_type, new_segments, node_of
+    use gapbeam_lane_levels, only: solve_segments_at, best_level
+    implicit none
+    private
+    public :: segments_type, fits_segments, solve_in_segments, least_alone
+
+    !> Least links: shorter segments feel each other too much; from so many on several cases are solved faster one by one, too
+    integer, parameter :: least_links = 200, least_alone = 700
+    !> Exponents of units up to which a power of two is a double
+    integer, parameter :: most_power = 1000
+
+    !> What cases of one beam need, kept from call to call; calls at the same time need one each
+    type :: segments_type
+        logical :: made = .false.
+        !> Are the supports in room those of the beam
+        logical :: with_own_supports = .false.
+        type(segment_beam_type) :: beam
+        type(segment_room_type) :: room
+    end type segments_type
+
+contains
+
+    !> Is a beam such: long, of links that bend, without ground, hinges, restraints and laws, one support at a node
+    pure function fits_segments(lowered) result(fits)
+        type(lowered_type), intent(in) :: lowered
+        logical :: fits
+        integer :: n
+
+        associate (beam => lowered%beam, units => lowered%units)
+            n = size(beam%links)
+            fits = n >= least_links .and. .not. allocated(beam%ground)
+            if (.not. fits) return
+            fits = all(beam%kind == plain) .and. all(beam%links%faa > 0.0_wp .and. beam%links%fbb > 0.0_wp) &
+                .and. all(beam%first(1:n + 1) - beam%first(0:n) <= 1) .and. .not. has_laws(beam%supports) &
+                .and. max(abs(units%deflection), abs(units%force), abs(moment_unit(units))) < most_power
+        end associate
+    end function fits_segments
+
+    !> Solve cases of a beam that fits
+    subroutine solve_in_segments(lowered, loads, factors, values, segments, closed, w, ml, mr, reaction, solves, done, level)
+        type(lowered_type), intent(in) :: lowered
+        !> As for solve_in_lanes of gapbeam_lane_cases
+        type(case_loads_type), intent(in) :: loads
+        real(wp), intent(in) :: factors(:, :), values(:, :, :)
+        !> Empty, or of earlier cases of this beam
+        type(segments_type), intent(inout) :: segments
+        !> Starts in, working schemes out, where a case is done; 1 closed
+        integer, intent(inout), contiguous :: closed(:, :)
+        !> As for solve_in_lanes
+        real(wp), intent(inout), contiguous :: w(:, :), ml(:, :), mr(:, :), reaction(:, :)
+        integer, intent(inout) :: solves(:)
+        logical, intent(out) :: done(:)
+        integer, intent(in), optional :: level
+        real(wp) :: units(3), largest
+        integer :: i, at_level
+        logical :: lost, couples, doubtful
+
+        done(:) = .false.
+        at_level = best_level()
+        if (present(level)) at_level = level
+        if (.not. segments%made) call make_segments(lowered, segments)
+        if (.not. segments%made) return
+        units = scale(1.0_wp, [lowered%units%deflection, moment_unit(lowered%units), lowered%units%force])
+        if (size(values, 2) > 0) segments%with_own_supports = .false.
+        associate (room => segments%room)
+            if (size(values, 2) == 0 .and. .not. segments%with_own_supports) call take_supports(lowered, room)
+            segments%with_own_supports = size(values, 2) == 0
+            do i = 1, size(done)
+                lost = .false.
+                if (size(values, 2) > 0) call take_values(lowered, values(:, :, i), room, lost)
+                if (lost) cycle
+                call add_loads(loads, factors(:, i), segments%beam%n, room, couples)
+                if (couples) cycle
+                call take_start(lowered, closed(:, i), room)
+                call solve_segments_at(at_level, segments%beam, room, solves(i), doubtful)
+                if (doubtful) cycle
+                largest = max(maxval(abs(room%w)), maxval(abs(room%m)), maxval(abs(room%reaction)))
+                done(i) = largest <= huge(1.0_wp)/max(maxval(units), 1.0_wp)
+                if (done(i)) call give_case(lowered, units, room, closed(:, i), w(:, i), ml(:, i), mr(:, i), reaction(:, i))
+            end do
+        end associate
+    end subroutine solve_in_segments
+
+    !> Cut the beam
+    subroutine make_segments(lowered, segments)
+        type(lowered_type), intent(in) :: lowered
+        type(segments_type), intent(inout) :: segments
+        integer :: k, l, s, i, step, begin
+
+        call new_segments(size(lowered%beam%links), segments%beam, segments%room, segments%made)
+        if (.not. segments%made) return
+        associate (to => segments%beam, from => lowered%beam%links)
+            to%length(:) = from%length
+            to%inverse(:) = from%inverse
+            to%faa(:) = from%faa
+            to%fab(:) = from%fab
+            to%fbb(:) = from%fbb
+            to%fixity(:) = 0.0_wp
+            where (from%bending > 0.0_wp) to%fixity = 1/from%bending
+            to%reach(:) = max(from%bending, from%faa + from%fbb)*from%length
+            to%side(:) = 0.0_wp
+            to%changing(:) = 0.0_wp
+            to%there(:) = 0.0_wp
+            do k = 1, size(lowered%beam%supports)
+                associate (s => lowered%beam%supports(k))
+                    to%there(s%node) = 1.0_wp
+                    to%side(s%node) = s%side
+                    if (may_change(s)) to%changing(s%node) = s%side
+                end associate
+            end do
+            do l = 1, lanes
+                call node_of(to, l, i, step, begin)
+                do s = begin, to%columns
+                    ! Inward is to the right in the left half
+                    associate (link => from(i + (s - 1)*step + merge(1, 0, step == 1)))
+                        to%link(l, 1, s) = link%inverse
+                        to%link(l, 2, s) = merge(link%faa, link%fbb, step == 1)
+                        to%link(l, 3, s) = merge(link%fbb, link%faa, step == 1)
+                        to%link(l, 4, s) = link%fab
+                        to%link(l, 5, s) = merge(link%sum_a, link%sum_b, step == 1)
+                        to%link(l, 6, s) = merge(link%sum_b, link%sum_a, step == 1)
+                        to%link(l, 7, s) = link%bending
+                        to%link(l, 8, s) = link%determinant
+                    end associate
+                end do
+            end do
+            do l = 2, lanes
+                if (l /= lanes/2 + 1) to%link(l, :, 0) = to%link(l - 1, :, to%columns)
+            end do
+        end associate
+    end subroutine make_segments
+
+    !> The loads of a case, as solve_case of gapbeam_cases and set_loads of gapbeam_workspace add them up
+    pure subroutine add_loads(loads, factors, n, room, couples)
+        type(case_loads_type), intent(in) :: loads
+        real(wp), intent(in) :: factors(:)
+        !> Links
+        integer, intent(in) :: n
+        type(segment_room_type), intent(inout) :: room
+        !> Is there a couple at a node
+        logical, intent(out) :: couples
+        integer :: k
+
+        couples = .false.
+        room%by_node(:, 1:4) = 0.0_wp
+        room%left(:) = 0.0_wp
+        room%right(:) = 0.0_wp
+        room%turn_size(:) = 0.0_wp
+        ! Forces at nodes; shears of the links at both ends and sums of absolute values
+        associate (force => room%by_node(:, 1), shear_a => room%by_node(:, 2), shear_b => room%by_node(:, 3), &
+                   total => room%by_node(:, 4))
+            do k = 1, size(loads%of_links)
+                associate (s => loads%of_links(k), factor => factors(loads%of_links(k)%load), i => loads%of_links(k)%link + 1)
+                    room%right(i - 2) = room%right(i - 2) + factor*s%turn_a
+                    room%left(i - 1) = room%left(i - 1) + factor*s%turn_b
+                    shear_a(i) = shear_a(i) + factor*s%shear_a
+                    shear_b(i) = shear_b(i) + factor*s%shear_b
+                    total(i) = total(i) + abs(factor)*s%load_sum
+                    room%turn_size(i - 1) = room%turn_size(i - 1) + abs(factor)*s%turn_sum
+                end associate
+            end do
+            do k = 1, size(loads%of_nodes)
+                associate (s => loads%of_nodes(k), factor => factors(loads%of_nodes(k)%load), i => loads%of_nodes(k)%node)
+                    force(i + 1) = force(i + 1) + factor*s%force
+                    couples = couples .or. abs(factor*s%couple) > 0.0_wp
+                end associate
+            end do
+            room%shear(0:n) = force(1:n + 1) - shear_b(1:n + 1)
+            room%load_size(0:n) = abs(force(1:n + 1)) + total(1:n + 1)
+            room%shear(0:n - 1) = room%shear(0:n - 1) + shear_a(2:n + 1)
+            room%load_size(0:n - 1) = room%load_size(0:n - 1) + total(2:n + 1)
+        end associate
+    end subroutine add_loads
+
+    !> The supports of the beam
+    pure subroutine take_supports(lowered, room)
+        type(lowered_type), intent(in) :: lowered
+        type(segment_room_type), intent(inout) :: room
+        integer :: k
+
+        call forget_supports(room)
+        do k = 1, size(lowered%beam%supports)
+            associate (s => lowered%beam%supports(k))
+                room%contact(s%node) = s%contact
+                if (is_rigid(s)) then
+                    room%rigid(s%node) = 1.0_wp
+                else
+                    room%stiffness(s%node) = s%stiffness
+                end if
+            end associate
+        end do
+    end subroutine take_supports
+
+    !> No supports
+    pure subroutine forget_supports(room)
+        type(segment_room_type), intent(inout) :: room
+
+        room%stiffness(:) = 0.0_wp
+        room%rigid(:) = 0.0_wp
+        room%contact(:) = 0.0_wp
+        room%closed(:) = 0.0_wp
+    end subroutine forget_supports
+
+    !> The supports of a case, see replace_supports of gapbeam_cases
+    pure subroutine take_values(lowered, values, room, lost)
+        type(lowered_type), intent(in) :: lowered
+        real(wp), intent(in) :: values(:, :)
+        type(segment_room_type), intent(inout) :: room
+        !> Is a number out of range
+        logical, intent(out) :: lost
+        real(wp) :: stiffness
+        integer :: k
+        logical :: lost_stiffness, lost_level
+
+        lost = .false.
+        call forget_supports(room)
+        do k = 1, size(lowered%beam%supports)
+            associate (s => lowered%beam%supports(k), given => values(:, lowered%normal(k)), i => lowered%beam%supports(k)%node)
+                call support_in_units(lowered%units, given(3), given(1) + s%side*given(2), stiffness, room%contact(i), &
+                                      lost_stiffness, lost_level)
+                lost = lost .or. lost_stiffness .or. lost_level
+                if (given(3) > huge(1.0_wp)) then
+                    room%rigid(i) = 1.0_wp
+                else
+                    room%stiffness(i) = stiffness
+                end if
+            end associate
+        end do
+    end subroutine take_values
+
+    !> Where the search starts
+    pure subroutine take_start(lowered, closed, room)
+        type(lowered_type), intent(in) :: lowered
+        integer, intent(in) :: closed(:)
+        !> Open where there is no support
+        type(segment_room_type), intent(inout) :: room
+        integer :: k
+
+        do k = 1, size(lowered%beam%supports)
+            associate (s => lowered%beam%supports(k))
+                room%closed(s%node) = merge(1.0_wp, 0.0_wp, closed(k) /= 0 .or. s%side == both)
+            end associate
+        end do
+    end subroutine take_start
+
+    !> The solution in the scene's units, which hold it
+    pure subroutine give_case(lowered, units, room, closed, w, ml, mr, reaction)
+        type(lowered_type), intent(in) :: lowered
+        !> Of deflections, moments and forces, as numbers
+        real(wp), intent(in) :: units(3)
+        type(segment_room_type), intent(in) :: room
+        integer, intent(inout) :: closed(:)
+        real(wp), intent(inout), contiguous :: w(:), ml(:), mr(:), reaction(:)
+        integer :: k
+
+        do k = 1, size(w)
+            w(k) = room%w(k - 1)*units(1)
+        end do
+        do k = 1, size(ml)
+            ml(k) = room%m(k - 1)*units(2)
+        end do
+        do k = 1, size(mr)
+            mr(k) = room%m(k - 1)*units(2)
+        end do
+        ! Beyond the ends there is no moment
+        if (size(ml) > 0) ml(1) = 0.0_wp
+        if (size(mr) > 0) mr(size(mr)) = 0.0_wp
+        do k = 1, size(reaction)
+            reaction(k) = room%reaction(lowered%beam%supports(k)%node)*units(3)
+        end do
+        do k = 1, size(lowered%beam%supports)
+            closed(k) = merge(1, 0, room%closed(lowered%beam%supports(k)%node) > 0.5_wp)
+        end do
+    end subroutine give_case
+
+end module gapbeam_segment_cases
