@@ -315,8 +315,9 @@ contains
             if (closed(k)) rounding(k) = max(rounding(k), least_force)
             undecided(k) = abs(margin(k)) <= first_width*rounding(k)*(epsilon(1.0_wp)/epsilon(1.0_qp))
             ! At a kink of a law the margin may be zero, and the reaction is not
-            if (closed(k) .and. abs(work%reaction(k)) <= fine_width*max(work%reaction_error(k), least_force)) &
+            if (closed(k) .and. abs(work%reaction(k)) <= fine_width*max(work%reaction_error(k), least_force)) then
                 work%reaction(k) = 0.0_qp
+            end if
         end do
         if (.not. any(undecided) .or. count(undecided) > most_examined) return
         call prepare_sensitivity(fine, factor, work, sensitivity)
