@@ -30,7 +30,7 @@ contains
             x = random(seed)
             k = merge(1, 0, spans > 3 .and. x < 0.3_wp .and. .not. whole)
             allocate (model%spans(spans), model%hinges(k), model%sections(0), model%law(0), model%foundations(0), model%ground(0), &
-                      model%ground_law(0), supports(spans + 1))
+                      model%ground_law(0), supports(2*spans + 2))
             do i = 1, spans
                 model%spans(i) = span_type(2.0_wp + 4*random(seed), EI=10.0_wp**(3 + 2*random(seed)))
             end do
@@ -41,9 +41,17 @@ contains
                 m = m + 1
                 supports(m) = support_type(node=i, settlement=0.01_wp*(random(seed) - 0.5_wp))
                 if (random(seed) < 0.4_wp) supports(m)%stiffness = 10.0_wp**(1 + 4*random(seed))
-                if (x < 0.4_wp) cycle
-                supports(m)%side = merge(1, -1, x < 0.85_wp)
-                if (random(seed) < 0.6_wp) supports(m)%gap = 0.01_wp*(random(seed) - 0.2_wp)
+                if (x > 0.4_wp) then
+                    supports(m)%side = merge(1, -1, x < 0.85_wp)
+                    if (random(seed) < 0.6_wp) supports(m)%gap = 0.01_wp*(random(seed) - 0.2_wp)
+                end if
+                if (random(seed) < 0.7_wp) cycle
+                ! With another one beside it that stops the beam the other way, or downwards
+                m = m + 1
+                supports(m) = support_type(node=i, side=-1, settlement=supports(m - 1)%settlement, &
+                                           gap=0.002_wp + 0.01_wp*random(seed), stiffness=10.0_wp**(1 + 4*random(seed)))
+                if (x > 0.4_wp) supports(m)%side = -supports(m - 1)%side
+                if (x > 0.4_wp .and. random(seed) < 0.4_wp) supports(m)%stiffness = gapbeam_infinity
             end do
             allocate (model%supports(m), model%loads(4))
             model%supports(:) = supports(:m)
@@ -83,6 +91,11 @@ contains
                     if (given(k)%side /= gapbeam_both) values(2, k, i) = 0.01_wp*(random(seed) - 0.2_wp)
                     if (random(seed) < 0.2_wp) values(3, k, i) = 10.0_wp**(1 + 4*random(seed))
                     if (random(seed) < 0.1_wp) values(3, k, i) = gapbeam_infinity
+                    if (k == 1) cycle
+                    if (given(k)%node /= given(k - 1)%node) cycle
+                    ! With room between rigid ones
+                    values(:2, k, i) = [values(1, k - 1, i), 0.002_wp + 0.01_wp*random(seed)]
+                    if (given(k - 1)%side == gapbeam_both) values(3, k, i) = given(k)%stiffness
                 end do
             end do
         end associate

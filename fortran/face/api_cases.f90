@@ -88,7 +88,7 @@ contains
         real(wp), intent(in) :: factors(:, :)
         !> gapbeam_solved, gapbeam_no_equilibrium, or the code of the error that solve_beam would give, shape (ncase)
         integer, intent(out) :: status(:)
-        !> gapbeam_bad_input: nothing is solved; also where supports vary that have laws, or stand at one place.
+        !> gapbeam_bad_input: nothing is solved; also where supports vary that have laws.
         !> gapbeam_not_prepared, gapbeam_no_memory
         type(error_type), allocatable, intent(out) :: error
         !> Movement (down), gap and stiffness (above 0, infinite: rigid) of every support instead of those of the model, shape
@@ -244,13 +244,11 @@ contains
         type(error_type), allocatable, intent(inout) :: error
 
         if (allocated(error)) return
-        associate (n => size(lowered%beam%links), first => lowered%beam%first)
-            if (any(lowered%with_law) .or. any(first(1:n + 1) - first(0:n) > 1)) then
-                call fatal_error(error, gapbeam_bad_input, "supports cannot vary by case where one has a law, or several "// &
-                                 "stand at one place; use combine_loads, or prepare a model for each")
-                error%table = of_supports
-            end if
-        end associate
+        if (any(lowered%with_law)) then
+            call fatal_error(error, gapbeam_bad_input, "supports cannot vary by case where one has a law; use combine_loads, "// &
+                             "or prepare a model for each")
+            error%table = of_supports
+        end if
     end subroutine require_own_supports
 
     !> Refuse numbers that a support cannot have; those of the model are always right

@@ -29,7 +29,7 @@ subroutine gbmany(work, iwork, ncase, factor, nvary, supval, rule, istat, react,
     integer, intent(inout) :: icond(*)
     ! -1: no beam in WORK, or one that is not taken: on a foundation, or whose state depends on the way of the load; -3; -4: no
     ! finite number, ISTAT(1) is the number of the case; -5; -6: impossible, ISTAT(1) is the number of the case, or 0 where
-    ! supports of this beam cannot vary: one has a law, or several stand at one place; -7; 15
+    ! supports of this beam cannot vary: one has a law; -7; 15
     integer, intent(out) :: info
     type(prepared_type) :: beam
     type(error_type), allocatable :: error

@@ -5,6 +5,7 @@ module gapbeam_lane_fields
     use gapbeam_lane_types, only: lanes, lane_beam_type, lane_pieces_type, pack_type, piece_pack_type
     use gapbeam_lane_search, only: add_loads, apply_scheme
     use gapbeam_lane_reactions, only: find_shears
+    use gapbeam_lane_shared, only: keep_loads, join_supports
     implicit none
     private
     public :: recover_pack, find_rotations
@@ -30,11 +31,18 @@ contains
         type(piece_pack_type), intent(inout) :: fields
         !> 1 where a shear is known to few digits from the moments, or numbers are far from 1
         real(wp), intent(out) :: poor(lanes)
-        integer :: n
+        integer :: n, last
 
         n = beam%n
+        last = ubound(pack%closed, 2)
         call add_loads(beam, n, factors, pack%left, pack%right, pack%shear, pack%couple, pack%load_size, pack%turn_size, &
                        pack%room, pack%force)
+        if (last > n) then
+            call keep_loads(beam, n, pack%shear, pack%load)
+            pack%turn_rest(:, :) = 0.0_wp   ! no support is to be changed
+            call join_supports(beam, n, last, pack%load, pack%turn_rest, pack%closed, pack%stiffness, pack%rigid, pack%contact, &
+                               pack%shear)
+        end if
         call apply_scheme(n, pack%shear, pack%stiffness, pack%rigid, pack%contact, pack%closed, pack%held, pack%known, &
                           pack%spring, pack%force)
         call find_shears(beam, n, pack%held, pack%spring, pack%force, pack%w, pack%ml, pack%mr, pack%room)

@@ -1,8 +1,9 @@
 !> What follows from the solutions of eight cases: shears, reactions, and which of them rounding could turn. gapbeam_reactions and
-!> gapbeam_law for ordinary supports, one at a node, number by number
+!> gapbeam_law for ordinary supports, number by number
 module gapbeam_lane_reactions
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type
+    use gapbeam_lane_shared, only: find_levels, share_forces
     implicit none
     private
     public :: complete, find_shears
@@ -20,12 +21,21 @@ contains
         type(pack_type), intent(inout) :: pack
         !> Above 0: a sign is wrong or within its rounding error, digits are lost, or numbers are not finite
         real(wp), intent(out) :: doubtful(lanes)
+        real(wp), dimension(lanes) :: largest, worst
+        integer :: last
 
+        last = ubound(pack%closed, 2)
+        doubtful(:) = 0.0_wp
+        largest(:) = 0.0_wp
+        worst(:) = 0.0_wp
+        if (last > n) call find_levels(beam, last, pack%closed, pack%contact)
         call find_sizes(beam, n, pack%held, pack%contact, pack%closed, pack%load_size, pack%turn_size, pack%w, pack%ml, pack%mr, &
                         pack%room)
         call find_shears(beam, n, pack%held, pack%spring, pack%force, pack%w, pack%ml, pack%mr, pack%room)
+        if (last > n) call share_forces(beam, n, last, pack%load, pack%load_size, pack%stiffness, pack%rigid, pack%contact, &
+                                        pack%closed, pack%w, pack%room, pack%reaction, largest, worst, doubtful)
         call find_reactions(beam, n, pack%shear, pack%load_size, pack%stiffness, pack%rigid, pack%contact, pack%closed, pack%w, &
-                            pack%ml, pack%mr, pack%room, pack%reaction, doubtful)
+                            pack%ml, pack%mr, pack%room, pack%reaction, largest, worst, doubtful)
     end subroutine complete
 
     !> Sizes whose rounding errors reach a node: room 1 of shears, 2 of deflections
@@ -141,20 +151,23 @@ contains
 
     !> Reactions, and whether signs and digits are certain
     pure subroutine find_reactions(beam, n, shear, load_size, stiffness, rigid, contact, closed, w, ml, mr, room, reaction, &
-                                   doubtful)
+                                   largest, worst, doubtful)
         type(lane_beam_type), intent(in) :: beam
         integer, intent(in) :: n
         real(wp), intent(in), dimension(lanes, 0:n) :: shear, load_size, stiffness, rigid, contact, closed, w, ml, mr
         real(wp), intent(in) :: room(lanes, 0:n, 10)
-        real(wp), intent(out) :: reaction(lanes, 0:n), doubtful(lanes)
+        real(wp), intent(inout) :: reaction(lanes, 0:n)
+        !> As for share_forces of gapbeam_lane_shared
+        real(wp), intent(in), dimension(lanes) :: largest, worst
+        real(wp), intent(inout) :: doubtful(lanes)
         real(wp) :: left, right, left_error, right_error, force, error, by_spring, spring_error, r, r_error, margin, rounding, c
         real(wp) :: side, there, changes, bad
-        real(wp), dimension(lanes) :: largest, worst
+        ! Sums of dummies would go through the memory at every node
+        real(wp), dimension(lanes) :: most, off
         integer :: i, l
 
-        doubtful(:) = 0.0_wp
-        largest(:) = 0.0_wp
-        worst(:) = 0.0_wp
+        most(:) = largest
+        off(:) = worst
         do i = 0, n
             side = beam%side(i)
             there = beam%there(i)
@@ -184,8 +197,8 @@ contains
                 r = r*c + 0.0_wp   ! no negative zero
                 r_error = r_error*c
                 reaction(l, i) = r
-                largest(l) = larger(largest(l), abs(r))
-                worst(l) = larger(worst(l), r_error)
+                most(l) = larger(most(l), abs(r))
+                off(l) = larger(off(l), r_error)
                 margin = side*(contact(l, i) - w(l, i))
                 rounding = epsilon(1.0_wp)*larger(room(l, i, 2), abs(contact(l, i)))
                 margin = merge(side*r, margin, c > 0.5_wp)
@@ -198,7 +211,7 @@ contains
             end do
         end do
         do l = 1, lanes
-            if (worst(l) > worst_digits*largest(l)) doubtful(l) = doubtful(l) + 1.0_wp
+            if (off(l) > worst_digits*most(l)) doubtful(l) = doubtful(l) + 1.0_wp
         end do
     end subroutine find_reactions
 

@@ -11,6 +11,7 @@ module gapbeam_lane_search
     use gapbeam_lane_passes, only: pass_both_ends, find_wrong_between, correct_both_ends
     use gapbeam_lane_residual, only: find_rest
     use gapbeam_lane_reactions, only: complete
+    use gapbeam_lane_shared, only: keep_loads, join_supports, find_wrong_beside, wait_beside
     implicit none
     private
     public :: search_pack, finish_pack, add_loads, apply_scheme
@@ -38,6 +39,7 @@ contains
                        pack%room, pack%force)
         pack%with_couples = .false.
         if (beam%with_couples) pack%with_couples = any(abs(pack%couple) > 0.0_wp)
+        if (size(beam%shared) > 0) call keep_loads(beam, beam%n, pack%shear, pack%load)
         call search(beam, beam%n, pack, solves, lost)
         ! Without the weak springs
         call apply_scheme(beam%n, pack%shear, pack%stiffness, pack%rigid, pack%contact, pack%closed, pack%held, pack%known, &
@@ -103,9 +105,10 @@ contains
         logical, intent(out) :: lost(lanes)
         real(wp), dimension(lanes) :: wrong, fewest, idle, moves, alive, looked_at, ease, count
         real(wp) :: left, longest
-        integer :: solve
+        integer :: solve, last
         logical :: is_easy
 
+        last = ubound(pack%closed, 2)
         is_easy = .not. (beam%with_hinges .or. pack%with_couples)
         pack%turn_rest(:, :) = 0.0_wp
         if (is_easy) pack%turn(:, :) = pack%left + pack%right
@@ -115,6 +118,8 @@ contains
         ease(:) = 0.0_wp
         count(:) = 0.0_wp
         do solve = 1, most_solves
+            if (last > n) call join_supports(beam, n, last, pack%load, pack%turn_rest, pack%closed, pack%stiffness, pack%rigid, &
+                                             pack%contact, pack%shear)
             pack%is_solved = is_easy
             if (pack%is_solved) pack%is_solved = ends_hold(pack, n)
             count(:) = count + alive
@@ -123,6 +128,8 @@ contains
                                     pack%closed, pack%room, pack%w, pack%ml)
                 call find_wrong_between(beam, n, alive, pack%shear, pack%stiffness, pack%rigid, pack%contact, pack%closed, &
                                         pack%w, pack%ml, pack%turn_rest, wrong)
+                if (last > n) call find_wrong_beside(beam, n, last, alive, pack%load, pack%stiffness, pack%rigid, pack%contact, &
+                                                     pack%closed, pack%w, pack%ml, pack%ml, pack%turn_rest, wrong)
             else
                 pack%closed(:, :) = abs(pack%closed - pack%turn_rest)
                 call apply_scheme(n, pack%shear, pack%stiffness, pack%rigid, pack%contact, pack%closed, pack%held, pack%known, &
@@ -135,12 +142,16 @@ contains
                 looked_at(:) = alive*(1.0_wp - moves)
                 call find_wrong(beam, n, looked_at, pack%shear, pack%stiffness, pack%contact, pack%held, pack%closed, pack%w, &
                                 pack%ml, pack%mr, pack%turn_rest, wrong)
+                if (last > n) call find_wrong_beside(beam, n, last, looked_at, pack%load, pack%stiffness, pack%rigid, &
+                                                     pack%contact, pack%closed, pack%w, pack%ml, pack%mr, pack%turn_rest, wrong)
                 where (moves > 0.5_wp) wrong = huge(1.0_wp)
                 is_easy = is_easy .and. .not. any(moves > 0.5_wp)
             end if
             call note_progress(wrong, alive, fewest, idle, left, longest)
             if (.not. left > 0.5_wp) exit
-            if (longest > patience) call keep_every_other(n, solve, idle, pack%turn_rest)
+            if (.not. longest > patience) cycle
+            call keep_every_other(n, solve, idle, pack%turn_rest)
+            if (last > n) call wait_beside(beam, last, solve, merge(1.0_wp, 0.0_wp, idle > patience), pack%turn_rest)
         end do
         solves(:) = nint(count)
         lost = alive > 0.5_wp
@@ -289,7 +300,9 @@ contains
         do l = 1, lanes
             associate (first => pack%held(l, 0), last => pack%held(l, n), left => pack%spring(l, 0), right => pack%spring(l, n))
                 method(l) = by_chain
-                if (holding(l) > n - 1.5_wp .and. holding(l) + first + last > 1.5_wp .and. .not. left + right > 0.0_wp) then
+                ! A spring beside a rigid support does nothing there
+                if (holding(l) > n - 1.5_wp .and. holding(l) + first + last > 1.5_wp &
+                    .and. .not. left*(1.0_wp - first) + right*(1.0_wp - last) > 0.0_wp) then
                     method(l) = by_three_moments
                 else if (first + left > 0.0_wp .and. last + right > 0.0_wp .and. .not. couples(l) > 0.0_wp) then
                     method(l) = by_both_ends

@@ -24,9 +24,14 @@ module gapbeam_lane_types
         real(wp), allocatable :: fixity(:)
         !> Deflection that a moment of 1 makes (find_own_sizes of gapbeam_reactions)
         real(wp), allocatable :: reach(:)
-        !> Node of every support, and its number in the scene
-        integer, allocatable :: place(:), number(:)
-        !> 1 below, -1 above, 0 both or none
+        !> Place of every support in arrays of supports: its node, or one beyond the last node where several share a node
+        integer, allocatable :: place(:)
+        !> Its number in the scene
+        integer, allocatable :: number(:)
+        !> Nodes with several supports, shape (m), and the last places of these, in the order of the nodes, shape (0:m); those of
+        !> the first begin after last_place(0) = n
+        integer, allocatable :: shared(:), last_place(:)
+        !> Of supports by places: 1 below, -1 above, 0 both or none
         real(wp), allocatable :: side(:)
         !> Is there a support, may it change
         real(wp), allocatable :: there(:), changes(:)
@@ -43,19 +48,22 @@ module gapbeam_lane_types
         real(wp), allocatable :: to_node(:, :)
     end type lane_beam_type
 
-    !> Eight cases; all arrays have shape (lanes, 0:n), those of links no entry at 0
+    !> Eight cases; all arrays have shape (lanes, 0:n), those of links no entry at 0, those of supports entries for all places
     type :: pack_type
         !> Loads: rotations left and right of the node, shear, couple; sizes (workspace_type)
         real(wp), allocatable, dimension(:, :) :: left, right, shear, couple, load_size, turn_size
-        !> Supports: stiffness, 0 of rigid ones; 1 where rigid; contact level
+        !> Supports by places: stiffness, 0 of rigid ones; 1 where rigid; contact level. At the nodes of several those of one in
+        !> place of them (gapbeam_lane_shared)
         real(wp), allocatable, dimension(:, :) :: stiffness, rigid, contact
         !> Scheme: 1 closed
         real(wp), allocatable, dimension(:, :) :: closed
         !> What the scheme makes of it: deflection known (1) and which, stiffness of the node, its shear
         real(wp), allocatable, dimension(:, :) :: held, known, spring, force
-        !> Solution: deflection, moments, reaction
+        !> Loads at the nodes with several supports, shape (lanes, m)
+        real(wp), allocatable :: load(:, :)
+        !> Solution: deflection, moments; reaction by places
         real(wp), allocatable, dimension(:, :) :: w, ml, mr, reaction
-        !> Residuals or, after elimination, corrections
+        !> Residuals or, after elimination, corrections; the first also which supports are wrong, by places
         real(wp), allocatable, dimension(:, :) :: turn_rest, force_rest, known_rest, dw, dl, dr, nothing
         !> Right-hand side of compatibility at plain nodes
         real(wp), allocatable :: turn(:, :)
@@ -119,21 +127,24 @@ contains
     end subroutine new_piece_pack
 
     !> Room for eight cases
-    subroutine new_pack(n, pack, made)
-        !> Links
-        integer, intent(in) :: n
+    subroutine new_pack(beam, pack, made)
+        type(lane_beam_type), intent(in) :: beam
         type(pack_type), intent(out) :: pack
         !> False where memory ends
         logical, intent(out) :: made
-        integer :: stat
+        integer :: n, last, m, stat
 
+        n = beam%n
+        m = size(beam%shared)
+        last = beam%last_place(m)
         allocate (pack%left(lanes, 0:n), pack%right(lanes, 0:n), pack%shear(lanes, 0:n), pack%couple(lanes, 0:n), &
-                  pack%load_size(lanes, 0:n), pack%turn_size(lanes, 0:n), pack%stiffness(lanes, 0:n), pack%rigid(lanes, 0:n), &
-                  pack%contact(lanes, 0:n), pack%closed(lanes, 0:n), pack%held(lanes, 0:n), pack%known(lanes, 0:n), &
-                  pack%spring(lanes, 0:n), pack%force(lanes, 0:n), pack%w(lanes, 0:n), pack%ml(lanes, 0:n), &
-                  pack%mr(lanes, 0:n), pack%reaction(lanes, 0:n), pack%turn_rest(lanes, 0:n), pack%force_rest(lanes, 0:n), &
-                  pack%known_rest(lanes, 0:n), pack%dw(lanes, 0:n), pack%dl(lanes, 0:n), pack%dr(lanes, 0:n), &
-                  pack%turn(lanes, 0:n), pack%nothing(lanes, 0:n), pack%room(lanes, 0:n, 10), stat=stat)
+                  pack%load_size(lanes, 0:n), pack%turn_size(lanes, 0:n), pack%stiffness(lanes, 0:last), &
+                  pack%rigid(lanes, 0:last), pack%contact(lanes, 0:last), pack%closed(lanes, 0:last), pack%load(lanes, m), &
+                  pack%held(lanes, 0:n), pack%known(lanes, 0:n), pack%spring(lanes, 0:n), pack%force(lanes, 0:n), &
+                  pack%w(lanes, 0:n), pack%ml(lanes, 0:n), pack%mr(lanes, 0:n), pack%reaction(lanes, 0:last), &
+                  pack%turn_rest(lanes, 0:last), pack%force_rest(lanes, 0:n), pack%known_rest(lanes, 0:n), &
+                  pack%dw(lanes, 0:n), pack%dl(lanes, 0:n), pack%dr(lanes, 0:n), pack%turn(lanes, 0:n), &
+                  pack%nothing(lanes, 0:n), pack%room(lanes, 0:n, 10), stat=stat)
         made = stat == 0
     end subroutine new_pack
 

@@ -185,7 +185,8 @@ contains
 
         call prepare_lanes(lowered, loads, beam, made)
         stat = 0
-        if (made) call new_pack(beam%n, pack, made)
+        if (made .and. size(beam%shared) > 0) return   ! several supports at a place
+        if (made) call new_pack(beam, pack, made)
         if (made) call find_rounding(lowered, beam, rounding, made)
         if (.not. made) stat = 1
         if (stat /= 0) return
@@ -198,7 +199,7 @@ contains
             number = number + 1
             wanted(number) = i
         end do
-        call take_supports(lowered, pack)
+        call take_supports(lowered, beam%place, pack)
         pack%reaction(:, :) = 0.0_wp
         moves(:, :, :) = 0.0_wp
         do first = 1, number, lanes
@@ -215,7 +216,7 @@ contains
             do k = 1, size(lowered%beam%supports)
                 pack%reaction(:, lowered%beam%supports(k)%node) = reaction(k, case_of)
             end do
-            call take_starts(lowered, closed, case_of, pack)
+            call take_starts(lowered, beam%place, closed, case_of, pack)
             pack%w(:, :) = scale(1.0_wp, -lowered%units%deflection)*pack%w
             pack%ml(:, :) = scale(1.0_wp, -moment_unit(lowered%units))*pack%ml
             pack%mr(:, :) = scale(1.0_wp, -moment_unit(lowered%units))*pack%mr

@@ -29,16 +29,13 @@ module gapbeam_case_extremes
 
 contains
 
-    !> Are the extremes of the cases of a beam found here: no ground, laws, axial system, and several supports at a node
+    !> Are the extremes of the cases of a beam found here: no ground, laws, axial system
     pure function has_lane_extremes(lowered) result(yes)
         type(lowered_type), intent(in) :: lowered
         logical :: yes
-        integer :: n
 
         associate (beam => lowered%beam, units => lowered%units)
-            n = size(beam%links)
             yes = .not. (allocated(beam%ground) .or. has_laws(beam%supports) .or. allocated(lowered%axial%point)) &
-                .and. all(beam%first(1:n + 1) - beam%first(0:n) <= 1) &
                 .and. max(abs(units%deflection), abs(units%force), abs(units%length), abs(moment_unit(units)), &
                           abs(rotation_unit(units)), abs(stiffness_unit(units))) < most_power
         end associate
@@ -84,7 +81,7 @@ contains
         if (present(level)) at_level = level
         call prepare_lanes(lowered, loads, beam, made)
         if (made) call prepare_pieces(lowered, pieces, made)
-        if (made) call new_pack(beam%n, pack, made)
+        if (made) call new_pack(beam, pack, made)
         if (made) call new_piece_pack(size(pieces%length), along, made)
         stat = 0
         if (made) allocate (solved(count(status == gapbeam_solved)), factors_of(lanes, size(factors, 1)), &
@@ -99,7 +96,7 @@ contains
             number = number + 1
             solved(number) = i
         end do
-        call take_supports(lowered, pack)
+        call take_supports(lowered, beam%place, pack)
         found(:, :, :) = 0.0_wp
         do first = 1, number, lanes
             ! The last lanes repeat the last case
@@ -112,7 +109,7 @@ contains
             call take_columns_at(at_level, beam%n + 1, size(w, 2), w, case_of, pack%w)
             call take_columns_at(at_level, beam%n + 1, size(ml, 2), ml, case_of, pack%ml)
             call take_columns_at(at_level, beam%n + 1, size(mr, 2), mr, case_of, pack%mr)
-            call take_starts(lowered, closed, case_of, pack)
+            call take_starts(lowered, beam%place, closed, case_of, pack)
             pack%w(:, :) = scale(1.0_wp, -lowered%units%deflection)*pack%w
             pack%ml(:, :) = scale(1.0_wp, -moment_unit(lowered%units))*pack%ml
             pack%mr(:, :) = scale(1.0_wp, -moment_unit(lowered%units))*pack%mr

@@ -1,7 +1,7 @@
 !> Many load cases of one beam. What each load does alone is condensed once; a case is a sum of that, each load times a factor.
 module gapbeam_cases
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, no_memory, gapbeam_solved, gapbeam_not_finite
+    use gapbeam_error, only: error_type, no_memory, gapbeam_solved, gapbeam_not_finite, gapbeam_bad_input
     use gapbeam_link, only: link_type, piece_load_type, condense_loads
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, set_loads
@@ -9,12 +9,14 @@ module gapbeam_cases
     use gapbeam_referee, only: decide_scheme, detail_type
     use gapbeam_scene, only: gapbeam_force, gapbeam_couple, gapbeam_axial_force, gapbeam_live
     use gapbeam_units, only: moment_unit
+    use gapbeam_law, only: both
     use gapbeam_lowered, only: lowered_type, is_stretch
+    use gapbeam_lower_supports, only: is_room
     use gapbeam_lower_loads, only: spread_load, lower_loads
     use gapbeam_lower_units, only: load_in_units, support_in_units
     implicit none
     private
-    public :: case_loads_type, split_loads, replace_supports, solve_case, take_case
+    public :: case_loads_type, split_loads, replace_supports, leave_room, solve_case, take_case
 
     !> What a load does to a link: rotations and shears of the simple bar, sums of absolute values (link_type)
     type :: share_type
@@ -144,7 +146,7 @@ contains
         real(wp), intent(in) :: values(:, :)
         !> The beam of the cases
         type(beam_type), intent(inout) :: beam
-        !> gapbeam_solved, or gapbeam_not_finite for numbers out of range
+        !> gapbeam_solved; gapbeam_not_finite for numbers out of range; gapbeam_bad_input for supports in each other's way
         integer, intent(out) :: status
         integer :: k
         logical :: lost_stiffness, lost_level
@@ -157,7 +159,39 @@ contains
                 if (lost_stiffness .or. lost_level) status = gapbeam_not_finite
             end associate
         end do
+        if (.not. leave_room(lowered, values)) status = gapbeam_bad_input
     end subroutine replace_supports
+
+    !> Do rigid supports at one place leave room for each other in a case, as those of a scene must
+    pure function leave_room(lowered, values) result(room)
+        !> As for replace_supports
+        type(lowered_type), intent(in) :: lowered
+        real(wp), intent(in) :: values(:, :)
+        logical :: room
+        integer :: i, j, k, lower, upper
+
+        room = .true.
+        associate (beam => lowered%beam)
+            do i = 0, size(beam%links)
+                do j = beam%first(i) + 1, beam%first(i + 1) - 1
+                    do k = beam%first(i), j - 1
+                        lower = beam%order(j)
+                        upper = beam%order(k)
+                        if (beam%supports(lower)%side < beam%supports(upper)%side) then
+                            lower = beam%order(k)
+                            upper = beam%order(j)
+                        end if
+                        associate (a => values(:, lowered%normal(lower)), b => values(:, lowered%normal(upper)), &
+                                   side => beam%supports(lower)%side, other => beam%supports(upper)%side)
+                            if (min(a(3), b(3)) <= huge(1.0_wp)) cycle
+                            room = room .and. side > other &
+                                .and. is_room(a(1) + side*a(2), b(1) + other*b(2), min(abs(side), abs(other)) == both)
+                        end associate
+                    end do
+                end do
+            end do
+        end associate
+    end function leave_room
 
     !> Find the working scheme of a case and solve it
     subroutine solve_case(loads, factors, rule, beam, closed, work, status)

@@ -8,7 +8,7 @@ module gapbeam_lane_cases
     use gapbeam_law, only: both, is_rigid, has_laws, may_change
     use gapbeam_units, only: moment_unit, stiffness_unit
     use gapbeam_lowered, only: lowered_type
-    use gapbeam_cases, only: case_loads_type, split_loads
+    use gapbeam_cases, only: case_loads_type, split_loads, leave_room
     use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type, new_pack
     use gapbeam_lane_levels, only: take_columns_at, take_numbers_at, give_pack_at, search_pack_at, finish_pack_at, &
         best_level
@@ -49,7 +49,7 @@ module gapbeam_lane_cases
 
 contains
 
-    !> Do lanes hold a beam: several links that bend, no ground, restraints and laws, one support at a node
+    !> Do lanes hold a beam: several links that bend, no ground, restraints and laws
     pure function fits_lanes(lowered) result(fits)
         type(lowered_type), intent(in) :: lowered
         logical :: fits
@@ -61,7 +61,7 @@ contains
             if (.not. fits) return
             fits = all(beam%kind == plain .or. beam%kind == hinge) &
                 .and. all(beam%links%faa > 0.0_wp .and. beam%links%fbb > 0.0_wp) &
-                .and. all(beam%first(1:n + 1) - beam%first(0:n) <= 1) .and. .not. has_laws(beam%supports) &
+                .and. .not. has_laws(beam%supports) &
                 .and. max(abs(units%deflection), abs(units%force), abs(moment_unit(units)), abs(stiffness_unit(units))) &
                 < most_power
         end associate
@@ -97,7 +97,7 @@ contains
         if (.not. room%made) call make_room(lowered, loads, size(factors, 1), room)   ! as many in every call for the beam
         if (.not. room%made) return
         if (size(values, 2) > 0) room%with_own_supports = .false.
-        if (.not. room%with_own_supports) call take_supports(lowered, room%pack)
+        if (.not. room%with_own_supports) call take_supports(lowered, room%beam%place, room%pack)
         room%with_own_supports = size(values, 2) == 0
         units = scale(1.0_wp, [lowered%units%deflection, moment_unit(lowered%units), lowered%units%force])
         do first = 1, size(done), lanes
@@ -106,9 +106,12 @@ contains
             call take_columns_at(at_level, size(factors, 1), size(factors, 2), factors, case_of, room%factors)
             if (size(values, 2) > 0) then
                 call take_numbers_at(at_level, room%beam, units_of_supports(lowered), values, case_of, room%turned, room%pack, lost)
+                do l = 1, merge(lanes, 0, size(room%beam%shared) > 0)
+                    if (.not. lost) lost = .not. leave_room(lowered, values(:, :, case_of(l)))
+                end do
                 if (lost) cycle
             end if
-            call take_starts(lowered, closed, case_of, room%pack)
+            call take_starts(lowered, room%beam%place, closed, case_of, room%pack)
             call search_pack_at(at_level, room%beam, room%factors, room%pack, solves_of, method)
             solves(case_of) = solves_of
             kind = method(1)
@@ -119,7 +122,7 @@ contains
                     if (method(l) == 0) cycle
                     associate (queue => room%queues(method(l)))
                         if (.not. allocated(queue%pack%left)) then
-                            call new_pack(room%beam%n, queue%pack, made)
+                            call new_pack(room%beam, queue%pack, made)
                             if (.not. made .and. allocated(queue%pack%left)) deallocate (queue%pack%left)
                             if (.not. made) exit
                         end if
@@ -173,7 +176,7 @@ contains
                 if (doubtful(k) .or. (k > 1 .and. numbers(k) == numbers(max(k - 1, 1)))) cycle
                 associate (i => numbers(k))
                     done(i) = .true.
-                    call give_case(lowered, units, schemes, k, closed(:, i), w(:, i), ml(:, i), mr(:, i), reaction(:, i))
+                    call give_case(room%beam%place, units, schemes, k, closed(:, i), w(:, i), ml(:, i), mr(:, i), reaction(:, i))
                 end associate
             end do
         end subroutine finish
@@ -232,7 +235,7 @@ contains
         integer :: stat
 
         call prepare_lanes(lowered, loads, room%beam, room%made)
-        if (room%made) call new_pack(room%beam%n, room%pack, room%made)
+        if (room%made) call new_pack(room%beam, room%pack, room%made)
         if (.not. room%made) return
         allocate (room%factors(lanes, number), &
                   room%turned(lanes, max(3*size(lowered%model%supports) + 3, size(lowered%beam%supports))), stat=stat)
@@ -255,6 +258,7 @@ contains
         to%rigid(m, :) = from%rigid(l, :)
         to%contact(m, :) = from%contact(l, :)
         to%closed(m, :) = from%closed(l, :)
+        to%load(m, :) = from%load(l, :)
     end subroutine take_lane
 
     !> What all cases have in common
@@ -264,18 +268,20 @@ contains
         type(lane_beam_type), intent(out) :: lane_beam
         !> False where memory ends
         logical, intent(out) :: made
-        integer :: k, n, m, stat
+        integer :: k, n, m, last, stat
 
         n = size(lowered%beam%links)
+        call find_places(lowered, lane_beam, made)
+        if (.not. made) return
+        last = lane_beam%last_place(size(lane_beam%shared))
         m = size(loads%of_links)
         k = size(loads%of_nodes)
         lane_beam%n = n
         lane_beam%ease = ease_ratio*softest(lowered%beam)
         allocate (lane_beam%length(n), lane_beam%inverse(n), lane_beam%faa(n), lane_beam%fab(n), lane_beam%fbb(n), &
                   lane_beam%sum_a(n), lane_beam%sum_b(n), lane_beam%bending(n), lane_beam%determinant(n), lane_beam%fixity(n), &
-                  lane_beam%reach(n), lane_beam%side(0:n), lane_beam%there(0:n), lane_beam%changes(0:n), lane_beam%hinge(0:n), &
-                  lane_beam%place(size(lowered%beam%supports)), lane_beam%number(size(lowered%beam%supports)), &
-                  lane_beam%link_load(m), &
+                  lane_beam%reach(n), lane_beam%side(0:last), lane_beam%there(0:n), lane_beam%changes(0:last), &
+                  lane_beam%hinge(0:n), lane_beam%number(size(lowered%beam%supports)), lane_beam%link_load(m), &
                   lane_beam%link(m), lane_beam%to_link(6, m), lane_beam%node_load(k), lane_beam%node(k), &
                   lane_beam%to_node(2, k), stat=stat)
         made = stat == 0
@@ -300,11 +306,10 @@ contains
             to%with_hinges = any(lowered%beam%kind == hinge)
             to%number(:) = lowered%normal
             do k = 1, size(lowered%beam%supports)
-                associate (s => lowered%beam%supports(k))
-                    to%place(k) = s%node
-                    to%there(s%node) = 1.0_wp
-                    to%side(s%node) = s%side
-                    if (may_change(s)) to%changes(s%node) = 1.0_wp
+                associate (s => lowered%beam%supports(k), i => to%place(k))
+                    if (i <= n) to%there(i) = 1.0_wp
+                    to%side(i) = s%side
+                    if (may_change(s)) to%changes(i) = 1.0_wp
                 end associate
             end do
             do k = 1, size(loads%of_links)
@@ -323,9 +328,40 @@ contains
         end associate
     end subroutine prepare_lanes
 
-    !> The supports as they are in all cases, open
-    pure subroutine take_supports(lowered, pack)
+    !> Places of the supports in arrays of them
+    pure subroutine find_places(lowered, lane_beam, made)
         type(lowered_type), intent(in) :: lowered
+        type(lane_beam_type), intent(inout) :: lane_beam
+        !> False where memory ends
+        logical, intent(out) :: made
+        integer :: i, j, m, n, stat
+
+        associate (beam => lowered%beam)
+            n = size(beam%links)
+            m = count(beam%first(1:n + 1) - beam%first(0:n) > 1)
+            allocate (lane_beam%place(size(beam%supports)), lane_beam%shared(m), lane_beam%last_place(0:m), stat=stat)
+            made = stat == 0
+            if (.not. made) return
+            m = 0
+            lane_beam%last_place(0) = n
+            do i = 0, n
+                associate (there => beam%order(beam%first(i):beam%first(i + 1) - 1))
+                    lane_beam%place(there) = i
+                    if (size(there) < 2) cycle
+                    m = m + 1
+                    lane_beam%shared(m) = i
+                    lane_beam%last_place(m) = lane_beam%last_place(m - 1) + size(there)
+                    lane_beam%place(there) = [(lane_beam%last_place(m - 1) + j, j=1, size(there))]
+                end associate
+            end do
+        end associate
+    end subroutine find_places
+
+    !> The supports as they are in all cases, open
+    pure subroutine take_supports(lowered, place, pack)
+        type(lowered_type), intent(in) :: lowered
+        !> Their places (lane_beam_type)
+        integer, intent(in), contiguous :: place(:)
         type(pack_type), intent(inout) :: pack
         integer :: k
 
@@ -334,12 +370,12 @@ contains
         pack%contact(:, :) = 0.0_wp
         pack%closed(:, :) = 0.0_wp
         do k = 1, size(lowered%beam%supports)
-            associate (s => lowered%beam%supports(k))
-                pack%contact(:, s%node) = s%contact
+            associate (s => lowered%beam%supports(k), i => place(k))
+                pack%contact(:, i) = s%contact
                 if (is_rigid(s)) then
-                    pack%rigid(:, s%node) = 1.0_wp
+                    pack%rigid(:, i) = 1.0_wp
                 else
-                    pack%stiffness(:, s%node) = s%stiffness
+                    pack%stiffness(:, i) = s%stiffness
                 end if
             end associate
         end do
@@ -354,8 +390,10 @@ contains
     end function units_of_supports
 
     !> Where the searches of cases start
-    pure subroutine take_starts(lowered, closed, case_of, pack)
+    pure subroutine take_starts(lowered, place, closed, case_of, pack)
         type(lowered_type), intent(in) :: lowered
+        !> As for take_supports
+        integer, intent(in), contiguous :: place(:)
         !> As for solve_in_lanes, and the case of every lane
         integer, intent(in), contiguous :: closed(:, :)
         integer, intent(in) :: case_of(lanes)
@@ -366,7 +404,7 @@ contains
         do k = 1, size(lowered%beam%supports)
             associate (s => lowered%beam%supports(k))
                 do l = 1, lanes
-                    pack%closed(l, s%node) = merge(1.0_wp, 0.0_wp, closed(k, case_of(l)) /= 0 .or. s%side == both)
+                    pack%closed(l, place(k)) = merge(1.0_wp, 0.0_wp, closed(k, case_of(l)) /= 0 .or. s%side == both)
                 end do
             end associate
         end do
@@ -382,11 +420,15 @@ contains
         do i = 0, ubound(w, 2)
             largest(:) = max(largest, abs(w(:, i)), abs(ml(:, i)), abs(mr(:, i)), abs(reaction(:, i)))
         end do
+        do i = ubound(w, 2) + 1, ubound(reaction, 2)
+            largest(:) = max(largest, abs(reaction(:, i)))
+        end do
     end function largest_values
 
     !> The solution of a case in the scene's units, which hold it
-    pure subroutine give_case(lowered, units, pack, l, closed, w, ml, mr, reaction)
-        type(lowered_type), intent(in) :: lowered
+    pure subroutine give_case(place, units, pack, l, closed, w, ml, mr, reaction)
+        !> As for take_supports
+        integer, intent(in), contiguous :: place(:)
         !> Of deflections, moments and forces, as numbers
         real(wp), intent(in) :: units(3)
         type(pack_type), intent(in) :: pack
@@ -404,11 +446,11 @@ contains
         do k = 1, size(mr)
             mr(k) = pack%mr(l, k - 1)*units(2)
         end do
-        do k = 1, merge(size(lowered%beam%supports), 0, size(reaction) > 0)
-            reaction(k) = pack%reaction(l, lowered%beam%supports(k)%node)*units(3)
+        do k = 1, merge(size(place), 0, size(reaction) > 0)
+            reaction(k) = pack%reaction(l, place(k))*units(3)
         end do
-        do k = 1, size(lowered%beam%supports)
-            closed(k) = merge(1, 0, pack%closed(l, lowered%beam%supports(k)%node) > 0.5_wp)
+        do k = 1, size(place)
+            closed(k) = merge(1, 0, pack%closed(l, place(k)) > 0.5_wp)
         end do
     end subroutine give_case
 

@@ -13,7 +13,7 @@ module gapbeam_lower_supports
     use gapbeam_refusal, only: refuse, refuse_range, named, of_supports, twice, no_room, at_hinge
     implicit none
     private
-    public :: lower_supports, contact_level
+    public :: lower_supports, contact_level, is_room
 
 contains
 
@@ -101,13 +101,12 @@ contains
         subroutine look(lower, upper, strictly)
             integer, intent(in) :: lower, upper
             logical, intent(in) :: strictly
-            real(wp) :: stop_at, start_at, slack
+            real(wp) :: stop_at, start_at
 
             if (lower == 0 .or. upper == 0) return
             stop_at = contact_level(lowered%model%supports(lower))
             start_at = contact_level(lowered%model%supports(upper))
-            slack = position_tolerance*max(abs(stop_at), abs(start_at))
-            if (stop_at - start_at < -slack .or. (strictly .and. stop_at - start_at <= slack)) then
+            if (.not. is_room(stop_at, start_at, strictly)) then
                 call refuse(error, of_supports, lower, m, no_room, "", "this one acts at a deflection of "//trim(shown(stop_at))// &
                             " and support "//trim(whole(upper))//" at "//trim(shown(start_at))// &
                             ", so no room is left; give a greater gap", upper)
@@ -115,6 +114,19 @@ contains
         end subroutine look
 
     end subroutine check_neighbours
+
+    !> Is there room between two rigid supports at a place
+    elemental function is_room(stop_at, start_at, strictly) result(there)
+        !> Deflections at which the lower and the upper one begin to act
+        real(wp), intent(in) :: stop_at, start_at
+        !> Does one of them hold both ways
+        logical, intent(in) :: strictly
+        logical :: there
+        real(wp) :: slack
+
+        slack = position_tolerance*max(abs(stop_at), abs(start_at))
+        there = stop_at - start_at > slack .or. (stop_at - start_at >= -slack .and. .not. strictly)
+    end function is_room
 
     !> Deflection at which a support begins to act
     elemental function contact_level(support) result(level)

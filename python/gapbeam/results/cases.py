@@ -234,9 +234,8 @@ class Prepared(Pickled):
 
     @cached_property
     def _is_simple(self) -> bool:
-        """Whether supports can get other numbers without being looked at together: no laws, no ground, one at a place."""
-        nodes = self._beam.places.support_nodes
-        return not (self._beam.has_laws or self._beam.ground_layers) and len(np.unique(nodes)) == len(nodes)
+        """Whether supports can get other numbers while the beam stays: no laws, no ground."""
+        return not (self._beam.has_laws or self._beam.ground_layers)
 
     @cached_property
     def _support_arrays(self) -> SupportArrays:
