@@ -23,7 +23,7 @@ contains
         type(lowered_type), intent(out) :: lowered
         type(error_type), allocatable :: error
         type(support_type), allocatable :: supports(:)
-        real(wp) :: x
+        real(wp) :: x, turns
         integer :: i, k, m
 
         associate (model => lowered%model)
@@ -35,6 +35,7 @@ contains
                 model%spans(i) = span_type(2.0_wp + 4*random(seed), EI=10.0_wp**(3 + 2*random(seed)))
             end do
             m = 0
+            turns = random(seed)
             do i = 0, spans
                 x = random(seed)
                 if (x < 0.15_wp .and. i > 0 .and. .not. whole) cycle
@@ -44,6 +45,12 @@ contains
                 if (x > 0.4_wp) then
                     supports(m)%side = merge(1, -1, x < 0.85_wp)
                     if (random(seed) < 0.6_wp) supports(m)%gap = 0.01_wp*(random(seed) - 0.2_wp)
+                end if
+                ! Some beams are restrained at their ends, some at any support
+                if (turns < merge(0.4_wp, 0.1_wp, i == 0 .or. i == spans) .and. random(seed) < 0.6_wp) then
+                    supports(m)%rotation = 10.0_wp**(2 + 3*random(seed))
+                    if (random(seed) < 0.6_wp) supports(m)%rotation = gapbeam_infinity
+                    if (random(seed) < 0.1_wp .and. supports(m)%side == gapbeam_both) supports(m)%stiffness = 0.0_wp
                 end if
                 if (random(seed) < 0.7_wp) cycle
                 ! With another one beside it that stops the beam the other way, or downwards

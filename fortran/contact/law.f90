@@ -248,7 +248,7 @@ contains
                 if (.not. acts) return
                 rigid = is_rigid(s)
                 if (rigid) return
-                force = s%stiffness*(deflection - s%contact)
+                force = s%stiffness*(deflection - s%contact) + 0.0_wp   ! no negative zero
                 rounding = epsilon(1.0_wp)*s%stiffness*max(deflection_size, abs(s%contact))
             end if
         end associate

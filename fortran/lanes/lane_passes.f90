@@ -1,4 +1,4 @@
-!> Passes over the beams of eight cases, each end with a support that acts, without couples and hinges; with the arithmetic of
+!> Passes over the beams of eight cases, each end with a support that acts or a restraint, without couples and hinges; with the arithmetic of
 !> gapbeam_kernel, number by number: the bits are its. The scheme is applied on the way inward, signs are looked at on the way
 !> back, and a right-hand side can be solved for with the elimination of the pass before
 module gapbeam_lane_passes
@@ -73,9 +73,13 @@ contains
         real(wp) :: h, near, far, cross, sum_near, sum_far, bending, determinant
         real(wp) :: acts, held, known, spring, force, free, stiff, v, softness, deflection, a, b, c, b_free, reciprocal, right, &
             moment, c_h, next, before
-        integer :: l, i, link
+        real(wp) :: turns
+        integer :: l, i, link, begin
 
         i = first
+        begin = merge(first, first + step, beam%restraint(first) > 0)
+        ! Where the end is restrained what is found for a free one means nothing, and stays finite
+        turns = merge(1.0_wp, 0.0_wp, begin == first)
         link = merge(1, n, way == 1)
         h = beam%inverse(link)
         far = merge(beam%fbb(link), beam%faa(link), way == 1)
@@ -88,7 +92,7 @@ contains
             spring = acts*stiffness(l, i)
             force = shear(l, i) + spring*contact(l, i)
             free = 1.0_wp - held
-            stiff = spring*free + held
+            stiff = (spring*free + held) + turns
             v = force*free + known
             softness = free/stiff
             deflection = v/stiff
@@ -105,7 +109,14 @@ contains
             e(l) = h*deflection
             p(l) = 0.0_wp
         end do
-        do i = first + step, last, step
+        if (begin == first) then
+            ! The restraint is what lies outside, and the node is one as those inside
+            closed(:, first) = abs(closed(:, first) - change(:, first))
+            phi(:) = beam%compliance(beam%restraint(first))
+            beta(:) = 0.0_wp
+            e(:) = 0.0_wp
+        end if
+        do i = begin, last, step
             link = merge(i + 1, i, way == 1)
             h = beam%inverse(link)
             near = merge(beam%faa(link), beam%fbb(link), way == 1)
@@ -269,9 +280,10 @@ contains
         !> What the nodes outside pass on
         real(wp), intent(out) :: e(lanes), p(lanes)
         real(wp) :: h, cross, free, right, v, a, b, c, reciprocal, moment, deflection
-        integer :: l, i, link
+        integer :: l, i, link, begin
 
         i = first
+        begin = merge(first, first + step, beam%restraint(first) > 0)
         h = beam%inverse(merge(1, n, way == 1))
         !$omp simd private(deflection)
         do l = 1, lanes
@@ -280,7 +292,8 @@ contains
             e(l) = h*deflection
             p(l) = 0.0_wp
         end do
-        do i = first + step, last, step
+        if (begin == first) e(:) = 0.0_wp
+        do i = begin, last, step
             link = merge(i + 1, i, way == 1)
             h = beam%inverse(link)
             cross = beam%fab(link)

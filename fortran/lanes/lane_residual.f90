@@ -1,11 +1,10 @@
-!> What the rows of eight cases still lack, in twice the working precision: gapbeam_residual for plain nodes and hinges, number
-!> by number
+!> What the rows of eight cases still lack, in twice the working precision: gapbeam_residual, number by number
 module gapbeam_lane_residual
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes, lane_beam_type
     implicit none
     private
-    public :: find_rest, find_rest_along
+    public :: find_rest, find_rest_at_restraints, find_rest_along
 
     !> Nodes of a long beam at a time, in arrays that stay in the first-level cache
     integer, parameter :: block = 64
@@ -84,6 +83,60 @@ contains
         turn_rest(:, 0) = 0.0_wp
         turn_rest(:, n) = 0.0_wp
     end subroutine find_rest
+
+    !> Residuals of compatibility on both sides of restraints
+    pure subroutine find_rest_at_restraints(beam, n, left, right, couple, w, ml, mr, left_rest, turn_rest)
+        type(lane_beam_type), intent(in) :: beam
+        !> As for find_rest
+        integer, intent(in) :: n
+        real(wp), intent(in), dimension(lanes, 0:n) :: left, right, couple, w, ml, mr
+        !> Left of them, 0 at other nodes
+        real(wp), intent(out) :: left_rest(lanes, 0:n)
+        !> Right of them; those of other nodes stay
+        real(wp), intent(inout) :: turn_rest(lanes, 0:n)
+        real(wp) :: c, turn_high, turn_low, high, low
+        integer :: i, k, l
+
+        left_rest(:, :) = 0.0_wp
+        do k = 1, size(beam%restrained)
+            i = beam%restrained(k)
+            c = beam%compliance(k)
+            do l = 1, lanes
+                high = ml(l, i)
+                low = 0.0_wp
+                call add(high, low, -mr(l, i))
+                call add(high, low, couple(l, i))
+                turn_high = c*low
+                turn_low = 0.0_wp
+                call add_product(turn_high, turn_low, c, high)
+                turn_rest(l, i) = 0.0_wp
+                if (i < n) then
+                    high = w(l, i + 1)
+                    low = 0.0_wp
+                    call add(high, low, -w(l, i))
+                    call divide(high, low, beam%length(i + 1))
+                    call add_product(high, low, beam%faa(i + 1), mr(l, i))
+                    call add_product(high, low, beam%fab(i + 1), ml(l, i + 1))
+                    call add(high, low, -turn_high)
+                    call add(high, low, -turn_low)
+                    call add(high, low, right(l, i))
+                    turn_rest(l, i) = high + low
+                end if
+                if (i > 0) then
+                    high = w(l, i)
+                    low = 0.0_wp
+                    call add(high, low, -w(l, i - 1))
+                    call divide(high, low, beam%length(i))
+                    call add_product(high, low, -beam%fab(i), mr(l, i - 1))
+                    call add_product(high, low, -beam%fbb(i), ml(l, i))
+                    call add(turn_high, turn_low, -high)
+                    call add(turn_high, turn_low, -low)
+                    call add(turn_high, turn_low, left(l, i))
+                    left_rest(l, i) = turn_high + turn_low
+                end if
+            end do
+        end do
+    end subroutine find_rest_at_restraints
 
     !> The same of one long beam without hinges and couples, of which neighbouring nodes are side by side
     pure subroutine find_rest_along(n, length, faa, fab, fbb, left, right, force, held, known, spring, w, m, turn_rest, shear_rest)

@@ -9,7 +9,7 @@ module gapbeam_lane_search
     use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type, by_both_ends, by_three_moments, by_chain
     use gapbeam_lane_sweeps, only: sweep_three_moments, sweep_chain
     use gapbeam_lane_passes, only: pass_both_ends, find_wrong_between, correct_both_ends
-    use gapbeam_lane_residual, only: find_rest
+    use gapbeam_lane_residual, only: find_rest, find_rest_at_restraints
     use gapbeam_lane_reactions, only: complete
     use gapbeam_lane_shared, only: keep_loads, join_supports, find_wrong_beside, wait_beside
     implicit none
@@ -44,8 +44,8 @@ contains
         ! Without the weak springs
         call apply_scheme(beam%n, pack%shear, pack%stiffness, pack%rigid, pack%contact, pack%closed, pack%held, pack%known, &
                           pack%spring, pack%force)
-        call choose_methods(beam%n, pack, method)
-        if (beam%with_hinges) method(:) = by_chain
+        call choose_methods(beam, beam%n, pack, method)
+        if (.not. beam%is_plain) method(:) = by_chain
         where (lost) method = 0
         pack%is_solved = pack%is_solved .and. all(method == by_both_ends)
     end subroutine search_pack
@@ -109,7 +109,7 @@ contains
         logical :: is_easy
 
         last = ubound(pack%closed, 2)
-        is_easy = .not. (beam%with_hinges .or. pack%with_couples)
+        is_easy = beam%is_plain .and. .not. pack%with_couples
         pack%turn_rest(:, :) = 0.0_wp
         if (is_easy) pack%turn(:, :) = pack%left + pack%right
         fewest(:) = huge(1.0_wp)
@@ -121,7 +121,7 @@ contains
             if (last > n) call join_supports(beam, n, last, pack%load, pack%turn_rest, pack%closed, pack%stiffness, pack%rigid, &
                                              pack%contact, pack%shear)
             pack%is_solved = is_easy
-            if (pack%is_solved) pack%is_solved = ends_hold(pack, n)
+            if (pack%is_solved) pack%is_solved = ends_hold(beam, pack, n)
             count(:) = count + alive
             if (pack%is_solved) then
                 call pass_both_ends(beam, n, pack%turn, pack%shear, pack%stiffness, pack%rigid, pack%contact, pack%turn_rest, &
@@ -136,7 +136,7 @@ contains
                                   pack%spring, pack%force)
                 if (any(ease > 0.0_wp)) pack%spring(:, :) = pack%spring + spread(ease, 2, n + 1)
                 call sweep_chain(beam, n, pack%left, pack%right, pack%force, pack%couple, pack%held, pack%known, pack%spring, &
-                                 pack%room, pack%w, pack%ml, pack%mr, moves)
+                                 pack%room, pack%turning, pack%w, pack%ml, pack%mr, moves)
                 ! A scheme that moves is solved once more, with weak springs, as by gapbeam_scheme
                 ease(:) = ease + moves*beam%ease
                 looked_at(:) = alive*(1.0_wp - moves)
@@ -200,21 +200,38 @@ contains
         end do
     end subroutine apply_scheme
 
-    !> Will an acting support hold each end in all cases, once what is wrong is changed
-    pure function ends_hold(pack, n) result(hold)
+    !> Will an acting support or a restraint hold each end in all cases, once what is wrong is changed, and a support some node
+    pure function ends_hold(beam, pack, n) result(hold)
+        type(lane_beam_type), intent(in) :: beam
         type(pack_type), intent(in) :: pack
         integer, intent(in) :: n
         logical :: hold
         real(wp) :: least
-        integer :: l
+        integer :: i, l
 
         least = 1.0_wp
-        do l = 1, lanes
-            least = min(least, &
-                        abs(pack%closed(l, 0) - pack%turn_rest(l, 0))*(pack%rigid(l, 0) + pack%stiffness(l, 0)), &
-                        abs(pack%closed(l, n) - pack%turn_rest(l, n))*(pack%rigid(l, n) + pack%stiffness(l, n)))
-        end do
+        if (beam%restraint(0) > 0 .and. beam%restraint(n) > 0) then
+            do l = 1, lanes
+                least = min(least, maxval([(holding(l, i), i=0, n)]))
+            end do
+        else
+            do l = 1, lanes
+                if (beam%restraint(0) == 0) least = min(least, holding(l, 0))
+                if (beam%restraint(n) == 0) least = min(least, holding(l, n))
+            end do
+        end if
         hold = least > 0.0_wp
+
+    contains
+
+        !> Above 0 where a support will act
+        pure function holding(l, i) result(stiffness)
+            integer, intent(in) :: l, i
+            real(wp) :: stiffness
+
+            stiffness = abs(pack%closed(l, i) - pack%turn_rest(l, i))*(pack%rigid(l, i) + pack%stiffness(l, i))
+        end function holding
+
     end function ends_hold
 
     !> Moments right of the nodes, where there are no couples
@@ -284,12 +301,17 @@ contains
     end subroutine keep_every_other
 
     !> How gapbeam_system solves the scheme of every case
-    pure subroutine choose_methods(n, pack, method)
+    pure subroutine choose_methods(beam, n, pack, method)
+        type(lane_beam_type), intent(in) :: beam
         integer, intent(in) :: n
         type(pack_type), intent(in) :: pack
         integer, intent(out) :: method(lanes)
         real(wp), dimension(lanes) :: holding, couples
+        real(wp) :: at_first, at_last
         integer :: i, l
+
+        at_first = merge(1.0_wp, 0.0_wp, beam%restraint(0) > 0)
+        at_last = merge(1.0_wp, 0.0_wp, beam%restraint(n) > 0)
 
         holding(:) = 0.0_wp
         couples(:) = 0.0_wp
@@ -301,11 +323,15 @@ contains
             associate (first => pack%held(l, 0), last => pack%held(l, n), left => pack%spring(l, 0), right => pack%spring(l, n))
                 method(l) = by_chain
                 ! A spring beside a rigid support does nothing there
-                if (holding(l) > n - 1.5_wp .and. holding(l) + first + last > 1.5_wp &
-                    .and. .not. left*(1.0_wp - first) + right*(1.0_wp - last) > 0.0_wp) then
+                if (holding(l) > n - 1.5_wp .and. holding(l) + first*(1.0_wp + at_first) + last*(1.0_wp + at_last) > 1.5_wp &
+                    .and. .not. (left + at_first)*(1.0_wp - first) + (right + at_last)*(1.0_wp - last) > 0.0_wp) then
                     method(l) = by_three_moments
-                else if (first + left > 0.0_wp .and. last + right > 0.0_wp .and. .not. couples(l) > 0.0_wp) then
+                else if (first + left + at_first > 0.0_wp .and. last + right + at_last > 0.0_wp &
+                         .and. .not. couples(l) > 0.0_wp) then
                     method(l) = by_both_ends
+                    ! Two restrained ends may move together
+                    if (first + left + last + right > 0.0_wp) cycle
+                    if (.not. sum(pack%held(l, :) + pack%spring(l, :)) > 0.0_wp) method(l) = by_chain
                 end if
             end associate
         end do
@@ -335,20 +361,26 @@ contains
                                     pack%closed, pack%room, pack%w, pack%ml)
             else
                 call solve(beam, n, method, pack%left, pack%right, pack%force, pack%couple, pack%held, pack%known, pack%spring, &
-                           pack%room, pack%w, pack%ml, pack%mr, moves)
+                           pack%room, pack%turning, pack%w, pack%ml, pack%mr, moves)
             end if
         end if
         if (method == by_both_ends) call copy_moments(n, pack%ml, pack%mr)
         call find_rest(beam, n, pack%left, pack%right, pack%force, pack%held, pack%known, pack%spring, pack%w, pack%ml, pack%mr, &
                        pack%turn_rest, pack%force_rest, pack%known_rest)
+        if (size(beam%restrained) > 0) then
+            call find_rest_at_restraints(beam, n, pack%left, pack%right, pack%couple, pack%w, pack%ml, pack%mr, pack%left_rest, &
+                                         pack%turn_rest)
+            if (method == by_both_ends) pack%turn_rest(:, n) = pack%turn_rest(:, n) + pack%left_rest(:, n)
+        end if
         if (method == by_both_ends) then
             call correct_both_ends(beam, n, pack%turn_rest, pack%force_rest, pack%held, pack%known_rest, pack%room, pack%dw, &
                                    pack%dl)
             call copy_moments(n, pack%dl, pack%dr)
         else
             pack%nothing(:, :) = 0.0_wp
-            call solve(beam, n, method, pack%nothing, pack%turn_rest, pack%force_rest, pack%nothing, pack%held, pack%known_rest, &
-                       pack%spring, pack%room, pack%dw, pack%dl, pack%dr, moves)
+            if (size(beam%restrained) == 0) pack%left_rest(:, :) = 0.0_wp
+            call solve(beam, n, method, pack%left_rest, pack%turn_rest, pack%force_rest, pack%nothing, pack%held, &
+                       pack%known_rest, pack%spring, pack%room, pack%turning, pack%dw, pack%dl, pack%dr, moves)
         end if
         call add_correction(n, pack%dw, pack%dl, pack%dr, pack%w, pack%ml, pack%mr)
         call complete(beam, n, pack, doubt)
@@ -356,12 +388,12 @@ contains
     end subroutine finish_pack
 
     !> The ways but that from both ends
-    pure subroutine solve(beam, n, method, left, right, force, couple, held, known, spring, room, w, ml, mr, moves)
+    pure subroutine solve(beam, n, method, left, right, force, couple, held, known, spring, room, turning, w, ml, mr, moves)
         type(lane_beam_type), intent(in) :: beam
         integer, intent(in) :: n, method
         real(wp), intent(in), dimension(lanes, 0:n) :: left, right, force, couple, held, known, spring
         real(wp), intent(inout), dimension(lanes, 0:n) :: w, ml, mr
-        real(wp), intent(inout) :: room(lanes, 0:n, 10)
+        real(wp), intent(inout) :: room(lanes, 0:n, 10), turning(lanes, size(beam%restrained), 5)
         !> 1 for mechanisms
         real(wp), intent(out) :: moves(lanes)
 
@@ -369,7 +401,7 @@ contains
         if (method == by_three_moments) then
             call sweep_three_moments(beam, n, left, right, force, couple, held, known, room, w, ml, mr)
         else
-            call sweep_chain(beam, n, left, right, force, couple, held, known, spring, room, w, ml, mr, moves)
+            call sweep_chain(beam, n, left, right, force, couple, held, known, spring, room, turning, w, ml, mr, moves)
         end if
     end subroutine solve
 

@@ -21,10 +21,17 @@ contains
         !> Deflections, moments left and right of the nodes
         real(wp), intent(inout) :: w(lanes, 0:n), ml(lanes, 0:n), mr(lanes, 0:n)
         real(wp), dimension(lanes) :: phi, e
-        real(wp) :: chord, a, y, z, psi, tip, root, first, flexible, begin
+        real(wp) :: chord, a, y, z, psi, tip, root, first, flexible, begin, free, c
         integer :: l, i
 
         w(:, :) = known
+        ! Is the moment known at the left end; if not, the restraint is what lies outside
+        free = 1.0_wp
+        c = 0.0_wp
+        if (beam%restraint(0) > 0) then
+            free = 0.0_wp
+            c = beam%compliance(beam%restraint(0))
+        end if
         ! Moments that are known beforehand: pinned ends, and roots of overhangs by statics
         !$omp simd private(root)
         do l = 1, lanes
@@ -34,14 +41,14 @@ contains
             ml(l, n) = -couple(l, n)
             root = ml(l, n) - shear(l, n)*beam%length(n)
             room(l, 0, 3) = root
-            phi(l) = 0.0_wp
+            phi(l) = c
             e(l) = 0.0_wp
         end do
         do i = 0, n - 1
             !$omp simd private(chord, a, y, z, first, flexible, begin)
             do l = 1, lanes
                 ! Does the row of the first support stand here: with a tip at node 1
-                first = merge(1.0_wp, 0.0_wp, i == 0)
+                first = merge(free, 0.0_wp, i == 0)
                 if (i == 1) first = 1.0_wp - held(l, 0)
                 begin = merge(ml(l, i), 0.0_wp, i < 2)
                 chord = (known(l, i + 1) - known(l, i))*beam%inverse(i + 1)
@@ -57,6 +64,10 @@ contains
                 e(l) = beam%fab(i + 1)*y - chord + left(l, i + 1)
             end do
         end do
+        if (beam%restraint(n) > 0) then
+            c = beam%compliance(beam%restraint(n))
+            ml(:, n) = -(e + c*couple(:, n))/(phi + c)
+        end if
         do i = n - 1, 0, -1
             !$omp simd private(y, z, tip, root)
             do l = 1, lanes
@@ -96,21 +107,21 @@ contains
         end do
     end subroutine sweep_three_moments
 
-    !> The chain of gapbeam_band with plain nodes and hinges, from the left
-    pure subroutine sweep_chain(beam, n, left, right, shear, couple, held, known, spring, room, w, ml, mr, moves)
+    !> The chain of gapbeam_band, from the left
+    pure subroutine sweep_chain(beam, n, left, right, shear, couple, held, known, spring, room, turning, w, ml, mr, moves)
         type(lane_beam_type), intent(in) :: beam
         integer, intent(in) :: n
         !> Right-hand sides, shape (lanes, 0:n)
         real(wp), intent(in) :: left(lanes, 0:n), right(lanes, 0:n), shear(lanes, 0:n), couple(lanes, 0:n)
         !> Is the deflection known, which is it, stiffness
         real(wp), intent(in) :: held(lanes, 0:n), known(lanes, 0:n), spring(lanes, 0:n)
-        real(wp), intent(inout) :: room(lanes, 0:n, 10)
+        real(wp), intent(inout) :: room(lanes, 0:n, 10), turning(lanes, size(beam%restrained), 5)
         !> Deflections, moments left and right of the nodes
         real(wp), intent(inout) :: w(lanes, 0:n), ml(lanes, 0:n), mr(lanes, 0:n)
         !> 1 for mechanisms, whose numbers mean nothing
         real(wp), intent(out) :: moves(lanes)
         real(wp), dimension(lanes) :: phi, beta, delta, e, p, m, floating, psi, turns
-        real(wp) :: h, faa, fab, fbb, length, hinge
+        real(wp) :: h, faa, fab, fbb, length, hinge, free
         real(wp) :: a, b, c, d, r, g, k, given, rigid, starts, rests, denominator, reciprocal, m_star, w_star, new_e, new_p, &
             new_phi, new_beta, new_delta, moment, deflection, next_m, next_w, y
         integer :: l, i
@@ -124,6 +135,13 @@ contains
         floating(:) = 1.0_wp
         turns(:) = 0.0_wp
         do i = 0, n - 1
+            free = 1.0_wp
+            if (beam%restraint(i) > 0) then
+                ! It takes what comes from the left, and the couple
+                call pass_restraint(beam%compliance(beam%restraint(i)), left(:, i), couple(:, i), phi, beta, delta, e, p, m, &
+                                    floating, turning(:, beam%restraint(i), :))
+                free = 0.0_wp
+            end if
             hinge = beam%hinge(i)
             h = beam%inverse(i + 1)
             faa = beam%faa(i + 1)
@@ -133,7 +151,7 @@ contains
             !$omp simd private(a, b, c, d, r, g, k, rigid, starts, rests, denominator, reciprocal, m_star, w_star, new_e, new_p, &
             !$omp   given, new_phi, new_beta, new_delta, moment, deflection)
             do l = 1, lanes
-                k = couple(l, i)
+                k = free*couple(l, i)
                 r = right(l, i)
                 g = shear(l, i) + p(l)
                 d = known(l, i)
@@ -141,7 +159,7 @@ contains
                 room(l, i, 7) = floating(l)
                 ! Across the node
                 ml(l, i) = m(l)
-                new_e = (e(l) + left(l, i)) - phi(l)*k
+                new_e = (e(l) + free*left(l, i)) - phi(l)*k
                 new_p = beta(l)*k
                 g = merge(g, shear(l, i) + (p(l) + new_p), floating(l) > 0.5_wp)
                 r = merge(r, r + new_e, floating(l) > 0.5_wp)
@@ -203,9 +221,15 @@ contains
                 floating(l) = rests
             end do
         end do
+        free = 1.0_wp
+        if (beam%restraint(n) > 0) then
+            call pass_restraint(beam%compliance(beam%restraint(n)), left(:, n), couple(:, n), phi, beta, delta, e, p, m, floating, &
+                                turning(:, beam%restraint(n), :))
+            free = 0.0_wp
+        end if
         !$omp simd private(k, g, c, rests, deflection, denominator, d)
         do l = 1, lanes
-            k = couple(l, n)
+            k = free*couple(l, n)
             d = known(l, n)
             g = shear(l, n) + (p(l) + beta(l)*k)
             c = delta(l) + spring(l, n)
@@ -218,6 +242,8 @@ contains
             mr(l, n) = 0.0_wp
             psi(l) = 0.0_wp
         end do
+        if (beam%restraint(n) > 0) call return_to_left(beam%compliance(beam%restraint(n)), couple(:, n), mr(:, n), w(:, n), &
+                                                       turning(:, beam%restraint(n), :), psi, ml(:, n))
         do i = n - 1, 0, -1
             h = beam%inverse(i + 1)
             faa = beam%faa(i + 1)
@@ -252,7 +278,64 @@ contains
                 mr(l, i) = moment
                 w(l, i) = deflection
             end do
+            if (beam%restraint(i) > 0) call return_to_left(beam%compliance(beam%restraint(i)), couple(:, i), mr(:, i), w(:, i), &
+                                                           turning(:, beam%restraint(i), :), psi, ml(:, i))
         end do
     end subroutine sweep_chain
+
+    !> From the left of a restraint to its right: what is left is no statics any more
+    pure subroutine pass_restraint(c, left, couple, phi, beta, delta, e, p, m, floating, kept)
+        !> Its compliance
+        real(wp), intent(in) :: c
+        !> Right-hand sides at the node
+        real(wp), intent(in), dimension(lanes) :: left, couple
+        !> What the left side passes on
+        real(wp), intent(inout), dimension(lanes) :: phi, beta, delta, e, p, m, floating
+        !> For return_to_left
+        real(wp), intent(out) :: kept(lanes, 5)
+        real(wp) :: divisor, before, turned
+        integer :: l
+
+        do l = 1, lanes
+            before = floating(l)
+            turned = e(l)*(1.0_wp - before) + left(l)
+            kept(l, 1) = before
+            kept(l, 2) = phi(l)
+            kept(l, 3) = beta(l)
+            kept(l, 4) = turned
+            kept(l, 5) = m(l)
+            divisor = phi(l) + c
+            divisor = divisor + merge(0.0_wp, 1.0_wp, divisor > 0.0_wp)
+            p(l) = p(l) + (1.0_wp - before)*(beta(l)*(turned + c*couple(l))*(1/divisor))
+            e(l) = merge(-c*(m(l) + couple(l)), c*(turned - phi(l)*couple(l))*(1/divisor), before > 0.5_wp)
+            delta(l) = delta(l) + (1.0_wp - before)*(beta(l)**2/divisor)
+            beta(l) = c*beta(l)/divisor
+            phi(l) = merge(c, c*phi(l)/divisor, before > 0.5_wp)
+            floating(l) = 0.0_wp
+        end do
+    end subroutine pass_restraint
+
+    !> The moment left of a restraint, and where that is known by statics the rotation
+    pure subroutine return_to_left(c, couple, moment, deflection, kept, psi, left)
+        !> As for pass_restraint
+        real(wp), intent(in) :: c
+        !> Couple, moment right of it, deflection
+        real(wp), intent(in), dimension(lanes) :: couple, moment, deflection
+        real(wp), intent(in) :: kept(lanes, 5)
+        !> Rotation left of it, if it matters
+        real(wp), intent(inout) :: psi(lanes)
+        !> Moment left of it
+        real(wp), intent(out) :: left(lanes)
+        real(wp) :: divisor
+        integer :: l
+
+        do l = 1, lanes
+            divisor = kept(l, 2) + c
+            divisor = divisor + merge(0.0_wp, 1.0_wp, divisor > 0.0_wp)
+            left(l) = (kept(l, 3)*deflection(l) - kept(l, 4) + c*(moment(l) - couple(l)))/divisor
+            left(l) = merge(kept(l, 5), left(l), kept(l, 1) > 0.5_wp)
+            psi(l) = merge(c*((left(l) - moment(l)) + couple(l)) + kept(l, 4), psi(l), kept(l, 1) > 0.5_wp)
+        end do
+    end subroutine return_to_left
 
 end module gapbeam_lane_sweeps

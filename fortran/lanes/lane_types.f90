@@ -37,8 +37,12 @@ module gapbeam_lane_types
         real(wp), allocatable :: there(:), changes(:)
         !> 1 at hinges
         real(wp), allocatable :: hinge(:)
-        !> Are there hinges, and loads with a couple at a node
-        logical :: with_hinges = .false., with_couples = .true.
+        !> Number of the rotational restraint of every node, 0 where there is none, shape (0:n); nodes of the restraints and their
+        !> compliances
+        integer, allocatable :: restraint(:), restrained(:)
+        real(wp), allocatable :: compliance(:)
+        !> Are there hinges or restraints between the ends, and loads with a couple at a node
+        logical :: is_plain = .true., with_couples = .true.
         !> What loads with factor 1 do to links: which load, which link; rotations and shears of the simple bar at both ends, sums
         !> of absolute values of loads and rotations (share_type of gapbeam_cases), shape (6, :)
         integer, allocatable :: link_load(:), link(:)
@@ -65,6 +69,8 @@ module gapbeam_lane_types
         real(wp), allocatable, dimension(:, :) :: w, ml, mr, reaction
         !> Residuals or, after elimination, corrections; the first also which supports are wrong, by places
         real(wp), allocatable, dimension(:, :) :: turn_rest, force_rest, known_rest, dw, dl, dr, nothing
+        !> Residuals left of restraints
+        real(wp), allocatable :: left_rest(:, :)
         !> Right-hand side of compatibility at plain nodes
         real(wp), allocatable :: turn(:, :)
         !> Has any case a couple at a node
@@ -73,6 +79,8 @@ module gapbeam_lane_types
         logical :: is_solved = .false.
         !> Room for elimination and for sizes
         real(wp), allocatable :: room(:, :, :)
+        !> Elimination at restraints, shape (lanes, restraints, 5)
+        real(wp), allocatable :: turning(:, :, :)
     end type pack_type
 
     !> What the links of all cases are made of, pieces from left to right
@@ -144,7 +152,8 @@ contains
                   pack%w(lanes, 0:n), pack%ml(lanes, 0:n), pack%mr(lanes, 0:n), pack%reaction(lanes, 0:last), &
                   pack%turn_rest(lanes, 0:last), pack%force_rest(lanes, 0:n), pack%known_rest(lanes, 0:n), &
                   pack%dw(lanes, 0:n), pack%dl(lanes, 0:n), pack%dr(lanes, 0:n), pack%turn(lanes, 0:n), &
-                  pack%nothing(lanes, 0:n), pack%room(lanes, 0:n, 10), stat=stat)
+                  pack%nothing(lanes, 0:n), pack%left_rest(lanes, 0:n), pack%room(lanes, 0:n, 10), &
+                  pack%turning(lanes, size(beam%restrained), 5), stat=stat)
         made = stat == 0
     end subroutine new_pack
 

@@ -3,7 +3,7 @@
 module gapbeam_lane_cases
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type
-    use gapbeam_band, only: plain, hinge
+    use gapbeam_band, only: plain, hinge, restrained
     use gapbeam_model, only: softest
     use gapbeam_law, only: both, is_rigid, has_laws, may_change
     use gapbeam_units, only: moment_unit, stiffness_unit
@@ -49,7 +49,7 @@ module gapbeam_lane_cases
 
 contains
 
-    !> Do lanes hold a beam: several links that bend, no ground, restraints and laws
+    !> Do lanes hold a beam: several links that bend, no ground and laws
     pure function fits_lanes(lowered) result(fits)
         type(lowered_type), intent(in) :: lowered
         logical :: fits
@@ -59,9 +59,7 @@ contains
             n = size(beam%links)
             fits = n > 1 .and. n <= most_links .and. .not. allocated(beam%ground)
             if (.not. fits) return
-            fits = all(beam%kind == plain .or. beam%kind == hinge) &
-                .and. all(beam%links%faa > 0.0_wp .and. beam%links%fbb > 0.0_wp) &
-                .and. .not. has_laws(beam%supports) &
+            fits = all(beam%links%faa > 0.0_wp .and. beam%links%fbb > 0.0_wp) .and. .not. has_laws(beam%supports) &
                 .and. max(abs(units%deflection), abs(units%force), abs(moment_unit(units)), abs(stiffness_unit(units))) &
                 < most_power
         end associate
@@ -272,6 +270,7 @@ contains
 
         n = size(lowered%beam%links)
         call find_places(lowered, lane_beam, made)
+        if (made) call find_restraints(lowered, lane_beam, made)
         if (.not. made) return
         last = lane_beam%last_place(size(lane_beam%shared))
         m = size(loads%of_links)
@@ -303,7 +302,7 @@ contains
             to%there(:) = 0.0_wp
             to%changes(:) = 0.0_wp
             to%hinge(:) = merge(1.0_wp, 0.0_wp, lowered%beam%kind == hinge)
-            to%with_hinges = any(lowered%beam%kind == hinge)
+            to%is_plain = all(lowered%beam%kind(1:n - 1) == plain)
             to%number(:) = lowered%normal
             do k = 1, size(lowered%beam%supports)
                 associate (s => lowered%beam%supports(k), i => to%place(k))
@@ -327,6 +326,32 @@ contains
             end do
         end associate
     end subroutine prepare_lanes
+
+    !> Rotational restraints
+    pure subroutine find_restraints(lowered, lane_beam, made)
+        type(lowered_type), intent(in) :: lowered
+        type(lane_beam_type), intent(inout) :: lane_beam
+        !> False where memory ends
+        logical, intent(out) :: made
+        integer :: i, m, n, stat
+
+        associate (beam => lowered%beam)
+            n = size(beam%links)
+            m = count(beam%kind == restrained)
+            allocate (lane_beam%restraint(0:n), lane_beam%restrained(m), lane_beam%compliance(m), stat=stat)
+            made = stat == 0
+            if (.not. made) return
+            m = 0
+            do i = 0, n
+                lane_beam%restraint(i) = 0
+                if (beam%kind(i) /= restrained) cycle
+                m = m + 1
+                lane_beam%restraint(i) = m
+                lane_beam%restrained(m) = i
+                lane_beam%compliance(m) = beam%compliance(i)
+            end do
+        end associate
+    end subroutine find_restraints
 
     !> Places of the supports in arrays of them
     pure subroutine find_places(lowered, lane_beam, made)
