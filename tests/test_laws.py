@@ -189,6 +189,17 @@ def test_both_ways_mirrored_with_and_without_a_gap():
     assert still.opening[1] == pytest.approx(0.004, rel=1e-12)
 
 
+@pytest.mark.parametrize("law", [[[0.02, 10.0]], [[0.01, 5.0], [0.02, 20.0]], {"type": "power", "d0": 0.02, "limit": 20, "n": 2}])
+def test_held_both_ways_with_a_gap_and_by_nothing_else(law):
+    """Within its gap the support holds nothing; it was counted among those that always do, and the scene was refused."""
+    supports = [{"node": 0}, {"node": 1, "side": "both", "gap": 0.003, "law": law}]
+    for sign in (1, -1):
+        loads = [{"type": "uniform", "q": 2.5 * sign}]
+        step = gapbeam.solve({"beam": {"spans": [4.0], "EI": 1e3}, "supports": supports, "loads": loads}).steps[-1]
+        assert step.reaction == pytest.approx([5.0 * sign, 5.0 * sign], rel=1e-12)
+        assert step.deflection[1] == pytest.approx(0.013 * sign, rel=1e-12)
+
+
 def test_a_permanent_set():
     analysis = {"history": [1.0, 0.0, 1.5, -0.5]}
     result = gapbeam.solve(midspan([[0.1, 1.0], [0.2, 1.0]], 3.0, 1 / 48, analysis, unloading="plastic"))

@@ -17,7 +17,7 @@ module gapbeam_law
     use gapbeam_require, only: checked, require
     use gapbeam_band, only: node_type, rhs_type, answer_type
     use gapbeam_polyline, only: node_support_type, piece_that_acts, piece_force, kink_margin, is_watched, open_beyond, &
-        go_one_piece
+        go_one_piece, go_to_level
     implicit none
     private
     public :: node_support_type, below, above, both, nodes_at_a_time
@@ -25,7 +25,7 @@ module gapbeam_law
     public :: add_supports, share_forces
     public :: margin_of, margin_in_scheme, margin_rates, find_margins, find_wrong_states, &
         find_doubtful_states, largest_violations
-    public :: has_laws, is_watched_in, open_beyond, go_one_piece
+    public :: has_laws, is_watched_in, open_beyond, go_one_piece, go_to_level
 
     !> Sides of a support: pushes up only, pushes down only, both
     integer, parameter :: below = 1, above = -1, both = 0

@@ -14,7 +14,7 @@ module gapbeam_polyline
     implicit none
     private
     public :: node_support_type, piece_that_acts, piece_force, kink_margin, is_watched
-    public :: open_beyond, go_one_piece, coincide, last_kink, join_pieces
+    public :: open_beyond, go_one_piece, go_to_level, coincide, last_kink, join_pieces
 
     !> A support at a node, or a kink of its law
     type :: node_support_type
@@ -191,6 +191,27 @@ contains
             k = last + 1
         end do
     end subroutine go_one_piece
+
+    !> Let every law act by a level piece, on which it holds nothing, where it has one
+    pure subroutine go_to_level(supports, closed)
+        type(node_support_type), intent(in) :: supports(:)
+        !> Any scheme in, laws on their first level piece out; those that have none are on the piece before all kinks
+        logical, intent(inout) :: closed(:)
+        integer :: k, j, last
+
+        k = 1
+        do while (k <= size(closed))
+            last = last_kink(supports, k)
+            if (supports(k)%kink > 0) then
+                closed(k:last) = .false.
+                if (abs(supports(k)%before) > 0.0_wp) then
+                    j = k - 1 + findloc(abs(supports(k:last)%stiffness) > 0.0_wp, .false., 1)
+                    closed(k:j) = .true.
+                end if
+            end if
+            k = last + 1
+        end do
+    end subroutine go_to_level
 
     !> The last kink of the law that begins at a support; the support itself if it has none
     pure function last_kink(supports, k) result(last)

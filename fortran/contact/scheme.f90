@@ -11,7 +11,7 @@ module gapbeam_scheme
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_no_equilibrium, &
         gapbeam_indeterminate, gapbeam_not_converged, gapbeam_not_finite
     use gapbeam_band, only: band_ok, band_needs_pivoting
-    use gapbeam_law, only: always_closed, separate_rigid_pairs, has_laws
+    use gapbeam_law, only: always_closed, separate_rigid_pairs, has_laws, go_to_level
     use gapbeam_law_motions, only: is_blocked, distance_to_contact
     use gapbeam_law_forms, only: limit_stiffness
     use gapbeam_model, only: beam_type, softest
@@ -76,8 +76,10 @@ contains
         work%solves = 0
         work%came_back = .false.
         work%ease = 0.0_wp
-        call free_motions(beam, always_closed(beam%supports), motions)
         allocate (start(size(closed)), wrong(size(closed)))
+        start = always_closed(beam%supports)
+        if (has_laws(beam%supports)) call go_to_level(beam%supports, start)  ! within its gap a law that holds both ways does not
+        call free_motions(beam, start, motions)
         start = closed
         refined = .false.
         do attempt = 1, 2
