@@ -310,3 +310,24 @@ def test_random_paths():
         assert min(released) > 0.0
     assert turned > 25
     assert len(left_out) < 5, left_out
+
+
+def test_a_path_ends_at_its_last_load_factor():
+    """Not a digit before it, where no step was: a result without any was called solved."""
+    plastic, power = {"type": "plastic", "stiffness": 43666.47, "limit": 39.3}, {"type": "power", "d0": 0.02, "limit": 20.0, "n": 2}
+    supports = [{"node": 0, "side": "both", "gap": 0.003, "law": plastic}, {"node": 1, "side": "both", "gap": 0.02, "law": power}]
+    beam = {"spans": [2.0], "EI": 900.0}
+    for q in np.arange(1.0, 5.0, 0.25):
+        result = gapbeam.solve({"beam": beam, "supports": supports, "loads": [{"type": "uniform", "q": q}]})
+        assert [s.stop for s in result.segments][-1] == 1.0
+        assert result.steps[0].reaction == near(np.array([q, q]))
+
+
+def test_a_path_that_does_not_begin():
+    """Nothing resists the load from the start: there is no stretch to put onto the laws."""
+    supports = [{"node": 0, "side": "below", "gap": 0.001, "law": {"type": "tanh", "stiffness": 800.0, "limit": 33.0}},
+                {"node": 1, "side": "both", "gap": 0.02, "law": {"type": "plastic", "stiffness": 3e4, "limit": 14.0}}]  # fmt: skip
+    result = gapbeam.solve({"beam": {"spans": [4.0], "EI": 400.0}, "supports": supports, "loads": [{"type": "uniform", "q": -2.0}]})
+    assert (result.status, [limit.kind for limit in result.limits], len(result.steps)) == ("limit-load", ["mechanism"], 0)
+    assert result.reason.startswith("limit load: nothing more resists the load beyond load factor 0")
+    assert result.limits[0].exact

@@ -236,7 +236,8 @@ class BranchPath(Pickled):
             causes = self._changes(before - 1, before) if 0 < before < len(self._history.about) else []
             step = self._step(landing - 1, factor) if landing and (leg > 0 or self._dead is not None) else None
             released = None if step is None else self._released(before, landing, factor)
-            exact = self._curved is None or (self._curved.is_exact(before - 1) and (step is None or step.exact))
+            is_known = self._curved is None or before == 0 or self._curved.is_exact(before - 1)
+            exact = is_known and (step is None or step.exact)
             found.append(Limit(factor, ENDINGS[kind], leg - 1, tuple(causes), step, released, exact))
         return found
 

@@ -84,9 +84,10 @@ class CurvedPath(Pickled):
             k = turns[-1] + 1 if turns else k + 1
         for j, (_, leg, before, landing) in enumerate(self.history.limits):
             self.history.limit_factors[j] = self.history.along[before - 1, 1] if before else self.history.limit_factors[j]
-            goal = self._goal(leg)
-            if leg < h.about[-1, 0] and (self.history.limit_factors[j] - goal) * (goal - self._begin(leg)) > 0.0:
-                self.unreached = int(leg)  # it would have come there before
+            if leg in h.about[:, 0] and leg < h.about[-1, 0]:
+                goal = self._goal(leg)
+                if (self.history.limit_factors[j] - goal) * (goal - self._begin(leg)) > 0.0:
+                    self.unreached = int(leg)  # it would have come there before
             if landing - 1 in self._landings:
                 self.history.along[landing - 1, 0] = self.history.limit_factors[j]
         self.runs = self._merge()
@@ -120,7 +121,7 @@ class CurvedPath(Pickled):
     def _merge(self) -> list[tuple[int, int]]:
         starts = [k + 1 for k, join in enumerate(self._joins) if join != THROUGH or k + 1 in self._landings]
         ends = [0, *(k for k in starts if k < len(self._joins)), len(self._joins)]
-        return [(a, b - 1) for a, b in pairwise(ends)]
+        return [(a, b - 1) for a, b in pairwise(ends) if a < b]
 
     # Onto the laws
 
@@ -191,6 +192,8 @@ class CurvedPath(Pickled):
             if leg == h.about[-1, 0] and direction == way and way * (state.factor - goal) > 0.0:
                 self._miss(k)  # what happens there does so beyond
         self._keep(k, state)
+        if join == GIVEN_FACTOR:
+            self.history.along[k, 1] = self._rough.along[k, 1]  # there to the last digit, or no step is found there
         if join == EVENT:
             try:
                 self._leave(k + 1, state)
