@@ -85,3 +85,16 @@ def test_a_support_that_opens_on_the_curve_only():
     assert step.state == ("open", "open", "branch 1", "branch 1")
     assert step.opening[:2].min() > 0.0
     assert step.reaction.sum() == pytest.approx(26.0, rel=1e-13)
+
+
+@pytest.mark.parametrize("follow", ["steps", "events"])
+def test_loads_beyond_what_a_law_tends_to(follow):
+    """Its polyline rises a little for ever, and held the beam some 1e12 away; the tangents then ended in an error."""
+    law = {"type": "tanh", "stiffness": 1700.0, "limit": 31.0}
+    supports = [{"node": 0, "side": "both", "gap": 0.001, "law": [[0.02, 3.2]]}, {"node": 2, "side": "below"}]
+    supports.append({"node": 1, "side": "both", "gap": 0.001, "law": law})
+    made = {"beam": {"spans": [2.5, 4.5], "EI": 2e3}, "supports": supports, "analysis": {"follow": follow}}
+    result = gapbeam.solve({**made, "loads": [{"type": "uniform", "q": -4.0}]})
+    assert (result.status, len(result.steps)) == ("no-equilibrium", 0)
+    assert result.reason.startswith("no equilibrium at load factor 1: the beam tips about the support at x = 0: ")
+    assert gapbeam.solve({**made, "loads": [{"type": "uniform", "q": -3.0}]}).status == "solved"  # 21 * 3.5 < 31 * 2.5

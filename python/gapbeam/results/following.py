@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 
 import numpy as np
 
 from ..base.errors import WITHOUT_ANSWER, EngineError, SceneError, Status
+from ..engine.arrays import Solution
 from ..engine.beam import RULES, Beam
 from ..scene.structs import Scene
 from ..scene.wording import shown
@@ -15,6 +17,7 @@ from .branches import follow_branches
 from .ground_path import follow_on_ground
 from .path import follow
 from .result import Result
+from .step import solve_step
 from .steps import LoadSteps, PathSteps
 from .trains import refuse_trains
 
@@ -70,6 +73,8 @@ def _follow(result: Result, closed: np.ndarray) -> Result:
         result.path = follow_on_ground(result, rule, closed) if beam.ground_layers else follow(result, rule, closed)
         if result.segments:
             result.steps = PathSteps(beam, rule, result.path)
+        if beam.curves and result.segments and result.status == "solved":
+            _refuse_beyond_bounds(result)
         return result
     result.steps = LoadSteps(beam, rule, closed, scene.analysis.steps)
     fallen = result.steps.solve_all()
@@ -77,6 +82,17 @@ def _follow(result: Result, closed: np.ndarray) -> Result:
         factor, motion = fallen
         result.refuse(f"at load factor {factor:g}", motion)
     return result
+
+
+def _refuse_beyond_bounds(result: Result) -> None:
+    """Refuse a path along polylines of laws that tend to a force, where the laws themselves cannot carry the load at its end."""
+    last = result.segments[-1]
+    with suppress(EngineError):  # that is said where the step is looked at
+        found = solve_step(result.beam, last.stop, result.rule, result.path.closed(last))
+        if isinstance(found, Solution):
+            result.path = None
+            result.steps = LoadSteps(result.beam, result.rule, starting_scheme(result.beam), 0)
+            result.refuse(f"at load factor {last.stop:g}", found.motion)
 
 
 def _refuse_on_ground(scene: Scene, beam: Beam) -> None:

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..base.errors import EngineError, Status
 from ..engine.arrays import Solution
-from ..engine.beam import GIVEN, SOLVED, Beam
+from ..engine.beam import GIVEN, NO_EQUILIBRIUM, SOLVED, Beam
 from ..engine.units import scaled
 
 USUAL_TANGENTS, MOST_TANGENTS = 10, 60
@@ -26,6 +26,7 @@ LAST_DIGIT = np.finfo(float).eps / 2
 """Share of a force by which a tangent at the solution is beside its curve at most."""
 ROUNDING = 1e-13
 """The same where more tangents bring no more digits."""
+NOT_MET = "the smooth laws of the supports could not be met: give them as polylines"
 
 
 class SmoothLaws:
@@ -90,6 +91,25 @@ class SmoothLaws:
                     found[i] = max(slope, force / at)
         return found
 
+    def let_go(self, motion: np.ndarray, force: np.ndarray, way: np.ndarray) -> bool:
+        """Tell whether all laws give as much against a motion as they ever can, so that no other state stops it.
+
+        Parameters
+        ----------
+        motion : numpy.ndarray
+            Displacements of the nodes, positive downward.
+        force, way : numpy.ndarray
+            Forces, and which way the supports are pressed (1 downward).
+
+        Returns
+        -------
+        bool
+        """
+        moved = motion[self.nodes]
+        gives_all = (way * moved > 0.0) & (force >= (1.0 - DIGITS) * np.array([curve.bound() for curve in self.curves]))
+        is_left = (force == 0.0) & (self.side * moved < 0.0)
+        return bool(np.all((moved == 0.0) | gives_all | is_left))
+
     def with_lines(self, beam: Beam, deflection: np.ndarray, force: np.ndarray, slope: np.ndarray) -> Beam:
         """Make the beam with lines instead of the laws.
 
@@ -136,7 +156,7 @@ def solve_on_curves(beam: Beam, factor: float, solution: Solution, rule: str = G
     beam : Beam
         The same with tangents instead of the laws.
     solution : Solution
-        On the laws.
+        On the laws; without equilibrium where they give all that they can.
 
     Raises
     ------
@@ -185,10 +205,12 @@ def solve_on_curves(beam: Beam, factor: float, solution: Solution, rule: str = G
         beam = laws.with_lines(beam, at, force * way, slope)
         solution = beam.solve(factor, rule, closed)
         solves += solution.solves
+        if solution.status == NO_EQUILIBRIUM and not solution.slides and laws.let_go(solution.motion, force, way):
+            return beam, replace(solution, solves=solves)
         if solution.status != SOLVED:
             break
         closed = solution.closed
-    raise EngineError("the smooth laws of the supports could not be met: give them as polylines", Status.NOT_CONVERGED)
+    raise EngineError(NOT_MET, Status.NOT_CONVERGED)
 
 
 def with_openings(beam: Beam, solution: Solution) -> Solution:
@@ -234,6 +256,8 @@ def factor_on_curves(beam: Beam, factor: float, closed: np.ndarray, support: int
     ordinary = int(beam.numbers[support]) not in beam.laws
     for _ in range(MOST_TANGENTS):
         tangent, here = solve_on_curves(beam, factor, beam.solve(factor, GIVEN, closed))
+        if here.status != SOLVED:
+            raise EngineError(NOT_MET, Status.NOT_CONVERGED)
         step = max(abs(factor), 1.0)
         there = tangent.solve(factor + step, GIVEN, closed)
         if ordinary and closed[support]:

@@ -77,7 +77,8 @@ class Step(Pickled):
         if beam.curves and solution.status == SOLVED:
             if not self._settled:
                 beam, solution = solve_on_curves(beam, self.factor, solution, self._rule)
-            solution = with_openings(beam, solution)
+            if solution.status == SOLVED:
+                solution = with_openings(beam, solution)
         return beam, solution, perf_counter() - begin
 
     @property

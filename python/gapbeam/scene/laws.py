@@ -106,6 +106,10 @@ class _Curve(_Law):
         """Give the displacement at a force; None, as the curve is followed by displacements."""
         return None
 
+    def bound(self) -> float:
+        """Give the force that it never exceeds."""
+        return inf
+
     def points(self) -> list[tuple[float, float]]:
         """Give a polyline through points of the curve, closer where it bends."""
         ways = self.scale() * np.geomspace(2.0**-20, 2.0**20, PIECES)
@@ -174,6 +178,10 @@ class _Levelling(_Curve):
     def scale(self) -> float:
         """Give the displacement at which the first stiffness would reach the limit."""
         return self.limit / self.stiffness
+
+    def bound(self) -> float:
+        """Give the limit."""
+        return self.limit
 
 
 class HyperbolicLaw(_Levelling, tag="hyperbolic"):
