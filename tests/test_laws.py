@@ -371,6 +371,18 @@ def test_the_report_says_the_limit_first():
     assert "The next stable state along the path at this load factor (dynamics may lead elsewhere): support 1 branch 3" in text
 
 
+@pytest.mark.parametrize("points", [[[3.0, 6.0]], [[3.0, 6.0], [4.0, 16.0]], [[0.0, 1.0], [2.0, 5.0]]])
+@pytest.mark.parametrize("force", [0.0, 1.0, -1.0])
+def test_a_guide_that_only_a_law_with_a_gap_holds(points, force):
+    """It moves freely until the gap is closed; such beams were refused."""
+    support = {"node": 1, "side": "both", "rotation": "fixed", "gap": 0.5, "law": points}
+    loads = [{"type": "force", "x": 7.0, "F": force}]
+    step = gapbeam.solve({"beam": {"spans": [7.0], "EI": 1.0}, "supports": [support], "loads": loads}).steps[-1]
+    assert step.reaction.tolist() == [force]
+    assert abs(step.deflection[0]) == (0.5 + force**2 * points[0][0] / 6.0 if force else 0.0)
+    assert step.indifferent == (force == 0.0)
+
+
 @pytest.mark.parametrize("force", [2.0**-12, 1.0])
 def test_a_reaction_at_a_kink_of_its_law(force):
     """Statics alone tell it, right of the hinge, and either piece is right: it was said to be zero, or refused."""
