@@ -208,7 +208,7 @@ class Job:
             elif name in AT_SUPPORTS:
                 for end, values in zip(self._ends, at_supports[name], strict=True):
                     for one, value in zip(self.supports, values, strict=True):
-                        numbers[f"{name}.{one}{end}"][k] = value
+                        numbers[f"{name}.{one}{end}"][k] = value + 0.0  # there is one zero
             elif name != "input":
                 for kind in KINDS:
                     numbers[f"{name}.{kind}"][k], numbers[f"{name}.{kind}_x"][k] = extremes[name][kind]
