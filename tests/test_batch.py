@@ -137,6 +137,8 @@ def test_what_is_kept(tmp_path):
     assert [found[f"reaction.{one}"][7] for one in ("R-101", "R 102", "2", "3")] == pytest.approx(case.steps[-1].reaction, abs=1e-9)
     assert (found["shear.min"][7], found["shear.min_x"][7]) == pytest.approx(case.extremes()["shear"]["min"])
     assert (done.done, done.cases, done.statuses()) == (50, 50, {"solved": 50})
+    assert done.read("case").keys() == {"case"}
+    assert gapbeam.batch(SCENE, table(2), tmp_path / "one", want="couple").columns[3:4] == ("couple.R-101",)
 
 
 def test_a_case_that_fails_is_a_row_with_its_reason(tmp_path):
@@ -149,6 +151,8 @@ def test_a_case_that_fails_is_a_row_with_its_reason(tmp_path):
     assert found["reason"][2] == "beam.EI: expected a number, got nan"
     assert found["reason"][3].startswith("no equilibrium at load factor 1: ")
     assert np.isnan(found["moment.max"]).tolist() == [False, True, True, True]
+    with pytest.raises(ValueError, match=r"case: expected a whole number, got 1\.5"):
+        done.scene_of(1.5)
     assert gapbeam.solve(done.scene_of(3)).reason == found["reason"][3]
     assert done.failed_chunks() == [0]
 

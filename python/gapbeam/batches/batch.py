@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..base.errors import SceneError
+from ..results.arguments import whole
 from ..scene.reading import read_scene
 from ..scene.structs import Scene
 from ..scene.wording import shown
@@ -72,12 +73,16 @@ class Batch:
         """Columns that hold results: numbers that are not from the table."""
         return tuple(name for name in self.numbers if name not in self._folder.manifest["inputs"])
 
-    def chunks(self, names: Sequence[str] | None = None) -> Iterator[dict[str, np.ndarray]]:
+    def _chosen(self, names: str | Sequence[str] | None) -> tuple[str, ...]:
+        """Names of columns as they are given; default all."""
+        return self.columns if names is None else (names,) if isinstance(names, str) else tuple(names)
+
+    def chunks(self, names: str | Sequence[str] | None = None) -> Iterator[dict[str, np.ndarray]]:
         """Go through what is done, file by file.
 
         Parameters
         ----------
-        names : sequence of str, optional
+        names : str or sequence of str, optional
             Of the columns; default all.
 
         Yields
@@ -90,7 +95,7 @@ class Batch:
         SceneError
             There is no such column, or a file cannot be read.
         """
-        names = self.columns if names is None else tuple(names)
+        names = self._chosen(names)
         for name in names:
             if name not in self.columns:
                 near = get_close_matches(str(name), self.columns, n=1, cutoff=0.5)
@@ -99,12 +104,12 @@ class Batch:
         for k in self._chunks:
             yield read_columns(self._folder.file(k), names)
 
-    def read(self, names: Sequence[str] | None = None) -> dict[str, np.ndarray]:
+    def read(self, names: str | Sequence[str] | None = None) -> dict[str, np.ndarray]:
         """Give columns of all cases that are done, as `pandas.DataFrame` takes them.
 
         Parameters
         ----------
-        names : sequence of str, optional
+        names : str or sequence of str, optional
             Of the columns; default all.
 
         Returns
@@ -117,8 +122,8 @@ class Batch:
         SceneError
             As for `chunks`.
         """
+        names = self._chosen(names)
         parts = list(self.chunks(names))
-        names = self.columns if names is None else tuple(names)
         return {name: np.concatenate([part[name] for part in parts]) if parts else np.empty(0) for name in names}
 
     def statuses(self) -> dict[str, int]:
@@ -208,7 +213,7 @@ class Batch:
             raise ValueError("scene_of: the cases of this batch are files; solve the one that the column scene names")
         if "input" not in manifest["want"]:
             raise ValueError('scene_of: the rows of the table were not kept; take "input" into what is wanted')
-        size = manifest["chunk"]
+        size, case = manifest["chunk"], whole("case", case)
         if not 0 <= case < self.cases or case // size not in self._chunks:
             raise ValueError(f"scene_of: case {case} is not done; there are {self.done:,} of {self.cases:,}")
         data = from_json(manifest["data"])

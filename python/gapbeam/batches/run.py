@@ -41,7 +41,7 @@ CHUNKS_A_WORKER = 2
 
 def batch(
     scene: Scene | Mapping[str, Any] | str | os.PathLike, table: Any = None, out: str | os.PathLike = "", *,
-    want: Iterable[str] | None = None, jobs: int | None = None, executor: Executor | None = None, retry_failed: bool = False,
+    want: str | Iterable[str] | None = None, jobs: int | None = None, executor: Executor | None = None, retry_failed: bool = False,
     chunk: int | None = None, progress: Callable[[int, int], None] | None = None,
 ) -> Batch:  # fmt: skip
     """Solve a scene for every row of a table, into a folder.
@@ -59,7 +59,7 @@ def batch(
         ``factors.CASE``, by which the loads of a case are multiplied. None where `scene` is a folder.
     out : str or path
         The folder for the results.
-    want : iterable of str, optional
+    want : str or iterable of str, optional
         What is kept of every case: ``input`` (the row of the table), ``reaction``, ``opening``, ``couple`` (of every support), and
         the largest and smallest value of fields with their places: ``deflection``, ``rotation``, ``moment``, ``shear``,
         ``axial_force``, ``axial_displacement``, ``pressure``. Default: input, reaction, opening, deflection, moment.
@@ -101,7 +101,7 @@ def batch(
 
 
 def run_batch(
-    scene: Any, table: Any, out: str | os.PathLike, want: Iterable[str] | None, jobs: int | None, executor: Executor | None,
+    scene: Any, table: Any, out: str | os.PathLike, want: str | Iterable[str] | None, jobs: int | None, executor: Executor | None,
     retry_failed: bool, chunk: int | None, progress: Callable[[int, int], None] | None, *, by_processes: bool,
 ) -> Batch:  # fmt: skip
     """Run a batch from a program that can be started anew for other processes.
@@ -119,6 +119,7 @@ def run_batch(
     """
     if not os.fspath(out):
         raise SceneError("out", "give a folder for the results")
+    want = (want,) if isinstance(want, str) else want
     rows, job, scene_digest, size = _plan(scene, table, None if want is None else tuple(want))
     path = Path(out)
     if retry_failed not in (True, False):
