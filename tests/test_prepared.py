@@ -116,6 +116,12 @@ def test_no_loads():
     assert beam.solve().reaction.tolist() == [0.0, 0.0]
 
 
+def test_trains_are_not_left_out():
+    made = {**scene([4.0], [at(0), at(1)], [uniform(1.0)]), "trains": [{"axles": [[0.0, 10.0]]}]}
+    with pytest.raises(gapbeam.SceneError, match="trains: cases are prepared for loads that stay where they are; leave trains out"):
+        gapbeam.prepare(made)
+
+
 def test_mistakes():
     beam = gapbeam.prepare(scene([1.0], [at(0), at(1)], [uniform(1.0), uniform(2.0)]))
     with pytest.raises(ValueError, match=r"expected 2 numbers a case, one for each load, got shape \(3,\)"):

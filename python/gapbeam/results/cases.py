@@ -375,13 +375,16 @@ def prepare(source: Scene | Mapping[str, Any] | str | os.PathLike, *, rule: str 
     Raises
     ------
     SceneError
-        The scene is not valid; or the state of a support depends on the way of the load to it, or its law is a curve, so that
-        each case is more than one solve.
+        The scene is not valid, or has combinations or trains; or the state of a support depends on the way of the load to it, or its
+        law is a curve, so that each case is more than one solve.
     """
     scene, beam = read_beam(source)
     if scene.combinations:
         raise SceneError("combinations", "cases are prepared for factors of every load, which the caller gives; leave combinations "
                          "out, or use gapbeam.solve, which solves all of them")  # fmt: skip
+    if scene.trains:
+        raise SceneError("trains", "cases are prepared for loads that stay where they are; leave trains out, or use gapbeam.solve, "
+                         "which moves them")  # fmt: skip
     if beam.depends_on_path or beam.curves:
         what = "its state depends on the way of the load" if beam.depends_on_path else "one of them is a curve"
         raise SceneError("supports", f"cases cannot be prepared with these laws, as {what}; use gapbeam.solve for each case")
