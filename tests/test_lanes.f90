@@ -14,11 +14,16 @@ program test_lanes
     use gapbeam_lane_levels, only: least_level, best_level
     use gapbeam_lane_cases, only: lane_room_type, fits_lanes, solve_in_lanes
     use gapbeam_case_extremes, only: extremes_of_cases
+    use gapbeam_case_certificates, only: certify_cases, certificate_numbers
     implicit none
 
     !> Cases of a beam; beams of 2 to 40 spans, the last ones of 300 to 700, whose solution alone is kept up to date, with
     !> other last digits
     integer, parameter :: cases = 20, beams = 240, long_beams = 2
+    !> Certificates of longer beams take their time where a case goes alone
+    integer, parameter :: most_certified = 42
+    !> Numbers that no case has of its own
+    real(wp), parameter :: no_values(3, 0, cases) = 0.0_wp
     integer :: status
 
     !> What comes out of some cases
@@ -30,6 +35,8 @@ program test_lanes
         real(wp), allocatable :: extremes(:, :, :), places(:, :, :)
         !> Fields at both ends of the beam
         real(wp), allocatable :: fields(:, :, :)
+        !> Certificates
+        real(wp), allocatable :: certificate(:, :)
     end type found_type
 
     call lanes_have_the_bits_of_single_cases()
@@ -41,7 +48,7 @@ contains
     !> Many beams with supports of all kinds
     subroutine lanes_have_the_bits_of_single_cases()
         type(lowered_type) :: lowered
-        type(case_loads_type) :: loads
+        type(case_loads_type), allocatable :: loads
         type(error_type), allocatable :: error
         type(found_type) :: all_cases, alone, back
         real(wp), allocatable :: factors(:, :), values(:, :, :)
@@ -59,6 +66,7 @@ contains
             n = 2 + int(39*random(seed)**3)
             if (b > beams - long_beams) n = 300 + int(400*random(seed))
             call make_beam(seed, n, .false., lowered)
+            if (.not. allocated(loads)) allocate (loads)
             call split_loads(lowered, loads, error)
             if (.not. fits_lanes(lowered)) cycle
             call draw_cases(seed, lowered, cases, modulo(b, 2) == 0, factors, values)
@@ -88,12 +96,13 @@ contains
     !> Solve cases side by side
     subroutine solve(lowered, loads, factors, values, level, found)
         type(lowered_type), intent(in) :: lowered
-        type(case_loads_type), intent(in) :: loads
+        type(case_loads_type), allocatable, intent(in) :: loads
         real(wp), intent(in) :: factors(:, :), values(:, :, :)
         integer, intent(in) :: level
         type(found_type), intent(out) :: found
         type(lane_room_type) :: room
         integer, allocatable :: status(:)
+        logical, allocatable :: known(:)
         integer :: n, m, c
 
         n = size(lowered%beam%links) + 1
@@ -116,6 +125,11 @@ contains
         call extremes_of_cases(lowered, loads, factors, values, rule_block, found%closed, found%w, found%ml, found%mr, &
                                [.true., .true., .true., .true.], found%extremes, found%places, [1, size(lowered%pieces)], &
                                [0.0_wp, piece_length(lowered, size(lowered%pieces))], found%fields, status, level)
+        allocate (found%certificate(certificate_numbers, c), known(c))
+        found%certificate(:, :) = 0.0_wp
+        if (n <= most_certified) call certify_cases(lowered, loads, factors, values, no_values, no_values(1, :, :), rule_block, &
+                                                    .true., found%closed, found%w, found%ml, found%mr, found%reaction, &
+                                                    found%certificate, known, status, level)
         found%done = found%done .and. status == gapbeam_solved
     end subroutine solve
 
@@ -136,7 +150,8 @@ contains
                         .and. bits(a%mr(:, i)) == bits(b%mr(:, k))) .and. all(bits(a%reaction(:, i)) == bits(b%reaction(:, k))) &
                     .and. all(bits(a%extremes(:, :, i)) == bits(b%extremes(:, :, k)) &
                               .and. bits(a%places(:, :, i)) == bits(b%places(:, :, k))) &
-                    .and. all(bits(a%fields(:, :, i)) == bits(b%fields(:, :, k)))
+                    .and. all(bits(a%fields(:, :, i)) == bits(b%fields(:, :, k))) &
+                    .and. all(bits(a%certificate(:, i)) == bits(b%certificate(:, k)))
             end associate
         end do
     end function same
