@@ -3,7 +3,8 @@ module lane_beams
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type
-    use gapbeam_scene, only: span_type, support_type, uniform_load, point_force, point_couple, gapbeam_both, gapbeam_infinity
+    use gapbeam_scene, only: section_type, span_type, support_type, uniform_load, point_force, point_couple, gapbeam_both, &
+        gapbeam_infinity
     use gapbeam_lowered, only: lowered_type
     use gapbeam_lower, only: lower_model
     implicit none
@@ -29,8 +30,8 @@ contains
         associate (model => lowered%model)
             x = random(seed)
             k = merge(1, 0, spans > 3 .and. x < 0.3_wp .and. .not. whole)
-            allocate (model%spans(spans), model%hinges(k), model%sections(0), model%law(0), model%foundations(0), model%ground(0), &
-                      model%ground_law(0), supports(2*spans + 2))
+            allocate (model%spans(spans), model%hinges(k), model%sections(merge(1, 0, modulo(spans, 3) == 0)), &
+                      model%law(0), model%foundations(0), model%ground(0), model%ground_law(0), supports(2*spans + 2))
             do i = 1, spans
                 model%spans(i) = span_type(2.0_wp + 4*random(seed), EI=10.0_wp**(3 + 2*random(seed)))
             end do
@@ -63,6 +64,7 @@ contains
             allocate (model%supports(m), model%loads(4))
             model%supports(:) = supports(:m)
             x = sum(model%spans%length)
+            if (size(model%sections) > 0) model%sections(1) = section_type(0.3_wp*x, 0.6_wp*x, EI=10.0_wp**(3 + 2*random(seed)))
             if (k > 0) model%hinges(:) = x*(0.2_wp + 0.6_wp*random(seed))
             model%loads(1) = uniform_load(10.0_wp, 0.0_wp, x)
             model%loads(2) = uniform_load(20*random(seed), 0.3_wp*x*random(seed), x*(0.5_wp + 0.5_wp*random(seed)))
@@ -75,20 +77,22 @@ contains
     end subroutine make_beam
 
     !> Cases of it
-    subroutine draw_cases(seed, lowered, cases, varied, factors, values)
+    subroutine draw_cases(seed, lowered, cases, varied, with_own_spans, factors, values, spans)
         !> As for random
         integer(int64), intent(inout) :: seed
         type(lowered_type), intent(in) :: lowered
         integer, intent(in) :: cases
-        !> With supports that differ from case to case
-        logical, intent(in) :: varied
-        !> Factors, shape (loads, cases); settlements, gaps and stiffnesses, shape (3, supports or 0, cases)
-        real(wp), allocatable, intent(out) :: factors(:, :), values(:, :, :)
+        !> With supports, with stiffnesses of spans that differ from case to case
+        logical, intent(in) :: varied, with_own_spans
+        !> Factors, shape (loads, cases); settlements, gaps and stiffnesses, shape (3, supports or 0, cases); EI and GA, shape
+        !> (2, spans or 0, cases)
+        real(wp), allocatable, intent(out) :: factors(:, :), values(:, :, :), spans(:, :, :)
         integer :: i, k
 
         associate (given => lowered%model%supports)
             allocate (factors(size(lowered%model%loads), cases))
             allocate (values(3, merge(size(given), 0, varied), cases))
+            allocate (spans(2, merge(size(lowered%model%spans), 0, with_own_spans), cases))
             do i = 1, cases
                 do k = 1, size(factors, 1)
                     factors(k, i) = 3*random(seed) - 1
@@ -103,6 +107,10 @@ contains
                     ! With room between rigid ones
                     values(:2, k, i) = [values(1, k - 1, i), 0.002_wp + 0.01_wp*random(seed)]
                     if (given(k - 1)%side == gapbeam_both) values(3, k, i) = given(k)%stiffness
+                end do
+                do k = 1, size(spans, 2)
+                    spans(:, k, i) = [10.0_wp**(2 + 4*random(seed)), gapbeam_infinity]
+                    if (random(seed) < 0.2_wp) spans(2, k, i) = 10.0_wp**(2 + 4*random(seed))
                 end do
             end do
         end associate

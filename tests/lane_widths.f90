@@ -30,7 +30,7 @@ program lane_widths
     type :: share_type
         type(lowered_type), pointer :: lowered => null()
         type(case_loads_type), pointer :: loads => null()
-        real(wp), pointer :: factors(:, :) => null(), values(:, :, :) => null()
+        real(wp), pointer :: factors(:, :) => null(), values(:, :, :) => null(), spans(:, :, :) => null()
         integer, allocatable :: closed(:, :), solves(:), status(:)
         real(wp), allocatable :: w(:, :), ml(:, :), mr(:, :), reaction(:, :)
         logical, allocatable :: done(:)
@@ -111,7 +111,7 @@ contains
         type(lowered_type), target :: lowered
         type(case_loads_type), target :: loads
         type(error_type), allocatable :: error
-        real(wp), allocatable, target :: factors(:, :), values(:, :, :)
+        real(wp), allocatable, target :: factors(:, :), values(:, :, :), own_spans(:, :, :)
         type(share_type), target :: together, one, part(threads)
         type(case_room_type) :: room
         type(lane_room_type) :: lane_room
@@ -123,13 +123,13 @@ contains
         call make_beam(seed, spans, spans >= 299, lowered)
         call split_loads(lowered, loads, error)
         varied = random(seed) < 0.5_wp
-        call draw_cases(seed, lowered, cases, varied, factors, values)
-        call share_cases(lowered, loads, factors, values, together)
+        call draw_cases(seed, lowered, cases, varied, random(seed) < 0.4_wp, factors, values, own_spans)
+        call share_cases(lowered, loads, factors, values, own_spans, together)
         call solve_share(together, room)
         unsolved = unsolved + count(together%status == gapbeam_no_equilibrium)
 
         do i = 1, cases
-            call share_cases(lowered, loads, factors(:, i:i), values(:, :, i:i), one)
+            call share_cases(lowered, loads, factors(:, i:i), values(:, :, i:i), own_spans(:, :, i:i), one)
             call solve_share(one, room)
             call count_one(same(together, i, one, 1), alone, seen, wrong)
         end do
@@ -137,9 +137,9 @@ contains
         if (spans < 300) call compare_engine(together, seen, wrong)
         if (fits_lanes(lowered)) then
             do level = least_level, best_level()
-                call share_cases(lowered, loads, factors, values, one)
-                call solve_in_lanes(lowered, loads, factors, values, lane_room, one%closed, one%w, one%ml, one%mr, one%reaction, &
-                                    one%solves, one%done, level)
+                call share_cases(lowered, loads, factors, values, own_spans, one)
+                call solve_in_lanes(lowered, loads, factors, values, own_spans, lane_room, one%closed, one%w, one%ml, one%mr, &
+                                    one%reaction, one%solves, one%done, level)
                 do i = 1, cases
                     if (one%done(i)) call count_one(same(together, i, one, i), levels, seen, wrong)
                 end do
@@ -148,8 +148,10 @@ contains
 
         bounds(:) = [(cases*t**2/threads**2, t=0, threads)]
         do t = 1, threads
-            call share_cases(lowered, loads, factors(:, bounds(t - 1) + 1:bounds(t)), values(:, :, bounds(t - 1) + 1:bounds(t)), &
-                             part(t))
+            associate (first => bounds(t - 1) + 1, last => bounds(t))
+                call share_cases(lowered, loads, factors(:, first:last), values(:, :, first:last), own_spans(:, :, first:last), &
+                                 part(t))
+            end associate
             code = pthread_create(thread(t), c_null_ptr, c_funloc(solve_in_thread), c_loc(part(t)))
             if (code /= 0) error stop "no thread"
         end do
@@ -172,10 +174,10 @@ contains
     end subroutine count_one
 
     !> Cases to be solved
-    subroutine share_cases(lowered, loads, factors, values, share)
+    subroutine share_cases(lowered, loads, factors, values, spans, share)
         type(lowered_type), intent(in), target :: lowered
         type(case_loads_type), intent(in), target :: loads
-        real(wp), intent(in), target :: factors(:, :), values(:, :, :)
+        real(wp), intent(in), target :: factors(:, :), values(:, :, :), spans(:, :, :)
         type(share_type), intent(out) :: share
         integer :: n, m, c
 
@@ -183,6 +185,7 @@ contains
         share%loads => loads
         share%factors => factors
         share%values => values
+        share%spans => spans
         n = size(lowered%beam%links) + 1
         m = size(lowered%beam%supports)
         c = size(factors, 2)
@@ -202,9 +205,8 @@ contains
         type(share_type), intent(inout) :: share
         !> Empty, or of earlier cases of the beam
         type(case_room_type), intent(inout) :: room
-        real(wp) :: own_spans(2, 0, 0)
 
-        call solve_cases(share%lowered, share%loads, share%factors, share%values, own_spans, rule_block, room, share%closed, &
+        call solve_cases(share%lowered, share%loads, share%factors, share%values, share%spans, rule_block, room, share%closed, &
                          share%w, share%ml, share%mr, share%reaction, share%solves, share%status)
     end subroutine solve_share
 
@@ -238,21 +240,35 @@ contains
         type(share_type), intent(in) :: together
         integer, intent(inout) :: seen(:), wrong(:)
         type(share_type) :: one
+        type(lowered_type) :: lowered
+        type(case_loads_type) :: loads
+        type(error_type), allocatable :: error
         type(beam_type) :: beam
         type(workspace_type) :: work
         logical, allocatable :: acting(:)
         integer :: i
 
-        associate (lowered => together%lowered, units => together%lowered%units)
+        lowered = together%lowered
+        loads = together%loads
+        associate (units => lowered%units)
             beam = lowered%beam
             call new_workspace(beam, work)
             allocate (acting(size(beam%supports)))
-            call share_cases(lowered, together%loads, together%factors(:, 1:1), together%values(:, :, 1:1), one)
+            call share_cases(together%lowered, together%loads, together%factors(:, 1:1), together%values(:, :, 1:1), &
+                             together%spans(:, :, 1:1), one)
             do i = 1, size(together%status)
                 one%status(1) = gapbeam_solved
+                if (size(together%spans, 2) > 0) then
+                    lowered%model%spans%EI = together%spans(1, :, i)
+                    lowered%model%spans%GA = together%spans(2, :, i)
+                    call lower_loads(lowered, error)
+                    call split_loads(lowered, loads, error)
+                    beam = lowered%beam
+                    call new_workspace(beam, work)
+                end if
                 if (size(together%values, 2) > 0) call replace_supports(lowered, together%values(:, :, i), beam, one%status(1))
                 acting(:) = .true.
-                call solve_case(together%loads, together%factors(:, i), rule_block, beam, acting, work, one%status(1))
+                call solve_case(loads, together%factors(:, i), rule_block, beam, acting, work, one%status(1))
                 one%closed(:, 1) = merge(1, 0, acting)
                 one%w(:, 1) = scale(work%answers%deflection, units%deflection)
                 one%ml(:, 1) = scale(work%answers%moment_left, moment_unit(units))

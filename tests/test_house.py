@@ -9,6 +9,8 @@ import pytest
 
 TOP = Path(__file__).resolve().parents[1]
 FORTRAN = ("base", "beam", "chain", "contact", "verification", "path", "lanes", "scene", "result", "face")
+SUFFIX = re.compile(r"_(quad|own|(own_)?v\d)$")
+"""Of modules that are made of the same sources."""
 PYTHON = ("base", "engine", "scene", "results", "batches", "report", "plots", "studies", "cli")
 
 
@@ -24,7 +26,7 @@ def test_fortran_folders_use_only_those_above():
         for name in re.findall(r"^ *use +(gapbeam_\w+)", path.read_text(), re.MULTILINE):
             if name == "gapbeam_version":
                 continue
-            used = sources[name if name in sources else re.sub(r"_(quad|v\d)$", "", name)]
+            used = sources[name if name in sources else SUFFIX.sub("", name)]
             if FORTRAN.index(used.parent.name) > FORTRAN.index(path.parent.name):
                 wrong.append(f"{path.parent.name}/{path.name} uses {used.parent.name}/{used.name}")
     assert wrong == []
@@ -33,7 +35,7 @@ def test_fortran_folders_use_only_those_above():
 def test_fortran_modules_use_no_other_in_a_circle():
     sources = fortran_sources()
     uses = {
-        name: {re.sub(r"_(quad|v\d)$", "", used) for used in re.findall(r"^ *use +(gapbeam_\w+)", path.read_text(), re.MULTILINE)}
+        name: {SUFFIX.sub("", used) for used in re.findall(r"^ *use +(gapbeam_\w+)", path.read_text(), re.MULTILINE)}
         for name, path in sources.items()
     }
     left = {name.removesuffix("_quad") for name in uses}

@@ -7,6 +7,7 @@ program test_lanes
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_not_finite
     use gapbeam_units, only: moment_unit
     use gapbeam_lowered, only: lowered_type, piece_length
+    use gapbeam_lower_loads, only: lower_loads
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, new_workspace
     use gapbeam_search, only: rule_block
@@ -51,7 +52,7 @@ contains
         type(case_loads_type), allocatable :: loads
         type(error_type), allocatable :: error
         type(found_type) :: all_cases, alone, back
-        real(wp), allocatable :: factors(:, :), values(:, :, :)
+        real(wp), allocatable :: factors(:, :), values(:, :, :), spans(:, :, :)
         integer(int64) :: seed
         integer :: b, i, n, level, left, other_level, other_lane, other_bits, total, missed
 
@@ -69,20 +70,21 @@ contains
             if (.not. allocated(loads)) allocate (loads)
             call split_loads(lowered, loads, error)
             if (.not. fits_lanes(lowered)) cycle
-            call draw_cases(seed, lowered, cases, modulo(b, 2) == 0, factors, values)
-            call solve(lowered, loads, factors, values, best_level(), all_cases)
+            call draw_cases(seed, lowered, cases, modulo(b, 2) == 0, modulo(b, 3) == 0, factors, values, spans)
+            call solve(lowered, loads, factors, values, spans, best_level(), all_cases)
             total = total + cases
             left = left + count(.not. all_cases%done)
             do level = least_level, best_level() - 1
-                call solve(lowered, loads, factors, values, level, back)
+                call solve(lowered, loads, factors, values, spans, level, back)
                 other_level = other_level + count(.not. same(all_cases, back, [(i, i=1, cases)]))
             end do
-            call solve(lowered, loads, factors(:, cases:1:-1), values(:, :, cases:1:-1), best_level(), back)
+            call solve(lowered, loads, factors(:, cases:1:-1), values(:, :, cases:1:-1), spans(:, :, cases:1:-1), best_level(), &
+                       back)
             other_lane = other_lane + count(.not. same(all_cases, back, [(cases + 1 - i, i=1, cases)]))
             i = 1 + modulo(b, cases)
-            call solve(lowered, loads, factors(:, i:i), values(:, :, i:i), best_level(), alone)
+            call solve(lowered, loads, factors(:, i:i), values(:, :, i:i), spans(:, :, i:i), best_level(), alone)
             if (.not. all(same(alone, all_cases, [i]))) other_lane = other_lane + 1
-            call compare(lowered, loads, factors, values, b > beams - long_beams, all_cases, other_bits, missed)
+            call compare(lowered, loads, factors, values, spans, b > beams - long_beams, all_cases, other_bits, missed)
         end do
         call check(total > beams*cases/2, "most of the beams are such as lanes hold")
         call check(other_level == 0, "every kind of processor gives the same bits")
@@ -94,10 +96,10 @@ contains
     end subroutine lanes_have_the_bits_of_single_cases
 
     !> Solve cases side by side
-    subroutine solve(lowered, loads, factors, values, level, found)
+    subroutine solve(lowered, loads, factors, values, spans, level, found)
         type(lowered_type), intent(in) :: lowered
         type(case_loads_type), allocatable, intent(in) :: loads
-        real(wp), intent(in) :: factors(:, :), values(:, :, :)
+        real(wp), intent(in) :: factors(:, :), values(:, :, :), spans(:, :, :)
         integer, intent(in) :: level
         type(found_type), intent(out) :: found
         type(lane_room_type) :: room
@@ -115,14 +117,14 @@ contains
         found%ml(:, :) = 0.0_wp
         found%mr(:, :) = 0.0_wp
         found%reaction(:, :) = 0.0_wp
-        call solve_in_lanes(lowered, loads, factors, values, room, found%closed, found%w, found%ml, found%mr, found%reaction, &
-                            found%solves, found%done, level)
+        call solve_in_lanes(lowered, loads, factors, values, spans, room, found%closed, found%w, found%ml, found%mr, &
+                            found%reaction, found%solves, found%done, level)
         allocate (found%extremes(2, 4, c), found%places(2, 4, c), found%fields(4, 2, c))
         found%fields(:, :, :) = 0.0_wp
         found%extremes(:, :, :) = 0.0_wp
         found%places(:, :, :) = 0.0_wp
         status = merge(gapbeam_solved, gapbeam_not_finite, found%done)
-        call extremes_of_cases(lowered, loads, factors, values, rule_block, found%closed, found%w, found%ml, found%mr, &
+        call extremes_of_cases(lowered, loads, factors, values, spans, rule_block, found%closed, found%w, found%ml, found%mr, &
                                [.true., .true., .true., .true.], found%extremes, found%places, [1, size(lowered%pieces)], &
                                [0.0_wp, piece_length(lowered, size(lowered%pieces))], found%fields, status, level)
         allocate (found%certificate(certificate_numbers, c), known(c))
@@ -157,23 +159,36 @@ contains
     end function same
 
     !> Cases that come out otherwise one by one, and those that are solved only so
-    subroutine compare(lowered, loads, factors, values, long, found, number, missed)
-        type(lowered_type), intent(in) :: lowered
-        type(case_loads_type), intent(in) :: loads
-        real(wp), intent(in) :: factors(:, :), values(:, :, :)
+    subroutine compare(given, given_loads, factors, values, spans, long, found, number, missed)
+        type(lowered_type), intent(in) :: given
+        type(case_loads_type), intent(in) :: given_loads
+        real(wp), intent(in) :: factors(:, :), values(:, :, :), spans(:, :, :)
         !> Not to the last bit
         logical, intent(in) :: long
         type(found_type), intent(in) :: found
         integer, intent(inout) :: number, missed
+        type(lowered_type) :: lowered
+        type(case_loads_type) :: loads
         type(beam_type) :: beam
         type(workspace_type) :: work
+        type(error_type), allocatable :: error
         logical, allocatable :: acting(:)
         integer :: i, status
 
+        lowered = given
+        loads = given_loads
         beam = lowered%beam
         call new_workspace(beam, work)
         allocate (acting(size(beam%supports)))
         do i = 1, cases
+            if (size(spans, 2) > 0) then
+                lowered%model%spans%EI = spans(1, :, i)
+                lowered%model%spans%GA = spans(2, :, i)
+                call lower_loads(lowered, error)
+                call split_loads(lowered, loads, error)
+                beam = lowered%beam
+                call new_workspace(beam, work)
+            end if
             if (size(values, 2) > 0) call replace_supports(lowered, values(:, :, i), beam, status)
             acting(:) = .true.
             call solve_case(loads, factors(:, i), rule_block, beam, acting, work, status)

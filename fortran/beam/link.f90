@@ -9,6 +9,7 @@ module gapbeam_link
     implicit none
     private
     public :: link_type, piece_type, piece_load_type, condense_link, condense_loads, recover_link, combine_loads
+    public :: along_type, next_piece, moments_about_right_end
 
     !> A prismatic piece
     type, bind(c) :: piece_type
@@ -39,6 +40,15 @@ module gapbeam_link
         !> Sums of the absolute values of all loads, and of the rotations they could make: what rounding is relative to
         real(wp) :: load_sum(2), turn_sum(2)
     end type link_type
+
+    !> What loads do along the pieces of a link, one after the other, whatever their stiffnesses
+    type :: along_type
+        !> Distances of the ends of the piece from the left end of the link; moments of the simple bar there; moment_integrals
+        real(wp) :: x0 = 0.0_wp, x1 = 0.0_wp, m0 = 0.0_wp, m1 = 0.0_wp, left = 0.0_wp, right = 0.0_wp
+        !> Moment of the loads so far about the left end of the link, and the length; sum of the peaks that each alone would make
+        type(sum_type) :: moment, position
+        real(wp) :: peaks = 0.0_wp
+    end type along_type
 
 contains
 
@@ -122,8 +132,9 @@ contains
         type(link_type), intent(inout) :: link
         integer, intent(in) :: k
         real(wp), intent(inout) :: work(:)
-        type(sum_type) :: turn_a, turn_b, slip, left, position
-        real(wp) :: right_end, x0, x1, m0, m1, left_part, right_part, turning, peaks, softer, slips
+        type(along_type) :: at
+        type(sum_type) :: turn_a, turn_b, slip
+        real(wp) :: right_end, turning, softer, slips
         integer :: j, n
 
         n = size(pieces)
@@ -143,41 +154,27 @@ contains
         turn_a = sum_type()
         turn_b = sum_type()
         slip = sum_type()
-        left = sum_type()
-        position = sum_type()
-        peaks = 0.0_wp
         slips = 0.0_wp
-        x1 = 0.0_wp
         do j = 1, n
+            call next_piece(pieces(j)%length, loads(j), link%length, merge(right_end, work(max(1, j - 1)), j == 1), work(j), &
+                            j == n, at)
             associate (p => pieces(j), q => loads(j))
-                x0 = x1
-                m0 = (1 - x0/link%length)*total(left) + (x0/link%length)*merge(right_end, work(max(1, j - 1)), j == 1)
-                call add(left, load_moment(x0, p%length, q%qa, q%qb))
-                call add(position, p%length)
-                x1 = total(position)
-                if (j == n) x1 = link%length
-                m1 = (1 - x1/link%length)*total(left) + (x1/link%length)*before_point(work(j), q, link%length - x1, j == n)
-                call moment_integrals(p%length, m0, m1, q%qa, q%qb, left_part, right_part)
-                turning = p%flexibility*left_part - q%kappa*p%length/2
-                call add(turn_a, (1 - x0/link%length)*turning)
-                call add(turn_b, (x0/link%length)*turning)
-                turning = p%flexibility*right_part - q%kappa*p%length/2
-                call add(turn_a, (1 - x1/link%length)*turning)
-                call add(turn_b, (x1/link%length)*turning)
+                turning = p%flexibility*at%left - q%kappa*p%length/2
+                call add(turn_a, (1 - at%x0/link%length)*turning)
+                call add(turn_b, (at%x0/link%length)*turning)
+                turning = p%flexibility*at%right - q%kappa*p%length/2
+                call add(turn_a, (1 - at%x1/link%length)*turning)
+                call add(turn_b, (at%x1/link%length)*turning)
                 ! What GA has in common along the link slips under couples only, for the moment is zero at both ends
                 softer = p%shear_flexibility - pieces(1)%shear_flexibility
-                call add(slip, softer*(m1 - m0))
-                slips = slips + abs(softer)*(abs(m0) + abs(m1))
+                call add(slip, softer*(at%m1 - at%m0))
+                slips = slips + abs(softer)*(abs(at%m0) + abs(at%m1))
                 link%load_sum(k) = link%load_sum(k) + (abs(q%qa) + abs(q%qb))*p%length/2
                 link%turn_sum(k) = link%turn_sum(k) + abs(q%kappa)*p%length
-                peaks = peaks + (abs(q%qa) + abs(q%qb))*p%length*(x1*(link%length - x0)/link%length)
                 if (j < n) then
-                    call add(left, q%force*x1)
-                    call add(left, q%couple)
                     call add(slip, -pieces(1)%shear_flexibility*q%couple)
                     slips = slips + pieces(1)%shear_flexibility*abs(q%couple)
                     link%load_sum(k) = link%load_sum(k) + abs(q%force) + abs(q%couple)/link%length
-                    peaks = peaks + abs(q%force)*x1*(link%length - x1)/link%length + abs(q%couple)
                 end if
             end associate
         end do
@@ -185,12 +182,39 @@ contains
         ! compliance, too: it counts as a rotation that bending alone would answer with the same moment
         slips = slips/link%length
         if (link%determinant > 0.0_wp) slips = min(slips, slips*link%bending*(link%bending/link%determinant))
-        link%turn_sum(k) = link%turn_sum(k) + link%bending*peaks + slips
+        link%turn_sum(k) = link%turn_sum(k) + link%bending*at%peaks + slips
         link%turn_a(k) = total(turn_a) - total(slip)/link%length
         link%turn_b(k) = total(turn_b) + total(slip)/link%length
         link%shear_a(k) = right_end/link%length
-        link%shear_b(k) = -total(left)/link%length
+        link%shear_b(k) = -total(at%moment)/link%length
     end subroutine condense_loads
+
+    !> Go on to the next piece of a link
+    pure subroutine next_piece(length, load, of_link, before, behind, is_last, at)
+        !> Its length and load; length of the link
+        real(wp), intent(in) :: length
+        type(piece_load_type), intent(in) :: load
+        real(wp), intent(in) :: of_link
+        !> By moments_about_right_end: loads right of its left end, and of its right end
+        real(wp), intent(in) :: before, behind
+        logical, intent(in) :: is_last
+        !> At first as it is made
+        type(along_type), intent(inout) :: at
+
+        at%x0 = at%x1
+        at%m0 = (1 - at%x0/of_link)*total(at%moment) + (at%x0/of_link)*before
+        call add(at%moment, load_moment(at%x0, length, load%qa, load%qb))
+        call add(at%position, length)
+        at%x1 = total(at%position)
+        if (is_last) at%x1 = of_link
+        at%m1 = (1 - at%x1/of_link)*total(at%moment) + (at%x1/of_link)*before_point(behind, load, of_link - at%x1, is_last)
+        call moment_integrals(length, at%m0, at%m1, load%qa, load%qb, at%left, at%right)
+        at%peaks = at%peaks + (abs(load%qa) + abs(load%qb))*length*(at%x1*(of_link - at%x0)/of_link)
+        if (is_last) return
+        at%peaks = at%peaks + abs(load%force)*at%x1*(of_link - at%x1)/of_link + abs(load%couple)
+        call add(at%moment, load%force*at%x1)
+        call add(at%moment, load%couple)
+    end subroutine next_piece
 
     !> The same for a link of one piece, where nothing is to be summed; no zero is to be negative
     pure subroutine condense_load(piece, load, link, k)

@@ -1,16 +1,17 @@
 ! Extremes of cases, and fields, for Python, in the manner of face/python.f90, which says what the arguments BEAM, NL, NS, ND, NV
-! and NC are
+! and NC are; NP and PC as for GBCASE
 
 ! Find the extremes of the fields of NC cases that GBCASE has solved, and the fields at NX places (one more than there are)
-subroutine gbcext(beam, nl, ns, nd, nv, nc, nx, factor, supp, rule, closed, w, ml, mr, want, extr, place, piece, dist, field, &
-                  status, there)
+subroutine gbcext(beam, nl, ns, nd, nv, np, nc, pc, nx, factor, supp, span, rule, closed, w, ml, mr, want, extr, place, piece, &
+                  dist, field, status, there)
     use gapbeam_handle, only: handle_type, handle_of
+    use gapbeam_lane_spans, only: fits_spans
     use gapbeam_case_extremes, only: has_lane_extremes, extremes_of_cases
     implicit none
     integer(8), intent(in) :: beam
-    integer, intent(in) :: nl, ns, nd, nv, nc, nx
+    integer, intent(in) :: nl, ns, nd, nv, np, nc, pc, nx
     ! As for GBCASE
-    double precision, intent(in) :: factor(nd, nc), supp(3, nv, nc)
+    double precision, intent(in) :: factor(nd, nc), supp(3, nv, nc), span(2, np, pc)
     integer, intent(in) :: rule
     ! By GBCASE
     integer, intent(in) :: closed(ns + 1, nc)
@@ -33,6 +34,8 @@ subroutine gbcext(beam, nl, ns, nd, nv, nc, nx, factor, supp, rule, closed, w, m
     !f2py integer, intent(hide), depend(factor) :: nd = shape(factor, 0)
     !f2py integer, intent(hide), depend(factor) :: nc = shape(factor, 1)
     !f2py integer, intent(hide), depend(supp) :: nv = shape(supp, 1)
+    !f2py integer, intent(hide), depend(span) :: np = shape(span, 1)
+    !f2py integer, intent(hide), depend(span) :: pc = shape(span, 2)
     !f2py integer, intent(hide), depend(piece) :: nx = shape(piece, 0)
     !f2py integer, intent(hide), depend(w) :: nl = shape(w, 0) - 1
     type(handle_type), pointer :: handle
@@ -41,7 +44,10 @@ subroutine gbcext(beam, nl, ns, nd, nv, nc, nx, factor, supp, rule, closed, w, m
     there = merge(1, 0, allocated(handle%cases))
     if (there == 0) return
     if (.not. has_lane_extremes(handle%lowered)) there = 0
+    if (np > 1) then
+        if (.not. fits_spans(handle%lowered, handle%cases)) there = 0
+    end if
     if (there == 0 .or. nc == 0) return
-    call extremes_of_cases(handle%lowered, handle%cases, factor(:nd - 1, :), supp(:, :nv - 1, :), rule, closed, w, ml, mr, &
-                           want /= 0, extr, place, piece(:nx - 1), dist(:nx - 1), field(:, :nx - 1, :), status)
+    call extremes_of_cases(handle%lowered, handle%cases, factor(:nd - 1, :), supp(:, :nv - 1, :), span(:, :np - 1, :), rule, &
+                           closed, w, ml, mr, want /= 0, extr, place, piece(:nx - 1), dist(:nx - 1), field(:, :nx - 1, :), status)
 end subroutine gbcext

@@ -3,7 +3,8 @@
 !> are off, and all movements are bounds (gapbeam_lane_movements). Both are bounds of the same errors, none always the smaller.
 module gapbeam_lane_certificate
     use gapbeam_kinds, only: wp
-    use gapbeam_lane_types, only: lanes, lane_beam_type, lane_rounding_type, pack_type
+    use gapbeam_lane_types, only: lanes, lane_beam_type, lane_rounding_type, pack_type, &
+        link_faa, link_fab, link_fbb, link_sum_a, link_sum_b, link_bending
     use gapbeam_lane_search, only: add_loads, apply_scheme
     use gapbeam_lane_residual, only: find_rest
     use gapbeam_lane_reactions, only: complete
@@ -48,8 +49,8 @@ contains
                           pack%spring, pack%force)
         pack%nothing(:, :) = pack%reaction
         call complete(beam, n, pack, poor)
-        call find_rest(beam, n, pack%left, pack%right, pack%force, pack%held, pack%known, pack%spring, pack%w, pack%ml, pack%mr, &
-                       pack%turn_rest, pack%force_rest, pack%known_rest)
+        call find_rest(beam, pack%links, n, pack%left, pack%right, pack%force, pack%held, pack%known, pack%spring, pack%w, &
+                       pack%ml, pack%mr, pack%turn_rest, pack%force_rest, pack%known_rest)
         call look_at_known(n, pack%known_rest, poor)
         call find_sizes(beam, n, rounding, pack%left, pack%right, pack%force, pack%couple, pack%load_size, pack%turn_size, &
                         pack%held, pack%spring, pack%w, pack%ml, pack%mr, pack%turn_rest, pack%force_rest, pack%dl, pack%dr, &
@@ -57,7 +58,7 @@ contains
         call look_at_range(n, pack%dl, pack%dr, poor)
         call find_movements(beam, n, pack%held, pack%spring, pack%dl, pack%dr, moves, lost)
         poor(:) = poor + lost
-        call find_rotations(beam, n, pack%left, pack%right, pack%w, pack%ml, pack%mr, pack%room)
+        call find_rotations(beam, pack%links, n, pack%left, pack%right, pack%w, pack%ml, pack%mr, pack%room)
         call bound_links(beam, n, rounding, pack%right, pack%turn_size, pack%held, pack%spring, pack%force, pack%w, &
                          pack%ml, pack%mr, pack%couple, pack%room, moves)
         call bound_nodes(beam, n, rounding, pack, moves, found, poor)
@@ -104,9 +105,9 @@ contains
         ! Sums of the absolute values of the terms, first without those of loads
         do k = 1, n
             h = beam%inverse(k)
-            faa = beam%faa(k)
-            fab = beam%fab(k)
-            fbb = beam%fbb(k)
+            faa = beam%links(1, link_faa, k)
+            fab = beam%links(1, link_fab, k)
+            fbb = beam%links(1, link_fbb, k)
             !$omp simd private(a, b, slope, step)
             do l = 1, lanes
                 a = abs(mr(l, k - 1))
@@ -156,8 +157,8 @@ contains
             ! Couples are steps of the moment: what one side of a step does to its link is as uncertain
             do i = 0, n
                 k = min(i + 1, n)
-                faa = merge(beam%faa(k), abs(beam%fab(k)), i < n)
-                fbb = merge(abs(beam%fab(k)), beam%fbb(k), i < n)
+                faa = merge(beam%links(1, link_faa, k), abs(beam%links(1, link_fab, k)), i < n)
+                fbb = merge(abs(beam%links(1, link_fab, k)), beam%links(1, link_fbb, k), i < n)
                 h = beam%inverse(k)
                 !$omp simd private(couple_size)
                 do l = 1, lanes
@@ -222,8 +223,8 @@ contains
         if (beam%with_couples) moves(:, :, of_moment) = moves(:, :, of_moment) + of_load*abs(couple)
         do k = 1, n
             h = beam%inverse(k)
-            faa = beam%faa(k)
-            fab = beam%fab(k)
+            faa = beam%links(1, link_faa, k)
+            fab = beam%links(1, link_fab, k)
             soft = rounding%flexibility(k)
             long = h*rounding%length(k)
             !$omp simd private(own, size)
@@ -246,10 +247,10 @@ contains
                 ! From link i to link k, across the node between them
                 k = i + way
                 associate (j => merge(i, k, way == 1))
-                    sum_a = beam%sum_a(j)
-                    sum_b = beam%sum_b(j)
+                    sum_a = beam%links(1, link_sum_a, j)
+                    sum_b = beam%links(1, link_sum_b, j)
                     far = rounding%flexibility(j)
-                    bending = beam%bending(j)
+                    bending = beam%links(1, link_bending, j)
                     crosses = beam%hinge(j) < 0.5_wp
                     !$omp simd private(other, e, v, by_spring, size)
                     do l = 1, lanes
@@ -349,8 +350,8 @@ contains
         of_load = larger(unit, epsilon(1.0_wp) + rounding%of_loads)
         do k = 1, n
             length = beam%length(k)
-            bending = beam%bending(k)
-            soft = larger(bending, beam%faa(k) + beam%fbb(k))
+            bending = beam%links(1, link_bending, k)
+            soft = larger(bending, beam%links(1, link_faa, k) + beam%links(1, link_fbb, k))
             slip = rounding%slip(k)
             share = rounding%of_fields(k)
             !$omp simd private(p, m, turns, ends, v_error, m_error, turn_error, w_error)

@@ -4,6 +4,7 @@
 module gapbeam_lane_extremes
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes, lane_beam_type, lane_pieces_type, pack_type, piece_pack_type
+    use gapbeam_lane_each, only: each
     use gapbeam_lane_fields, only: recover_pack
     use gapbeam_lane_values, only: deflection, rotation, moment, shear, find_values, deflection_at, rotation_at
     use gapbeam_lane_roots, only: find_open, count_turns, find_only_root, find_roots
@@ -181,19 +182,20 @@ contains
             end do
         end do
         do j = 1, n
-            if (k == rotation .and. .not. (pieces%flexibility(j) > 0.0_wp .or. any(abs(loads(:, j, 3)) > 0.0_wp))) cycle
+            if (k == rotation .and. .not. (any(pieces%flexibility(:, j) > 0.0_wp) .or. any(abs(loads(:, j, 3)) > 0.0_wp))) cycle
             length = pieces%length(j)
-            f = pieces%flexibility(j)
-            g = pieces%shear_flexibility(j)
             if (k == rotation) then
-                !$omp simd
+                !$omp simd private(f)
                 do l = 1, lanes
+                    f = pieces%flexibility(min(l, each), j)
                     call derive_rotation(length, f, loads(l, j, 1), loads(l, j, 2), loads(l, j, 3), starts(l, j, 3), &
                                          starts(l, j, 4), c(l, 0), c(l, 1), c(l, 2), c(l, 3), c(l, 4))
                 end do
             else
-                !$omp simd
+                !$omp simd private(f, g)
                 do l = 1, lanes
+                    f = pieces%flexibility(min(l, each), j)
+                    g = pieces%shear_flexibility(min(l, each), j)
                     call derive_deflection(length, f, g, loads(l, j, 1), loads(l, j, 2), loads(l, j, 3), starts(l, j, 2), &
                                            starts(l, j, 3), starts(l, j, 4), c(l, 0), c(l, 1), c(l, 2), c(l, 3), c(l, 4))
                 end do
@@ -226,7 +228,7 @@ contains
         real(wp), intent(in) :: loads(lanes, n, 5), starts(lanes, n, 4)
         type(queue_type), intent(inout) :: queue
         real(wp), intent(inout) :: best(lanes, 6)
-        real(wp) :: c(lanes, 0:4), length(lanes), roots(lanes, 4), there(lanes, 4), x
+        real(wp) :: c(lanes, 0:4), length(lanes), roots(lanes, 4), there(lanes, 4), x, f, g
         integer :: i, l, m
 
         do i = 1, lanes
@@ -234,11 +236,13 @@ contains
             m = merge(i, 1, i <= queue%waiting)
             associate (j => queue%piece(m), l => queue%lane(m))
                 length(i) = pieces%length(j)
+                f = pieces%flexibility(min(l, each), j)
+                g = pieces%shear_flexibility(min(l, each), j)
                 if (k == rotation) then
-                    call derive_rotation(length(i), pieces%flexibility(j), loads(l, j, 1), loads(l, j, 2), loads(l, j, 3), &
+                    call derive_rotation(length(i), f, loads(l, j, 1), loads(l, j, 2), loads(l, j, 3), &
                                          starts(l, j, 3), starts(l, j, 4), c(i, 0), c(i, 1), c(i, 2), c(i, 3), c(i, 4))
                 else
-                    call derive_deflection(length(i), pieces%flexibility(j), pieces%shear_flexibility(j), loads(l, j, 1), &
+                    call derive_deflection(length(i), f, g, loads(l, j, 1), &
                                            loads(l, j, 2), loads(l, j, 3), starts(l, j, 2), starts(l, j, 3), starts(l, j, 4), &
                                            c(i, 0), c(i, 1), c(i, 2), c(i, 3), c(i, 4))
                 end if
@@ -254,11 +258,13 @@ contains
             do m = 1, merge(1, 4, kind == one_root)
                 if (there(i, m) < 0.5_wp) cycle
                 associate (j => queue%piece(i), s => roots(i, m))
+                    f = pieces%flexibility(min(l, each), j)
+                    g = pieces%shear_flexibility(min(l, each), j)
                     if (k == rotation) then
-                        x = rotation_at(s, length(i), pieces%flexibility(j), loads(l, j, 1), loads(l, j, 2), loads(l, j, 3), &
+                        x = rotation_at(s, length(i), f, loads(l, j, 1), loads(l, j, 2), loads(l, j, 3), &
                                         starts(l, j, 2), starts(l, j, 3), starts(l, j, 4))
                     else
-                        x = deflection_at(s, length(i), pieces%flexibility(j), pieces%shear_flexibility(j), loads(l, j, 1), &
+                        x = deflection_at(s, length(i), f, g, loads(l, j, 1), &
                                           loads(l, j, 2), loads(l, j, 3), starts(l, j, 1), starts(l, j, 2), starts(l, j, 3), &
                                           starts(l, j, 4))
                     end if

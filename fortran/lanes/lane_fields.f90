@@ -2,7 +2,9 @@
 !> gapbeam_link side by side. Places are the same in all cases, so sums of lengths are made once (lane_pieces_type).
 module gapbeam_lane_fields
     use gapbeam_kinds, only: wp
-    use gapbeam_lane_types, only: lanes, lane_beam_type, lane_pieces_type, pack_type, piece_pack_type
+    use gapbeam_lane_types, only: lanes, lane_beam_type, lane_pieces_type, pack_type, piece_pack_type, link_numbers, link_faa, &
+        link_fab, link_sum_a, link_sum_b, link_bending
+    use gapbeam_lane_each, only: each
     use gapbeam_lane_search, only: add_loads, apply_scheme
     use gapbeam_lane_reactions, only: find_shears
     use gapbeam_lane_shared, only: keep_loads, join_supports
@@ -46,7 +48,7 @@ contains
         call apply_scheme(n, pack%shear, pack%stiffness, pack%rigid, pack%contact, pack%closed, pack%held, pack%known, &
                           pack%spring, pack%force)
         call find_shears(beam, n, pack%held, pack%spring, pack%force, pack%w, pack%ml, pack%mr, pack%room)
-        call find_rotations(beam, n, pack%left, pack%right, pack%w, pack%ml, pack%mr, pack%room)
+        call find_rotations(beam, pack%links, n, pack%left, pack%right, pack%w, pack%ml, pack%mr, pack%room)
         call look_at_shears(n, pack%room, poor)
         call add_piece_loads(pieces, size(pieces%length), factors, fields%loads)
         call recover(beam, pieces, n, size(pieces%length), fields%loads, pack%w, pack%ml, pack%mr, pack%room, fields%room, &
@@ -55,26 +57,34 @@ contains
     end subroutine recover_pack
 
     !> Rotations at the left ends of the links in room 1, with room 2 to 4: end_rotations of gapbeam_recover
-    pure subroutine find_rotations(beam, n, left, right, w, ml, mr, room)
+    pure subroutine find_rotations(beam, links, n, left, right, w, ml, mr, room)
         type(lane_beam_type), intent(in) :: beam
         integer, intent(in) :: n
+        !> Numbers of the links (pack_type)
+        real(wp), intent(in) :: links(each, link_numbers, n)
         real(wp), intent(in), dimension(lanes, 0:n) :: left, right, w, ml, mr
         real(wp), intent(inout) :: room(lanes, 0:n, 10)
+        real(wp) :: faa, fab, sum_a, sum_b, bending
         real(wp) :: turn_a, turn_b, m, z, psi, size, other, other_size, crosses
         integer :: i, l
 
         do i = 1, n
-            !$omp simd private(turn_a, turn_b, m, z)
+            !$omp simd private(faa, fab, sum_a, sum_b, bending, turn_a, turn_b, m, z)
             do l = 1, lanes
+                faa = links(min(l, each), link_faa, i)
+                fab = links(min(l, each), link_fab, i)
+                sum_a = links(min(l, each), link_sum_a, i)
+                sum_b = links(min(l, each), link_sum_b, i)
+                bending = links(min(l, each), link_bending, i)
                 turn_a = right(l, i - 1)
                 turn_b = left(l, i)
                 m = mr(l, i - 1)
                 z = ml(l, i)
-                room(l, i, 1) = (w(l, i) - w(l, i - 1))*beam%inverse(i) + (beam%faa(i)*m + beam%fab(i)*z) + turn_a
+                room(l, i, 1) = (w(l, i) - w(l, i - 1))*beam%inverse(i) + (faa*m + fab*z) + turn_a
                 ! From end to end the rotation falls by this much
-                room(l, i, 2) = (beam%sum_a(i)*m + beam%sum_b(i)*z) + (turn_a + turn_b)
+                room(l, i, 2) = (sum_a*m + sum_b*z) + (turn_a + turn_b)
                 room(l, i, 3) = (abs(w(l, i)) + abs(w(l, i - 1)))*beam%inverse(i) &
-                    + larger(larger(abs(turn_a), abs(turn_b)), beam%bending(i)*larger(abs(m), abs(z)))
+                    + larger(larger(abs(turn_a), abs(turn_b)), bending*larger(abs(m), abs(z)))
             end do
         end do
         do i = 2, n
@@ -233,15 +243,15 @@ contains
             x1 = length
             if (j < last) x1 = pieces%before(j + 1)
             p = pieces%length(j)
-            f = pieces%flexibility(j)
-            g = pieces%shear_flexibility(j)
             xi = x0/length
             at_end = x1/length
             ! The point at the right end of the link is a node, which has its loads itself
             behind = length - x1
             inside = merge(1.0_wp, 0.0_wp, j < last)
-            !$omp simd private(m0, m1, right)
+            !$omp simd private(f, g, m0, m1, right)
             do l = 1, lanes
+                f = pieces%flexibility(min(l, each), j)
+                g = pieces%shear_flexibility(min(l, each), j)
                 m0 = (1 - xi)*(mr(l, i - 1) + (high(l) + low(l))) + xi*(ml(l, i) + before(l))
                 starts(l, j, 3) = m0
                 starts(l, j, 4) = room(l, i, 5) + (before(l) - (high(l) + low(l)))/length

@@ -1,9 +1,11 @@
 !> Eight cases by the best instructions that the processor has. Modules whose names end in _v3 and _v4 are the same sources compiled
-!> for AVX2 and for AVX-512 (x86-64-v3 and v4 of the psABI); all give the same digits
+!> for AVX2 and for AVX-512 (x86-64-v3 and v4 of the psABI), those with _own for stiffnesses that differ from case to case
+!> (gapbeam_lane_each); all give the same digits
 module gapbeam_lane_levels
     use, intrinsic :: iso_c_binding, only: c_int
     use gapbeam_kinds, only: wp
-    use gapbeam_lane_types, only: lanes, lane_beam_type, lane_pieces_type, lane_rounding_type, pack_type, piece_pack_type
+    use gapbeam_lane_types, only: lanes, lane_beam_type, lane_pieces_type, lane_rounding_type, pack_type, piece_pack_type, &
+        lane_spans_type
     use gapbeam_lane_columns, only: take_columns, take_numbers, give_pack
     use gapbeam_lane_search, only: search_pack, finish_pack
     use gapbeam_lane_extremes, only: extremes_of_pack
@@ -11,9 +13,15 @@ module gapbeam_lane_levels
     use gapbeam_lane_certificate, only: certify_pack
     use gapbeam_segment_types, only: segment_beam_type, segment_room_type
     use gapbeam_segment_finish, only: solve_long_beam
+    use gapbeam_lane_links, only: make_links
+    use gapbeam_lane_search_own, only: search_pack_own => search_pack, finish_pack_own => finish_pack
+    use gapbeam_lane_extremes_own, only: extremes_of_pack_own => extremes_of_pack
+    use gapbeam_lane_values_own, only: fields_of_pack_own => fields_of_pack
 #ifdef GAPBEAM_LEVELS
     use gapbeam_lane_columns_v3, only: take_columns_v3 => take_columns, take_numbers_v3 => take_numbers, give_pack_v3 => give_pack
     use gapbeam_lane_columns_v4, only: take_columns_v4 => take_columns, take_numbers_v4 => take_numbers, give_pack_v4 => give_pack
+    use gapbeam_lane_links_v3, only: make_links_v3 => make_links
+    use gapbeam_lane_links_v4, only: make_links_v4 => make_links
     use gapbeam_lane_search_v3, only: search_pack_v3 => search_pack, finish_pack_v3 => finish_pack
     use gapbeam_lane_search_v4, only: search_pack_v4 => search_pack, finish_pack_v4 => finish_pack
     use gapbeam_lane_extremes_v3, only: extremes_of_pack_v3 => extremes_of_pack
@@ -24,14 +32,22 @@ module gapbeam_lane_levels
     use gapbeam_lane_certificate_v4, only: certify_pack_v4 => certify_pack
     use gapbeam_segment_finish_v3, only: solve_long_beam_v3 => solve_long_beam
     use gapbeam_segment_finish_v4, only: solve_long_beam_v4 => solve_long_beam
+    use gapbeam_lane_search_own_v3, only: search_pack_own_v3 => search_pack, finish_pack_own_v3 => finish_pack
+    use gapbeam_lane_search_own_v4, only: search_pack_own_v4 => search_pack, finish_pack_own_v4 => finish_pack
+    use gapbeam_lane_extremes_own_v3, only: extremes_of_pack_own_v3 => extremes_of_pack
+    use gapbeam_lane_values_own_v3, only: fields_of_pack_own_v3 => fields_of_pack
+    use gapbeam_lane_extremes_own_v4, only: extremes_of_pack_own_v4 => extremes_of_pack
+    use gapbeam_lane_values_own_v4, only: fields_of_pack_own_v4 => fields_of_pack
 #endif
     implicit none
     private
     public :: best_level, least_level, take_columns_at, take_numbers_at, give_pack_at, search_pack_at, finish_pack_at, &
-        extremes_of_pack_at, fields_of_pack_at, certify_pack_at, solve_segments_at
+        extremes_of_pack_at, fields_of_pack_at, certify_pack_at, solve_segments_at, make_links_at
 
     !> Level of what every processor has
     integer, parameter :: least_level = 2
+    !> Added to the level where stiffnesses differ from case to case
+    integer, parameter :: own = 10
 
 #ifdef GAPBEAM_LEVELS
     interface
@@ -134,13 +150,19 @@ contains
         type(pack_type), intent(inout) :: pack
         integer, intent(out) :: solves(lanes), method(lanes)
 
-        select case (level)
+        select case (level + merge(own, 0, size(beam%links, 1) > 1))
 #ifdef GAPBEAM_LEVELS
         case (4)
             call search_pack_v4(beam, factors, pack, solves, method)
         case (3)
             call search_pack_v3(beam, factors, pack, solves, method)
+        case (own + 4)
+            call search_pack_own_v4(beam, factors, pack, solves, method)
+        case (own + 3)
+            call search_pack_own_v3(beam, factors, pack, solves, method)
 #endif
+        case (own + least_level)
+            call search_pack_own(beam, factors, pack, solves, method)
         case default
             call search_pack(beam, factors, pack, solves, method)
         end select
@@ -155,13 +177,19 @@ contains
         type(pack_type), intent(inout) :: pack
         logical, intent(out) :: doubtful(lanes)
 
-        select case (level)
+        select case (level + merge(own, 0, size(beam%links, 1) > 1))
 #ifdef GAPBEAM_LEVELS
         case (4)
             call finish_pack_v4(beam, method, pack, doubtful)
         case (3)
             call finish_pack_v3(beam, method, pack, doubtful)
+        case (own + 4)
+            call finish_pack_own_v4(beam, method, pack, doubtful)
+        case (own + 3)
+            call finish_pack_own_v3(beam, method, pack, doubtful)
 #endif
+        case (own + least_level)
+            call finish_pack_own(beam, method, pack, doubtful)
         case default
             call finish_pack(beam, method, pack, doubtful)
         end select
@@ -180,13 +208,19 @@ contains
         real(wp), intent(inout) :: extremes(lanes, 6, 4)
         real(wp), intent(out) :: poor(lanes)
 
-        select case (level)
+        select case (level + merge(own, 0, size(beam%links, 1) > 1))
 #ifdef GAPBEAM_LEVELS
         case (4)
             call extremes_of_pack_v4(beam, pieces, wanted, factors, pack, fields, extremes, poor)
         case (3)
             call extremes_of_pack_v3(beam, pieces, wanted, factors, pack, fields, extremes, poor)
+        case (own + 4)
+            call extremes_of_pack_own_v4(beam, pieces, wanted, factors, pack, fields, extremes, poor)
+        case (own + 3)
+            call extremes_of_pack_own_v3(beam, pieces, wanted, factors, pack, fields, extremes, poor)
 #endif
+        case (own + least_level)
+            call extremes_of_pack_own(beam, pieces, wanted, factors, pack, fields, extremes, poor)
         case default
             call extremes_of_pack(beam, pieces, wanted, factors, pack, fields, extremes, poor)
         end select
@@ -206,13 +240,19 @@ contains
         real(wp), intent(out) :: values(lanes, size(piece), 4)
         real(wp), intent(out) :: poor(lanes)
 
-        select case (level)
+        select case (level + merge(own, 0, size(beam%links, 1) > 1))
 #ifdef GAPBEAM_LEVELS
         case (4)
             call fields_of_pack_v4(beam, pieces, factors, pack, fields, piece, distance, values, poor)
         case (3)
             call fields_of_pack_v3(beam, pieces, factors, pack, fields, piece, distance, values, poor)
+        case (own + 4)
+            call fields_of_pack_own_v4(beam, pieces, factors, pack, fields, piece, distance, values, poor)
+        case (own + 3)
+            call fields_of_pack_own_v3(beam, pieces, factors, pack, fields, piece, distance, values, poor)
 #endif
+        case (own + least_level)
+            call fields_of_pack_own(beam, pieces, factors, pack, fields, piece, distance, values, poor)
         case default
             call fields_of_pack(beam, pieces, factors, pack, fields, piece, distance, values, poor)
         end select
@@ -261,5 +301,25 @@ contains
             call solve_long_beam(beam, room, solves, doubtful)
         end select
     end subroutine solve_segments_at
+
+    !> make_links likewise
+    pure subroutine make_links_at(level, spans, length, stiffness, flexibility, shear_flexibility, links, to_link)
+        integer, intent(in) :: level
+        !> As for make_links
+        type(lane_spans_type), intent(in) :: spans
+        real(wp), intent(in), contiguous :: length(:), stiffness(:, :, :)
+        real(wp), intent(inout), contiguous :: flexibility(:, :), shear_flexibility(:, :), links(:, :, :), to_link(:, :, :)
+
+        select case (level)
+#ifdef GAPBEAM_LEVELS
+        case (4)
+            call make_links_v4(spans, length, stiffness, flexibility, shear_flexibility, links, to_link)
+        case (3)
+            call make_links_v3(spans, length, stiffness, flexibility, shear_flexibility, links, to_link)
+#endif
+        case default
+            call make_links(spans, length, stiffness, flexibility, shear_flexibility, links, to_link)
+        end select
+    end subroutine make_links_at
 
 end module gapbeam_lane_levels

@@ -8,7 +8,8 @@
 !> the bound is their reach in the direction of that result: never less than the largest sum of |K^-1| times what rows are off.
 module gapbeam_lane_movements
     use gapbeam_kinds, only: wp
-    use gapbeam_lane_types, only: lanes, lane_beam_type
+    use gapbeam_lane_types, only: lanes, lane_beam_type, &
+        link_faa, link_fab, link_fbb, link_sum_a, link_sum_b, link_bending, link_determinant
     implicit none
     private
     public :: find_movements, kinds_of_movement
@@ -84,9 +85,12 @@ contains
             moves(:, i, beta_right) = part%beta
             moves(:, i, delta_right) = part%delta
             moves(:, i, floats_right) = part%floats
-            call eliminate(way_type(beam%length(i), beam%inverse(i), beam%fbb(i), beam%faa(i), beam%fab(i), beam%sum_b(i), &
-                                    beam%sum_a(i), beam%bending(i), beam%determinant(i), beam%hinge(i)), &
-                           held(:, i), spring(:, i), turn(:, i), force(:, i), held(:, i - 1), part, step, lost)
+            associate (link => beam%links(1, :, i))
+                call eliminate(way_type(beam%length(i), beam%inverse(i), link(link_fbb), link(link_faa), link(link_fab), &
+                                        link(link_sum_b), link(link_sum_a), link(link_bending), link(link_determinant), &
+                                        beam%hinge(i)), &
+                               held(:, i), spring(:, i), turn(:, i), force(:, i), held(:, i - 1), part, step, lost)
+            end associate
             moves(:, i, q11_right) = step%q11
             moves(:, i, q12_right) = step%q12
             moves(:, i, q22_right) = step%q22
@@ -109,11 +113,14 @@ contains
 
         moves(:, 0, of_moment) = 0.0_wp
         do k = 1, n
-            call eliminate(way_type(beam%length(k), beam%inverse(k), beam%faa(k), beam%fbb(k), beam%fab(k), beam%sum_a(k), &
-                                    beam%sum_b(k), beam%bending(k), beam%determinant(k), beam%hinge(k - 1)), &
-                           held(:, k - 1), spring(:, k - 1), turn(:, k - 1), force(:, k - 1), held(:, k), part, step, lost)
-            call find_results(beam%inverse(k), beam%faa(k), beam%fab(k), beam%hinge(k), n, k, held, spring, part, step, moves, &
-                              at_left, lost)
+            associate (link => beam%links(1, :, k))
+                call eliminate(way_type(beam%length(k), beam%inverse(k), link(link_faa), link(link_fbb), link(link_fab), &
+                                        link(link_sum_a), link(link_sum_b), link(link_bending), link(link_determinant), &
+                                        beam%hinge(k - 1)), &
+                               held(:, k - 1), spring(:, k - 1), turn(:, k - 1), force(:, k - 1), held(:, k), part, step, lost)
+                call find_results(beam%inverse(k), link(link_faa), link(link_fab), beam%hinge(k), n, k, held, spring, part, step, &
+                                  moves, at_left, lost)
+            end associate
             if (k > 1) cycle
             ! The first node, or its tip, which the rest of the beam holds
             moves(:, 0, of_deflection) = at_left

@@ -1,9 +1,11 @@
-!> Passes over the beams of eight cases, each end with a support that acts or a restraint, without couples and hinges; with the arithmetic of
-!> gapbeam_kernel, number by number: the bits are its. The scheme is applied on the way inward, signs are looked at on the way
+!> Passes over the beams of eight cases, each end with a support that acts or a restraint, without couples and hinges; with the
+!> arithmetic of gapbeam_kernel, number by number: the bits are its. The scheme is applied on the way inward, signs are looked at on the way
 !> back, and a right-hand side can be solved for with the elimination of the pass before
 module gapbeam_lane_passes
     use gapbeam_kinds, only: wp
-    use gapbeam_lane_types, only: lanes, lane_beam_type
+    use gapbeam_lane_types, only: lanes, lane_beam_type, link_numbers, link_faa, link_fab, link_fbb, link_sum_a, link_sum_b, &
+        link_bending, link_determinant
+    use gapbeam_lane_each, only: each
     implicit none
     private
     public :: pass_both_ends, find_wrong_between, correct_both_ends
@@ -11,9 +13,11 @@ module gapbeam_lane_passes
 contains
 
     !> Change supports, and solve the scheme
-    pure subroutine pass_both_ends(beam, n, turn, shear, stiffness, rigid, contact, change, closed, room, w, m)
+    pure subroutine pass_both_ends(beam, links, n, turn, shear, stiffness, rigid, contact, change, closed, room, w, m)
         type(lane_beam_type), intent(in) :: beam
         integer, intent(in) :: n
+        !> Numbers of the links (pack_type)
+        real(wp), intent(in) :: links(each, link_numbers, n)
         !> Right-hand sides and supports (pack_type), shape (lanes, 0:n)
         real(wp), intent(in), dimension(lanes, 0:n) :: turn, shear, stiffness, rigid, contact
         !> 1 where a support is to be changed
@@ -29,9 +33,9 @@ contains
         integer :: l, i, middle
 
         middle = n/2
-        call go_inward(beam, n, 1, 0, middle - 1, 1, turn, shear, stiffness, rigid, contact, change, closed, room, &
+        call go_inward(beam, links, n, 1, 0, middle - 1, 1, turn, shear, stiffness, rigid, contact, change, closed, room, &
                        phi(:, 1), beta(:, 1), delta(:, 1), e(:, 1), p(:, 1))
-        call go_inward(beam, n, 2, n, middle + 1, -1, turn, shear, stiffness, rigid, contact, change, closed, room, &
+        call go_inward(beam, links, n, 2, n, middle + 1, -1, turn, shear, stiffness, rigid, contact, change, closed, room, &
                        phi(:, 2), beta(:, 2), delta(:, 2), e(:, 2), p(:, 2))
         i = middle
         !$omp simd private(acts, held, known, spring, force, free, a, b, c, r, v, reciprocal)
@@ -60,11 +64,13 @@ contains
     end subroutine pass_both_ends
 
     !> Inward from an end
-    pure subroutine go_inward(beam, n, way, first, last, step, turn, shear, stiffness, rigid, contact, change, closed, room, phi, &
-                              beta, delta, e, p)
+    pure subroutine go_inward(beam, links, n, way, first, last, step, turn, shear, stiffness, rigid, contact, change, closed, &
+                              room, phi, beta, delta, e, p)
         type(lane_beam_type), intent(in) :: beam
         !> Links; 1 from the left, 2 from the right; first and last node, step
         integer, intent(in) :: n, way, first, last, step
+        !> Numbers of the links (pack_type)
+        real(wp), intent(in) :: links(each, link_numbers, n)
         !> As for pass_both_ends
         real(wp), intent(in), dimension(lanes, 0:n) :: turn, shear, stiffness, rigid, contact, change
         real(wp), intent(inout) :: closed(lanes, 0:n), room(lanes, 0:n, 10)
@@ -74,7 +80,7 @@ contains
         real(wp) :: acts, held, known, spring, force, free, stiff, v, softness, deflection, a, b, c, b_free, reciprocal, right, &
             moment, c_h, next, before
         real(wp) :: turns
-        integer :: l, i, link, begin
+        integer :: l, i, link, begin, at_near, at_far, at_sum_near, at_sum_far
 
         i = first
         begin = merge(first, first + step, beam%restraint(first) > 0)
@@ -82,9 +88,13 @@ contains
         turns = merge(1.0_wp, 0.0_wp, begin == first)
         link = merge(1, n, way == 1)
         h = beam%inverse(link)
-        far = merge(beam%fbb(link), beam%faa(link), way == 1)
-        !$omp simd private(acts, held, known, spring, force, free, stiff, v, softness, deflection)
+        at_near = merge(link_faa, link_fbb, way == 1)
+        at_far = merge(link_fbb, link_faa, way == 1)
+        at_sum_near = merge(link_sum_a, link_sum_b, way == 1)
+        at_sum_far = merge(link_sum_b, link_sum_a, way == 1)
+        !$omp simd private(far, acts, held, known, spring, force, free, stiff, v, softness, deflection)
         do l = 1, lanes
+            far = links(min(l, each), at_far, link)
             acts = abs(closed(l, i) - change(l, i))
             closed(l, i) = acts
             held = acts*rigid(l, i)
@@ -119,16 +129,16 @@ contains
         do i = begin, last, step
             link = merge(i + 1, i, way == 1)
             h = beam%inverse(link)
-            near = merge(beam%faa(link), beam%fbb(link), way == 1)
-            far = merge(beam%fbb(link), beam%faa(link), way == 1)
-            cross = beam%fab(link)
-            sum_near = merge(beam%sum_a(link), beam%sum_b(link), way == 1)
-            sum_far = merge(beam%sum_b(link), beam%sum_a(link), way == 1)
-            bending = beam%bending(link)
-            determinant = beam%determinant(link)
-            !$omp simd private(acts, held, known, spring, force, free, a, b, c, b_free, reciprocal, right, v, c_h, next, &
-            !$omp   deflection, moment, before)
+            !$omp simd private(near, far, cross, sum_near, sum_far, bending, determinant, acts, held, known, spring, force, free, &
+            !$omp   a, b, c, b_free, reciprocal, right, v, c_h, next, deflection, moment, before)
             do l = 1, lanes
+                near = links(min(l, each), at_near, link)
+                far = links(min(l, each), at_far, link)
+                cross = links(min(l, each), link_fab, link)
+                sum_near = links(min(l, each), at_sum_near, link)
+                sum_far = links(min(l, each), at_sum_far, link)
+                bending = links(min(l, each), link_bending, link)
+                determinant = links(min(l, each), link_determinant, link)
                 acts = abs(closed(l, i) - change(l, i))
                 closed(l, i) = acts
                 held = acts*rigid(l, i)
@@ -237,9 +247,11 @@ contains
     end subroutine find_wrong_between
 
     !> Solve for another right-hand side after pass_both_ends
-    pure subroutine correct_both_ends(beam, n, turn, force, held, known, room, w, m)
+    pure subroutine correct_both_ends(beam, links, n, turn, force, held, known, room, w, m)
         type(lane_beam_type), intent(in) :: beam
         integer, intent(in) :: n
+        !> Numbers of the links (pack_type)
+        real(wp), intent(in) :: links(each, link_numbers, n)
         !> Right-hand sides, is the deflection known and which is it, shape (lanes, 0:n)
         real(wp), intent(in), dimension(lanes, 0:n) :: turn, force, held, known
         !> As pass_both_ends left it
@@ -251,8 +263,8 @@ contains
         integer :: l, i, middle
 
         middle = n/2
-        call put_inward(beam, n, 1, 0, middle - 1, 1, turn, force, held, known, room, e(:, 1), p(:, 1))
-        call put_inward(beam, n, 2, n, middle + 1, -1, turn, force, held, known, room, e(:, 2), p(:, 2))
+        call put_inward(beam, links, n, 1, 0, middle - 1, 1, turn, force, held, known, room, e(:, 1), p(:, 1))
+        call put_inward(beam, links, n, 2, n, middle + 1, -1, turn, force, held, known, room, e(:, 2), p(:, 2))
         i = middle
         !$omp simd private(right, v, a, b, c, free, reciprocal)
         do l = 1, lanes
@@ -270,10 +282,12 @@ contains
     end subroutine correct_both_ends
 
     !> A right-hand side inward from an end
-    pure subroutine put_inward(beam, n, way, first, last, step, turn, force, held, known, room, e, p)
+    pure subroutine put_inward(beam, links, n, way, first, last, step, turn, force, held, known, room, e, p)
         type(lane_beam_type), intent(in) :: beam
         !> As for go_inward
         integer, intent(in) :: n, way, first, last, step
+        !> Numbers of the links (pack_type)
+        real(wp), intent(in) :: links(each, link_numbers, n)
         !> As for correct_both_ends
         real(wp), intent(in), dimension(lanes, 0:n) :: turn, force, held, known
         real(wp), intent(inout) :: room(lanes, 0:n, 10)
@@ -296,9 +310,9 @@ contains
         do i = begin, last, step
             link = merge(i + 1, i, way == 1)
             h = beam%inverse(link)
-            cross = beam%fab(link)
-            !$omp simd private(free, right, v, a, b, c, reciprocal, moment, deflection)
+            !$omp simd private(cross, free, right, v, a, b, c, reciprocal, moment, deflection)
             do l = 1, lanes
+                cross = links(min(l, each), link_fab, link)
                 free = 1.0_wp - held(l, i)
                 a = room(l, i, 7)
                 b = room(l, i, 8)

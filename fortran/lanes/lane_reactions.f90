@@ -2,7 +2,8 @@
 !> gapbeam_law for ordinary supports, number by number
 module gapbeam_lane_reactions
     use gapbeam_kinds, only: wp
-    use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type
+    use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type, link_numbers, link_fixity, link_reach
+    use gapbeam_lane_each, only: each
     use gapbeam_lane_shared, only: find_levels, share_forces
     implicit none
     private
@@ -29,8 +30,8 @@ contains
         largest(:) = 0.0_wp
         worst(:) = 0.0_wp
         if (last > n) call find_levels(beam, last, pack%closed, pack%contact)
-        call find_sizes(beam, n, pack%held, pack%contact, pack%closed, pack%load_size, pack%turn_size, pack%w, pack%ml, pack%mr, &
-                        pack%room)
+        call find_sizes(beam, pack%links, n, pack%held, pack%contact, pack%closed, pack%load_size, pack%turn_size, pack%w, &
+                        pack%ml, pack%mr, pack%room)
         call find_shears(beam, n, pack%held, pack%spring, pack%force, pack%w, pack%ml, pack%mr, pack%room)
         if (last > n) call share_forces(beam, n, last, pack%load, pack%load_size, pack%stiffness, pack%rigid, pack%contact, &
                                         pack%closed, pack%w, pack%room, pack%reaction, largest, worst, doubtful)
@@ -39,9 +40,11 @@ contains
     end subroutine complete
 
     !> Sizes whose rounding errors reach a node: room 1 of shears, 2 of deflections
-    pure subroutine find_sizes(beam, n, held, contact, closed, load_size, turn_size, w, ml, mr, room)
+    pure subroutine find_sizes(beam, links, n, held, contact, closed, load_size, turn_size, w, ml, mr, room)
         type(lane_beam_type), intent(in) :: beam
         integer, intent(in) :: n
+        !> Numbers of the links (pack_type)
+        real(wp), intent(in) :: links(each, link_numbers, n)
         real(wp), intent(in), dimension(lanes, 0:n) :: held, contact, closed, load_size, turn_size, w, ml, mr
         real(wp), intent(inout) :: room(lanes, 0:n, 10)
         real(wp) :: moment, turn, by_shear, by_deflection, share, s, d, inverse, fixity, reach
@@ -57,10 +60,10 @@ contains
         end do
         do i = 1, n
             inverse = beam%inverse(i)
-            fixity = beam%fixity(i)
-            reach = beam%reach(i)
-            !$omp simd private(moment, turn, by_shear, by_deflection)
+            !$omp simd private(fixity, reach, moment, turn, by_shear, by_deflection)
             do l = 1, lanes
+                fixity = links(min(l, each), link_fixity, i)
+                reach = links(min(l, each), link_reach, i)
                 turn = turn_size(l, i) + (abs(contact(l, i))*closed(l, i) + abs(contact(l, i - 1))*closed(l, i - 1))*inverse
                 moment = larger(larger(abs(mr(l, i - 1)), abs(ml(l, i))), turn*fixity)
                 by_shear = 2*moment*inverse

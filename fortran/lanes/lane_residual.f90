@@ -1,7 +1,8 @@
 !> What the rows of eight cases still lack, in twice the working precision: gapbeam_residual, number by number
 module gapbeam_lane_residual
     use gapbeam_kinds, only: wp
-    use gapbeam_lane_types, only: lanes, lane_beam_type
+    use gapbeam_lane_types, only: lanes, lane_beam_type, link_numbers, link_faa, link_fab, link_fbb
+    use gapbeam_lane_each, only: each
     implicit none
     private
     public :: find_rest, find_rest_at_restraints, find_rest_along
@@ -14,9 +15,12 @@ module gapbeam_lane_residual
 contains
 
     !> Residuals of all rows
-    pure subroutine find_rest(beam, n, left, right, force, held, known, spring, w, ml, mr, turn_rest, force_rest, known_rest)
+    pure subroutine find_rest(beam, links, n, left, right, force, held, known, spring, w, ml, mr, turn_rest, force_rest, &
+                              known_rest)
         type(lane_beam_type), intent(in) :: beam
         integer, intent(in) :: n
+        !> Numbers of the links (pack_type)
+        real(wp), intent(in) :: links(each, link_numbers, n)
         !> Right-hand sides and scheme, shape (lanes, 0:n)
         real(wp), intent(in) :: left(lanes, 0:n), right(lanes, 0:n), force(lanes, 0:n)
         real(wp), intent(in) :: held(lanes, 0:n), known(lanes, 0:n), spring(lanes, 0:n)
@@ -38,13 +42,14 @@ contains
             ! The link right of the last node is none
             k = min(i + 1, n)
             length = beam%length(k)
-            faa = beam%faa(k)
-            fab = beam%fab(k)
-            fbb = beam%fbb(k)
             plain = 1.0_wp - beam%hinge(i)
             inside = merge(1.0_wp, 0.0_wp, i < n)
-            !$omp simd private(start_high, start_low, high, low, other_high, other_low, turned, turned_rest, passed, passed_rest)
+            !$omp simd private(faa, fab, fbb, start_high, start_low, high, low, other_high, other_low, turned, turned_rest, &
+            !$omp   passed, passed_rest)
             do l = 1, lanes
+                faa = links(min(l, each), link_faa, k)
+                fab = links(min(l, each), link_fab, k)
+                fbb = links(min(l, each), link_fbb, k)
                 turned = turned_high(l)
                 turned_rest = turned_low(l)
                 passed = passed_high(l)
@@ -85,10 +90,11 @@ contains
     end subroutine find_rest
 
     !> Residuals of compatibility on both sides of restraints
-    pure subroutine find_rest_at_restraints(beam, n, left, right, couple, w, ml, mr, left_rest, turn_rest)
+    pure subroutine find_rest_at_restraints(beam, links, n, left, right, couple, w, ml, mr, left_rest, turn_rest)
         type(lane_beam_type), intent(in) :: beam
         !> As for find_rest
         integer, intent(in) :: n
+        real(wp), intent(in) :: links(each, link_numbers, n)
         real(wp), intent(in), dimension(lanes, 0:n) :: left, right, couple, w, ml, mr
         !> Left of them, 0 at other nodes
         real(wp), intent(out) :: left_rest(lanes, 0:n)
@@ -115,8 +121,8 @@ contains
                     low = 0.0_wp
                     call add(high, low, -w(l, i))
                     call divide(high, low, beam%length(i + 1))
-                    call add_product(high, low, beam%faa(i + 1), mr(l, i))
-                    call add_product(high, low, beam%fab(i + 1), ml(l, i + 1))
+                    call add_product(high, low, links(min(l, each), link_faa, i + 1), mr(l, i))
+                    call add_product(high, low, links(min(l, each), link_fab, i + 1), ml(l, i + 1))
                     call add(high, low, -turn_high)
                     call add(high, low, -turn_low)
                     call add(high, low, right(l, i))
@@ -127,8 +133,8 @@ contains
                     low = 0.0_wp
                     call add(high, low, -w(l, i - 1))
                     call divide(high, low, beam%length(i))
-                    call add_product(high, low, -beam%fab(i), mr(l, i - 1))
-                    call add_product(high, low, -beam%fbb(i), ml(l, i))
+                    call add_product(high, low, -links(min(l, each), link_fab, i), mr(l, i - 1))
+                    call add_product(high, low, -links(min(l, each), link_fbb, i), ml(l, i))
                     call add(turn_high, turn_low, -high)
                     call add(turn_high, turn_low, -low)
                     call add(turn_high, turn_low, left(l, i))

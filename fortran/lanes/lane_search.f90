@@ -6,7 +6,8 @@
 !> doubt is the only one there is, so it does not matter how it was found.
 module gapbeam_lane_search
     use gapbeam_kinds, only: wp
-    use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type, by_both_ends, by_three_moments, by_chain
+    use gapbeam_lane_types, only: lanes, link_numbers, lane_beam_type, pack_type, by_both_ends, by_three_moments, by_chain
+    use gapbeam_lane_each, only: each
     use gapbeam_lane_sweeps, only: sweep_three_moments, sweep_chain
     use gapbeam_lane_passes, only: pass_both_ends, find_wrong_between, correct_both_ends
     use gapbeam_lane_residual, only: find_rest, find_rest_at_restraints
@@ -68,17 +69,15 @@ contains
         do j = 1, size(beam%link)
             i = beam%link(j)
             k = beam%link_load(j)
-            associate (s => beam%to_link(:, j))
-                !$omp simd
-                do l = 1, lanes
-                    right(l, i - 1) = right(l, i - 1) + factors(l, k)*s(1)
-                    left(l, i) = left(l, i) + factors(l, k)*s(2)
-                    room(l, i, 1) = room(l, i, 1) + factors(l, k)*s(3)
-                    room(l, i, 2) = room(l, i, 2) + factors(l, k)*s(4)
-                    room(l, i, 3) = room(l, i, 3) + abs(factors(l, k))*s(5)
-                    turn_size(l, i) = turn_size(l, i) + abs(factors(l, k))*s(6)
-                end do
-            end associate
+            !$omp simd
+            do l = 1, lanes
+                right(l, i - 1) = right(l, i - 1) + factors(l, k)*beam%to_link(min(l, each), 1, j)
+                left(l, i) = left(l, i) + factors(l, k)*beam%to_link(min(l, each), 2, j)
+                room(l, i, 1) = room(l, i, 1) + factors(l, k)*beam%to_link(min(l, each), 3, j)
+                room(l, i, 2) = room(l, i, 2) + factors(l, k)*beam%to_link(min(l, each), 4, j)
+                room(l, i, 3) = room(l, i, 3) + abs(factors(l, k))*beam%to_link(min(l, each), 5, j)
+                turn_size(l, i) = turn_size(l, i) + abs(factors(l, k))*beam%to_link(min(l, each), 6, j)
+            end do
         end do
         do j = 1, size(beam%node)
             i = beam%node(j)
@@ -105,7 +104,7 @@ contains
         logical, intent(out) :: lost(lanes)
         real(wp), dimension(lanes) :: wrong, fewest, idle, moves, alive, looked_at, ease, count
         real(wp) :: left, longest
-        integer :: solve, last
+        integer :: solve, last, l
         logical :: is_easy
 
         last = ubound(pack%closed, 2)
@@ -124,8 +123,8 @@ contains
             if (pack%is_solved) pack%is_solved = ends_hold(beam, pack, n)
             count(:) = count + alive
             if (pack%is_solved) then
-                call pass_both_ends(beam, n, pack%turn, pack%shear, pack%stiffness, pack%rigid, pack%contact, pack%turn_rest, &
-                                    pack%closed, pack%room, pack%w, pack%ml)
+                call pass_both_ends(beam, pack%links, n, pack%turn, pack%shear, pack%stiffness, pack%rigid, pack%contact, &
+                                    pack%turn_rest, pack%closed, pack%room, pack%w, pack%ml)
                 call find_wrong_between(beam, n, alive, pack%shear, pack%stiffness, pack%rigid, pack%contact, pack%closed, &
                                         pack%w, pack%ml, pack%turn_rest, wrong)
                 if (last > n) call find_wrong_beside(beam, n, last, alive, pack%load, pack%stiffness, pack%rigid, pack%contact, &
@@ -135,10 +134,10 @@ contains
                 call apply_scheme(n, pack%shear, pack%stiffness, pack%rigid, pack%contact, pack%closed, pack%held, pack%known, &
                                   pack%spring, pack%force)
                 if (any(ease > 0.0_wp)) pack%spring(:, :) = pack%spring + spread(ease, 2, n + 1)
-                call sweep_chain(beam, n, pack%left, pack%right, pack%force, pack%couple, pack%held, pack%known, pack%spring, &
-                                 pack%room, pack%turning, pack%w, pack%ml, pack%mr, moves)
+                call sweep_chain(beam, pack%links, n, pack%left, pack%right, pack%force, pack%couple, pack%held, pack%known, &
+                                 pack%spring, pack%room, pack%turning, pack%w, pack%ml, pack%mr, moves)
                 ! A scheme that moves is solved once more, with weak springs, as by gapbeam_scheme
-                ease(:) = ease + moves*beam%ease
+                ease(:) = ease + moves*[(beam%ease(min(l, each)), l=1, lanes)]
                 looked_at(:) = alive*(1.0_wp - moves)
                 call find_wrong(beam, n, looked_at, pack%shear, pack%stiffness, pack%contact, pack%held, pack%closed, pack%w, &
                                 pack%ml, pack%mr, pack%turn_rest, wrong)
@@ -357,29 +356,29 @@ contains
             if (method == by_both_ends) then
                 pack%turn(:, :) = pack%left + pack%right
                 pack%turn_rest(:, :) = 0.0_wp   ! no support is to be changed
-                call pass_both_ends(beam, n, pack%turn, pack%shear, pack%stiffness, pack%rigid, pack%contact, pack%turn_rest, &
-                                    pack%closed, pack%room, pack%w, pack%ml)
+                call pass_both_ends(beam, pack%links, n, pack%turn, pack%shear, pack%stiffness, pack%rigid, pack%contact, &
+                                    pack%turn_rest, pack%closed, pack%room, pack%w, pack%ml)
             else
-                call solve(beam, n, method, pack%left, pack%right, pack%force, pack%couple, pack%held, pack%known, pack%spring, &
-                           pack%room, pack%turning, pack%w, pack%ml, pack%mr, moves)
+                call solve(beam, pack%links, n, method, pack%left, pack%right, pack%force, pack%couple, pack%held, pack%known, &
+                           pack%spring, pack%room, pack%turning, pack%w, pack%ml, pack%mr, moves)
             end if
         end if
         if (method == by_both_ends) call copy_moments(n, pack%ml, pack%mr)
-        call find_rest(beam, n, pack%left, pack%right, pack%force, pack%held, pack%known, pack%spring, pack%w, pack%ml, pack%mr, &
-                       pack%turn_rest, pack%force_rest, pack%known_rest)
+        call find_rest(beam, pack%links, n, pack%left, pack%right, pack%force, pack%held, pack%known, pack%spring, pack%w, &
+                       pack%ml, pack%mr, pack%turn_rest, pack%force_rest, pack%known_rest)
         if (size(beam%restrained) > 0) then
-            call find_rest_at_restraints(beam, n, pack%left, pack%right, pack%couple, pack%w, pack%ml, pack%mr, pack%left_rest, &
-                                         pack%turn_rest)
+            call find_rest_at_restraints(beam, pack%links, n, pack%left, pack%right, pack%couple, pack%w, pack%ml, pack%mr, &
+                                         pack%left_rest, pack%turn_rest)
             if (method == by_both_ends) pack%turn_rest(:, n) = pack%turn_rest(:, n) + pack%left_rest(:, n)
         end if
         if (method == by_both_ends) then
-            call correct_both_ends(beam, n, pack%turn_rest, pack%force_rest, pack%held, pack%known_rest, pack%room, pack%dw, &
-                                   pack%dl)
+            call correct_both_ends(beam, pack%links, n, pack%turn_rest, pack%force_rest, pack%held, pack%known_rest, pack%room, &
+                                   pack%dw, pack%dl)
             call copy_moments(n, pack%dl, pack%dr)
         else
             pack%nothing(:, :) = 0.0_wp
             if (size(beam%restrained) == 0) pack%left_rest(:, :) = 0.0_wp
-            call solve(beam, n, method, pack%left_rest, pack%turn_rest, pack%force_rest, pack%nothing, pack%held, &
+            call solve(beam, pack%links, n, method, pack%left_rest, pack%turn_rest, pack%force_rest, pack%nothing, pack%held, &
                        pack%known_rest, pack%spring, pack%room, pack%turning, pack%dw, pack%dl, pack%dr, moves)
         end if
         call add_correction(n, pack%dw, pack%dl, pack%dr, pack%w, pack%ml, pack%mr)
@@ -388,9 +387,12 @@ contains
     end subroutine finish_pack
 
     !> The ways but that from both ends
-    pure subroutine solve(beam, n, method, left, right, force, couple, held, known, spring, room, turning, w, ml, mr, moves)
+    pure subroutine solve(beam, links, n, method, left, right, force, couple, held, known, spring, room, turning, w, ml, mr, &
+                          moves)
         type(lane_beam_type), intent(in) :: beam
         integer, intent(in) :: n, method
+        !> Numbers of the links (pack_type)
+        real(wp), intent(in) :: links(each, link_numbers, n)
         real(wp), intent(in), dimension(lanes, 0:n) :: left, right, force, couple, held, known, spring
         real(wp), intent(inout), dimension(lanes, 0:n) :: w, ml, mr
         real(wp), intent(inout) :: room(lanes, 0:n, 10), turning(lanes, size(beam%restrained), 5)
@@ -399,9 +401,9 @@ contains
 
         moves(:) = 0.0_wp
         if (method == by_three_moments) then
-            call sweep_three_moments(beam, n, left, right, force, couple, held, known, room, w, ml, mr)
+            call sweep_three_moments(beam, links, n, left, right, force, couple, held, known, room, w, ml, mr)
         else
-            call sweep_chain(beam, n, left, right, force, couple, held, known, spring, room, turning, w, ml, mr, moves)
+            call sweep_chain(beam, links, n, left, right, force, couple, held, known, spring, room, turning, w, ml, mr, moves)
         end if
     end subroutine solve
 

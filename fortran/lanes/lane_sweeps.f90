@@ -2,7 +2,9 @@
 !> bits are theirs. Branches are masks here, and what a mask strikes out is kept finite.
 module gapbeam_lane_sweeps
     use gapbeam_kinds, only: wp
-    use gapbeam_lane_types, only: lanes, lane_beam_type
+    use gapbeam_lane_types, only: lanes, lane_beam_type, link_numbers, link_faa, link_fab, link_fbb, link_sum_a, link_sum_b, &
+        link_bending, link_determinant
+    use gapbeam_lane_each, only: each
     implicit none
     private
     public :: sweep_three_moments, sweep_chain
@@ -10,9 +12,11 @@ module gapbeam_lane_sweeps
 contains
 
     !> Three-moment equations of gapbeam_three_moment: all deflections known but those of free tips
-    pure subroutine sweep_three_moments(beam, n, left, right, shear, couple, held, known, room, w, ml, mr)
+    pure subroutine sweep_three_moments(beam, links, n, left, right, shear, couple, held, known, room, w, ml, mr)
         type(lane_beam_type), intent(in) :: beam
         integer, intent(in) :: n
+        !> Numbers of the links (pack_type)
+        real(wp), intent(in) :: links(each, link_numbers, n)
         !> Right-hand sides, shape (lanes, 0:n)
         real(wp), intent(in) :: left(lanes, 0:n), right(lanes, 0:n), shear(lanes, 0:n), couple(lanes, 0:n)
         !> Is the deflection known, and which is it
@@ -21,6 +25,7 @@ contains
         !> Deflections, moments left and right of the nodes
         real(wp), intent(inout) :: w(lanes, 0:n), ml(lanes, 0:n), mr(lanes, 0:n)
         real(wp), dimension(lanes) :: phi, e
+        real(wp) :: faa, fab, fbb, determinant
         real(wp) :: chord, a, y, z, psi, tip, root, first, flexible, begin, free, c
         integer :: l, i
 
@@ -45,23 +50,27 @@ contains
             e(l) = 0.0_wp
         end do
         do i = 0, n - 1
-            !$omp simd private(chord, a, y, z, first, flexible, begin)
+            !$omp simd private(faa, fab, fbb, determinant, chord, a, y, z, first, flexible, begin)
             do l = 1, lanes
+                faa = links(min(l, each), link_faa, i + 1)
+                fab = links(min(l, each), link_fab, i + 1)
+                fbb = links(min(l, each), link_fbb, i + 1)
+                determinant = links(min(l, each), link_determinant, i + 1)
                 ! Does the row of the first support stand here: with a tip at node 1
                 first = merge(free, 0.0_wp, i == 0)
                 if (i == 1) first = 1.0_wp - held(l, 0)
                 begin = merge(ml(l, i), 0.0_wp, i < 2)
                 chord = (known(l, i + 1) - known(l, i))*beam%inverse(i + 1)
-                a = phi(l) + beam%faa(i + 1)
+                a = phi(l) + faa
                 y = (phi(l)*couple(l, i) - e(l) - chord - right(l, i))/a
-                z = beam%fab(i + 1)/a
-                flexible = (beam%fbb(i + 1)*phi(l) + beam%determinant(i + 1))/a
+                z = fab/a
+                flexible = (fbb*phi(l) + determinant)/a
                 y = merge(begin + couple(l, i), y, first > 0.5_wp)
                 z = merge(0.0_wp, z, first > 0.5_wp)
-                phi(l) = merge(beam%fbb(i + 1), flexible, first > 0.5_wp)
+                phi(l) = merge(fbb, flexible, first > 0.5_wp)
                 room(l, i, 1) = y
                 room(l, i, 2) = z
-                e(l) = beam%fab(i + 1)*y - chord + left(l, i + 1)
+                e(l) = fab*y - chord + left(l, i + 1)
             end do
         end do
         if (beam%restraint(n) > 0) then
@@ -85,32 +94,41 @@ contains
                 ml(l, i) = merge(root, z, tip > 0.5_wp)
             end do
         end do
-        !$omp simd private(psi, tip, root, y)
+        !$omp simd private(faa, fab, fbb, psi, tip, root, y)
         do l = 1, lanes
             tip = 1.0_wp - held(l, 0)
             root = mr(l, 0)
             y = couple(l, 0)
             mr(l, 0) = merge(y, root, tip > 0.5_wp)
-            psi = (w(l, 2) - w(l, 1))/beam%length(2) + beam%faa(2)*mr(l, 1) + beam%fab(2)*ml(l, 2) + right(l, 1)
+            faa = links(min(l, each), link_faa, 2)
+            fab = links(min(l, each), link_fab, 2)
+            psi = (w(l, 2) - w(l, 1))/beam%length(2) + faa*mr(l, 1) + fab*ml(l, 2) + right(l, 1)
             root = w(l, 0)
-            y = w(l, 1) - beam%length(1)*(psi + left(l, 1) + beam%fab(1)*mr(l, 0) + beam%fbb(1)*ml(l, 1))
+            fab = links(min(l, each), link_fab, 1)
+            fbb = links(min(l, each), link_fbb, 1)
+            y = w(l, 1) - beam%length(1)*(psi + left(l, 1) + fab*mr(l, 0) + fbb*ml(l, 1))
             w(l, 0) = merge(y, root, tip > 0.5_wp)
         end do
-        !$omp simd private(psi, tip, root, y)
+        !$omp simd private(faa, fab, fbb, psi, tip, root, y)
         do l = 1, lanes
             tip = 1.0_wp - held(l, n)
-            psi = (w(l, n - 1) - w(l, n - 2))/beam%length(n - 1) - beam%fab(n - 1)*mr(l, n - 2) &
-                - beam%fbb(n - 1)*ml(l, n - 1) - left(l, n - 1)
+            fab = links(min(l, each), link_fab, n - 1)
+            fbb = links(min(l, each), link_fbb, n - 1)
+            psi = (w(l, n - 1) - w(l, n - 2))/beam%length(n - 1) - fab*mr(l, n - 2) - fbb*ml(l, n - 1) - left(l, n - 1)
             root = w(l, n)
-            y = w(l, n - 1) + beam%length(n)*(psi - right(l, n - 1) - beam%faa(n)*mr(l, n - 1) - beam%fab(n)*ml(l, n))
+            faa = links(min(l, each), link_faa, n)
+            fab = links(min(l, each), link_fab, n)
+            y = w(l, n - 1) + beam%length(n)*(psi - right(l, n - 1) - faa*mr(l, n - 1) - fab*ml(l, n))
             w(l, n) = merge(y, root, tip > 0.5_wp)
         end do
     end subroutine sweep_three_moments
 
     !> The chain of gapbeam_band, from the left
-    pure subroutine sweep_chain(beam, n, left, right, shear, couple, held, known, spring, room, turning, w, ml, mr, moves)
+    pure subroutine sweep_chain(beam, links, n, left, right, shear, couple, held, known, spring, room, turning, w, ml, mr, moves)
         type(lane_beam_type), intent(in) :: beam
         integer, intent(in) :: n
+        !> Numbers of the links (pack_type)
+        real(wp), intent(in) :: links(each, link_numbers, n)
         !> Right-hand sides, shape (lanes, 0:n)
         real(wp), intent(in) :: left(lanes, 0:n), right(lanes, 0:n), shear(lanes, 0:n), couple(lanes, 0:n)
         !> Is the deflection known, which is it, stiffness
@@ -121,7 +139,7 @@ contains
         !> 1 for mechanisms, whose numbers mean nothing
         real(wp), intent(out) :: moves(lanes)
         real(wp), dimension(lanes) :: phi, beta, delta, e, p, m, floating, psi, turns
-        real(wp) :: h, faa, fab, fbb, length, hinge, free
+        real(wp) :: h, faa, fab, fbb, sum_a, sum_b, bending, determinant, length, hinge, free
         real(wp) :: a, b, c, d, r, g, k, given, rigid, starts, rests, denominator, reciprocal, m_star, w_star, new_e, new_p, &
             new_phi, new_beta, new_delta, moment, deflection, next_m, next_w, y
         integer :: l, i
@@ -144,13 +162,17 @@ contains
             end if
             hinge = beam%hinge(i)
             h = beam%inverse(i + 1)
-            faa = beam%faa(i + 1)
-            fab = beam%fab(i + 1)
-            fbb = beam%fbb(i + 1)
             length = beam%length(i + 1)
-            !$omp simd private(a, b, c, d, r, g, k, rigid, starts, rests, denominator, reciprocal, m_star, w_star, new_e, new_p, &
-            !$omp   given, new_phi, new_beta, new_delta, moment, deflection)
+            !$omp simd private(faa, fab, fbb, sum_a, sum_b, bending, determinant, a, b, c, d, r, g, k, rigid, starts, rests, &
+            !$omp   denominator, reciprocal, m_star, w_star, new_e, new_p, given, new_phi, new_beta, new_delta, moment, deflection)
             do l = 1, lanes
+                faa = links(min(l, each), link_faa, i + 1)
+                fab = links(min(l, each), link_fab, i + 1)
+                fbb = links(min(l, each), link_fbb, i + 1)
+                sum_a = links(min(l, each), link_sum_a, i + 1)
+                sum_b = links(min(l, each), link_sum_b, i + 1)
+                bending = links(min(l, each), link_bending, i + 1)
+                determinant = links(min(l, each), link_determinant, i + 1)
                 k = free*couple(l, i)
                 r = right(l, i)
                 g = shear(l, i) + p(l)
@@ -182,15 +204,15 @@ contains
                 m_star = (b*g - c*r)*reciprocal
                 w_star = (b*r + a*g)*reciprocal
                 new_delta = c*h**2*reciprocal
-                new_beta = h*(c*(phi(l) + beam%sum_a(i + 1)) + b*beta(l))*reciprocal
-                new_phi = ((phi(l) + beam%bending(i + 1))*h**2 + beta(l)*(2*h*beam%sum_b(i + 1) + beta(l)*fbb) &
-                           + c*(phi(l)*fbb + beam%determinant(i + 1)))*reciprocal
+                new_beta = h*(c*(phi(l) + sum_a) + b*beta(l))*reciprocal
+                new_phi = ((phi(l) + bending)*h**2 + beta(l)*(2*h*sum_b + beta(l)*fbb) &
+                           + c*(phi(l)*fbb + determinant))*reciprocal
                 ! Held
                 m_star = merge((b*d - r)*reciprocal, m_star, rigid > 0.5_wp)
                 w_star = merge(d, w_star, rigid > 0.5_wp)
                 new_delta = merge(h**2*reciprocal, new_delta, rigid > 0.5_wp)
-                new_beta = merge(h*(phi(l) + beam%sum_a(i + 1))*reciprocal, new_beta, rigid > 0.5_wp)
-                new_phi = merge((fbb*phi(l) + beam%determinant(i + 1))*reciprocal, new_phi, rigid > 0.5_wp)
+                new_beta = merge(h*(phi(l) + sum_a)*reciprocal, new_beta, rigid > 0.5_wp)
+                new_phi = merge((fbb*phi(l) + determinant)*reciprocal, new_phi, rigid > 0.5_wp)
                 new_e = h*w_star + fab*m_star
                 new_p = h*m_star
                 ! Floating
@@ -246,12 +268,12 @@ contains
                                                        turning(:, beam%restraint(n), :), psi, ml(:, n))
         do i = n - 1, 0, -1
             h = beam%inverse(i + 1)
-            faa = beam%faa(i + 1)
-            fab = beam%fab(i + 1)
-            fbb = beam%fbb(i + 1)
             length = beam%length(i + 1)
-            !$omp simd private(a, b, c, d, r, g, reciprocal, rigid, moment, deflection, next_m, next_w, y, k)
+            !$omp simd private(faa, fab, fbb, a, b, c, d, r, g, reciprocal, rigid, moment, deflection, next_m, next_w, y, k)
             do l = 1, lanes
+                faa = links(min(l, each), link_faa, i + 1)
+                fab = links(min(l, each), link_fab, i + 1)
+                fbb = links(min(l, each), link_fbb, i + 1)
                 a = room(l, i, 1)
                 b = room(l, i, 2)
                 c = room(l, i, 3)

@@ -5,25 +5,30 @@ module gapbeam_lane_types
     implicit none
     private
     public :: lanes, lane_beam_type, pack_type, new_pack, lane_pieces_type, piece_pack_type, new_piece_pack
-    public :: lane_rounding_type
+    public :: lane_rounding_type, lane_spans_type
     public :: by_both_ends, by_three_moments, by_chain
+    public :: link_numbers, link_faa, link_fab, link_fbb, link_sum_a, link_sum_b, link_bending, link_determinant, link_fixity, &
+        link_reach
 
     !> Cases side by side, whatever the processor's registers hold, so that results do not depend on it
     integer, parameter :: lanes = 8
+    !> Numbers of a link that its stiffness decides: as in link_type; as in workspace_type; deflection that a moment of 1 makes
+    !> (find_own_sizes of gapbeam_reactions)
+    integer, parameter :: link_numbers = 9, link_faa = 1, link_fab = 2, link_fbb = 3, link_sum_a = 4, link_sum_b = 5, &
+        link_bending = 6, link_determinant = 7, link_fixity = 8, link_reach = 9
     !> How gapbeam_system solves a scheme
     integer, parameter :: by_both_ends = 1, by_three_moments = 2, by_chain = 3
 
-    !> What cases have in common: links, shape (n), and supports, shape (0:n)
+    !> What cases have in common: links, shape (n), and supports, shape (0:n). What follows from stiffnesses is by lane where these
+    !> differ from case to case, and belongs to the eight cases at hand; else the first extent is 1 (gapbeam_lane_each)
     type :: lane_beam_type
         integer :: n = 0
-        !> Stiffness of the weak springs that hold a scheme which moves
-        real(wp) :: ease = 0.0_wp
+        !> Stiffness of the weak springs that hold a scheme which moves, shape (1 or lanes)
+        real(wp), allocatable :: ease(:)
         !> As in link_type
-        real(wp), allocatable, dimension(:) :: length, inverse, faa, fab, fbb, sum_a, sum_b, bending, determinant
-        !> As in workspace_type
-        real(wp), allocatable :: fixity(:)
-        !> Deflection that a moment of 1 makes (find_own_sizes of gapbeam_reactions)
-        real(wp), allocatable :: reach(:)
+        real(wp), allocatable, dimension(:) :: length, inverse
+        !> Numbers of the links, shape (1 or lanes, link_numbers, n)
+        real(wp), allocatable :: links(:, :, :)
         !> Place of every support in arrays of supports: its node, or one beyond the last node where several share a node
         integer, allocatable :: place(:)
         !> Its number in the scene
@@ -44,9 +49,9 @@ module gapbeam_lane_types
         !> Are there hinges or restraints between the ends, and loads with a couple at a node
         logical :: is_plain = .true., with_couples = .true.
         !> What loads with factor 1 do to links: which load, which link; rotations and shears of the simple bar at both ends, sums
-        !> of absolute values of loads and rotations (share_type of gapbeam_cases), shape (6, :)
+        !> of absolute values of loads and rotations (share_type of gapbeam_cases), shape (1 or lanes, 6, :)
         integer, allocatable :: link_load(:), link(:)
-        real(wp), allocatable :: to_link(:, :)
+        real(wp), allocatable :: to_link(:, :, :)
         !> And to nodes: force and couple, shape (2, :)
         integer, allocatable :: node_load(:), node(:)
         real(wp), allocatable :: to_node(:, :)
@@ -54,6 +59,8 @@ module gapbeam_lane_types
 
     !> Eight cases; all arrays have shape (lanes, 0:n), those of links no entry at 0, those of supports entries for all places
     type :: pack_type
+        !> Numbers of the links, shape (1 or lanes, link_numbers, n)
+        real(wp), allocatable :: links(:, :, :)
         !> Loads: rotations left and right of the node, shear, couple; sizes (workspace_type)
         real(wp), allocatable, dimension(:, :) :: left, right, shear, couple, load_size, turn_size
         !> Supports by places: stiffness, 0 of rigid ones; 1 where rigid; contact level. At the nodes of several those of one in
@@ -87,8 +94,10 @@ module gapbeam_lane_types
     type :: lane_pieces_type
         !> Last piece of every link, 0 before the first, shape (0:n)
         integer, allocatable :: last(:)
-        !> As in piece_type; distance of the left end from that of the link, of the right end from its right end, shape (npiece)
-        real(wp), allocatable, dimension(:) :: length, flexibility, shear_flexibility, before, behind
+        !> Length; distance of the left end from that of the link, of the right end from its right end, shape (npiece)
+        real(wp), allocatable, dimension(:) :: length, before, behind
+        !> 1/EI and 1/GA, shape (1 or lanes, npiece)
+        real(wp), allocatable, dimension(:, :) :: flexibility, shear_flexibility
         !> 1, 2, ..., and half of the length, shape (npiece)
         integer, allocatable :: number(:)
         real(wp), allocatable :: half(:)
@@ -108,6 +117,29 @@ module gapbeam_lane_types
         !> Deflection by shear that a shear of 1 makes along a link, shape (n)
         real(wp), allocatable :: slip(:)
     end type lane_rounding_type
+
+    !> What links and what loads do to them are made of, where the stiffnesses of spans differ from case to case
+    type :: lane_spans_type
+        !> Of EI and GA: to the engine's units; what they are between here, at first nothing
+        real(wp), dimension(2) :: power = 1.0_wp, least = 1.0_wp, most = 0.0_wp
+        !> Stiffness of the softest support
+        real(wp) :: softest = 0.0_wp
+        !> Span that gives EI and GA of every piece, 0: their own; the flexibilities that these make, shape (2, npiece)
+        integer, allocatable :: span(:, :)
+        real(wp), allocatable :: own(:, :)
+        !> Last piece of every link, 0 before the first, shape (0:n); lengths of the pieces, and distances of their left ends from
+        !> those of the links
+        integer, allocatable :: last(:)
+        real(wp), allocatable :: length(:), before(:)
+        !> What loads do to links, as in lane_beam_type: which link, and the last of the terms of each, 0 before, shape (0:)
+        integer, allocatable :: link(:), last_term(:)
+        !> For every piece of the link: moment_integrals, curvature times half of the length, weights of these at the left and at
+        !> the right end of the piece for rotations at the left and at the right end of the link, change of the moment, sum of its
+        !> sizes, couple at the right end; shape (10, :)
+        real(wp), allocatable :: terms(:, :)
+        !> What turn_sum of link_type has without bending, and times bending; shape (2, :)
+        real(wp), allocatable :: sizes(:, :)
+    end type lane_spans_type
 
     !> Pieces of eight cases
     type :: piece_pack_type
@@ -136,6 +168,7 @@ contains
 
     !> Room for eight cases
     subroutine new_pack(beam, pack, made)
+        !> The beam, with its links
         type(lane_beam_type), intent(in) :: beam
         type(pack_type), intent(out) :: pack
         !> False where memory ends
@@ -153,8 +186,9 @@ contains
                   pack%turn_rest(lanes, 0:last), pack%force_rest(lanes, 0:n), pack%known_rest(lanes, 0:n), &
                   pack%dw(lanes, 0:n), pack%dl(lanes, 0:n), pack%dr(lanes, 0:n), pack%turn(lanes, 0:n), &
                   pack%nothing(lanes, 0:n), pack%left_rest(lanes, 0:n), pack%room(lanes, 0:n, 10), &
-                  pack%turning(lanes, size(beam%restrained), 5), stat=stat)
+                  pack%turning(lanes, size(beam%restrained), 5), pack%links(size(beam%links, 1), link_numbers, n), stat=stat)
         made = stat == 0
+        if (made) pack%links(:, :, :) = beam%links
     end subroutine new_pack
 
 end module gapbeam_lane_types

@@ -2,6 +2,7 @@
 module gapbeam_lane_values
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes, lane_beam_type, lane_pieces_type, pack_type, piece_pack_type
+    use gapbeam_lane_each, only: each
     use gapbeam_lane_fields, only: recover_pack
     implicit none
     private
@@ -52,18 +53,19 @@ contains
             j = piece(i)
             s = distance(i)
             length = pieces%length(j)
-            f = pieces%flexibility(j)
-            g = pieces%shear_flexibility(j)
             select case (k)
             case (deflection)
-                !$omp simd
+                !$omp simd private(f, g)
                 do l = 1, lanes
+                    f = pieces%flexibility(min(l, each), j)
+                    g = pieces%shear_flexibility(min(l, each), j)
                     values(l, i) = deflection_at(s, length, f, g, loads(l, j, 1), loads(l, j, 2), loads(l, j, 3), &
                                                  starts(l, j, 1), starts(l, j, 2), starts(l, j, 3), starts(l, j, 4))
                 end do
             case (rotation)
-                !$omp simd
+                !$omp simd private(f)
                 do l = 1, lanes
+                    f = pieces%flexibility(min(l, each), j)
                     values(l, i) = rotation_at(s, length, f, loads(l, j, 1), loads(l, j, 2), loads(l, j, 3), starts(l, j, 2), &
                                                starts(l, j, 3), starts(l, j, 4))
                 end do

@@ -183,7 +183,7 @@ contains
         integer :: case_of(lanes), first, i, k, l, number
         logical :: made, lost
 
-        call prepare_lanes(lowered, loads, beam, made)
+        call prepare_lanes(lowered, loads, .false., beam, made)
         stat = 0
         ! Several supports at a place, and restraints, have certificates by themselves
         if (made .and. size(beam%shared) + size(beam%restrained) > 0) return

@@ -3,20 +3,17 @@
 module gapbeam_case_extremes
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_memory
-    use gapbeam_element, only: sum_type, add, total
-    use gapbeam_link, only: piece_load_type
     use gapbeam_law, only: has_laws
-    use gapbeam_scene, only: gapbeam_force, gapbeam_couple, gapbeam_axial_force
     use gapbeam_units, only: moment_unit, rotation_unit, stiffness_unit
-    use gapbeam_lowered, only: lowered_type, is_stretch, point_x
-    use gapbeam_lower_loads, only: spread_load
-    use gapbeam_lower_units, only: load_in_units
+    use gapbeam_lowered, only: lowered_type, point_x
     use gapbeam_solution, only: state_type
     use gapbeam_query, only: extremes_of_fields, fields_in_pieces, field_count
     use gapbeam_cases, only: case_loads_type
     use gapbeam_combinations, only: combination_type, varied_type, combine, solve_combination
     use gapbeam_lane_types, only: lanes, lane_beam_type, lane_pieces_type, pack_type, piece_pack_type, new_pack, new_piece_pack
     use gapbeam_lane_levels, only: take_columns_at, take_numbers_at, extremes_of_pack_at, fields_of_pack_at, best_level
+    use gapbeam_lane_pieces, only: prepare_pieces
+    use gapbeam_lane_spans, only: span_room_type, prepare_spans, take_spans, make_pack_links
     use gapbeam_lane_cases, only: prepare_lanes, take_supports, take_starts, units_of_supports
     implicit none
     private
@@ -24,8 +21,6 @@ module gapbeam_case_extremes
 
     !> Exponents of units up to which a power of two is a double
     integer, parameter :: most_power = 1000
-    !> No load on a piece
-    type(piece_load_type), parameter :: nothing = piece_load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
 
 contains
 
@@ -42,12 +37,13 @@ contains
     end function has_lane_extremes
 
     !> Find the extremes of solved cases of such a beam, and fields at places
-    subroutine extremes_of_cases(lowered, loads, factors, values, rule, closed, w, ml, mr, wanted, extremes, places, piece, &
-                                 distance, fields, status, level)
+    subroutine extremes_of_cases(lowered, loads, factors, values, spans, rule, closed, w, ml, mr, wanted, extremes, places, &
+                                 piece, distance, fields, status, level)
         type(lowered_type), intent(in) :: lowered
         !> As for solve_in_lanes
         type(case_loads_type), intent(in) :: loads
         real(wp), intent(in), contiguous :: factors(:, :), values(:, :, :)
+        real(wp), intent(in) :: spans(:, :, :)
         !> rule_block or rule_single of gapbeam_search
         integer, intent(in) :: rule
         !> Solutions: working schemes, deflections and moments as solve_in_lanes gives them
@@ -70,17 +66,19 @@ contains
         type(lane_pieces_type) :: pieces
         type(pack_type) :: pack
         type(piece_pack_type) :: along
+        type(span_room_type) :: span_room
         type(combination_type) :: combined
         integer, allocatable :: solved(:)
         real(wp), allocatable :: factors_of(:, :), at_places(:, :, :), turned(:, :)
         real(wp) :: found(lanes, 6, 4), poor(lanes)
         integer :: first, i, k, l, number, stat, at_level, case_of(lanes)
-        logical :: lost, made, fits
+        logical :: lost, made, fits, outside(lanes)
 
         at_level = best_level()
         if (present(level)) at_level = level
-        call prepare_lanes(lowered, loads, beam, made)
-        if (made) call prepare_pieces(lowered, pieces, made)
+        call prepare_lanes(lowered, loads, size(spans, 2) > 0, beam, made)
+        if (made) call prepare_pieces(lowered, size(beam%links, 1), pieces, made)
+        if (made .and. size(spans, 2) > 0) call prepare_spans(lowered, loads, span_room, made)
         if (made) call new_pack(beam, pack, made)
         if (made) call new_piece_pack(size(pieces%length), along, made)
         stat = 0
@@ -98,12 +96,21 @@ contains
         end do
         call take_supports(lowered, beam%place, pack)
         found(:, :, :) = 0.0_wp
+        outside(:) = .false.
         do first = 1, number, lanes
             ! The last lanes repeat the last case
             case_of = [(solved(min(first + l, number)), l=0, lanes - 1)]
             lost = .false.
             if (size(values, 2) > 0) then
                 call take_numbers_at(at_level, beam, units_of_supports(lowered), values, case_of, turned, pack, lost)
+            end if
+            if (size(spans, 2) > 0) then
+                do l = 1, lanes
+                    call take_spans(spans(:, :, case_of(l)), l, span_room, outside(l))
+                end do
+                call make_pack_links(at_level, span_room, beam, pack)
+                pieces%flexibility(:, :) = span_room%flexibility
+                pieces%shear_flexibility(:, :) = span_room%shear_flexibility
             end if
             call take_columns_at(at_level, size(factors, 1), size(factors, 2), factors, case_of, factors_of)
             call take_columns_at(at_level, beam%n + 1, size(w, 2), w, case_of, pack%w)
@@ -123,7 +130,7 @@ contains
             end if
             do l = 1, min(lanes, number - first + 1)
                 i = case_of(l)
-                fits = poor(l) < 0.5_wp
+                fits = poor(l) < 0.5_wp .and. .not. outside(l)
                 if (fits) call give_extremes(lowered, wanted, found, l, extremes(:, :, i), places(:, :, i), fits)
                 if (fits) call give_fields(lowered, at_places, l, fields(:, :, i), fits)
                 if (.not. fits) call solve_alone(i)
@@ -138,12 +145,16 @@ contains
             type(state_type) :: state
             type(error_type), allocatable :: error
             real(wp) :: value(2, field_count), x(2, field_count), all_fields(field_count, size(piece))
-            real(wp), target :: own(3, size(values, 2))
+            real(wp), target :: own(3, size(values, 2)), own_spans(2, size(spans, 2))
             type(varied_type) :: varied
 
             if (size(own) > 0) then
                 own(:, :) = values(:, :, i)
                 varied%supports => own
+            end if
+            if (size(own_spans) > 0) then
+                own_spans(:, :) = spans(:, :, i)
+                varied%spans => own_spans
             end if
             associate (still => 0*lowered%model%supports%settlement, m => size(lowered%beam%supports))
                 call combine(lowered, factors(:size(lowered%model%loads), i), still, combined, error, varied)
@@ -175,101 +186,6 @@ contains
         end subroutine solve_alone
 
     end subroutine extremes_of_cases
-
-    !> Pieces of the links, and what the loads with factor 1 put on them
-    subroutine prepare_pieces(lowered, pieces, made)
-        type(lowered_type), intent(in) :: lowered
-        type(lane_pieces_type), intent(out) :: pieces
-        !> False where memory ends
-        logical, intent(out) :: made
-        type(piece_load_type), allocatable :: on_pieces(:)
-        integer :: j, k, n, shares, stat
-
-        n = size(lowered%pieces)
-        shares = 0
-        do k = 1, size(lowered%model%loads)
-            if (is_stretch(lowered%model%loads(k))) then
-                shares = shares + lowered%load_to(k) - lowered%load_from(k)
-            else if (is_inside(k)) then
-                shares = shares + 1
-            end if
-        end do
-        allocate (pieces%last(0:size(lowered%beam%links)), pieces%length(n), pieces%flexibility(n), pieces%shear_flexibility(n), &
-                  pieces%before(n), pieces%behind(n), pieces%number(n), pieces%half(n), pieces%load(shares), &
-                  pieces%piece(shares), pieces%to_piece(5, shares), &
-                  on_pieces(n), stat=stat)
-        made = stat == 0
-        if (.not. made) return
-        pieces%last(:) = lowered%node_point
-        pieces%length(:) = lowered%pieces%length
-        pieces%half(:) = 0.5_wp*pieces%length
-        pieces%number(:) = [(j, j=1, n)]
-        pieces%flexibility(:) = lowered%pieces%flexibility
-        pieces%shear_flexibility(:) = lowered%pieces%shear_flexibility
-        do k = 1, ubound(pieces%last, 1)
-            call find_distances(pieces%last(k - 1) + 1, pieces%last(k))
-        end do
-        on_pieces(:) = nothing
-        shares = 0
-        do k = 1, size(lowered%model%loads)
-            associate (load => lowered%model%loads(k), a => lowered%load_from(k), b => lowered%load_to(k))
-                if (is_stretch(load)) then
-                    call spread_load(lowered, load, a, b, on_pieces)
-                    do j = a + 1, b
-                        call take(j)
-                    end do
-                else if (is_inside(k)) then
-                    if (load%kind == gapbeam_force) on_pieces(a)%force = load%value
-                    if (load%kind == gapbeam_couple) on_pieces(a)%couple = load%value
-                    call take(a)
-                end if
-            end associate
-        end do
-
-    contains
-
-        !> Does a load act at a point that is no node
-        pure function is_inside(load) result(yes)
-            integer, intent(in) :: load
-            logical :: yes
-
-            yes = .not. is_stretch(lowered%model%loads(load)) .and. lowered%model%loads(load)%kind /= gapbeam_axial_force
-            if (yes) yes = lowered%node_of_point(lowered%load_from(load)) < 0
-        end function is_inside
-
-        !> Distances of the pieces of a link from its ends
-        subroutine find_distances(first, last)
-            integer, intent(in) :: first, last
-            type(sum_type) :: sum
-            integer :: i
-
-            sum = sum_type()
-            do i = first, last
-                pieces%before(i) = total(sum)
-                call add(sum, pieces%length(i))
-            end do
-            sum = sum_type()
-            do i = last, first, -1
-                pieces%behind(i) = total(sum)
-                call add(sum, pieces%length(i))
-            end do
-        end subroutine find_distances
-
-        !> Keep what the load at hand puts on a piece
-        subroutine take(piece)
-            integer, intent(in) :: piece
-
-            call load_in_units(on_pieces(piece), lowered%units)
-            shares = shares + 1
-            pieces%load(shares) = k
-            pieces%piece(shares) = piece
-            associate (q => on_pieces(piece))
-                pieces%to_piece(:, shares) = [q%qa, q%qb, q%kappa, q%force, q%couple]
-            end associate
-            on_pieces(piece) = nothing
-        end subroutine take
-
-    end subroutine prepare_pieces
 
     !> The extremes of a case in the scene's units, if these hold them
     pure subroutine give_extremes(lowered, wanted, found, l, extremes, places, made)

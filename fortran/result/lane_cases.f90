@@ -9,9 +9,11 @@ module gapbeam_lane_cases
     use gapbeam_units, only: moment_unit, stiffness_unit
     use gapbeam_lowered, only: lowered_type
     use gapbeam_cases, only: case_loads_type, split_loads, leave_room
-    use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type, new_pack
+    use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type, new_pack, link_numbers, link_faa, link_fab, link_fbb, &
+        link_sum_a, link_sum_b, link_bending, link_determinant, link_fixity, link_reach
     use gapbeam_lane_levels, only: take_columns_at, take_numbers_at, give_pack_at, search_pack_at, finish_pack_at, &
         best_level
+    use gapbeam_lane_spans, only: span_room_type, prepare_spans, take_spans, make_pack_links, ease_ratio
     implicit none
     private
     public :: lane_room_type, fits_lanes, solve_in_lanes, find_schemes
@@ -22,8 +24,6 @@ module gapbeam_lane_cases
     integer, parameter :: most_links = 1000
     !> Exponents of units up to which a power of two is a double
     integer, parameter :: most_power = 1000
-    !> Weak springs relative to the softest stiffness present, as in gapbeam_scheme
-    real(wp), parameter :: ease_ratio = 1e-5_wp
     !> Ways in which schemes are solved
     integer, parameter :: ways = 3
 
@@ -45,6 +45,8 @@ module gapbeam_lane_cases
         real(wp), allocatable :: factors(:, :)
         !> Room for columns that are turned
         real(wp), allocatable :: turned(:, :)
+        !> Where every case has stiffnesses of its own
+        type(span_room_type) :: spans
     end type lane_room_type
 
 contains
@@ -66,14 +68,16 @@ contains
     end function fits_lanes
 
     !> Solve cases of a beam that fits
-    subroutine solve_in_lanes(lowered, loads, factors, values, room, closed, w, ml, mr, reaction, solves, done, level)
+    subroutine solve_in_lanes(lowered, loads, factors, values, spans, room, closed, w, ml, mr, reaction, solves, done, level)
         type(lowered_type), intent(in) :: lowered
         !> By split_loads, and the factor of every load, shape (at least nload, ncase)
         type(case_loads_type), intent(in) :: loads
         real(wp), intent(in), contiguous :: factors(:, :)
         !> Settlement, gap and stiffness of every support of the scene, shape (3, at least nsupport, ncase); nsupport 0: their own
         real(wp), intent(in), contiguous :: values(:, :, :)
-        !> Empty, or of earlier cases of this beam
+        !> EI and GA of every span, shape (2, nspan, ncase); nspan 0: their own
+        real(wp), intent(in) :: spans(:, :, :)
+        !> Empty, or of earlier cases of this beam, with stiffnesses of their own or without as these are
         type(lane_room_type), intent(inout) :: room
         !> Starts in, working schemes out, where a case is done; 1 closed, shape (at least size(beam%supports), ncase)
         integer, intent(inout), contiguous :: closed(:, :)
@@ -87,16 +91,18 @@ contains
         integer, intent(in), optional :: level
         real(wp) :: units(3)
         integer :: first, l, kind, solves_of(lanes), method(lanes), case_of(lanes), at_level
-        logical :: lost, made
+        logical :: lost, made, outside(lanes)
 
         done(:) = .false.
         at_level = best_level()
         if (present(level)) at_level = level
-        if (.not. room%made) call make_room(lowered, loads, size(factors, 1), room)   ! as many in every call for the beam
+        ! As many factors in every call for the beam
+        if (.not. room%made) call make_room(lowered, loads, size(factors, 1), size(spans, 2) > 0, room)
         if (.not. room%made) return
         if (size(values, 2) > 0) room%with_own_supports = .false.
         if (.not. room%with_own_supports) call take_supports(lowered, room%beam%place, room%pack)
         room%with_own_supports = size(values, 2) == 0
+        outside(:) = .false.
         units = scale(1.0_wp, [lowered%units%deflection, moment_unit(lowered%units), lowered%units%force])
         do first = 1, size(done), lanes
             ! The last lanes repeat the last case
@@ -109,8 +115,15 @@ contains
                 end do
                 if (lost) cycle
             end if
+            if (size(spans, 2) > 0) then
+                do l = 1, lanes
+                    call take_spans(spans(:, :, case_of(l)), l, room%spans, outside(l))
+                end do
+                call make_pack_links(at_level, room%spans, room%beam, room%pack)
+            end if
             call take_starts(lowered, room%beam%place, closed, case_of, room%pack)
             call search_pack_at(at_level, room%beam, room%factors, room%pack, solves_of, method)
+            where (outside) method = 0
             solves(case_of) = solves_of
             kind = method(1)
             if (kind > 0 .and. all(method == kind)) then
@@ -196,6 +209,7 @@ contains
         type(error_type), allocatable :: error
         real(wp), allocatable :: values(:, :, :), not_wanted(:, :)
         logical, allocatable :: done(:)
+        real(wp) :: own_spans(2, 0, 0)
         integer :: i, m, stat
 
         solves(:) = 0
@@ -218,21 +232,23 @@ contains
                 values(1, :, i) = values(1, :, i) + settlements(:, i)
             end do
         end if
-        call solve_in_lanes(lowered, loads, factors, values, room, closed, not_wanted, not_wanted, not_wanted, not_wanted, solves, &
-                            done)
+        call solve_in_lanes(lowered, loads, factors, values, own_spans, room, closed, not_wanted, not_wanted, not_wanted, &
+                            not_wanted, solves, done)
         where (.not. done) solves = 0
     end subroutine find_schemes
 
     !> Room for cases of a beam
-    subroutine make_room(lowered, loads, number, room)
+    subroutine make_room(lowered, loads, number, with_own_spans, room)
         type(lowered_type), intent(in) :: lowered
         type(case_loads_type), intent(in) :: loads
         !> How many factors a case has
         integer, intent(in) :: number
+        logical, intent(in) :: with_own_spans
         type(lane_room_type), intent(inout) :: room
         integer :: stat
 
-        call prepare_lanes(lowered, loads, room%beam, room%made)
+        call prepare_lanes(lowered, loads, with_own_spans, room%beam, room%made)
+        if (room%made .and. with_own_spans) call prepare_spans(lowered, loads, room%spans, room%made)
         if (room%made) call new_pack(room%beam, room%pack, room%made)
         if (.not. room%made) return
         allocate (room%factors(lanes, number), &
@@ -246,6 +262,7 @@ contains
         type(pack_type), intent(inout) :: to
         integer, intent(in) :: l, m
 
+        if (size(to%links, 1) > 1) to%links(m, :, :) = from%links(l, :, :)
         to%left(m, :) = from%left(l, :)
         to%right(m, :) = from%right(l, :)
         to%shear(m, :) = from%shear(l, :)
@@ -260,14 +277,17 @@ contains
     end subroutine take_lane
 
     !> What all cases have in common
-    subroutine prepare_lanes(lowered, loads, lane_beam, made)
+    subroutine prepare_lanes(lowered, loads, with_own_spans, lane_beam, made)
         type(lowered_type), intent(in) :: lowered
         type(case_loads_type), intent(in) :: loads
+        !> Has every case stiffnesses of its own
+        logical, intent(in) :: with_own_spans
         type(lane_beam_type), intent(out) :: lane_beam
         !> False where memory ends
         logical, intent(out) :: made
-        integer :: k, n, m, last, stat
+        integer :: k, n, m, last, extent, stat
 
+        extent = merge(lanes, 1, with_own_spans)
         n = size(lowered%beam%links)
         call find_places(lowered, lane_beam, made)
         if (made) call find_restraints(lowered, lane_beam, made)
@@ -276,28 +296,29 @@ contains
         m = size(loads%of_links)
         k = size(loads%of_nodes)
         lane_beam%n = n
-        lane_beam%ease = ease_ratio*softest(lowered%beam)
-        allocate (lane_beam%length(n), lane_beam%inverse(n), lane_beam%faa(n), lane_beam%fab(n), lane_beam%fbb(n), &
-                  lane_beam%sum_a(n), lane_beam%sum_b(n), lane_beam%bending(n), lane_beam%determinant(n), lane_beam%fixity(n), &
-                  lane_beam%reach(n), lane_beam%side(0:last), lane_beam%there(0:n), lane_beam%changes(0:last), &
+        allocate (lane_beam%length(n), lane_beam%inverse(n), lane_beam%links(extent, link_numbers, n), lane_beam%ease(extent), &
+                  lane_beam%side(0:last), lane_beam%there(0:n), lane_beam%changes(0:last), &
                   lane_beam%hinge(0:n), lane_beam%number(size(lowered%beam%supports)), lane_beam%link_load(m), &
-                  lane_beam%link(m), lane_beam%to_link(6, m), lane_beam%node_load(k), lane_beam%node(k), &
+                  lane_beam%link(m), lane_beam%to_link(extent, 6, m), lane_beam%node_load(k), lane_beam%node(k), &
                   lane_beam%to_node(2, k), stat=stat)
         made = stat == 0
         if (.not. made) return
         associate (to => lane_beam, from => lowered%beam%links)
             to%length(:) = from%length
             to%inverse(:) = from%inverse
-            to%faa(:) = from%faa
-            to%fab(:) = from%fab
-            to%fbb(:) = from%fbb
-            to%sum_a(:) = from%sum_a
-            to%sum_b(:) = from%sum_b
-            to%bending(:) = from%bending
-            to%determinant(:) = from%determinant
-            to%fixity(:) = 0.0_wp
-            where (from%bending > 0.0_wp) to%fixity = 1/from%bending
-            to%reach(:) = max(from%bending, from%faa + from%fbb)*from%length
+            to%ease(:) = ease_ratio*softest(lowered%beam)
+            do k = 1, extent
+                to%links(k, link_faa, :) = from%faa
+                to%links(k, link_fab, :) = from%fab
+                to%links(k, link_fbb, :) = from%fbb
+                to%links(k, link_sum_a, :) = from%sum_a
+                to%links(k, link_sum_b, :) = from%sum_b
+                to%links(k, link_bending, :) = from%bending
+                to%links(k, link_determinant, :) = from%determinant
+                to%links(k, link_fixity, :) = 0.0_wp
+                where (from%bending > 0.0_wp) to%links(k, link_fixity, :) = 1/from%bending
+                to%links(k, link_reach, :) = max(from%bending, from%faa + from%fbb)*from%length
+            end do
             to%side(:) = 0.0_wp
             to%there(:) = 0.0_wp
             to%changes(:) = 0.0_wp
@@ -315,7 +336,7 @@ contains
                 associate (s => loads%of_links(k))
                     to%link_load(k) = s%load
                     to%link(k) = s%link
-                    to%to_link(:, k) = [s%turn_a, s%turn_b, s%shear_a, s%shear_b, s%load_sum, s%turn_sum]
+                    to%to_link(:, :, k) = spread([s%turn_a, s%turn_b, s%shear_a, s%shear_b, s%load_sum, s%turn_sum], 1, extent)
                 end associate
             end do
             to%with_couples = any(abs(loads%of_nodes%couple) > 0.0_wp)

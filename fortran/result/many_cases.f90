@@ -10,6 +10,7 @@ module gapbeam_many_cases
     use gapbeam_lowered, only: lowered_type
     use gapbeam_lower_loads, only: lower_loads
     use gapbeam_cases, only: case_loads_type, split_loads, solve_case, replace_supports
+    use gapbeam_lane_spans, only: fits_spans
     use gapbeam_lane_cases, only: lane_room_type, fits_lanes, solve_in_lanes
     use gapbeam_segment_cases, only: segments_type, fits_segments, solve_in_segments, least_alone
     implicit none
@@ -21,8 +22,8 @@ module gapbeam_many_cases
 
     !> What cases of one beam need, kept from call to call; calls at the same time need one each
     type :: case_room_type
-        logical :: made = .false., fits = .false., is_long = .false.
-        type(lane_room_type) :: lanes
+        logical :: made = .false., fits = .false., fits_with_own_spans = .false., is_long = .false.
+        type(lane_room_type) :: lanes, lanes_with_own_spans
         type(segments_type) :: segments
         !> Of cases one by one: the beam with their loads and supports, where it has been made
         logical :: loaded_is_made = .false.
@@ -70,13 +71,19 @@ contains
             if (.not. enough_memory(for_solving, size(lowered%beam%links), m, 0)) return
             room%is_long = fits_segments(lowered)
             room%fits = fits_lanes(lowered)
+            room%fits_with_own_spans = room%fits .and. fits_spans(lowered, loads)
             room%made = .true.
         end if
         allocate (acting(m), done(size(status)), stat=stat)
         if (stat /= 0) return
         done(:) = .false.
-        if (rule == rule_block .and. size(spans, 2) == 0) then
-            if (room%is_long .and. (size(status) < few .or. size(lowered%beam%links) >= least_alone)) then
+        if (rule == rule_block) then
+            if (size(spans, 2) > 0) then
+                if (room%fits_with_own_spans) then
+                    call solve_in_lanes(lowered, loads, factors, values, spans, room%lanes_with_own_spans, closed, w, ml, mr, &
+                                        reaction, solves, done)
+                end if
+            else if (room%is_long .and. (size(status) < few .or. size(lowered%beam%links) >= least_alone)) then
                 call solve_in_segments(lowered, loads, factors, values, room%segments, closed, w, ml, mr, reaction, solves, done)
                 ! Solves are the same alone and in company
                 do i = 1, size(status)
@@ -124,9 +131,9 @@ contains
 
             from = merge(first, 1, size(values, 2) > 0)
             to = merge(last, size(values, 3), size(values, 2) > 0)
-            call solve_in_lanes(lowered, loads, factors(:, first:last), values(:, :, from:to), room%lanes, closed(:, first:last), &
-                                w(:, first:last), ml(:, first:last), mr(:, first:last), reaction(:, first:last), &
-                                solves(first:last), done(first:last))
+            call solve_in_lanes(lowered, loads, factors(:, first:last), values(:, :, from:to), spans, room%lanes, &
+                                closed(:, first:last), w(:, first:last), ml(:, first:last), mr(:, first:last), &
+                                reaction(:, first:last), solves(first:last), done(first:last))
         end subroutine solve_beside
 
         !> Solve the case at hand

@@ -127,14 +127,8 @@ class PreparedRoad:
         if self._beam.scene.foundation:
             return 2e-2 * steps
         # From the solutions at the nodes, which are not found again for it
-        known = {"input", "reaction", "opening"}
-        stiffnesses = 0.0
-        if any(path.parts[0] == "beam" for path in self._paths):
-            stiffnesses = 1e-6 * nodes
-        else:
-            known |= {"deflection", "rotation", "moment", "shear"}
-        is_known = self._is_simple and set(want) <= known
-        return steps * (stiffnesses + (3e-6 + 4e-7 * nodes if is_known else 2e-5 + 3e-6 * nodes))
+        is_known = self._is_simple and set(want) <= {"input", "reaction", "opening", "deflection", "rotation", "moment", "shear"}
+        return steps * (3e-6 + 4e-7 * nodes if is_known else 2e-5 + 3e-6 * nodes)
 
     def solve(
         self, values: np.ndarray, want: Sequence[str], numbers: dict[str, np.ndarray], supports: Sequence[str]

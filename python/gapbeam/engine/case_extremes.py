@@ -9,6 +9,7 @@ import numpy as np
 from ..base.errors import Status, check_status
 from . import calls as _engine
 from .beam import FIELDS, RULES, Beam
+from .combinations import Varied
 
 HERE = FIELDS[:4]
 """The fields that are found here."""
@@ -17,7 +18,7 @@ NODES_AT_A_TIME = 50_000
 
 
 def case_extremes(
-    beam: Beam, rule: str, factors: np.ndarray, supports: np.ndarray | None, closed: np.ndarray, status: np.ndarray,
+    beam: Beam, rule: str, factors: np.ndarray, varied: Varied, closed: np.ndarray, status: np.ndarray,
     nodes: tuple[np.ndarray, np.ndarray, np.ndarray], names: Collection[str],
 ) -> dict[str, tuple[np.ndarray, np.ndarray]] | None:  # fmt: skip
     """Find the largest and smallest values of fields.
@@ -28,8 +29,8 @@ def case_extremes(
         The beam.
     rule : {"block", "single"}
         How working schemes are found.
-    factors, supports : numpy.ndarray
-        As for `Beam.solve_cases`.
+    factors, varied
+        As for `solve_cases`, moduli as they are.
     closed, status : numpy.ndarray of int
         Working schemes, cases by supports of the engine; 0 where a case is solved.
     nodes : tuple of numpy.ndarray
@@ -50,19 +51,19 @@ def case_extremes(
     """
     if not set(names) <= set(HERE):
         return None
-    found = _follow(beam, rule, factors, supports, closed, status, nodes, names, np.zeros(0, np.int32), np.zeros(0))
+    found = _follow(beam, rule, factors, varied, closed, status, nodes, names, np.zeros(0, np.int32), np.zeros(0))
     return found and {name: tuple(values[:, HERE.index(name)] for values in found[:2]) for name in names}
 
 
 def case_fields(
-    beam: Beam, rule: str, factors: np.ndarray, supports: np.ndarray | None, closed: np.ndarray, status: np.ndarray,
+    beam: Beam, rule: str, factors: np.ndarray, varied: Varied, closed: np.ndarray, status: np.ndarray,
     nodes: tuple[np.ndarray, np.ndarray, np.ndarray], piece: np.ndarray, distance: np.ndarray,
 ) -> dict[str, np.ndarray] | None:  # fmt: skip
     """Find fields at places.
 
     Parameters
     ----------
-    beam, rule, factors, supports, closed, status, nodes
+    beam, rule, factors, varied, closed, status, nodes
         As for `case_extremes`.
     piece, distance : numpy.ndarray
         The places, as for `Beam.values`.
@@ -77,12 +78,12 @@ def case_fields(
     MemoryError
         The system gives no more memory.
     """
-    found = _follow(beam, rule, factors, supports, closed, status, nodes, (), piece, distance)
+    found = _follow(beam, rule, factors, varied, closed, status, nodes, (), piece, distance)
     return found and {name: found[2][:, :, k] for k, name in enumerate(HERE)}
 
 
 def _follow(
-    beam: Beam, rule: str, factors: np.ndarray, supports: np.ndarray | None, closed: np.ndarray, status: np.ndarray,
+    beam: Beam, rule: str, factors: np.ndarray, varied: Varied, closed: np.ndarray, status: np.ndarray,
     nodes: tuple[np.ndarray, ...], names: Collection[str], piece: np.ndarray, distance: np.ndarray,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:  # fmt: skip
     """Find extremes, their places, and fields."""
@@ -97,13 +98,14 @@ def _follow(
     shares[:, :-1] = factors
     schemes = np.zeros((cases, beam.supports + 1), dtype=np.int32)
     schemes[:, :-1] = closed
-    own = np.zeros((cases, 1, 3)) if supports is None else supports
+    supports = np.zeros((cases, 1, 3)) if varied.supports is None else varied.supports
+    spans = np.zeros((cases, 1, 2)) if varied.spans is None else varied.spans
     solutions = schemes, *(np.ascontiguousarray(one) for one in nodes)
     some = max(NODES_AT_A_TIME // (beam.links + 1 + places), 1)
     for first in range(0, cases, some):
         part = slice(first, first + some)
         there = _engine.gbcext(
-            beam.handle, shares[part].T, own[part].T, RULES[rule], *(one[part].T for one in solutions), want,
+            beam.handle, shares[part].T, supports[part].T, spans[part].T, RULES[rule], *(one[part].T for one in solutions), want,
             extremes[part].T, x[part].T, *about, fields[part].T, state[part],
         )  # fmt: skip
         if not there:

@@ -228,7 +228,7 @@ class Cases:
     def _solutions(self) -> tuple[Any, ...] | None:
         """What fields follow from, as `case_extremes` takes it; None where they do not."""
         asked = self._asked
-        if asked.states is not None or asked.varied.spans is not None:
+        if asked.states is not None:
             return None
         status, names = np.atleast_1d(self.status), WANTED[:3]
         if set(names) <= set(self._names):
@@ -237,7 +237,7 @@ class Cases:
             found = solve_cases(asked.beam, asked.factors, asked.rule, asked.closed, asked.varied, names)
             status = np.where(status == Status.SOLVED, found["status"], status)
             nodes = tuple(found[name] for name in names)
-        return asked.beam, asked.rule, asked.factors, asked.varied.supports, asked.closed, status, nodes
+        return asked.beam, asked.rule, asked.factors, asked.varied, asked.closed, status, nodes
 
     def states(self) -> Combined:
         """Values at all supports and extremes of all fields, of all cases in few calls of the engine.

@@ -114,8 +114,9 @@ def vary(scene: Scene, columns: Columns, given: Mapping[str, Given], count: int)
                     spans = np.broadcast_to(columns.span[[1, 2]].T, (count, columns.span.shape[1], 2)).copy()
                 of_key = spans[:, :, OF_SPANS.index(key)]
                 which = _take(key, values, [SimpleNamespace(name=None)] * len(scene.beam.spans), "span", of_key)
-                places = [f"beam.{key}[{k}]" for k in which]
-                _refuse(~(of_key[:, which] > 0.0), of_key[:, which], places, "expected a number above 0, inf is rigid")
+                if not (of_key[:, :-1] > 0.0).all():  # the scene's own are
+                    found, places = of_key[:, which], [f"beam.{key}[{k}]" for k in which]
+                    _refuse(~(found > 0.0), found, places, "expected a number above 0, inf is rigid")
             else:
                 moduli = np.full((count, len(scene.foundation) + 1), -1.0)
                 _check_moduli(columns, _take(key, values, scene.foundation, "foundation", moduli), moduli)

@@ -1,0 +1,235 @@
+!> What links of cases whose spans have other stiffnesses are made of (gapbeam_lane_links)
+module gapbeam_lane_spans
+    use gapbeam_kinds, only: wp
+    use gapbeam_element, only: moment_integrals
+    use gapbeam_link, only: piece_type, piece_load_type, along_type, next_piece, moments_about_right_end
+    use gapbeam_law_forms, only: least_stiffness
+    use gapbeam_units, only: turning_unit, rotation_unit
+    use gapbeam_lowered, only: lowered_type, in_bending, in_shear
+    use gapbeam_cases, only: case_loads_type
+    use gapbeam_lane_types, only: lanes, lane_beam_type, lane_pieces_type, lane_spans_type, pack_type, link_bending
+    use gapbeam_lane_levels, only: make_links_at
+    use gapbeam_lane_pieces, only: prepare_pieces
+    implicit none
+    private
+    public :: span_room_type, fits_spans, prepare_spans, take_spans, make_pack_links, ease_ratio
+
+    !> Weak springs relative to the softest stiffness present, as in gapbeam_scheme
+    real(wp), parameter :: ease_ratio = 1e-5_wp
+    !> Stiffnesses between 2**-100 and 2**100 in the engine's units leave room for all products, in the units of the case too
+    integer, parameter :: most_power = 100
+    !> Exponents of the units of stiffnesses up to which powers of two and their products with these are doubles
+    integer, parameter :: most_unit = 900
+    !> Pieces of links times loads on them: beyond that they leave the processor's memory
+    integer, parameter :: most_terms = 100000
+    !> No load on a piece
+    type(piece_load_type), parameter :: nothing = piece_load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
+
+    !> What eight cases with spans of their own need
+    type :: span_room_type
+        type(lane_spans_type) :: spans
+        !> EI and GA of the spans in the scene's units, shape (lanes, 2, nspan)
+        real(wp), allocatable :: stiffness(:, :, :)
+        !> 1/EI and 1/GA of the pieces, shape (lanes, npiece)
+        real(wp), allocatable :: flexibility(:, :), shear_flexibility(:, :)
+    end type span_room_type
+
+contains
+
+    !> Are loads on links of many pieces so few that lanes hold them
+    pure function fits_spans(lowered, loads) result(fits)
+        type(lowered_type), intent(in) :: lowered
+        type(case_loads_type), intent(in) :: loads
+        logical :: fits
+
+        fits = terms_of(lowered, loads) <= most_terms
+    end function fits_spans
+
+    !> Pieces of links times loads on them, not much above most_terms
+    pure function terms_of(lowered, loads) result(number)
+        type(lowered_type), intent(in) :: lowered
+        type(case_loads_type), intent(in) :: loads
+        integer :: number, k
+
+        number = 0
+        do k = 1, size(loads%of_links)
+            associate (i => loads%of_links(k)%link)
+                number = number + lowered%node_point(i) - lowered%node_point(i - 1)
+            end associate
+            if (number > most_terms) return
+        end do
+    end function terms_of
+
+    !> What does not differ from case to case
+    subroutine prepare_spans(lowered, loads, room, made)
+        type(lowered_type), intent(in) :: lowered
+        type(case_loads_type), intent(in) :: loads
+        type(span_room_type), intent(out) :: room
+        !> False where memory ends
+        logical, intent(out) :: made
+        type(lane_pieces_type) :: pieces
+        integer :: j, m, n, stat, powers(2)
+
+        call prepare_pieces(lowered, 1, pieces, made)
+        if (.not. made) return
+        n = size(lowered%pieces)
+        m = size(loads%of_links)
+        associate (spans => room%spans, units => lowered%units)
+            allocate (spans%span(2, n), spans%own(2, n), spans%last(0:size(lowered%beam%links)), spans%length(n), spans%before(n), &
+                      spans%link(m), spans%last_term(0:m), spans%sizes(2, m), &
+                      spans%terms(10, terms_of(lowered, loads)), room%stiffness(lanes, 2, size(lowered%model%spans)), &
+                      room%flexibility(lanes, n), room%shear_flexibility(lanes, n), stat=stat)
+            made = stat == 0
+            if (.not. made) return
+            powers = [turning_unit(units) + units%length, units%force - rotation_unit(units)]
+            if (all(abs(powers) < most_unit)) then
+                spans%power = scale(1.0_wp, -powers)
+                spans%least = scale(1.0_wp, powers - most_power)
+                spans%most = scale(1.0_wp, powers + most_power)
+            end if
+            spans%softest = least_stiffness(lowered%beam%supports)
+            spans%last(:) = pieces%last
+            spans%length(:) = pieces%length
+            spans%before(:) = pieces%before
+            do j = 1, n
+                spans%span(:, j) = lowered%point_span(j - 1) + 1
+                if (allocated(lowered%section_of)) then
+                    if (lowered%section_of(in_bending, j) > 0) spans%span(1, j) = 0
+                    if (lowered%section_of(in_shear, j) > 0) spans%span(2, j) = 0
+                end if
+                spans%own(:, j) = [lowered%pieces(j)%flexibility, lowered%pieces(j)%shear_flexibility]
+            end do
+            spans%link(:) = loads%of_links%link
+        end associate
+        call prepare_loads(lowered, loads, pieces, room%spans, made)
+    end subroutine prepare_spans
+
+    !> What loads do to links, whatever the stiffnesses
+    subroutine prepare_loads(lowered, loads, pieces, spans, made)
+        type(lowered_type), intent(in) :: lowered
+        type(case_loads_type), intent(in) :: loads
+        !> With the loads on them in the order of loads
+        type(lane_pieces_type), intent(in) :: pieces
+        type(lane_spans_type), intent(inout) :: spans
+        !> False where memory ends
+        logical, intent(out) :: made
+        type(piece_load_type), allocatable :: on_link(:)
+        real(wp), allocatable :: work(:)
+        integer :: j, k, stat
+
+        allocate (on_link(size(spans%length)), work(size(spans%length)), stat=stat)
+        made = stat == 0
+        if (.not. made) return
+        on_link(:) = nothing
+        spans%last_term(0) = 0
+        j = 0
+        do k = 1, size(spans%link)
+            associate (first => spans%last(spans%link(k) - 1) + 1, last => spans%last(spans%link(k)), &
+                       before => spans%last_term(k - 1))
+                do while (j < size(pieces%load))
+                    if (pieces%load(j + 1) /= loads%of_links(k)%load .or. pieces%piece(j + 1) > last) exit
+                    j = j + 1
+                    associate (q => pieces%to_piece(:, j))
+                        on_link(pieces%piece(j)) = piece_load_type(q(1), q(2), q(3), q(4), q(5))
+                    end associate
+                end do
+                spans%last_term(k) = before + (last - first + 1)
+                if (first == last) then
+                    associate (l => spans%length(first), q => on_link(first), terms => spans%terms(:, before + 1))
+                        terms(:) = 0.0_wp
+                        call moment_integrals(l, 0.0_wp, 0.0_wp, q%qa, q%qb, terms(1), terms(2))
+                        terms(3) = q%kappa*l/2
+                        spans%sizes(:, k) = [abs(q%kappa)*l, (abs(q%qa) + abs(q%qb))*l*(l*l/l)]
+                    end associate
+                else
+                    call go_along(lowered%beam%links(spans%link(k))%length, lowered%pieces(first:last), on_link(first:last), work, &
+                                  spans%terms(:, before + 1:spans%last_term(k)), spans%sizes(:, k))
+                end if
+                on_link(first:last) = nothing
+            end associate
+        end do
+    end subroutine prepare_loads
+
+    !> Terms of a load on a link of several pieces, as condense_loads of gapbeam_link has them
+    pure subroutine go_along(whole, pieces, loads, work, terms, sizes)
+        !> Length of the link
+        real(wp), intent(in) :: whole
+        !> Pieces, and the load on them, shape (n)
+        type(piece_type), intent(in) :: pieces(:)
+        type(piece_load_type), intent(in) :: loads(:)
+        !> Shape (at least n)
+        real(wp), intent(inout) :: work(:)
+        !> As in lane_spans_type
+        real(wp), intent(out) :: terms(:, :), sizes(:)
+        type(along_type) :: at
+        real(wp) :: right_end
+        integer :: j, n
+
+        n = size(loads)
+        call moments_about_right_end(pieces, loads, work, right_end)
+        sizes(1) = 0.0_wp
+        do j = 1, n
+            call next_piece(pieces(j)%length, loads(j), whole, merge(right_end, work(max(1, j - 1)), j == 1), work(j), j == n, at)
+            terms(:, j) = [at%left, at%right, loads(j)%kappa*pieces(j)%length/2, 1 - at%x0/whole, at%x0/whole, 1 - at%x1/whole, &
+                           at%x1/whole, at%m1 - at%m0, abs(at%m0) + abs(at%m1), merge(0.0_wp, loads(j)%couple, j == n)]
+            sizes(1) = sizes(1) + abs(loads(j)%kappa)*pieces(j)%length
+        end do
+        sizes(2) = at%peaks
+    end subroutine go_along
+
+    !> Take the stiffnesses of a case
+    pure subroutine take_spans(given, l, room, outside)
+        !> EI and GA of every span, shape (2, nspan)
+        real(wp), intent(in) :: given(:, :)
+        !> Its lane
+        integer, intent(in) :: l
+        type(span_room_type), intent(inout) :: room
+        !> Some are rigid or too far from the others for what is made of them here; they are replaced
+        logical, intent(out) :: outside
+        integer :: i
+        logical :: fits
+
+        outside = .false.
+        associate (least => room%spans%least, most => room%spans%most)
+            do i = 1, size(given, 2)
+                fits = given(1, i) >= least(1) .and. given(1, i) <= most(1) .and. given(2, i) >= least(2) &
+                    .and. (given(2, i) <= most(2) .or. given(2, i) > huge(1.0_wp))
+                outside = outside .or. .not. fits
+                room%stiffness(l, :, i) = given(:, i)
+                if (.not. fits) room%stiffness(l, :, i) = 1/room%spans%power
+            end do
+        end associate
+    end subroutine take_spans
+
+    !> Make the links of eight cases whose stiffnesses have been taken
+    subroutine make_pack_links(level, room, beam, pack)
+        !> Instructions (gapbeam_lane_levels)
+        integer, intent(in) :: level
+        type(span_room_type), intent(inout) :: room
+        !> What loads do to links, and weak springs, out
+        type(lane_beam_type), intent(inout) :: beam
+        !> Numbers of the links out
+        type(pack_type), intent(inout) :: pack
+        integer :: l
+
+        call make_links_at(level, room%spans, beam%length, room%stiffness, room%flexibility, room%shear_flexibility, pack%links, &
+                           beam%to_link)
+        do l = 1, lanes
+            beam%ease(l) = ease_of(room%spans%softest, sum(pack%links(l, link_bending, :)), sum(beam%length), beam%n)
+        end do
+    end subroutine make_pack_links
+
+    !> Stiffness of the weak springs of a case: softest of gapbeam_model
+    pure function ease_of(softest, bending, length, n) result(ease)
+        !> Of the supports; of the beam: flexibility, length, links
+        real(wp), intent(in) :: softest, bending, length
+        integer, intent(in) :: n
+        real(wp) :: ease
+
+        ease = softest
+        if (bending > 0.0_wp) ease = min(ease, 1/(bending*length**2))
+        if (.not. ease < huge(ease)) ease = 1.0_wp
+        ease = ease_ratio*(ease/(n + 1))
+    end function ease_of
+
+end module gapbeam_lane_spans
