@@ -125,6 +125,19 @@ def scaled_scene(seed, factor):
     return made
 
 
+def test_a_part_of_a_beam_on_an_edge():
+    """A load at the very end of the ground tips the part up to the first hinge; the part behind the next one lies on the ground."""
+    made = {"beam": {"spans": [6.0], "EI": 2850.0, "hinges": [1.7, 2.3]}, "foundation": [{"k": 196.0, "side": "below"}],
+            "loads": [{"type": "force", "x": 0.0, "F": 43.0}, {"type": "uniform", "q": 5.0, "from": 2.3}]}  # fmt: skip
+    result = gapbeam.solve(made)
+    assert result.status == "no-equilibrium"
+    assert "the part between the left end and the hinge at x = 1.7 tips about x = 0: its left end stays" in result.reason
+    assert "moves" not in result.reason
+    made["loads"][0]["x"] = 1e-4
+    zone, _ = gapbeam.solve(made).steps[-1].contact
+    assert (zone.from_, zone.to, zone.resultant) == (0.0, pytest.approx(3e-4, rel=1e-9), pytest.approx(43.0, rel=1e-9))
+
+
 def test_a_beam_about_to_tip_over_an_edge():
     """All of it stands on 6e-7 next to the edge, in three zones, two of them 1e-12 long; and then it tips."""
     made = scaled_scene(10316, 0.0383832)

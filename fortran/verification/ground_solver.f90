@@ -73,10 +73,10 @@ contains
         type(workspace_type) :: work
         type(fine_ground_type) :: fine
         logical, allocatable :: start(:)
-        logical :: settled, known, on_edge, collapses, tied, stands, curves
+        logical :: settled, known, on_edge, collapses, tied, stands, curves, carries
         real(wp) :: moved
         real(wp), allocatable :: motion(:)
-        integer :: try, last, solves
+        integer :: try, last, solves, edges
 
         call reserve_memory(for_ground, size(ground%pieces), size(closed), 0, error)
         if (allocated(error)) return
@@ -85,6 +85,7 @@ contains
         call refine_ground(ground, detail, fine)
         call full_contact(ground, zones)
         on_edge = .false.
+        edges = 0
         ! Near what curves bear zones take many rounds, which limit analysis may spare
         curves = any(has_curves(fine%layers))
         last = ubound(spring_numbers, 1)
@@ -133,16 +134,19 @@ contains
             if (allocated(error) .or. outcome%status /= gapbeam_solved) cycle
             ! Where it all but touches, only quadruple precision tells where; from full contact that is not worth while
             if (.not. known .and. try == 0 .and. moved > nearly) cycle
-            call settle_finely(fine, real(factor, qp), rule, zones, known, closed, solution, outcome, settled, error)
+            call settle_finely(fine, real(factor, qp), rule, zones, known, closed, solution, outcome, settled, carries, error)
             if (allocated(error)) then
                 ! Springs may tell that there is no equilibrium
                 if (all(error%code /= [gapbeam_not_converged, gapbeam_not_finite])) return
             end if
+            if (carries) edges = edges + 1
             if (allocated(error) .or. .not. settled) cycle
             call bound_errors(ground, grounded, work, factor, solution)
             return
         end do
         if (allocated(error)) return
+        ! From whatever zones it began, a part of the beam came to stand on an edge; the others may lie on the ground
+        on_edge = on_edge .or. edges == last + 1
         if (on_edge .and. outcome%status == gapbeam_no_equilibrium) then
             ! The last spring alone holds what no zone can, however short: the beam tips over the edge of the ground
             if (size(outcome%motion) /= size(grounded%node)) then
@@ -150,8 +154,9 @@ contains
                 motion(:) = outcome%motion(grounded%node)
                 call move_alloc(motion, outcome%motion)
             end if
+            outcome%motion(:) = merge(0.0_wp, outcome%motion, abs(outcome%motion) <= no_way)
             ! No support would stop it sooner or later
-            if (.not. is_blocked(ground%beam%supports, merge(0.0_wp, outcome%motion, abs(outcome%motion) <= no_way))) return
+            if (.not. is_blocked(ground%beam%supports, outcome%motion)) return
         end if
         call fatal_error(error, gapbeam_not_converged, "the zones in which the beam touches the ground could not be settled: "// &
                          "look for a load at the very end of the ground, or for ground that is far stiffer than the beam")
@@ -209,7 +214,7 @@ contains
     end function fine_law
 
     !> Go on in quadruple precision, and round what is found
-    subroutine settle_finely(fine, factor, rule, rough_zones, known, closed, solution, outcome, settled, error)
+    subroutine settle_finely(fine, factor, rule, rough_zones, known, closed, solution, outcome, settled, carries, error)
         type(fine_ground_type), intent(in) :: fine
         real(qp), intent(in) :: factor
         integer, intent(in) :: rule
@@ -220,7 +225,10 @@ contains
         type(ground_solution_type), intent(inout) :: solution
         type(outcome_type), intent(inout) :: outcome
         logical, intent(out) :: settled
+        !> Does a zone of no length carry a force
+        logical, intent(out) :: carries
         type(error_type), allocatable, intent(out) :: error
+        logical :: stands
         type(fine_zones_type) :: zones
         type(fine_grounded_type) :: grounded
         type(fine_workspace_type) :: work
@@ -239,6 +247,7 @@ contains
         zones%start(:, :) = rough_zones%start
         tolerance = merge(finest, movable, any(has_curves(fine%layers)))
         settled = .false.
+        carries = .false.
         if (known) then
             call polish_zones(fine, factor, rule, tolerance, zones, closed, grounded, work, found, settled, error)
             solution%solves = solution%solves + work%solves
@@ -271,8 +280,9 @@ contains
         end if
         call take_rounded(fine, factor, zones, grounded, closed, work, solution)
         outcome = outcome_type(status=found%status)
-        settled = .not. stands_on_edge(fine, factor, zones, grounded, work)
-        if (.not. settled) then
+        call stands_on_edge(fine, factor, zones, grounded, work, stands, carries)
+        settled = .not. stands
+        if (stands) then
             ! So it tips over the edge
             outcome = outcome_type(status=gapbeam_no_equilibrium)
             allocate (outcome%motion(0:size(fine%pieces)))

@@ -23,7 +23,7 @@ contains
 
     !> Does a zone of no length carry what none can: a force, as under a load at the very end of the ground, or a couple; or is the
     !> beam pressed into the ground there, which is so where it turns over an edge without end
-    pure function stands_on_edge(ground, factor, zones, grounded, work) result(stands)
+    pure subroutine stands_on_edge(ground, factor, zones, grounded, work, stands, carries)
         !> The beam and its ground, and the load factor
         type(ground_type), intent(in) :: ground
         real(qp), intent(in) :: factor
@@ -31,7 +31,8 @@ contains
         type(zones_type), intent(in) :: zones
         type(grounded_type), intent(in) :: grounded
         type(workspace_type), intent(in) :: work
-        logical :: stands
+        !> Any of these, and is it a force or a couple
+        logical, intent(out) :: stands, carries
         real(qp) :: length, force, way
         integer :: i
 
@@ -43,12 +44,13 @@ contains
             end do
         end associate
         stands = .false.
+        carries = .false.
         do i = 1, size(zones%piece)
             if (zones%to(i) - zones%from(i) > thinnest*length .or. .not. any(zones%acts(:, i) > 0)) cycle
-            stands = stands .or. force_on(grounded, factor, work, i, length) > nothing*force &
-                .or. depth_in(ground, zones, work, i) > nothing*way
+            carries = carries .or. force_on(grounded, factor, work, i, length) > nothing*force
+            stands = stands .or. carries .or. depth_in(ground, zones, work, i) > nothing*way
         end do
-    end function stands_on_edge
+    end subroutine stands_on_edge
 
     !> Force, or couple by the length of the beam, of the ground on a stretch: what shear and moment gain
     pure function force_on(grounded, factor, work, i, length) result(force)
