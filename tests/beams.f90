@@ -6,7 +6,7 @@ module beams
     use gapbeam_kinds, only: wp
     use gapbeam_link, only: piece_type, piece_load_type, condense_link
     use gapbeam_model, only: beam_type, node_support_type, order_supports
-    use gapbeam_referee, only: detail_type
+    use gapbeam_refined, only: detail_type
     implicit none
     private
     public :: sample_type, make_beam, detail_of, draw, draw_magnitude, infinite

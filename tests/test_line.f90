@@ -11,7 +11,7 @@ program test_line
     use gapbeam_system, only: solve_scheme
     use gapbeam_line, only: line_type, without_dead_loads, value_at, width_at, zero_of, falls, rises, stays_at_zero
     use gapbeam_stretch, only: stretch_type, new_stretch, start_stretch, change_supports, add_those_at_zero, next_in_queue, line_in
-    use gapbeam_referee, only: refine_beam
+    use gapbeam_refined, only: refine_beam
     use gapbeam_model_quad, only: fine_beam_type => beam_type
     use gapbeam_scheme_quad, only: outcome_type
     use gapbeam_cell, only: cell_type, find_cell

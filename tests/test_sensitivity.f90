@@ -4,7 +4,7 @@ program test_sensitivity
     use beams, only: sample_type, make_beam, detail_of, draw, draw_magnitude, infinite
     use gapbeam_kinds, only: wp, qp
     use gapbeam_model, only: node_support_type, below, both
-    use gapbeam_referee, only: refine_beam
+    use gapbeam_refined, only: refine_beam
     use gapbeam_band_quad, only: band_ok
     use gapbeam_model_quad, only: fine_beam_type => beam_type, is_rigid
     use gapbeam_workspace_quad, only: workspace_type, new_workspace, set_loads

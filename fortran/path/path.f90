@@ -25,7 +25,8 @@ module gapbeam_path
     use gapbeam_scheme, only: find_scheme, outcome_type
     use gapbeam_line, only: line_type, value_at, width_at, falls, stays_at_zero
     use gapbeam_redundancy, only: find_redundancy
-    use gapbeam_referee, only: detail_type, refine_beam, decide_scheme, reserve_for, rule_given
+    use gapbeam_refined, only: detail_type, refine_beam
+    use gapbeam_referee, only: decide_scheme, reserve_for, rule_given
     use gapbeam_scheme_quad, only: fine_outcome_type => outcome_type
     use gapbeam_line_quad, only: fine_value_at => value_at, fine_width_at => width_at
     use gapbeam_cell, only: find_cell

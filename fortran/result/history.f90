@@ -8,7 +8,8 @@ module gapbeam_history
     use gapbeam_model_quad, only: beam_type
     use gapbeam_line_quad, only: drop_live
     use gapbeam_scheme_quad, only: outcome_type
-    use gapbeam_referee, only: refine_beam, reserve_for
+    use gapbeam_refined, only: refine_beam
+    use gapbeam_referee, only: reserve_for
     use gapbeam_cell, only: find_cell, cell_type
     use gapbeam_ways, only: way_type, rise, fall, turn
     use gapbeam_branch, only: branch_type, segment_type, start_branch, step_branch, goes_on, no_way_on, never_ends

@@ -16,7 +16,8 @@ module gapbeam_certificate
     use gapbeam_sensitivity, only: sensitivity_type, prepare_sensitivity, largest_movement, of_deflections, of_rotations, &
         of_moments, of_shears, of_reactions
     use gapbeam_kinematics_quad, only: held_by_ties
-    use gapbeam_referee, only: detail_type, refine_loaded_beam, find_undecided, fine_piece, fine_load
+    use gapbeam_refined, only: detail_type, refine_loaded_beam, fine_piece, fine_load
+    use gapbeam_referee, only: find_undecided
     use gapbeam_element_quad, only: fine_field_type => field_type
     use gapbeam_model_quad, only: fine_beam_type => beam_type, softest
     use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type

@@ -17,7 +17,7 @@ module gapbeam_ground_solver
     use gapbeam_scheme, only: outcome_type
     use gapbeam_law, only: both
     use gapbeam_law_motions, only: is_blocked
-    use gapbeam_referee, only: detail_type, refine_beam, fine_piece, fine_load
+    use gapbeam_refined, only: detail_type, refine_beam, fine_piece, fine_load
     use gapbeam_layers, only: layer_type, law_piece_type
     use gapbeam_layers_quad, only: fine_layer_type => layer_type, fine_law_piece_type => law_piece_type, has_curves
     use gapbeam_ground_quad, only: fine_ground_type => ground_type, fine_zones_type => zones_type, &
