@@ -2,7 +2,6 @@
 !>
 !> Not of deferred length: gfortran keeps the length of such a result in static storage, which threads share.
 module gapbeam_words
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
     use gapbeam_kinds, only: wp
     implicit none
     private
@@ -15,6 +14,7 @@ contains
 
     !> A number as a user would write it, blanks behind it
     pure function shown(value) result(text)
+        use, intrinsic :: ieee_arithmetic, only: ieee_is_nan   ! see infinity of gapbeam_units
         real(wp), intent(in) :: value
         character(len=length) :: text
 

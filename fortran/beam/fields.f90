@@ -1,6 +1,5 @@
 !> Fields anywhere along the beam, and their extremes
 module gapbeam_fields
-    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_positive_inf, ieee_negative_inf
     use gapbeam_kinds, only: wp
     use gapbeam_element, only: field_type, fields_at
     use gapbeam_link, only: piece_type, piece_load_type, combine_loads
@@ -202,6 +201,14 @@ contains
         yes = high + margin*size < known(1) .and. low - margin*size > known(2)
     end function stays_between
 
+    !> Above and below all numbers
+    pure function infinities() result(values)
+        use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_positive_inf, ieee_negative_inf   ! see infinity of gapbeam_units
+        real(wp) :: values(2)
+
+        values(:) = [ieee_value(1.0_wp, ieee_positive_inf), ieee_value(1.0_wp, ieee_negative_inf)]
+    end function infinities
+
     !> Compare the value of a field at one place with its extremes so far
     pure subroutine consider(j, s, value, values, pieces, distances)
         !> Number of the piece, distance from its left end, the value there
@@ -214,7 +221,7 @@ contains
 
         if (.not. abs(value) <= huge(value)) then
             ! Nothing is beyond it: who asked will see it
-            values(:) = [ieee_value(value, ieee_positive_inf), ieee_value(value, ieee_negative_inf)]
+            values(:) = infinities()
             pieces(:) = j
             distances(:) = s
             return

@@ -1,6 +1,5 @@
 !> Is what the user gave possible, number by number; what depends on places that coincide is looked at in gapbeam_lower
 module gapbeam_check
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, fatal_error, gapbeam_bad_input
     use gapbeam_words, only: shown, whole
@@ -53,6 +52,7 @@ contains
 
     !> Lengths beside each other, hinges, sections and supports, each alone
     subroutine check_rest(model, with_law, ends, error)
+        use, intrinsic :: ieee_arithmetic, only: ieee_is_finite   ! see infinity of gapbeam_units
         !> With all arrays allocated
         type(model_type), intent(in) :: model
         !> Which supports have a law
@@ -272,6 +272,15 @@ contains
         if (.not. (allocated(error) .or. not_given(to))) call check_inside(to, "to", here, end, error)
     end subroutine check_stretch
 
+    !> Is it no number
+    pure function is_nan(x) result(yes)
+        use, intrinsic :: ieee_arithmetic, only: ieee_is_nan   ! see infinity of gapbeam_units
+        real(wp), intent(in) :: x
+        logical :: yes
+
+        yes = ieee_is_nan(x)
+    end function is_nan
+
     !> Refuse a place off the beam, by more than rounding
     pure subroutine check_inside(x, key, here, end, error)
         real(wp), intent(in) :: x
@@ -281,7 +290,7 @@ contains
         type(error_type), allocatable, intent(out) :: error
 
         if (x >= -position_tolerance*end .and. x <= end + position_tolerance*end) return
-        call refuse_entry(error, here, key, merge(not_expected, off_beam, ieee_is_nan(x)), &
+        call refuse_entry(error, here, key, merge(not_expected, off_beam, is_nan(x)), &
                     trim(shown(x))//" is outside the beam, which runs from x = 0 to x = "//shown(end))
         error%message = trim(error%message)
     end subroutine check_inside
