@@ -58,6 +58,27 @@ def test_one_case_has_the_bits_of_many(kind):
     assert same(copy.solve(rows[3], gap=gaps[3], settlement=moves[3]), moved, 3)
 
 
+def test_memory_of_results_is_used_again_only_when_nobody_has_them():
+    beam = gapbeam.prepare(scene(SPANS, PLAIN, LOADS))
+    rows = np.random.default_rng(6).uniform(-2.0, 5.0, (30, 3))
+    given = np.asfortranarray(rows)
+    kept = beam.solve(given)
+    reaction, moment, extremes = kept.reaction.copy(), kept.moment_left, kept.extremes()["moment"]["max"][0]
+    expected = moment.copy()
+    given[:] = 7.0  # what was asked for stays
+    address = beam.solve(rows[::-1]).reaction.ctypes.data
+    assert np.array_equal(kept.reaction, reaction)
+    assert np.array_equal(kept.extremes()["moment"]["max"][0], extremes)
+    assert beam.solve(rows).reaction.ctypes.data == address
+    del kept
+    for count in (30, 9, 200):
+        other = beam.solve(2.0 * rows[:count])
+        assert len(other.status) == min(count, 30)
+        assert np.array_equal(moment, expected)
+    assert np.array_equal(beam.solve(rows[:, :1] * [0.0, 0.0, 0.0]).reaction, np.zeros((30, 4)))
+    assert gapbeam.prepare(scene(SPANS, PLAIN, [])).solve(np.zeros((9, 0))).reaction.shape == (9, 4)
+
+
 def test_threads_share_a_prepared_beam():
     beam = gapbeam.prepare(scene(SPANS, KINDS["restrained"], LOADS))
     rows = np.random.default_rng(2).uniform(-2.0, 5.0, (400, 3))
