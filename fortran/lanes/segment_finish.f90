@@ -17,7 +17,7 @@ module gapbeam_segment_finish
 contains
 
     !> Find the working scheme of a case and its solution
-    pure subroutine solve_long_beam(beam, room, solves, doubtful)
+    subroutine solve_long_beam(beam, room, solves, doubtful)
         type(segment_beam_type), intent(in) :: beam
         !> Loads, supports and start in; scheme, solution and reactions out, by nodes
         type(segment_room_type), intent(inout) :: room
@@ -40,6 +40,7 @@ contains
         !> Is a sign wrong or within its rounding error, are digits lost, or numbers not finite
         logical, intent(out) :: doubtful
         integer :: n
+        logical :: exact
 
         n = beam%n
         associate (b => room%by_node)
@@ -49,7 +50,7 @@ contains
             call find_rest_along(n, beam%length, beam%faa, beam%fab, beam%fbb, room%left, room%right, b(:n, 4), b(:n, 1), &
                                  b(:n, 2), b(:n, 3), room%w, room%m, b(:n, 5), b(:n, 6))
             call put_rows(beam, b(:, 5), b(:, 6), room)
-            call solve_segments(beam, room)
+            call solve_segments(beam, half + 1, room, exact)
             call take_solution(beam, room, b(:, 5), b(:, 6))
             room%m(:) = room%m + b(:n, 5)
             room%w(:) = room%w + b(:n, 6)
@@ -82,13 +83,17 @@ contains
         type(segment_beam_type), intent(in) :: beam
         type(segment_room_type), intent(in) :: room
         real(wp), intent(inout) :: m(0:), w(0:)
-        integer :: l, s, i, step, begin
+        integer, dimension(lanes) :: first, step, begin
+        integer :: l, s
 
         do l = 1, lanes
-            call node_of(beam, l, i, step, begin)
-            do s = begin, beam%columns
-                m(i + (s - 1)*step) = room%solution(l, 1, s)
-                w(i + (s - 1)*step) = room%solution(l, 2, s)
+            call node_of(beam, l, first(l), step(l), begin(l))
+        end do
+        do s = 1, beam%columns
+            do l = 1, lanes
+                if (s < begin(l)) cycle
+                m(first(l) + (s - 1)*step(l)) = room%solution(l, 1, s)
+                w(first(l) + (s - 1)*step(l)) = room%solution(l, 2, s)
             end do
         end do
         m(beam%n/2) = room%middle(1)
@@ -100,13 +105,17 @@ contains
         type(segment_beam_type), intent(in) :: beam
         real(wp), intent(in) :: turn(0:), shear(0:)
         type(segment_room_type), intent(inout) :: room
-        integer :: l, s, i, step, begin
+        integer, dimension(lanes) :: first, step, begin
+        integer :: l, s
 
         do l = 1, lanes
-            call node_of(beam, l, i, step, begin)
-            do s = begin, beam%columns
-                room%row(l, 3, s) = turn(i + (s - 1)*step)
-                room%row(l, 4, s) = shear(i + (s - 1)*step)
+            call node_of(beam, l, first(l), step(l), begin(l))
+        end do
+        do s = 1, beam%columns
+            do l = 1, lanes
+                if (s < begin(l)) cycle
+                room%row(l, 3, s) = turn(first(l) + (s - 1)*step(l))
+                room%row(l, 4, s) = shear(first(l) + (s - 1)*step(l))
             end do
         end do
         room%middle_row(3) = turn(beam%n/2)

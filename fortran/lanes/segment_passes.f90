@@ -16,40 +16,43 @@ module gapbeam_segment_passes
 contains
 
     !> Solve the rows that are set
-    pure subroutine solve_segments(beam, room)
+    pure subroutine solve_segments(beam, most_rounds, room, exact)
         type(segment_beam_type), intent(in) :: beam
-        !> Rows in, with guesses; solution out
+        !> So often each way at most
+        integer, intent(in) :: most_rounds
+        !> Rows in, with guesses; solution out, and guesses from which to go on
         type(segment_room_type), intent(inout) :: room
+        !> Does every segment begin with what does come in; after as many rounds as there are segments in a half and one it does
+        logical, intent(out) :: exact
         real(wp) :: leaves(lanes, 5), found(lanes, 5), other(lanes, 2)
-        logical :: again, as_before
+        integer :: round
+        logical :: as_before
 
         leaves(:, :) = 0.0_wp
-        again = .false.
-        do
-            call go_inward(beam%columns, beam%start, beam%link, room%row, again, room%entry, leaves, room%passed, room%eliminated, &
-                           as_before)
-            if (as_before) exit
+        exact = .false.
+        do round = 1, most_rounds
+            call go_inward(beam%columns, beam%start, beam%link, room%row, round > 1, room%entry, leaves, room%passed, &
+                           room%eliminated, as_before)
             found(:, :) = room%entry
             found(2:half, :) = leaves(1:half - 1, :)
             found(half + 2:, :) = leaves(half + 1:lanes - 1, :)
-            if (.not. sum(abs(found - room%entry)) > 0.0_wp) exit
+            exact = as_before .or. .not. sum(abs(found - room%entry)) > 0.0_wp
+            if (exact) exit
             room%entry(:, :) = found
-            again = .true.
         end do
         call meet(room%middle_row, leaves(half, :), leaves(lanes, :), room%middle)
         room%next(half, :) = room%middle
         room%next(lanes, :) = room%middle
-        again = .false.
-        do
-            call go_outward(beam%columns, room%eliminated, room%next, again, room%solution, as_before)
+        do round = 1, most_rounds
+            call go_outward(beam%columns, room%eliminated, room%next, round > 1, room%solution, as_before)
             if (as_before) exit
             other(:, :) = room%next
             other(1:half - 1, :) = room%solution(2:half, :, 1)
             other(half + 1:lanes - 1, :) = room%solution(half + 2:, :, 1)
             if (.not. sum(abs(other - room%next)) > 0.0_wp) exit
             room%next(:, :) = other
-            again = .true.
         end do
+        exact = exact .and. round <= most_rounds
         ! What segments see of each other
         room%solution(2:half, :, 0) = room%solution(1:half - 1, :, beam%columns)
         room%solution(half + 2:, :, 0) = room%solution(half + 1:lanes - 1, :, beam%columns)
@@ -135,8 +138,9 @@ contains
 
     !> The end of the beam, whatever has been passed on before (start_at_free_end of gapbeam_kernel)
     pure subroutine begin_at_end(link, row, eliminated, phi, beta, delta, e, p)
-        real(wp), intent(in) :: link(8), row(4)
-        real(wp), intent(out) :: eliminated(6), phi, beta, delta, e, p
+        real(wp), intent(in) :: link(:), row(:)
+        real(wp), intent(inout) :: eliminated(:)
+        real(wp), intent(out) :: phi, beta, delta, e, p
         real(wp) :: softness, deflection
 
         softness = row(2)/row(1)
@@ -151,7 +155,7 @@ contains
 
     !> The node in the middle
     pure subroutine meet(row, left, right, solution)
-        real(wp), intent(in) :: row(4), left(5), right(5)
+        real(wp), intent(in) :: row(4), left(:), right(:)
         !> Moment and deflection
         real(wp), intent(out) :: solution(2)
         real(wp) :: a, b, c, r, v, reciprocal

@@ -1,8 +1,8 @@
-!> The working scheme of a long beam in segments, by the search of gapbeam_lane_search, scheme by scheme.
+!> The working scheme of a long beam in segments.
 !>
-!> Every wrong support is changed at once; where that makes no progress for some solves, those at every other node. Where the
-!> support of an end is to be opened, or nothing helps, the case is given up. Signs are taken as they come: the scheme is looked at
-!> again (segment_finish), and a scheme without doubt is the only one there is, so it does not matter how it was found.
+!> Every wrong support but those of the ends, which hold the beam, is changed at once; where that makes no progress, one in every
+!> neighbourhood. Where nothing helps, or an end is wrong at last, the case is given up. Signs are taken as they come: the scheme
+!> is looked at again (segment_finish), and a scheme without doubt is the only one there is, so it does not matter how it was found.
 module gapbeam_segment_search
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes
@@ -12,13 +12,20 @@ module gapbeam_segment_search
     private
     public :: search_segments
 
-    !> Solves at most; without progress before fewer supports are changed at a time, and before the case is given up
-    integer, parameter :: most_solves = 80, patience = 5, last_patience = 16
+    !> Solves at most, without progress, and with an end that is wrong
+    integer, parameter :: most_solves = 50, patience = 5, end_patience = 3
+    !> Without progress so few wrong supports, or as many as there are after so many solves, are changed only where others near them
+    !> are not. Before that fronts move, which takes long step by step
+    integer, parameter :: few = 16, few_solves = 2
+    !> Rounds of a solve (gapbeam_segment_passes): what is not yet exact goes on with the next one
+    integer, parameter :: most_rounds = 2
+    !> So many nodes farther on supports hardly turn each other round
+    integer, parameter :: neighbourhood = 20
 
 contains
 
     !> Find the working scheme
-    pure subroutine search_segments(beam, room, solves, found)
+    subroutine search_segments(beam, room, solves, found)
         type(segment_beam_type), intent(in) :: beam
         !> Loads, supports and start in; scheme and solution out
         type(segment_room_type), intent(inout) :: room
@@ -26,39 +33,40 @@ contains
         integer, intent(out) :: solves
         !> Is there a scheme in which nothing is wrong
         logical, intent(out) :: found
-        real(wp) :: odd(lanes)
-        integer :: fewest, idle, number, columns, l, first, step, begin
-        logical :: middle_is_wrong
+        integer :: fewest, idle, with_wrong_end, number, columns
+        logical :: exact, middle_is_wrong, ends_are_right
 
         solves = 0
         found = .false.
         fewest = huge(0)
         idle = 0
+        with_wrong_end = 0
         room%entry(:, :) = 0.0_wp
         room%next(:, :) = 0.0_wp
         call set_rows(beam, room)
-        do l = 1, lanes
-            call node_of(beam, l, first, step, begin)
-            odd(l) = real(modulo(first, 2), wp)
-        end do
-        do while (solves < most_solves .and. ends_hold(beam, room))
-            call solve_segments(beam, room)
+        room%support(1, 5, beam%start(1)) = 0.0_wp
+        room%support(half + 1, 5, beam%start(2)) = 0.0_wp
+        if (.not. ends_hold(beam, room)) return
+        do while (solves < most_solves)
+            call solve_segments(beam, most_rounds, room, exact)
             solves = solves + 1
             call find_wrong(beam%columns, beam%link, room%solution, room%support, room%wrong, room%changed, columns, number)
-            call look_at_middle(beam, room, middle_is_wrong)
+            middle_is_wrong = 0.0_wp < badness(room%middle_support, room%middle(2), &
+                                       (room%solution(half, 1, beam%columns) - room%middle(1))*beam%link(half, 1, beam%columns), &
+                                       (room%solution(lanes, 1, beam%columns) - room%middle(1))*beam%link(lanes, 1, beam%columns))
             if (middle_is_wrong) number = number + 1
-            found = number == 0
-            if (found) then
-                call take_scheme(beam, room)
-                return
-            end if
+            ends_are_right = .not. (end_is_wrong(beam, room, 1, beam%start(1), beam%changing(0)) &
+                                    .or. end_is_wrong(beam, room, half + 1, beam%start(2), beam%changing(beam%n)))
+            found = number == 0 .and. ends_are_right .and. exact
+            if (found) call take_scheme(beam, room)
+            with_wrong_end = merge(0, with_wrong_end + 1, ends_are_right)
+            if (number == 0 .and. exact .or. with_wrong_end == end_patience) return
+            if (number == 0) cycle
             idle = merge(0, idle + 1, number < fewest)
             fewest = min(fewest, number)
-            if (idle > last_patience) return
-            if (idle >= patience) then
-                call spare_every_other(solves, odd, room%changed(:columns), room%wrong)
-                middle_is_wrong = middle_is_wrong .and. modulo(beam%n/2, 2) /= modulo(solves, 2)
-            end if
+            if (idle > patience) return
+            if (idle > 0 .and. (number <= few .or. idle > few_solves)) call keep_local_worst(beam, &
+                room%changed(:columns), room)
             call change(room%changed(:columns), room%wrong, room%support, room%row)
             if (middle_is_wrong) then
                 room%middle_support(6) = 1.0_wp - room%middle_support(6)
@@ -80,14 +88,18 @@ contains
     pure subroutine set_rows(beam, room)
         type(segment_beam_type), intent(in) :: beam
         type(segment_room_type), intent(inout) :: room
-        integer :: l, s, i, step, begin
+        integer, dimension(lanes) :: first, step, begin
+        integer :: l, s, i
 
         do l = 1, lanes
-            call node_of(beam, l, i, step, begin)
-            i = i + (begin - 1)*step
-            do s = begin, beam%columns
+            call node_of(beam, l, first(l), step(l), begin(l))
+        end do
+        ! Column by column: what is written lies together
+        do s = 1, beam%columns
+            do l = 1, lanes
+                if (s < begin(l)) cycle
+                i = first(l) + (s - 1)*step(l)
                 call set_node(room, i, beam%changing(i), room%support(l, :, s), room%row(l, :, s))
-                i = i + step
             end do
         end do
         i = beam%n/2
@@ -126,7 +138,7 @@ contains
         row(4) = (support(1) + spring*support(4))*free + held*support(4)
     end subroutine apply
 
-    !> Which supports have the wrong state, but for the node in the middle
+    !> Which supports have the wrong state, but for the node in the middle and the ends
     pure subroutine find_wrong(columns, link, solution, support, wrong, changed, number_of_columns, number)
         integer, intent(in) :: columns
         real(wp), intent(in) :: link(lanes, 8, 0:columns), solution(lanes, 2, 0:columns + 1), support(lanes, 6, columns)
@@ -150,7 +162,7 @@ contains
                 m = solution(l, 1, s)
                 outward = (solution(l, 1, s - 1) - m)*link(l, 1, s - 1)
                 inward = (solution(l, 1, s + 1) - m)*link(l, 1, s)
-                ! From left to right, as in lanes
+                ! From left to right
                 force = -side*((support(l, 1, s) + merge(outward, inward, l <= half)) + merge(inward, outward, l <= half))
                 pressing = side*(solution(l, 2, s) - support(l, 4, s))
                 bad = pressing - acts*(pressing + pressing*support(l, 2, s))
@@ -166,42 +178,80 @@ contains
         end do
     end subroutine find_wrong
 
-    !> The same of the node in the middle
-    pure subroutine look_at_middle(beam, room, is_wrong)
+    !> The same of an end
+    pure function end_is_wrong(beam, room, l, s, changing) result(wrong)
         type(segment_beam_type), intent(in) :: beam
         type(segment_room_type), intent(in) :: room
-        logical, intent(out) :: is_wrong
+        !> Segment, column, and side of its support where that may change
+        integer, intent(in) :: l, s
+        real(wp), intent(in) :: changing
+        logical :: wrong
+        real(wp) :: support(6)
+
+        support(:) = room%support(l, :, s)
+        support(5) = changing
+        wrong = 0.0_wp < badness(support, room%solution(l, 2, s), 0.0_wp, &
+                                 (room%solution(l, 1, s + 1) - room%solution(l, 1, s))*beam%link(l, 1, s))
+    end function end_is_wrong
+
+    !> By how much a support pulls, or is penetrated
+    pure function badness(support, w, left, right) result(bad)
+        !> As in segment_room_type
+        real(wp), intent(in) :: support(:)
+        !> Deflection of its node, and the forces that come from the links beside it
+        real(wp), intent(in) :: w, left, right
         real(wp) :: bad
 
-        associate (s => room%middle_support, m => room%middle(1), w => room%middle(2), last => beam%columns)
-            if (s(6)*s(3) > 0.5_wp) then
-                bad = -s(5)*(s(1) + (room%solution(half, 1, last) - m)*beam%link(half, 1, last) &
-                             + (room%solution(lanes, 1, last) - m)*beam%link(lanes, 1, last))
-            else
-                bad = s(5)*(w - s(4))
-                bad = bad - s(6)*(bad + bad*s(2))
-            end if
-        end associate
-        is_wrong = bad > 0.0_wp
-    end subroutine look_at_middle
+        if (support(6)*support(3) > 0.5_wp) then
+            bad = -support(5)*((support(1) + left) + right)
+        else
+            bad = support(5)*(w - support(4))
+            bad = bad - support(6)*(bad + bad*support(2))
+        end if
+    end function badness
 
-    !> Where there is no progress, change only every other node, in turn
-    pure subroutine spare_every_other(solves, odd, changed, wrong)
-        integer, intent(in) :: solves
-        !> 1 where the node of column 1 has an odd number
-        real(wp), intent(in) :: odd(lanes)
+    !> One change in every neighbourhood: put back the support that is penetrated most; where there is none, release the one that
+    !> pulls most
+    pure subroutine keep_local_worst(beam, changed, room)
+        type(segment_beam_type), intent(in) :: beam
         !> Columns in which something is to be changed
         integer, intent(in) :: changed(:)
-        real(wp), intent(inout) :: wrong(:, :)
-        real(wp) :: kept(lanes)
-        integer :: j
+        type(segment_room_type), intent(inout) :: room
+        real(wp) :: bad, worst
+        integer :: l, j, s, first, step, begin, node, before, lane, column
+        logical :: opens, worst_opens, near, worse
 
-        do j = 1, size(changed)
-            ! Nodes go up or down by one a column
-            kept(:) = merge(odd, 1.0_wp - odd, modulo(solves + changed(j) - 1, 2) == 0)
-            wrong(:, changed(j)) = wrong(:, changed(j))*kept
+        before = -2*neighbourhood
+        worst = 0.0_wp
+        worst_opens = .false.
+        lane = 1
+        column = 1
+        ! From the left end to the middle, then from the right end
+        do l = 1, lanes
+            call node_of(beam, l, first, step, begin)
+            do j = 1, size(changed)
+                s = changed(j)
+                if (.not. room%wrong(l, s) > 0.5_wp) cycle
+                node = first + (s - 1)*step
+                opens = room%support(l, 6, s) > 0.5_wp
+                bad = badness(room%support(l, :, s), room%solution(l, 2, s), &
+                              (room%solution(l, 1, s - 1) - room%solution(l, 1, s))*beam%link(l, 1, s - 1), &
+                              (room%solution(l, 1, s + 1) - room%solution(l, 1, s))*beam%link(l, 1, s))
+                near = abs(node - before) <= neighbourhood
+                worse = merge(bad > worst, worst_opens, opens .eqv. worst_opens)
+                before = node
+                if (near .and. .not. worse) then
+                    room%wrong(l, s) = 0.0_wp
+                else
+                    if (near) room%wrong(lane, column) = 0.0_wp
+                    lane = l
+                    column = s
+                    worst = bad
+                    worst_opens = opens
+                end if
+            end do
         end do
-    end subroutine spare_every_other
+    end subroutine keep_local_worst
 
     !> Change what is wrong
     pure subroutine change(changed, wrong, support, row)

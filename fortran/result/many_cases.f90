@@ -85,7 +85,7 @@ contains
                 end if
             else if (room%is_long .and. (size(status) < few .or. size(lowered%beam%links) >= least_alone)) then
                 call solve_in_segments(lowered, loads, factors, values, room%segments, closed, w, ml, mr, reaction, solves, done)
-                ! Solves are the same alone and in company
+                ! Lanes hold ends that open
                 do i = 1, size(status)
                     if (.not. (done(i) .or. .not. room%fits)) call solve_beside(i, i)
                 end do
