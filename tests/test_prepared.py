@@ -116,6 +116,27 @@ def test_no_loads():
     assert beam.solve().reaction.tolist() == [0.0, 0.0]
 
 
+def test_loads_of_which_rounding_leaves_nothing():
+    """Beside a movement of a support: reactions to them were said to be zero, from 1e-40 on or so, where even rounding was gone."""
+    supports = [at(0, stiffness=1.0, settlement=0.25), at(1, side="below", gap=0.125)]
+    beam = gapbeam.prepare(scene([4.0, 4.0], supports, [force(6.609375, 1.0)], EI=0.5))
+    cases = beam.solve([[1e-20], [1e-36], [1e-100], [1e-300]])
+    assert cases.status.tolist() == [0, 13, 13, 13]
+    assert cases.reaction[0] == pytest.approx([-0.65234375e-20, 1.65234375e-20], rel=1e-12)
+
+
+def test_great_cases_leave_nothing_behind():
+    """The search for one of them ended with positions that are no numbers; later cases came out with other last digits or codes."""
+    beam = gapbeam.prepare({
+        "beam": {"spans": [1.328125, 3.296875], "EI": 1000.0, "GA": 1000.0, "hinges": [0.171875]},
+        "supports": [at(0, side="below", settlement=0.0085), at(0, side="above", gap=0.0001, settlement=0.0085), at(1), at(2)],
+        "loads": [{"type": "linear", "q": [1.676, 1.682]}],
+    })  # fmt: skip
+    alone, after = beam.solve([-1.0]), beam.solve([[-1.9918128850552894e305], [-1.0]])
+    assert (after.reaction[1] == alone.reaction).all()
+    assert after.solves[1] == alone.solves
+
+
 def test_trains_are_not_left_out():
     made = {**scene([4.0], [at(0), at(1)], [uniform(1.0)]), "trains": [{"axles": [[0.0, 10.0]]}]}
     with pytest.raises(gapbeam.SceneError, match="trains: cases are prepared for loads that stay where they are; leave trains out"):

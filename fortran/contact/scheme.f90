@@ -76,6 +76,7 @@ contains
         work%solves = 0
         work%came_back = .false.
         work%ease = 0.0_wp
+        work%reference = 0.0_wp  ! an earlier search may have left what is no number
         allocate (start(size(closed)), wrong(size(closed)))
         start = always_closed(beam%supports)
         if (has_laws(beam%supports)) call go_to_level(beam%supports, start)  ! within its gap a law that holds both ways does not
