@@ -127,7 +127,7 @@ def test_cases_that_cannot_stand_before_all_loads_act(analysis, is_prepared):
 
 
 def test_what_is_kept(tmp_path):
-    want = ["reaction", "shear", "couple"]
+    want = ["reaction", "shear", "couple", "error_bound"]
     done = gapbeam.batch(SCENE, table(50), tmp_path / "out", want=want)
     assert done.columns[3:6] == ("reaction.R-101", "reaction.R 102", "reaction.2")
     found = done.read()
@@ -136,6 +136,8 @@ def test_what_is_kept(tmp_path):
     case = gapbeam.solve({**SCENE, "supports": supports, "loads": [SCENE["loads"][0], {**SCENE["loads"][1], "F": 20.0 * factor}]})
     assert [found[f"reaction.{one}"][7] for one in ("R-101", "R 102", "2", "3")] == pytest.approx(case.steps[-1].reaction, abs=1e-9)
     assert (found["shear.min"][7], found["shear.min_x"][7]) == pytest.approx(case.extremes()["shear"]["min"])
+    bounds = [found[f"error_bound.{kind}"][7] / bound for kind, bound in case.steps[-1].error_bounds.items()]
+    assert 0.5 < min(bounds) <= max(bounds) < 30
     assert (done.done, done.cases, done.statuses()) == (50, 50, {"solved": 50})
     assert done.read("case").keys() == {"case"}
     assert gapbeam.batch(SCENE, table(2), tmp_path / "one", want="couple").columns[3:4] == ("couple.R-101",)

@@ -15,6 +15,7 @@ import numpy as np
 from ..base.characters import visible
 from ..base.errors import EngineError, SceneError
 from ..results.result import Result
+from ..results.step import BOUNDED
 from ..results.stepping import solve
 from ..scene.structs import Scene
 from .paths import KeyPath, with_values
@@ -28,6 +29,8 @@ STATUS = "S20"
 LONGEST = 400
 """Characters of a reason."""
 AT_SUPPORTS = ("reaction", "opening", "couple")
+ERRORS = "error_bound"
+"""Bounds of the errors of one state."""
 KINDS = ("max", "min")
 FIELDS = ("deflection", "rotation", "moment", "shear")
 """Fields that every beam has."""
@@ -84,6 +87,8 @@ class Job:
                 found += [path.text for path in self.paths]
             elif name in AT_SUPPORTS:
                 found += [f"{name}.{one}{end}" for one in (KINDS if self.scene is None else self.supports) for end in self._ends]
+            elif name == ERRORS:
+                found += [f"{name}.{kind}" for kind in BOUNDED]
             else:
                 found += [f"{name}.{kind}{end}" for kind in KINDS for end in ("", "_x")]
         return tuple(found)
@@ -161,8 +166,11 @@ class Job:
             if result.combinations or result.scene.trains:
                 return self._keep_envelope(result, k, numbers)
             step, extremes = result.steps[-1], {}
-            if set(self.want) - {"input", *AT_SUPPORTS}:
+            if set(self.want) - {"input", ERRORS, *AT_SUPPORTS}:
                 extremes = result.extremes()
+            if ERRORS in self.want:
+                for kind, bound in step.error_bounds.items():
+                    numbers[f"{ERRORS}.{kind}"][k] = np.nan if bound is None else bound
             at_supports = {name: (self._kept(result.scene, getattr(step, name)),) for name in AT_SUPPORTS}
             self._keep(k, numbers, at_supports, extremes)
             return SOLVED, ""
@@ -209,6 +217,6 @@ class Job:
                 for end, values in zip(self._ends, at_supports[name], strict=True):
                     for one, value in zip(self.supports, values, strict=True):
                         numbers[f"{name}.{one}{end}"][k] = value + 0.0  # there is one zero
-            elif name != "input":
+            elif name not in ("input", ERRORS):
                 for kind in KINDS:
                     numbers[f"{name}.{kind}"][k], numbers[f"{name}.{kind}_x"][k] = extremes[name][kind]

@@ -127,7 +127,10 @@ class PreparedRoad:
         if self._beam.scene.foundation:
             return 2e-2 * steps
         # From the solutions at the nodes, which are not found again for it
-        is_known = self._is_simple and set(want) <= {"input", "reaction", "opening", "deflection", "rotation", "moment", "shear"}
+        known = {"input", "reaction", "opening", "deflection", "rotation", "moment", "shear"}
+        if not any(path.parts[0] == "beam" for path in self._paths):
+            known.add("error_bound")
+        is_known = self._is_simple and set(want) <= known
         return steps * (3e-6 + 4e-7 * nodes if is_known else 2e-5 + 3e-6 * nodes)
 
     def solve(
@@ -161,9 +164,11 @@ class PreparedRoad:
         for key, columns in given.items():
             for k, column in columns.items():
                 columns[k] = np.where(fine, column, 0.0 if key in ("settlement", "gap") else 1.0)
-        rest = [name for name in want if name != "input" and not (self._is_simple and name in ("reaction", "opening"))]
+        done = ("input", "error_bound", *(("reaction", "opening") if self._is_simple else ()))
+        rest = [name for name in want if name not in done]
         fields = [name for name in rest if name not in ROWS]
-        found = self._beam.solve(factors, want=("reaction", "deflection", *(("moment",) if fields else ())), **given)
+        nodes = ("deflection", "moment") if fields or "error_bound" in want else ("deflection",)
+        found = self._beam.solve(factors, want=("reaction", *nodes), **given)
         solved = fine & (found.status == Status.SOLVED)
         for share in self._before:
             part = factors * np.where(self._cases == DEAD, 1.0, share)
@@ -176,6 +181,8 @@ class PreparedRoad:
                     settlement, gap = (given.get(key, {}).get(k, own[k]) for key, own in self._own.items())
                     away = self._sides[k] * (settlement + self._sides[k] * gap - found.deflection[:, self._nodes[k]])
                     numbers[f"opening.{one}"][solved] = np.where(found.closed[:, k], 0.0, np.maximum(away, 0.0) + 0.0)[solved]
+        for kind, bound in (found.error_bounds() if "error_bound" in want else {}).items():
+            numbers[f"error_bound.{kind}"][solved] = bound[solved]
         states = found.states() if len(rest) > len(fields) else None
         for name in (name for name in rest if name in ROWS):
             for k, one in enumerate(supports):

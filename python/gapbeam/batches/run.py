@@ -23,7 +23,7 @@ from ..scene.wording import choice, shown
 from .batch import Batch
 from .chunks import FORMATS, best_format, writer
 from .folder import Folder, as_json, begin_folder, locked, open_folder
-from .job import AT_SUPPORTS, FIELDS, WANTED, Job
+from .job import AT_SUPPORTS, ERRORS, FIELDS, WANTED, Job
 from .paths import find_paths, scene_data
 from .tables import SceneFolder, Table, take_table
 from .workers import cores, in_turn, processes, threads, work
@@ -62,7 +62,8 @@ def batch(
     want : str or iterable of str, optional
         What is kept of every case: ``input`` (the row of the table), ``reaction``, ``opening``, ``couple`` (of every support), and
         the largest and smallest value of fields with their places: ``deflection``, ``rotation``, ``moment``, ``shear``,
-        ``axial_force``, ``axial_displacement``, ``pressure``. Default: input, reaction, opening, deflection, moment.
+        ``axial_force``, ``axial_displacement``, ``pressure``; and ``error_bound``, the largest errors of reactions and fields,
+        where a case is one state. Default: input, reaction, opening, deflection, moment.
     jobs : int, optional
         Threads, default one for every core. Of an executor how many workers it has.
     executor : concurrent.futures.Executor, optional
@@ -139,7 +140,7 @@ def _plan(scene: Any, table: Any, want: tuple[str, ...] | None) -> tuple[Table, 
         if table is not None:
             raise SceneError(str(scene), "is a folder, whose scenes are the cases; leave the table out")
         rows: Table = SceneFolder(Path(scene))
-        job = Job(None, (), _wanted(want, ("reaction", "opening", *FIELDS), WANTED[1:]), ())
+        job = Job(None, (), _wanted(want, ("reaction", "opening", *FIELDS, ERRORS), WANTED[1:]), ())
         return rows, job, "", SCENES_A_FILE
     if table is None:
         raise SceneError("table", "give a table, or a folder of scenes in place of the scene")
@@ -148,7 +149,7 @@ def _plan(scene: Any, table: Any, want: tuple[str, ...] | None) -> tuple[Table, 
     if not rows.cases:
         raise SceneError("table", "has no row; give a case at least")
     data = scene_data(checked)
-    known = ("input", *AT_SUPPORTS, *beam.fields)
+    known = ("input", *AT_SUPPORTS, *beam.fields, ERRORS)
     states = 1
     if checked.combinations or checked.trains:
         known = ("input", "reaction", "opening", *FIELDS)

@@ -51,7 +51,8 @@ def add_batch(commands: argparse._SubParsersAction) -> None:
     parser.add_argument("table", metavar="TABLE", nargs="?", help="a .csv or .parquet file; none with a folder of scenes")
     parser.add_argument("--out", metavar="DIR", help="the folder for the results")
     parser.add_argument("--want", metavar="NAMES", help="what is kept of every case, separated by commas: input, reaction, "
-                        "opening, couple, fields such as moment (default input,reaction,opening,deflection,moment)")  # fmt: skip
+                        "opening, couple, error_bound, fields such as moment (default input,reaction,opening,deflection,"
+                        "moment)")  # fmt: skip
     parser.add_argument("--jobs", metavar="N", type=int, help="how many cores work (default all)")
     parser.add_argument("--dask", metavar="ADDRESS", help="let the workers of a Dask scheduler work instead, such as "
                         "tcp://host:8786")  # fmt: skip
