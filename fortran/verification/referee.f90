@@ -245,22 +245,35 @@ contains
         allocate (reaction(size(closed)))
         reaction(:) = fine_work%reaction
         call find_undecided(fine, real(factor, qp), closed, fine_work, undecided)
-        call refuse_hidden(reaction, fine_work, error)
+        call refuse_hidden(fine%supports, closed, reaction, fine_work, error)
         if (allocated(error)) return
         if (.not. outcome%indifferent) outcome%indifferent = fine_held_by_ties(fine, closed, undecided)
         call take_rounded(fine_work, work)
     end subroutine refer
 
     !> Refuse a state in which reactions that rounding hides are more than next to nothing beside the loads
-    subroutine refuse_hidden(reaction, work, error)
+    subroutine refuse_hidden(supports, closed, reaction, work, error)
+        type(fine_support_type), intent(in) :: supports(:)
+        logical, intent(in) :: closed(:)
         !> Before what is nothing but rounding was left out, and the solution after
         real(qp), intent(in) :: reaction(:)
         type(fine_workspace_type), intent(in) :: work
         type(error_type), allocatable, intent(out) :: error
-        real(qp) :: load
+        real(qp) :: load, least
+        logical :: hidden
+        integer :: k
 
         load = maxval(work%load_size)
-        if (.not. load > 0.0_qp .or. all(abs(reaction - work%reaction) <= most_hidden*load)) return
+        if (.not. load > 0.0_qp) return
+        hidden = any(abs(reaction - work%reaction) > most_hidden*load)
+        ! Of loads that are smaller still nothing is left, not even rounding
+        least = most_hidden*max(load, maxval(abs(work%reaction)))
+        do k = 1, size(closed)
+            if (hidden) exit
+            if (.not. closed(k) .or. abs(work%reaction(k)) > 0.0_qp .or. .not. work%reaction_error(k) > least) cycle
+            hidden = is_watched_in(supports, closed, k)
+        end do
+        if (.not. hidden) return
         call fatal_error(error, gapbeam_not_converged, "gaps, lacks of fit or settlements are so great that reactions to the "// &
                          "loads are lost in rounding errors: check their numbers and units")
     end subroutine refuse_hidden
