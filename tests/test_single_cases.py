@@ -138,6 +138,9 @@ def test_only_what_is_wanted_is_made(kind):
     with pytest.raises(ValueError, match=r"names: expected some of deflection, .*; got 'sheer'"):
         full.extremes_of(["sheer"])
     assert np.array_equal(beam.solve(rows, want="reaction").at(1.0).moment, full.at(1.0).moment, equal_nan=True)
+    start = np.zeros(len(beam.supports), dtype=bool)
+    for some, all_ in ((beam.solve(rows, one, want="reaction"), beam.solve(rows, one)) for one in (None, start)):
+        assert np.array_equal(some.extremes()["moment"]["max"], all_.extremes()["moment"]["max"], equal_nan=True)
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -188,7 +188,7 @@ class Prepared(Pickled):
         else:
             into = None if out is None else out._take_arrays()
             found = again = solve_cases(self._beam, many, self._rule, closed, varied, names, into)
-        asked = Asked(self._beam, self._rule, many, found["closed"], varied, states)
+        asked = Asked(self._beam, self._rule, many, found["closed"], varied, states, closed)
         if self._carries is not None:
             found = self._by_scene(found)
         cases = cases_of({}, None, False) if out is None else out

@@ -41,6 +41,8 @@ class Asked(Record):
         Numbers of the scene that differ from case to case, settlements included.
     states : Combined or None
         What is known of them already, but for fields at places.
+    start : numpy.ndarray of int or None
+        Where the searches for the schemes that were found had started, supports of the engine; None if not known.
     """
 
     beam: Beam
@@ -49,6 +51,7 @@ class Asked(Record):
     closed: np.ndarray
     varied: Varied
     states: Combined | None = None
+    start: np.ndarray | None = None
 
     def solve(self, x: np.ndarray | None = None, side: str = "right") -> Combined:
         """Solve all cases.
@@ -234,7 +237,9 @@ class Cases:
         if set(names) <= set(self._names):
             nodes = tuple(np.atleast_2d(getattr(self, name)) for name in names)
         else:
-            found = solve_cases(asked.beam, asked.factors, asked.rule, asked.closed, asked.varied, names)
+            # From the same start, as another one may lead to other last digits
+            start = asked.closed if asked.start is None else asked.start
+            found = solve_cases(asked.beam, asked.factors, asked.rule, start, asked.varied, names)
             status = np.where(status == Status.SOLVED, found["status"], status)
             nodes = tuple(found[name] for name in names)
         return asked.beam, asked.rule, asked.factors, asked.varied, asked.closed, status, nodes
