@@ -5,7 +5,7 @@ module gapbeam_law_motions
     use gapbeam_law, only: both
     implicit none
     private
-    public :: mark_held, find_level_forces, outermost, is_blocked, leaves_all, distance_to_contact
+    public :: mark_held, find_level_forces, find_free_level, outermost, is_blocked, leaves_all, distance_to_contact
 
 contains
 
@@ -49,6 +49,33 @@ contains
             end associate
         end do
     end subroutine find_level_forces
+
+    !> A deflection of the whole beam at which it touches none of its supports, where all of them act to one side
+    pure subroutine find_free_level(supports, level, there_is)
+        type(node_support_type), intent(in) :: supports(:)
+        real(wp), intent(out) :: level
+        !> Is there one: no support holds both ways or has a law, and none stands on the other side
+        logical, intent(out) :: there_is
+        real(wp) :: nearest, farthest
+        integer :: k, side
+
+        level = 0.0_wp
+        side = both
+        nearest = huge(nearest)
+        farthest = -huge(farthest)
+        there_is = .false.
+        do k = 1, size(supports)
+            associate (s => supports(k))
+                if (s%kink > 0 .or. (s%side == both .and. s%stiffness > 0.0_wp) .or. s%side == -side .and. side /= both) return
+                if (.not. s%stiffness > 0.0_wp) cycle
+                side = s%side
+                nearest = min(nearest, side*s%contact)
+                farthest = max(farthest, side*s%contact)
+            end associate
+        end do
+        there_is = side /= both
+        if (there_is) level = side*(nearest - (farthest - nearest)/16)
+    end subroutine find_free_level
 
     !> First and last node at which supports of a side can carry; the first is beyond the last if there are none
     pure function outermost(supports, side) result(nodes)

@@ -12,7 +12,7 @@ module gapbeam_scheme
         gapbeam_indeterminate, gapbeam_not_converged, gapbeam_not_finite
     use gapbeam_band, only: band_ok, band_needs_pivoting
     use gapbeam_law, only: always_closed, separate_rigid_pairs, has_laws, go_to_level
-    use gapbeam_law_motions, only: is_blocked, distance_to_contact
+    use gapbeam_law_motions, only: find_free_level, is_blocked, distance_to_contact
     use gapbeam_law_forms, only: limit_stiffness
     use gapbeam_model, only: beam_type, softest
     use gapbeam_kinematics, only: free_motions, motion_type
@@ -150,7 +150,7 @@ contains
         type(runaway_type), allocatable :: runaways(:)
         real(wp), allocatable :: eased(:), direction(:)
         real(wp) :: ease, way, moved, moved_before
-        logical :: settled, stable, in_doubt, at_rest, stopped
+        logical :: settled, stable, in_doubt, at_rest, stopped, there_is
         integer :: move, state, place
 
         allocate (wrong(size(closed)), eased(0:size(beam%links)), direction(0:size(beam%links)))
@@ -163,6 +163,15 @@ contains
             if (work%solves > work%most_solves) exit
             work%ease = ease
             call settle(beam, rule, .true., closed, work, settled, error)
+            if (.not. settled .and. move == 1 .and. nothing_loads(work)) then
+                ! Weak springs press it onto lacks of fit, which takes very long to settle; off all supports it rests as well
+                call find_free_level(beam%supports, way, there_is)
+                if (there_is) then
+                    work%reference = way
+                    closed = always_closed(beam%supports)
+                    call settle(beam, rule, .true., closed, work, settled, error)
+                end if
+            end if
             if (.not. settled .and. .not. has_laws(beam%supports)) then
                 ! A beam that nothing stops goes so far on weak springs that rounding hides what is open. That nothing stops it
                 ! is a proof in any scheme
@@ -237,5 +246,13 @@ contains
         end subroutine follow_runaways
 
     end subroutine iterate_floating
+
+    !> Are there no loads, couples and imposed curvatures
+    pure function nothing_loads(work) result(nothing)
+        type(workspace_type), intent(in) :: work
+        logical :: nothing
+
+        nothing = work%without_couples .and. .not. (any(work%load_size > 0.0_wp) .or. any(work%turn_size > 0.0_wp))
+    end function nothing_loads
 
 end module gapbeam_scheme
