@@ -11,6 +11,7 @@ program lane_widths
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_equilibrium
     use gapbeam_units, only: moment_unit
     use gapbeam_lowered, only: lowered_type
+    use gapbeam_lower_loads, only: lower_loads
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, new_workspace
     use gapbeam_search, only: rule_block

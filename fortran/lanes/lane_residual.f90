@@ -96,14 +96,11 @@ contains
         integer, intent(in) :: n
         real(wp), intent(in) :: links(each, link_numbers, n)
         real(wp), intent(in), dimension(lanes, 0:n) :: left, right, couple, w, ml, mr
-        !> Left of them, 0 at other nodes
-        real(wp), intent(out) :: left_rest(lanes, 0:n)
-        !> Right of them; those of other nodes stay
-        real(wp), intent(inout) :: turn_rest(lanes, 0:n)
+        !> Left and right of them; those of other nodes stay
+        real(wp), intent(inout), dimension(lanes, 0:n) :: left_rest, turn_rest
         real(wp) :: c, turn_high, turn_low, high, low
         integer :: i, k, l
 
-        left_rest(:, :) = 0.0_wp
         do k = 1, size(beam%restrained)
             i = beam%restrained(k)
             c = beam%compliance(k)
@@ -115,6 +112,7 @@ contains
                 turn_high = c*low
                 turn_low = 0.0_wp
                 call add_product(turn_high, turn_low, c, high)
+                left_rest(l, i) = 0.0_wp
                 turn_rest(l, i) = 0.0_wp
                 if (i < n) then
                     high = w(l, i + 1)

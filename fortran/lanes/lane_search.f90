@@ -205,32 +205,28 @@ contains
         type(pack_type), intent(in) :: pack
         integer, intent(in) :: n
         logical :: hold
-        real(wp) :: least
+        real(wp) :: least, most, holding
         integer :: i, l
 
         least = 1.0_wp
-        if (beam%restraint(0) > 0 .and. beam%restraint(n) > 0) then
+        if (size(beam%restrained) == 0) then
             do l = 1, lanes
-                least = min(least, maxval([(holding(l, i), i=0, n)]))
+                least = min(least, &
+                            abs(pack%closed(l, 0) - pack%turn_rest(l, 0))*(pack%rigid(l, 0) + pack%stiffness(l, 0)), &
+                            abs(pack%closed(l, n) - pack%turn_rest(l, n))*(pack%rigid(l, n) + pack%stiffness(l, n)))
             end do
         else
             do l = 1, lanes
-                if (beam%restraint(0) == 0) least = min(least, holding(l, 0))
-                if (beam%restraint(n) == 0) least = min(least, holding(l, n))
+                most = 0.0_wp
+                do i = 0, n
+                    holding = abs(pack%closed(l, i) - pack%turn_rest(l, i))*(pack%rigid(l, i) + pack%stiffness(l, i))
+                    most = max(most, holding)
+                    if (modulo(i, n) == 0 .and. beam%restraint(i) == 0) least = min(least, holding)
+                end do
+                least = min(least, most)
             end do
         end if
         hold = least > 0.0_wp
-
-    contains
-
-        !> Above 0 where a support will act
-        pure function holding(l, i) result(stiffness)
-            integer, intent(in) :: l, i
-            real(wp) :: stiffness
-
-            stiffness = abs(pack%closed(l, i) - pack%turn_rest(l, i))*(pack%rigid(l, i) + pack%stiffness(l, i))
-        end function holding
-
     end function ends_hold
 
     !> Moments right of the nodes, where there are no couples
@@ -376,8 +372,6 @@ contains
                                    pack%dw, pack%dl)
             call copy_moments(n, pack%dl, pack%dr)
         else
-            pack%nothing(:, :) = 0.0_wp
-            if (size(beam%restrained) == 0) pack%left_rest(:, :) = 0.0_wp
             call solve(beam, pack%links, n, method, pack%left_rest, pack%turn_rest, pack%force_rest, pack%nothing, pack%held, &
                        pack%known_rest, pack%spring, pack%room, pack%turning, pack%dw, pack%dl, pack%dr, moves)
         end if

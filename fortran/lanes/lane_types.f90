@@ -76,7 +76,7 @@ module gapbeam_lane_types
         real(wp), allocatable, dimension(:, :) :: w, ml, mr, reaction
         !> Residuals or, after elimination, corrections; the first also which supports are wrong, by places
         real(wp), allocatable, dimension(:, :) :: turn_rest, force_rest, known_rest, dw, dl, dr, nothing
-        !> Residuals left of restraints
+        !> Residuals left of restraints, 0 at other nodes
         real(wp), allocatable :: left_rest(:, :)
         !> Right-hand side of compatibility at plain nodes
         real(wp), allocatable :: turn(:, :)
@@ -188,7 +188,10 @@ contains
                   pack%nothing(lanes, 0:n), pack%left_rest(lanes, 0:n), pack%room(lanes, 0:n, 10), &
                   pack%turning(lanes, size(beam%restrained), 5), pack%links(size(beam%links, 1), link_numbers, n), stat=stat)
         made = stat == 0
-        if (made) pack%links(:, :, :) = beam%links
+        if (.not. made) return
+        pack%links(:, :, :) = beam%links
+        pack%nothing(:, :) = 0.0_wp
+        pack%left_rest(:, :) = 0.0_wp
     end subroutine new_pack
 
 end module gapbeam_lane_types
