@@ -6,7 +6,7 @@ module gapbeam_case_certificates
     use gapbeam_model_quad, only: fine_beam_type => beam_type
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads, apply_scheme
     use gapbeam_reactions, only: find_shears
-    use gapbeam_referee, only: refine_beam
+    use gapbeam_refined, only: refine_beam
     use gapbeam_certificate, only: certificate_type
     use gapbeam_units, only: moment_unit, rotation_unit, bound_outside
     use gapbeam_lowered, only: lowered_type
