@@ -6,7 +6,7 @@ module gapbeam_lane_certificate
     use gapbeam_lane_types, only: lanes, lane_beam_type, lane_rounding_type, pack_type, &
         link_faa, link_fab, link_fbb, link_sum_a, link_sum_b, link_bending
     use gapbeam_lane_search, only: add_loads, apply_scheme
-    use gapbeam_lane_residual, only: find_rest
+    use gapbeam_lane_residual, only: find_rest, find_rest_at_restraints
     use gapbeam_lane_reactions, only: complete
     use gapbeam_lane_fields, only: find_rotations
     use gapbeam_lane_movements, only: find_movements, kinds_of_movement, of_deflection, of_moment, of_shear, of_rotation
@@ -51,18 +51,24 @@ contains
         call complete(beam, n, pack, poor)
         call find_rest(beam, pack%links, n, pack%left, pack%right, pack%force, pack%held, pack%known, pack%spring, pack%w, &
                        pack%ml, pack%mr, pack%turn_rest, pack%force_rest, pack%known_rest)
+        if (size(beam%restrained) > 0) then
+            call find_rest_at_restraints(beam, pack%links, n, pack%left, pack%right, pack%couple, pack%w, pack%ml, pack%mr, &
+                                         pack%left_rest, pack%turn_rest)
+        end if
         call look_at_known(n, pack%known_rest, poor)
         call find_sizes(beam, n, rounding, pack%left, pack%right, pack%force, pack%couple, pack%load_size, pack%turn_size, &
-                        pack%held, pack%spring, pack%w, pack%ml, pack%mr, pack%turn_rest, pack%force_rest, pack%dl, pack%dr, &
-                        found)
-        call look_at_range(n, pack%dl, pack%dr, poor)
-        call find_movements(beam, n, pack%held, pack%spring, pack%dl, pack%dr, moves, lost)
+                        pack%held, pack%spring, pack%w, pack%ml, pack%mr, pack%left_rest, pack%turn_rest, pack%force_rest, &
+                        pack%dw, pack%dl, pack%dr, found)
+        call look_at_range(n, pack%dw, pack%dl, pack%dr, poor)
+        call find_movements(beam, n, pack%held, pack%spring, pack%dw, pack%dl, pack%dr, moves, lost)
         poor(:) = poor + lost
         call find_rotations(beam, pack%links, n, pack%left, pack%right, pack%w, pack%ml, pack%mr, pack%room)
         call bound_links(beam, n, rounding, pack%right, pack%turn_size, pack%held, pack%spring, pack%force, pack%w, &
                          pack%ml, pack%mr, pack%couple, pack%room, moves)
         call bound_nodes(beam, n, rounding, pack, moves, found, poor)
         call bound_fields(beam, n, rounding, pack%load_size, pack%turn_size, pack%w, pack%ml, pack%mr, pack%room, moves, found)
+        ! A link that hangs between a hinge and the end of the beam has no neighbour that knows its rotation
+        poor(:) = poor + merge(1.0_wp, 0.0_wp, found(:, 6) > greatest)
     end subroutine certify_pack
 
     !> Cases with a known deflection that is another
@@ -82,19 +88,23 @@ contains
 
     !> Relative residuals, and by how much the rows are off: residuals, rounding of coefficients, last digits of the data
     pure subroutine find_sizes(beam, n, rounding, left, right, force, couple, load_size, turn_size, held, spring, w, ml, mr, &
-                               turn_rest, force_rest, turn_off, force_off, found)
+                               left_rest, turn_rest, force_rest, left_off, turn_off, force_off, found)
         type(lane_beam_type), intent(in) :: beam
         integer, intent(in) :: n
         type(lane_rounding_type), intent(in) :: rounding
         real(wp), intent(in), dimension(lanes, 0:n) :: left, right, force, couple, load_size, turn_size, held, spring, w, ml, mr
-        real(wp), intent(in), dimension(lanes, 0:n) :: turn_rest, force_rest
-        !> Of compatibility, 0 at the ends and hinges; of equilibrium, at nodes that are held what it does to the reaction there
-        real(wp), intent(out), dimension(lanes, 0:n) :: turn_off, force_off
+        !> The first at restraints only
+        real(wp), intent(in), dimension(lanes, 0:n) :: left_rest, turn_rest, force_rest
+        !> Of compatibility left of restraints, 0 elsewhere; of compatibility, 0 at hinges and at ends without restraint; of
+        !> equilibrium, at nodes that are held what it does to the reaction there
+        real(wp), intent(out), dimension(lanes, 0:n) :: left_off, turn_off, force_off
         real(wp), intent(out) :: found(lanes, 8)
-        real(wp) :: h, faa, fab, fbb, soft, long, slope, step, a, b, size_of_turn, size_of_shear, both, of_load, couple_size
+        real(wp) :: h, faa, fab, fbb, soft, long, slope, step, a, b, apart, compliance, size_of_turn, size_of_shear, both, of_load
+        real(wp) :: couple_size
         real(wp), dimension(lanes) :: largest_turn, largest_shear, turn, shear
         integer :: i, k, l
 
+        left_off(:, :) = 0.0_wp
         turn_off(:, :) = 0.0_wp
         force_off(:, :) = 0.0_wp
         largest_turn(:) = tiny(1.0_wp)
@@ -108,6 +118,7 @@ contains
             faa = beam%links(1, link_faa, k)
             fab = beam%links(1, link_fab, k)
             fbb = beam%links(1, link_fbb, k)
+            apart = merge(1.0_wp, 0.0_wp, beam%restraint(k) > 0)
             !$omp simd private(a, b, slope, step)
             do l = 1, lanes
                 a = abs(mr(l, k - 1))
@@ -116,7 +127,8 @@ contains
                            + (held(l, k - 1)*abs(w(l, k - 1)) + held(l, k)*abs(w(l, k)))/8)
                 step = h*(abs(ml(l, k) - mr(l, k - 1)) + epsilon(1.0_wp)*(a + b))
                 turn_off(l, k - 1) = turn_off(l, k - 1) + (slope + faa*a + abs(fab)*b)
-                turn_off(l, k) = turn_off(l, k) + (slope + abs(fab)*a + fbb*b)
+                turn_off(l, k) = turn_off(l, k) + (1.0_wp - apart)*(slope + abs(fab)*a + fbb*b)
+                left_off(l, k) = left_off(l, k) + apart*(slope + abs(fab)*a + fbb*b)
                 force_off(l, k - 1) = force_off(l, k - 1) + step
                 force_off(l, k) = force_off(l, k) + step
                 largest_turn(l) = larger(largest_turn(l), h*(abs(w(l, k)) + abs(w(l, k - 1))))
@@ -124,16 +136,28 @@ contains
             end do
         end do
         do i = 0, n
-            both = merge(1.0_wp - beam%hinge(i), 0.0_wp, i > 0 .and. i < n)
-            !$omp simd private(size_of_turn, size_of_shear)
+            both = merge(1.0_wp - beam%hinge(i), 0.0_wp, (i > 0 .and. i < n) .or. beam%restraint(i) > 0)
+            apart = 0.0_wp
+            compliance = 0.0_wp
+            if (beam%restraint(i) > 0) then
+                compliance = beam%compliance(beam%restraint(i))
+                apart = 1.0_wp
+            end if
+            !$omp simd private(size_of_turn, size_of_shear, b)
             do l = 1, lanes
-                size_of_turn = both*(turn_off(l, i) + abs(left(l, i)) + abs(right(l, i)))
+                ! The rotation of a restraint
+                b = compliance*abs(ml(l, i) - mr(l, i) + couple(l, i))
+                size_of_turn = apart*(left_off(l, i) + b + abs(left(l, i)))
+                largest_turn(l) = larger(largest_turn(l), size_of_turn)
+                turn(l) = larger(turn(l), apart*abs(left_rest(l, i)))
+                left_off(l, i) = apart*(unit*size_of_turn + abs(left_rest(l, i)) + of_load*compliance*abs(couple(l, i)))
+                size_of_turn = both*(turn_off(l, i) + b + (1.0_wp - apart)*abs(left(l, i)) + abs(right(l, i)))
                 size_of_shear = force_off(l, i) + abs(force(l, i)) + abs(spring(l, i)*w(l, i))
                 largest_turn(l) = larger(largest_turn(l), size_of_turn)
                 largest_shear(l) = larger(largest_shear(l), size_of_shear)
                 turn(l) = larger(turn(l), abs(turn_rest(l, i)))
                 shear(l) = larger(shear(l), abs(force_rest(l, i)))
-                turn_off(l, i) = unit*size_of_turn + abs(turn_rest(l, i))
+                turn_off(l, i) = unit*size_of_turn + abs(turn_rest(l, i)) + of_load*compliance*abs(couple(l, i))
                 force_off(l, i) = unit*size_of_shear + of_load*load_size(l, i) + abs(force_rest(l, i))
             end do
         end do
@@ -143,12 +167,14 @@ contains
             h = beam%inverse(k)
             soft = rounding%flexibility(k)
             long = rounding%length(k)*h
+            apart = merge(1.0_wp, 0.0_wp, beam%restraint(k) > 0)
             !$omp simd private(a, b)
             do l = 1, lanes
                 a = of_load*turn_size(l, k) + soft*(abs(mr(l, k - 1)) + abs(ml(l, k))) + long*abs(w(l, k) - w(l, k - 1))
                 b = long*abs(ml(l, k) - mr(l, k - 1))
                 turn_off(l, k - 1) = turn_off(l, k - 1) + a
-                turn_off(l, k) = turn_off(l, k) + a
+                turn_off(l, k) = turn_off(l, k) + (1.0_wp - apart)*a
+                left_off(l, k) = left_off(l, k) + apart*a
                 force_off(l, k - 1) = force_off(l, k - 1) + b
                 force_off(l, k) = force_off(l, k) + b
             end do
@@ -156,31 +182,35 @@ contains
         if (beam%with_couples) then
             ! Couples are steps of the moment: what one side of a step does to its link is as uncertain
             do i = 0, n
+                if (beam%restraint(i) > 0) cycle
                 k = min(i + 1, n)
                 faa = merge(beam%links(1, link_faa, k), abs(beam%links(1, link_fab, k)), i < n)
                 fbb = merge(abs(beam%links(1, link_fab, k)), beam%links(1, link_fbb, k), i < n)
                 h = beam%inverse(k)
+                apart = merge(1.0_wp, 0.0_wp, beam%restraint(k) > 0)
                 !$omp simd private(couple_size)
                 do l = 1, lanes
                     couple_size = of_load*abs(couple(l, i))
                     turn_off(l, k - 1) = turn_off(l, k - 1) + faa*couple_size
-                    turn_off(l, k) = turn_off(l, k) + fbb*couple_size
+                    turn_off(l, k) = turn_off(l, k) + (1.0_wp - apart)*fbb*couple_size
+                    left_off(l, k) = left_off(l, k) + apart*fbb*couple_size
                     force_off(l, k - 1) = force_off(l, k - 1) + h*couple_size
                     force_off(l, k) = force_off(l, k) + h*couple_size
                 end do
             end do
         end if
         do i = 0, n
-            both = merge(1.0_wp - beam%hinge(i), 0.0_wp, i > 0 .and. i < n)
+            both = merge(1.0_wp - beam%hinge(i), 0.0_wp, (i > 0 .or. beam%restraint(i) > 0) .and. i < n)
             turn_off(:, i) = second_order*both*turn_off(:, i)
+            left_off(:, i) = second_order*merge(1.0_wp, 0.0_wp, i > 0)*left_off(:, i)
             force_off(:, i) = second_order*force_off(:, i)
         end do
     end subroutine find_sizes
 
     !> Numbers too far from 1 for their squares
-    pure subroutine look_at_range(n, turn_off, force_off, poor)
+    pure subroutine look_at_range(n, left_off, turn_off, force_off, poor)
         integer, intent(in) :: n
-        real(wp), intent(inout), dimension(lanes, 0:n) :: turn_off, force_off
+        real(wp), intent(inout), dimension(lanes, 0:n) :: left_off, turn_off, force_off
         real(wp), intent(inout) :: poor(lanes)
         real(wp), dimension(lanes) :: turn, force
         real(wp) :: keep
@@ -191,7 +221,7 @@ contains
         do i = 0, n
             !$omp simd
             do l = 1, lanes
-                turn(l) = turn(l) + turn_off(l, i)
+                turn(l) = turn(l) + (left_off(l, i) + turn_off(l, i))
                 force(l) = force(l) + force_off(l, i)
             end do
         end do
@@ -199,6 +229,7 @@ contains
             keep = merge(1.0_wp, 0.0_wp, min(turn(l), force(l)) >= smallest .and. max(turn(l), force(l)) <= greatest)
             if (keep > 0.5_wp) cycle
             poor(l) = poor(l) + 1.0_wp
+            left_off(l, :) = 0.0_wp
             turn_off(l, :) = 0.0_wp
             force_off(l, :) = 0.0_wp
         end do

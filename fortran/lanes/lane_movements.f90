@@ -36,8 +36,8 @@ module gapbeam_lane_movements
     !> A link as it is gone through
     type :: way_type
         real(wp) :: length, h, near, far, cross, sum_near, sum_far, bending, determinant
-        !> Is there a hinge (1) at the node before it
-        real(wp) :: hinge
+        !> Is there a hinge (1) at the node before it, or a restraint (1) and its compliance
+        real(wp) :: hinge, restrained, compliance
     end type way_type
 
     !> How a node and the link behind it are eliminated
@@ -48,49 +48,58 @@ module gapbeam_lane_movements
         real(wp), dimension(lanes) :: a11, a12, a21, a22
         !> The ellipse with what the node adds; is it known by its neighbours only where it is (1)
         real(wp), dimension(lanes) :: q11, q12, q22, hangs
+        !> What comes to the node, through its restraint
+        real(wp), dimension(lanes) :: phi, beta, delta, floats
     end type step_type
 
 contains
 
     !> Find the movements
-    pure subroutine find_movements(beam, n, held, spring, turn, force, moves, lost)
+    pure subroutine find_movements(beam, n, held, spring, left, turn, force, moves, lost)
         type(lane_beam_type), intent(in) :: beam
         integer, intent(in) :: n
         !> Is the deflection known (1), and the stiffness of the node, shape (lanes, 0:n)
         real(wp), intent(in), dimension(lanes, 0:n) :: held, spring
-        !> What compatibility (0 at the ends and at hinges) and equilibrium may be off; where the deflection is known there is none
-        real(wp), intent(in), dimension(lanes, 0:n) :: turn, force
+        !> What compatibility left of restraints, compatibility elsewhere (0 at the ends without one and at hinges) and equilibrium
+        !> may be off; where the deflection is known there is none
+        real(wp), intent(in), dimension(lanes, 0:n) :: left, turn, force
         !> Movements, those of links with no entry at 0
         real(wp), intent(inout) :: moves(lanes, 0:n, kinds_of_movement)
         !> Above 0: the beam is held by too little
         real(wp), intent(out) :: lost(lanes)
 
         lost(:) = 0.0_wp
-        call come_from_right(beam, n, held, spring, turn, force, moves, lost)
-        call go_to_right(beam, n, held, spring, turn, force, moves, lost)
+        call come_from_right(beam, n, held, spring, left, turn, force, moves, lost)
+        call go_to_right(beam, n, held, spring, left, turn, force, moves, lost)
     end subroutine find_movements
 
     !> What the parts right of each node pass on
-    pure subroutine come_from_right(beam, n, held, spring, turn, force, moves, lost)
+    pure subroutine come_from_right(beam, n, held, spring, left, turn, force, moves, lost)
         type(lane_beam_type), intent(in) :: beam
         integer, intent(in) :: n
-        real(wp), intent(in), dimension(lanes, 0:n) :: held, spring, turn, force
+        real(wp), intent(in), dimension(lanes, 0:n) :: held, spring, left, turn, force
         real(wp), intent(inout) :: moves(lanes, 0:n, kinds_of_movement), lost(lanes)
         type(part_type) :: part
         type(step_type) :: step
+        type(way_type) :: way
         integer :: i
 
         do i = n, 1, -1
-            moves(:, i, phi_right) = part%phi
-            moves(:, i, beta_right) = part%beta
-            moves(:, i, delta_right) = part%delta
-            moves(:, i, floats_right) = part%floats
             associate (link => beam%links(1, :, i))
-                call eliminate(way_type(beam%length(i), beam%inverse(i), link(link_fbb), link(link_faa), link(link_fab), &
-                                        link(link_sum_b), link(link_sum_a), link(link_bending), link(link_determinant), &
-                                        beam%hinge(i)), &
-                               held(:, i), spring(:, i), turn(:, i), force(:, i), held(:, i - 1), part, step, lost)
+                way = way_type(beam%length(i), beam%inverse(i), link(link_fbb), link(link_faa), link(link_fab), link(link_sum_b), &
+                               link(link_sum_a), link(link_bending), link(link_determinant), beam%hinge(i), 0.0_wp, 0.0_wp)
             end associate
+            if (beam%restraint(i) == 0) then
+                call eliminate(way, held(:, i), spring(:, i), left(:, i), turn(:, i), force(:, i), held(:, i - 1), part, step, lost)
+            else
+                way%restrained = 1.0_wp
+                way%compliance = beam%compliance(beam%restraint(i))
+                call eliminate(way, held(:, i), spring(:, i), turn(:, i), left(:, i), force(:, i), held(:, i - 1), part, step, lost)
+            end if
+            moves(:, i, phi_right) = step%phi
+            moves(:, i, beta_right) = step%beta
+            moves(:, i, delta_right) = step%delta
+            moves(:, i, floats_right) = step%floats
             moves(:, i, q11_right) = step%q11
             moves(:, i, q12_right) = step%q12
             moves(:, i, q22_right) = step%q22
@@ -101,26 +110,33 @@ contains
     end subroutine come_from_right
 
     !> The same from the left, and at every link what both make of its results
-    pure subroutine go_to_right(beam, n, held, spring, turn, force, moves, lost)
+    pure subroutine go_to_right(beam, n, held, spring, left, turn, force, moves, lost)
         type(lane_beam_type), intent(in) :: beam
         integer, intent(in) :: n
-        real(wp), intent(in), dimension(lanes, 0:n) :: held, spring, turn, force
+        real(wp), intent(in), dimension(lanes, 0:n) :: held, spring, left, turn, force
         real(wp), intent(inout) :: moves(lanes, 0:n, kinds_of_movement), lost(lanes)
         type(part_type) :: part
         type(step_type) :: step
-        real(wp) :: at_left(lanes)
+        type(way_type) :: way
+        real(wp) :: at_left(lanes), moment_left(lanes)
         integer :: k
 
         moves(:, 0, of_moment) = 0.0_wp
         do k = 1, n
             associate (link => beam%links(1, :, k))
-                call eliminate(way_type(beam%length(k), beam%inverse(k), link(link_faa), link(link_fbb), link(link_fab), &
-                                        link(link_sum_a), link(link_sum_b), link(link_bending), link(link_determinant), &
-                                        beam%hinge(k - 1)), &
-                               held(:, k - 1), spring(:, k - 1), turn(:, k - 1), force(:, k - 1), held(:, k), part, step, lost)
+                way = way_type(beam%length(k), beam%inverse(k), link(link_faa), link(link_fbb), link(link_fab), link(link_sum_a), &
+                               link(link_sum_b), link(link_bending), link(link_determinant), beam%hinge(k - 1), 0.0_wp, 0.0_wp)
+                if (beam%restraint(k - 1) > 0) then
+                    way%restrained = 1.0_wp
+                    way%compliance = beam%compliance(beam%restraint(k - 1))
+                end if
+                call eliminate(way, held(:, k - 1), spring(:, k - 1), left(:, k - 1), turn(:, k - 1), force(:, k - 1), held(:, k), &
+                               part, step, lost)
                 call find_results(beam%inverse(k), link(link_faa), link(link_fab), beam%hinge(k), n, k, held, spring, part, step, &
-                                  moves, at_left, lost)
+                                  moves, at_left, moment_left, lost)
             end associate
+            ! The moment right of a restraint is another
+            if (beam%restraint(k - 1) > 0) moves(:, k - 1, of_moment) = max(moves(:, k - 1, of_moment), moment_left)
             if (k > 1) cycle
             ! The first node, or its tip, which the rest of the beam holds
             moves(:, 0, of_deflection) = at_left
@@ -132,10 +148,10 @@ contains
     end subroutine go_to_right
 
     !> Eliminate a node and the link behind it
-    pure subroutine eliminate(way, held, spring, turn, force, held_next, part, step, lost)
+    pure subroutine eliminate(way, held, spring, before, turn, force, held_next, part, step, lost)
         type(way_type), intent(in) :: way
-        !> At the node; is the deflection of the next one known
-        real(wp), intent(in), dimension(lanes) :: held, spring, turn, force, held_next
+        !> At the node, `before` on the near side of its restraint; is the deflection of the next one known
+        real(wp), intent(in), dimension(lanes) :: held, spring, before, turn, force, held_next
         !> What comes to the node in, what comes to the next one out
         type(part_type), intent(inout) :: part
         type(step_type), intent(out) :: step
@@ -145,6 +161,13 @@ contains
         integer :: l
 
         plain = 1.0_wp - way%hinge
+        turning(:) = turn
+        pushing(:) = force
+        if (way%restrained > 0.5_wp) call go_through_restraint(way%compliance, held, before, part, turning, pushing)
+        step%phi = part%phi
+        step%beta = part%beta
+        step%delta = part%delta
+        step%floats = part%floats
         !$omp simd private(given)
         do l = 1, lanes
             lost(l) = lost(l) + way%hinge*part%floats(l)
@@ -159,8 +182,8 @@ contains
             b(l) = merge(0.0_wp, part%beta(l) + way%h, given > 0.5_wp)
             c(l) = merge(1.0_wp, (1.0_wp - held(l))*(part%delta(l) + spring(l)) + held(l), given > 0.5_wp)
             r(l) = 1/(a(l)*c(l) + free(l)*b(l)**2)
-            turning(l) = turn(l)*(1.0_wp - given)
-            pushing(l) = force(l)*(1.0_wp - held(l))
+            turning(l) = turning(l)*(1.0_wp - given)
+            pushing(l) = pushing(l)*(1.0_wp - held(l))
             step%q11(l) = part%q11(l)
             step%q12(l) = part%q12(l)
             step%q22(l) = part%q22(l)
@@ -207,8 +230,36 @@ contains
         end do
     end subroutine eliminate
 
-    !> Results of link k and the node right of it, and the deflection of the node left of it
-    pure subroutine find_results(h, faa, fab, hinge, n, k, held, spring, part, step, moves, at_left, lost)
+    !> What comes to a node with a restraint, on the other side of that: there the rotation is the restraint's
+    pure subroutine go_through_restraint(compliance, held, before, part, turn, force)
+        real(wp), intent(in) :: compliance
+        !> Is the deflection known; what compatibility on the near side is off
+        real(wp), intent(in), dimension(lanes) :: held, before
+        type(part_type), intent(inout) :: part
+        !> What the rows of the node are off, raised
+        real(wp), intent(inout), dimension(lanes) :: turn, force
+        real(wp) :: share, t11, t21
+        integer :: l
+
+        do l = 1, lanes
+            share = (1.0_wp - part%floats(l))/(compliance + part%phi(l) + part%floats(l))
+            ! A part that floats turns the restraint by its moment
+            t11 = compliance*(share - part%floats(l))
+            t21 = (1.0_wp - held(l))*part%beta(l)*share
+            turn(l) = turn(l) + compliance*share*before(l)
+            force(l) = force(l) + t21*before(l)
+            part%q22(l) = part%q22(l) + t21*(2*part%q12(l) + t21*part%q11(l))
+            part%q12(l) = t11*(part%q12(l) + t21*part%q11(l))
+            part%q11(l) = t11**2*part%q11(l)
+            part%delta(l) = part%delta(l) + part%beta(l)**2*share
+            part%beta(l) = part%beta(l)*compliance*share
+            part%phi(l) = compliance*(part%phi(l)*share + part%floats(l))
+            part%floats(l) = 0.0_wp
+        end do
+    end subroutine go_through_restraint
+
+    !> Results of link k and the node right of it; deflection of the node left of it, and moment at the left end of the link
+    pure subroutine find_results(h, faa, fab, hinge, n, k, held, spring, part, step, moves, at_left, moment_left, lost)
         !> Of the link; is there a hinge at the node right of it
         real(wp), intent(in) :: h, faa, fab, hinge
         integer, intent(in) :: n, k
@@ -217,7 +268,7 @@ contains
         type(part_type), intent(in) :: part
         type(step_type), intent(in) :: step
         real(wp), intent(inout) :: moves(lanes, 0:n, kinds_of_movement)
-        real(wp), intent(out) :: at_left(lanes)
+        real(wp), intent(out) :: at_left(lanes), moment_left(lanes)
         real(wp), intent(inout) :: lost(lanes)
         real(wp) :: open, by_left, by_right, both, none, a, b, c, r, soft, q11, q12, q22, s11, s12, s22
         real(wp) :: l11, l12, l21, l22, r11, r12, r21, r22, m1, m2, w1, w2, n1, n2, n3, n4, u1, u2, u3, u4
@@ -273,6 +324,7 @@ contains
                 + reach(h*(w1 - u1) + (faa*n1 + fab*m1), h*(w2 - u2) + (faa*n2 + fab*m2), q11, q12, q22) &
                 + reach(h*(r21 - u3) + (faa*n3 + fab*r11), h*(r22 - u4) + (faa*n4 + fab*r12), s11, s12, s22)
             at_left(l) = reach(u1, u2, q11, q12, q22) + reach(u3, u4, s11, s12, s22)
+            moment_left(l) = reach(n1, n2, q11, q12, q22) + reach(n3, n4, s11, s12, s22)
         end do
     end subroutine find_results
 

@@ -185,8 +185,8 @@ contains
 
         call prepare_lanes(lowered, loads, .false., beam, made)
         stat = 0
-        ! Several supports at a place, and restraints, have certificates by themselves
-        if (made .and. size(beam%shared) + size(beam%restrained) > 0) return
+        ! Several supports at a place have certificates by themselves
+        if (made .and. size(beam%shared) > 0) return
         if (made) call new_pack(beam, pack, made)
         if (made) call find_rounding(lowered, beam, rounding, made)
         if (.not. made) stat = 1
