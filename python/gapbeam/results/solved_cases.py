@@ -351,7 +351,8 @@ class Cases:
         if whole and np.atleast_2d(self.reaction).shape[1] == asked.beam.supports:
             found = {name: np.atleast_2d(getattr(self, name)) for name in WANTED}
         else:
-            found = solve_cases(asked.beam, asked.factors, asked.rule, asked.closed, asked.varied)
+            start = asked.closed if asked.start is None else asked.start
+            found = solve_cases(asked.beam, asked.factors, asked.rule, start, asked.varied)
             status = np.where(status == Status.SOLVED, found["status"], status)
         solutions = tuple(found[name] for name in WANTED)
         return case_certificates(*about, status, asked.varied, solutions), found["reaction"]
