@@ -375,8 +375,8 @@ def prepare(source: Scene | Mapping[str, Any] | str | os.PathLike, *, rule: str 
     Raises
     ------
     SceneError
-        The scene is not valid, or has combinations or trains; or the state of a support depends on the way of the load to it, or its
-        law is a curve, so that each case is more than one solve.
+        The scene is not valid, or has combinations or trains; or the state of a support depends on the way of the load to it, or
+        its law is a curve, so that each case is more than one solve.
     """
     scene, beam = read_beam(source)
     if scene.combinations:
