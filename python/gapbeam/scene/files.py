@@ -17,6 +17,8 @@ from .typed import TOO_DEEP
 from .wording import beyond, key_of, shown
 
 STANDARD_INPUT = "standard input"
+JSON_INFINITIES = ("1e999", "-1e999", "1E999", "-1E999")
+"""What other programs write where JSON knows no infinity."""
 LONG_KEY = re.compile(r"""(?<![\w.-])(?:(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+){100}""")
 """A key of more than a hundred parts: no scene has one, and tomllib takes minutes for some ten thousand parts."""
 
@@ -96,7 +98,7 @@ def _parse(text: str, kind: str, name: str) -> dict[str, Any]:
 
     def number(word: str) -> Any:
         value = float(word)
-        if isinf(value) and word[-1] != "f":  # that is inf itself
+        if isinf(value) and word[-1] != "f" and not (kind == ".json" and word in JSON_INFINITIES):  # that is inf itself
             far.append(_Far(word))
             return far[-1]
         return value
