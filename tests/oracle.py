@@ -239,6 +239,7 @@ class Oracle(Forms):
 
     def state_at(self, x, side, values):
         """Exact (w, psi, M, V) at x for given unknowns."""
+        x = self.exact_x(x)
         if x in self.points:
             forms = (self.left if side == "left" else self.right)[self.points.index(x)]
         else:

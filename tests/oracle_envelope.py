@@ -135,11 +135,11 @@ def opening(passage, i):
 
 def curve(passage, name, x):
     """Extremes of "deflection", "rotation", "moment" or "shear" at one of the places the passage was made for."""
-    k = passage.points.index(Fraction(x))
+    k = passage.points.index(passage.exact_x(x))
     return extremes_of(
         passage,
         (
-            (passage.polynomial(s.unknowns, s.moving, k, side, COMPONENT[name]), s, [Fraction(x)], None)
+            (passage.polynomial(s.unknowns, s.moving, k, side, COMPONENT[name]), s, [passage.exact_x(x)], None)
             for s in solved(passage, name in ("moment", "shear"))
             for side in SIDES
         ),

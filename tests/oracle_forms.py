@@ -105,8 +105,9 @@ class Reading:
 
     def __init__(self, scene):
         beam = scene["beam"]
-        self.nodes = [math.fsum(beam["spans"][:i]) for i in range(len(beam["spans"]) + 1)]
-        self.length = Fraction(self.nodes[-1])
+        self.nodes = list(itertools.accumulate(map(Fraction, beam["spans"]), initial=Fraction(0)))
+        self.node_at = {Fraction(float(x)): x for x in self.nodes}
+        self.length = self.nodes[-1]
         self.supports = [
             dict(s, x=self.place(s))
             for s in scene.get("supports", [])
@@ -116,18 +117,22 @@ class Reading:
             dict(load, x=self.place(load))
             if "x" in load or "node" in load
             else dict(
-                load, start=Fraction(load.get("from", 0.0)), end=Fraction(load.get("to", self.nodes[-1]))
+                load, start=self.exact_x(load.get("from", 0)), end=self.exact_x(load.get("to", self.length))
             )
             for load in scene.get("loads", [])
             if load["type"] != "axial"
         ]
-        self.hinges = [Fraction(x) for x in beam.get("hinges", [])]
+        self.hinges = [self.exact_x(x) for x in beam.get("hinges", [])]
         self.turning = [i for i, s in enumerate(self.supports) if s.get("rotation", "free") != "free"]
         self.one_sided = [i for i, s in enumerate(self.supports) if s.get("side", "both") != "both"]
 
     def place(self, item):
         """The x of a support or load as a fraction."""
-        return Fraction(item["x"] if "x" in item else self.nodes[item["node"]])
+        return self.exact_x(item["x"]) if "x" in item else self.nodes[item["node"]]
+
+    def exact_x(self, x):
+        """An x as a fraction; the sum of the spans where it is that, rounded to a double."""
+        return self.node_at.get(Fraction(x), Fraction(x))
 
     def load_size(self):
         """All loads together, each in full and counted positive, as a force."""
@@ -245,14 +250,14 @@ class Forms(Reading):
         count = len(beam["spans"])
         bending, shear = per_span(beam["EI"], count), per_span(beam.get("GA", math.inf), count)
         stretches = [
-            (Fraction(a), Fraction(b), inverse(EI), inverse(GA))
+            (a, b, inverse(EI), inverse(GA))
             for a, b, EI, GA in zip(self.nodes[:-1], self.nodes[1:], bending, shear, strict=True)
         ]
         for section in sections:
             stretches.append(
                 (
-                    Fraction(section.get("from", 0.0)),
-                    Fraction(section.get("to", self.nodes[-1])),
+                    self.exact_x(section.get("from", 0)),
+                    self.exact_x(section.get("to", self.length)),
                     inverse(section["EI"]) if "EI" in section else None,
                     inverse(section["GA"]) if "GA" in section else None,
                 )
