@@ -47,6 +47,24 @@ def test_bound_holds_and_is_not_wasteful(block):
     assert compared > 20
 
 
+@pytest.mark.parametrize("seed", [110, 410, 601])
+def test_places_and_loads_that_are_rounded(seed):
+    """A place near a rounded end of a span; loads that springs alone carry; a short soft stretch beside a rigid one."""
+    rng = random.Random(seed)
+    made = random_scene(rng, held=rng.choice((True, None)))
+    made["analysis"] = {}
+    result, exact = gapbeam.solve(made), oracle.solve(made)
+    step = result.steps[-1]
+    errors = true_errors(made, step, result.beam.numbers)
+    assert all(error <= bound for error, bound in zip(errors, step.bounds, strict=True))
+    places = [sum(made["beam"]["spans"]) * (k + 0.4937) / 11 for k in range(11)]
+    found = result.at(places)
+    for kind in ("deflection", "rotation", "moment", "shear"):
+        true = [getattr(exact.at(x), kind) for x in places]
+        error = max(abs(float(a - mpf(float(b)))) for a, b in zip(true, getattr(found, kind), strict=True))
+        assert error <= step.error_bounds[kind], kind
+
+
 def test_stiff_and_soft_together():
     """Bounds grow where the problem itself is badly conditioned, and still hold."""
     supports = [at(0, stiffness=1e-9), at(1, stiffness=1e12), at(2, stiffness=1e-9)]

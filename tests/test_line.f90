@@ -6,7 +6,7 @@ program test_line
     use gapbeam_kinds, only: wp, qp
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_equilibrium
     use gapbeam_element, only: field_type
-    use gapbeam_model, only: beam_type, node_support_type, below, both
+    use gapbeam_model, only: beam_type, node_support_type, below, above, both
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_system, only: solve_scheme
     use gapbeam_line, only: line_type, without_dead_loads, value_at, width_at, zero_of, falls, rises, stays_at_zero
@@ -158,17 +158,22 @@ contains
             call recover_beam(sample%pieces, sample%dead, sample%live, 1.0_wp, sample%beam%links, sample%last, &
                               sample%beam%kind, a%deflection, a%moment_left, a%moment_right, work%shear, starts)
             call certify(sample%beam, detail_of(sample), 1.0_wp, [.true., .true.], a%deflection, a%moment_left, a%moment_right, &
-                         work%reaction, starts, certificate, error)
+                         work%reaction, starts, [0.0_wp, 0.0_wp], certificate, error)
             call check(.not. allocated(error) .and. certificate%known, "certified")
             call check(max(certificate%deflection, certificate%moment, certificate%reaction, certificate%compatibility, &
                            certificate%equilibrium) < 1e-13_wp, "to rounding")
             call check(certificate%deflection > 0.0_wp, "not to nothing")
             a(1)%deflection = a(1)%deflection + 1e-3_wp
             call certify(sample%beam, detail_of(sample), 1.0_wp, [.true., .true.], a%deflection, a%moment_left, a%moment_right, &
-                         work%reaction, starts, certificate, error)
+                         work%reaction, starts, [0.0_wp, 0.0_wp], certificate, error)
             call check(certificate%of_nodes >= 1e-3_wp .and. certificate%of_nodes < 1.001e-3_wp, "an error is seen")
             call check(certificate%compatibility > 1e-4_wp, "in its residual too")
             call check(certificate%moment < 1e-13_wp, "moments are as good as before")
+            sample%beam%supports%side = above
+            call certify(sample%beam, detail_of(sample), 1.0_wp, [.true., .true.], a%deflection, a%moment_left, a%moment_right, &
+                         work%reaction, starts, [0.0_wp, 0.0_wp], certificate, error)
+            call check(.not. allocated(error) .and. .not. certificate%known .and. min(certificate%of_nodes, certificate%reaction, &
+                       certificate%moment, certificate%compatibility) > huge(1.0_wp), "no bounds where nothing is confirmed")
         end associate
     end subroutine certificates
 

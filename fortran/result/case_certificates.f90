@@ -9,7 +9,7 @@ module gapbeam_case_certificates
     use gapbeam_refined, only: refine_beam
     use gapbeam_certificate, only: certificate_type
     use gapbeam_units, only: moment_unit, rotation_unit, bound_outside
-    use gapbeam_lowered, only: lowered_type
+    use gapbeam_lowered, only: lowered_type, find_length_errors
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_state, only: certify_state, detail_of
     use gapbeam_cases, only: case_loads_type
@@ -116,7 +116,7 @@ contains
             end if
             associate (c => certificate)
                 ! A state that quadruple precision does not confirm has no certificate
-                if (.not. c%known .and. .not. max(c%reaction, c%moment) > 0.0_wp .and. any(abs(state%moment_left) > 0.0_wp)) then
+                if (c%compatibility > huge(c%compatibility)) then
                     status(i) = gapbeam_not_converged
                     return
                 end if
@@ -241,11 +241,12 @@ contains
         logical, intent(out) :: made
         type(fine_beam_type) :: fine
         integer, allocatable :: shares(:)
+        real(wp), allocatable :: length_error(:)
         integer :: n, k, stat
 
         n = lane_beam%n
         allocate (rounding%flexibility(n), rounding%length(n), rounding%of_fields(n), rounding%slip(n), shares(0:2*n), &
-                  stat=stat)
+                  length_error(n), stat=stat)
         made = stat == 0
         if (.not. made) return
         call refine_beam(lowered%beam, detail_of(lowered), fine)
@@ -257,12 +258,14 @@ contains
             shares(n + lane_beam%node(k)) = shares(n + lane_beam%node(k)) + 1
         end do
         ! Half a unit for every product and sum, and what condensing a load costs
-        rounding%of_loads = epsilon(1.0_wp)*(2 + 0.5_wp*maxval(shares))
+        call find_length_errors(lowered, length_error)
+        rounding%of_loads = epsilon(1.0_wp)*(2 + 0.5_wp*maxval(shares)) + maxval(length_error)
         do k = 1, n
             associate (a => lowered%beam%links(k), b => fine%links(k))
                 rounding%flexibility(k) = real(max(abs(a%faa - b%faa), abs(a%fab - b%fab), abs(a%fbb - b%fbb), &
-                                                   abs(a%sum_a - b%sum_a), abs(a%sum_b - b%sum_b))*(1 + epsilon(1.0_wp)), wp)
-                rounding%length(k) = real(abs(a%length - b%length)/b%length, wp) + epsilon(1.0_wp)
+                                                   abs(a%sum_a - b%sum_a), abs(a%sum_b - b%sum_b))*(1 + epsilon(1.0_wp)), wp) &
+                    + length_error(k)*max(a%faa, abs(a%fab), a%fbb, abs(a%sum_a), abs(a%sum_b))
+                rounding%length(k) = real(abs(a%length - b%length)/b%length, wp) + epsilon(1.0_wp) + length_error(k)
             end associate
             associate (first => lowered%node_point(k - 1) + 1, last => lowered%node_point(k))
                 rounding%slip(k) = sum(lowered%pieces(first:last)%shear_flexibility*lowered%pieces(first:last)%length)

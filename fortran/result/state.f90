@@ -19,7 +19,7 @@ module gapbeam_state
     use gapbeam_pieces, only: acting_type, acting_piece, what_happens, nothing
     use gapbeam_axial, only: solve_axial, axial_slides, axial_indeterminate
     use gapbeam_words, only: shown
-    use gapbeam_lowered, only: lowered_type, point_x
+    use gapbeam_lowered, only: lowered_type, point_x, find_length_errors
     use gapbeam_lower_units, only: name_farthest
     use gapbeam_solution, only: state_type, close_all, forget, check_range
     use gapbeam_memory, only: for_solving, for_following, for_certifying
@@ -243,6 +243,7 @@ contains
         !> No memory
         type(error_type), allocatable, intent(out) :: error
         type(field_type), allocatable :: starts(:)
+        real(wp), allocatable :: length_error(:)
         type(beam_type) :: changed
 
         if (allocated(state%ground)) then
@@ -258,16 +259,17 @@ contains
         end if
         call reserve_for(for_certifying, lowered%beam, detail_of(lowered), error)
         if (allocated(error)) return
-        allocate (starts(size(lowered%pieces)))
+        allocate (starts(size(lowered%pieces)), length_error(size(lowered%beam%links)))
         call recover_state(lowered, state, starts)
+        call find_length_errors(lowered, length_error)
         if (allocated(state%laws)) then
             changed = lowered%beam
             changed%supports(:) = state%laws
             call certify(changed, detail_of(lowered), state%factor, state%closed, state%deflection, state%moment_left, &
-                         state%moment_right, state%reaction, starts, certificate, error)
+                         state%moment_right, state%reaction, starts, length_error, certificate, error)
         else
             call certify(lowered%beam, detail_of(lowered), state%factor, state%closed, state%deflection, state%moment_left, &
-                         state%moment_right, state%reaction, starts, certificate, error)
+                         state%moment_right, state%reaction, starts, length_error, certificate, error)
         end if
     end subroutine certify_state
 

@@ -6,11 +6,12 @@ module gapbeam_lowered
     use gapbeam_layers, only: layer_type, law_piece_type
     use gapbeam_model, only: beam_type
     use gapbeam_scene, only: model_type, load_type, gapbeam_distributed, gapbeam_curvature
+    use gapbeam_places, only: place_span_ends
     use gapbeam_units, only: units_type
     implicit none
     private
     public :: stiffness_of, in_bending, in_shear, along_axis
-    public :: lowered_type, axial_type, copy_model, fingerprint, is_stretch, point_x, piece_length
+    public :: lowered_type, axial_type, copy_model, fingerprint, is_stretch, point_x, piece_length, find_length_errors
 
     !> Kinds of stiffness: EI, GA, EA
     integer, parameter :: in_bending = 1, in_shear = 2, along_axis = 3
@@ -119,6 +120,54 @@ contains
             end if
         end associate
     end function piece_length
+
+    !> What links, their flexibilities and loads may be off, relative to them, since places are: a distance in a span is an x less
+    !> the rounded end of a span
+    subroutine find_length_errors(lowered, errors)
+        type(lowered_type), intent(in) :: lowered
+        !> Shape (nlink)
+        real(wp), intent(out) :: errors(:)
+        real(wp), allocatable :: rest(:), ends(:)
+        real(wp) :: shift, length, each(3), sums(3), shifted(3)
+        integer :: i, j
+
+        allocate (rest(0:size(lowered%model%spans)), ends(0:size(lowered%model%spans)))
+        call place_span_ends(lowered%model%spans, ends, rest)
+        do i = 1, size(errors)
+            length = 0.0_wp
+            sums(:) = tiny(sums)
+            shifted(:) = 0.0_wp
+            do j = lowered%node_point(i - 1) + 1, lowered%node_point(i)
+                shift = shift_of(j - 1) + shift_of(j)
+                associate (piece => lowered%pieces(j), dead => lowered%dead(j), live => lowered%live(j))
+                    each = [piece%flexibility, piece%shear_flexibility, &
+                            max(abs(dead%qa), abs(dead%qb)) + max(abs(live%qa), abs(live%qb))]
+                end associate
+                shifted(:) = shifted + shift*each
+                sums(:) = sums + piece_length(lowered, j)*each
+                length = length + piece_length(lowered, j)
+            end do
+            shift = shift_of(lowered%node_point(i - 1)) + shift_of(lowered%node_point(i))
+            errors(i) = max(shift/length, maxval(shifted/sums))
+        end do
+
+    contains
+
+        !> What the distance of a point from the left end of its span may be off
+        pure function shift_of(point) result(shift)
+            integer, intent(in) :: point
+            real(wp) :: shift
+
+            shift = 0.0_wp
+            associate (span => lowered%point_span(point), offset => lowered%point_offset(point))
+                if (.not. offset > 0.0_wp) return
+                shift = abs(rest(span))
+                ! The difference of numbers of which one is less than twice the other is exact
+                if (span > 0 .and. offset > ends(span)) shift = shift + spacing(offset)/2
+            end associate
+        end function shift_of
+
+    end subroutine find_length_errors
 
     !> Stiffness of a piece in the user's units
     pure function stiffness_of(lowered, piece, kind) result(stiffness)

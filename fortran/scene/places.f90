@@ -18,23 +18,27 @@ module gapbeam_places
 contains
 
     !> x of the span ends, exact to the last digit: what each addition of the running sum loses is known exactly
-    pure subroutine place_span_ends(spans, ends)
+    pure subroutine place_span_ends(spans, ends, rest)
         !> The spans, shape (n)
         type(span_type), intent(in) :: spans(:)
         !> The ends, shape (0:n)
         real(wp), intent(out) :: ends(0:)
+        !> What the ends lack of the sums, as doubles do
+        real(wp), intent(out), contiguous, optional :: rest(0:)
         real(wp) :: sum, before, added, lost
         integer :: i
 
         sum = 0.0_wp
         lost = 0.0_wp
         ends(0) = 0.0_wp
+        if (present(rest)) rest(0) = 0.0_wp
         do i = 1, size(spans)
             before = sum
             sum = before + spans(i)%length
             added = sum - before
             lost = lost + ((before - (sum - added)) + (spans(i)%length - added))
             ends(i) = sum + lost
+            if (present(rest)) rest(i) = (sum - ends(i)) + lost
         end do
     end subroutine place_span_ends
 

@@ -5,6 +5,7 @@
 !> the data lost when they were rounded to doubles comes on top (gapbeam_sensitivity). Where fields are evaluated inside a
 !> piece, the rounding of their polynomials is bounded term by term (Higham 2002, 5.1).
 module gapbeam_certificate
+    use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp, qp
     use gapbeam_error, only: error_type, gapbeam_solved
     use gapbeam_element, only: field_type
@@ -50,11 +51,16 @@ module gapbeam_certificate
         logical :: known = .false.
     end type certificate_type
 
+    real(wp), parameter :: infinity = transfer(int(z"7FF0000000000000", int64), 1.0_wp)
+    !> Of a state that quadruple precision does not confirm
+    type(certificate_type), parameter :: not_confirmed = certificate_type( &
+        infinity, infinity, infinity, infinity, infinity, infinity, infinity, infinity, infinity, .false.)
+
 contains
 
     !> Check a solved state
-    subroutine certify(beam, detail, factor, closed, deflection, moment_left, moment_right, reaction, starts, certificate, &
-                       error)
+    subroutine certify(beam, detail, factor, closed, deflection, moment_left, moment_right, reaction, starts, length_error, &
+                       certificate, error)
         !> The beam, and what its links are made of
         type(beam_type), intent(in) :: beam
         type(detail_type), intent(in) :: detail
@@ -64,7 +70,9 @@ contains
         !> The result: at the nodes, shape (0:n), of the supports, and at the left ends of the pieces
         real(wp), intent(in) :: deflection(0:), moment_left(0:), moment_right(0:), reaction(:)
         type(field_type), intent(in) :: starts(:)
-        !> How good it is
+        !> What the lengths of links may be off, relative to them, shape (n)
+        real(wp), intent(in) :: length_error(:)
+        !> How good it is; bounds and residuals infinite where quadruple precision does not confirm the state
         type(certificate_type), intent(out) :: certificate
         !> As for find_scheme
         type(error_type), allocatable, intent(out) :: error
@@ -83,16 +91,20 @@ contains
         if (has_laws(beam%supports)) then
             ! Of several states the one that is asked about
             call solve_and_refine(fine, acting, work, state, place)
+            if (state /= band_ok) certificate = not_confirmed
             if (state /= band_ok) return
         else
             call find_scheme(fine, real(factor, qp), rule_block, acting, work, outcome, error)
-            if (allocated(error) .or. outcome%status /= gapbeam_solved) return
+            if (allocated(error)) return
+            if (outcome%status /= gapbeam_solved) certificate = not_confirmed
+            if (outcome%status /= gapbeam_solved) return
         end if
         allocate (undecided(size(closed)))
         call find_undecided(fine, real(factor, qp), acting, work, undecided)
         certificate%known = .not. outcome%indifferent
         if (certificate%known) certificate%known = .not. held_by_ties(fine, acting, undecided)
-        call find_movements(beam, factor, closed, real(work%ease, wp), deflection, moment_left, moment_right, moves, inside)
+        call find_movements(beam, factor, closed, real(work%ease, wp), deflection, moment_left, moment_right, length_error, &
+                            moves, inside)
         call compare_fields(detail, factor, fine, work, starts, certificate)
         associate (a => work%answers)
             moment_size = work%shear_size*maxval(fine%links%length)
@@ -128,18 +140,21 @@ contains
     end subroutine certify
 
     !> By how much results move when the data change in their last digits
-    subroutine find_movements(beam, factor, closed, ease, deflection, moment_left, moment_right, moves, inside)
+    subroutine find_movements(beam, factor, closed, ease, deflection, moment_left, moment_right, length_error, moves, inside)
         type(beam_type), intent(in) :: beam
         real(wp), intent(in) :: factor
         logical, intent(in) :: closed(:)
         !> Weak springs of a beam that is free to move, shape (0:n)
         real(wp), intent(in) :: ease(0:)
         real(wp), intent(in) :: deflection(0:), moment_left(0:), moment_right(0:)
+        !> As for certify
+        real(wp), intent(in) :: length_error(:)
         !> Deflections of the nodes, rotations, moments, shears, reactions; deflections between the nodes
         real(wp), intent(out) :: moves(5), inside
         type(plain_workspace_type) :: work
         type(sensitivity_type) :: sensitivity
-        real(wp) :: turns, bends
+        real(wp), allocatable :: off(:)
+        real(wp) :: turns, bends, of_shear, of_reaction
         integer :: kind, i
 
         moves(:) = 0.0_wp
@@ -154,17 +169,21 @@ contains
         work%answers%moment_right = moment_right
         call prepare_sensitivity(beam, factor, work, sensitivity)
         if (.not. sensitivity%known) return
+        call add_lengths(beam, factor, length_error, work, sensitivity, of_shear, of_reaction)
         do kind = 1, size(moves)
             call largest_movement(beam, sensitivity, kind, work, moves(kind))
         end do
         moves(:) = safety*moves
+        moves(of_shears) = moves(of_shears) + of_shear
+        moves(of_reactions) = moves(of_reactions) + of_reaction
         ! Between the nodes: what the ends of a link do to it, and its own loads
+        off = epsilon(1.0_wp) + length_error
         turns = 0.0_wp
         bends = 0.0_wp
         do i = 1, size(beam%links)
             associate (link => beam%links(i), soft => max(beam%links(i)%bending, beam%links(i)%faa + beam%links(i)%fbb), &
-                       load => epsilon(1.0_wp)*(beam%links(i)%load_sum(1) + abs(factor)*beam%links(i)%load_sum(2)), &
-                       turn => epsilon(1.0_wp)*(beam%links(i)%turn_sum(1) + abs(factor)*beam%links(i)%turn_sum(2)))
+                       load => off(i)*(beam%links(i)%load_sum(1) + abs(factor)*beam%links(i)%load_sum(2)), &
+                       turn => off(i)*(beam%links(i)%turn_sum(1) + abs(factor)*beam%links(i)%turn_sum(2)))
                 inside = max(inside, link%length*(soft*moves(of_moments)/4 + turn))
                 turns = max(turns, soft*moves(of_moments)/2 + turn)
                 bends = max(bends, load*link%length/2)
@@ -175,6 +194,57 @@ contains
         moves(of_rotations) = moves(of_rotations) + turns
         moves(of_moments) = moves(of_moments) + bends
     end subroutine find_movements
+
+    !> What lengths are off goes into the rows of their links; and what lengths and loads are off goes into shears, and into the
+    !> forces of springs, which loads and shears leave over, directly as well
+    pure subroutine add_lengths(beam, factor, length_error, work, sensitivity, of_shear, of_reaction)
+        type(beam_type), intent(in) :: beam
+        real(wp), intent(in) :: factor
+        !> As for certify
+        real(wp), intent(in) :: length_error(:)
+        !> With its answers
+        type(plain_workspace_type), intent(in) :: work
+        type(sensitivity_type), intent(inout) :: sensitivity
+        !> The most that shears and reactions are off directly
+        real(wp), intent(out) :: of_shear, of_reaction
+        real(wp), allocatable :: error(:), rounding(:)
+        real(wp) :: shear, load, turn, share(2)
+        integer :: i, n
+
+        n = size(beam%links)
+        share = [1.0_wp, abs(factor)]
+        allocate (error(0:n), rounding(0:n))
+        error(:) = 0.0_wp
+        rounding(:) = matmul(share, abs(beam%force))
+        of_shear = 0.0_wp
+        do i = 1, n
+            associate (link => beam%links(i), a => work%answers(i - 1), b => work%answers(i), w => sensitivity%weight)
+                shear = abs(b%moment_left - a%moment_right)*link%inverse
+                load = dot_product(share, link%load_sum)
+                of_shear = max(of_shear, (epsilon(1.0_wp) + length_error(i))*shear)
+                rounding(i - 1:i) = rounding(i - 1:i) + shear + load
+                if (.not. length_error(i) > 0.0_wp) cycle
+                error(i - 1:i) = error(i - 1:i) + length_error(i)*(shear + load)
+                turn = length_error(i)*(abs(b%deflection - a%deflection)*link%inverse &
+                                        + (link%faa + abs(link%fab))*abs(a%moment_right) &
+                                        + (link%fbb + abs(link%fab))*abs(b%moment_left) + dot_product(share, link%turn_sum))
+                ! Rows without compatibility have no term of it
+                if (w(2, i - 1) > 0.0_wp) w(2, i - 1) = w(2, i - 1) + turn
+                if (w(1, i) > 0.0_wp) then
+                    w(1, i) = w(1, i) + turn
+                else if (w(2, i) > 0.0_wp) then
+                    w(2, i) = w(2, i) + turn
+                end if
+                where (.not. work%nodes(i - 1:i)%held) w(3, i - 1:i) = w(3, i - 1:i) + length_error(i)*(shear + load)
+            end associate
+        end do
+        of_reaction = 0.0_wp
+        do i = 1, size(beam%supports)
+            associate (k => beam%supports(i)%node)
+                of_reaction = max(of_reaction, error(k) + epsilon(1.0_wp)*merge(0.0_wp, rounding(k), work%nodes(k)%held))
+            end associate
+        end do
+    end subroutine add_lengths
 
     !> Largest difference, rounded up; or, if there is anything but zeros, the error of the solution in quadruple precision
     pure function difference(fine, rounded, sizes) result(largest)

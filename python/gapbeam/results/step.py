@@ -162,7 +162,8 @@ class Step(Pickled):
     def error_bounds(self) -> dict[str, float | None]:
         """Largest errors of deflections, rotations, moments and shears anywhere along the beam, and of the reactions.
 
-        Deflections and rotations have none (None) where the beam is free to move.
+        Deflections and rotations have none (None) where the beam is free to move, or where quadruple precision does not
+        confirm the working scheme; the others are infinite then.
         """
         units = self._beam.units
         powers = dict(zip(BOUNDED, [*units.field, units.force], strict=True))
@@ -185,18 +186,21 @@ class Step(Pickled):
 
     @property
     def residuals(self) -> dict[str, float]:
-        """Relative residuals of equilibrium, compatibility and complementarity."""
+        """Relative residuals of equilibrium, compatibility and complementarity; infinite where bounds are."""
         compatibility, equilibrium, complementarity = self._certified[0].tolist()
         return {"equilibrium": equilibrium, "compatibility": compatibility, "complementarity": complementarity + 0.0}
 
     @property
     def certificate(self) -> dict[str, float | None]:
-        """The residuals, and bounds of the errors relative to the largest value of each kind; computed when first asked for."""
+        """The residuals, and bounds of the errors relative to the largest value of each kind; computed when first asked for.
+
+        None for what there is not.
+        """
         fields = self._beam.largest_fields(self.factor, self.starts, self.solution).tolist()
         largest = dict(zip(BOUNDED, [*fields, float(np.abs(self.solution.reaction).max(initial=0.0))], strict=True))
         relative = {kind: _relative(bound, largest[kind]) for kind, bound in self._inner_bounds.items()}
         return {
-            **self.residuals,
+            **{name: residual if np.isfinite(residual) else None for name, residual in self.residuals.items()},
             "error_bound": None if None in relative.values() else max(relative.values()),
             **{f"error_bound_{kind}": bound for kind, bound in relative.items()},
         }
