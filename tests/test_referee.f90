@@ -22,6 +22,7 @@ program test_referee
     call a_tie_is_named()
     call a_spring_out_of_reach()
     call a_stiff_spring_beside_a_soft_one()
+    call a_spring_beside_a_far_softer_link()
     call finish(status)
     if (status /= 0) stop 1, quiet=.true.
 
@@ -228,6 +229,30 @@ contains
         exact = real(stiff*(real(force, qp) - soft*real(contact, qp))/(stiff + real(soft, qp)), wp)
         call check_close(work%reaction, [exact, force - exact, 0.0_wp], "both have their digits", 4e-16_wp)
     end subroutine a_stiff_spring_beside_a_soft_one
+
+    !> A link of 1e-29 swings so far that even quadruple precision seems to know nothing of what presses on the spring beside it
+    subroutine a_spring_beside_a_far_softer_link()
+        type(sample_type), target :: sample
+        type(workspace_type) :: work
+        type(outcome_type) :: outcome
+        type(error_type), allocatable :: error
+        logical :: closed(4)
+        integer :: start
+
+        do start = 0, 1
+            call make_beam([3.0_wp, 3.0_wp, 2.0_wp, 2.0_wp], [1e4_wp, 1e-29_wp, 1e4_wp, 1e4_wp], spread(0.0_wp, 1, 4), &
+                           spread(0.0_wp, 1, 4), &
+                           [node_support_type(0, both, infinite(), 0.0_wp), node_support_type(2, below, 1e3_wp, 0.0_wp), &
+                            node_support_type(3, both, infinite(), 0.0_wp), node_support_type(4, both, infinite(), 0.0_wp)], &
+                           sample)
+            sample%beam%force(1, 1) = 322.0_wp
+            closed = [.true., start == 1, .true., .true.]
+            call decide(sample, closed, work, outcome, error)
+            call check(closed(2), "the spring beside a far softer link is pressed")
+            ! The moments in the soft link are as small as they may be; what they leave the rest is a beam with an overhang
+            call check_close(work%reaction(:2), [115.0_wp, 132.0_wp], "and carries its share", 1e-12_wp)
+        end do
+    end subroutine a_spring_beside_a_far_softer_link
 
     !> The scheme of dead and live loads
     subroutine decide(sample, closed, work, outcome, error)

@@ -27,6 +27,7 @@ module gapbeam_referee
     use gapbeam_system_quad, only: solve_and_refine_fine => solve_and_refine
     use gapbeam_search_quad, only: rule_block
     use gapbeam_scheme_quad, only: find_fine_scheme => find_scheme, fine_outcome_type => outcome_type
+    use gapbeam_hidden_signs, only: turn_hidden
     use gapbeam_refined, only: detail_type, refine_loaded_beam
     implicit none
     private
@@ -41,8 +42,9 @@ module gapbeam_referee
     integer, parameter :: most_examined = 64
     !> Rounding error of a reaction, relative to the largest, from which on quadruple precision is worth its time
     real(wp), parameter :: worst_digits = 1e-8_wp
-    !> What rounding hides of reactions is a smaller share of the largest load
-    real(qp), parameter :: most_hidden = 2.0_qp**(-10)
+    !> Of the largest load smaller shares are what is left out of reactions as rounding, and what rounding may do to one of which
+    !> nothing is left
+    real(qp), parameter :: most_left_out = 2.0_qp**(-27), most_hidden = 2.0_qp**(-10)
 
 contains
 
@@ -220,7 +222,8 @@ contains
         type(fine_workspace_type) :: fine_work
         type(fine_outcome_type) :: found
         real(qp), allocatable :: reaction(:)
-        integer :: try
+        integer :: try, solves
+        logical :: known
 
         undecided(:) = .false.
         call reserve_for(for_refining, beam, detail, error)
@@ -241,6 +244,14 @@ contains
         if (found%status /= gapbeam_solved) then
             outcome%motion = real(found%motion, wp)
             return
+        end if
+        if (.not. found%indifferent) then
+            solves = fine_work%solves
+            call turn_hidden(fine, closed, fine_work, known)
+            work%solves = work%solves + fine_work%solves - solves
+            if (.not. known) call fatal_error(error, gapbeam_not_converged, "stiffnesses, gaps and loads lie so far apart that "// &
+                                              "rounding hides which supports act: check their numbers and units")
+            if (allocated(error)) return
         end if
         allocate (reaction(size(closed)))
         reaction(:) = fine_work%reaction
@@ -265,7 +276,7 @@ contains
 
         load = maxval(work%load_size)
         if (.not. load > 0.0_qp) return
-        hidden = any(abs(reaction - work%reaction) > most_hidden*load)
+        hidden = any(abs(reaction - work%reaction) > most_left_out*load)
         ! Of loads that are smaller still nothing is left, not even rounding
         least = most_hidden*max(load, maxval(abs(work%reaction)))
         do k = 1, size(closed)
@@ -274,8 +285,8 @@ contains
             hidden = is_watched_in(supports, closed, k)
         end do
         if (.not. hidden) return
-        call fatal_error(error, gapbeam_not_converged, "gaps, lacks of fit or settlements are so great that reactions to the "// &
-                         "loads are lost in rounding errors: check their numbers and units")
+        call fatal_error(error, gapbeam_not_converged, "stiffnesses lie so far apart, or gaps, lacks of fit or settlements are "// &
+                         "so great that reactions to the loads are lost in rounding errors: check their numbers and units")
     end subroutine refuse_hidden
 
     !> Did a search end at a rigid stretch over more rigid supports than statics can tell apart
