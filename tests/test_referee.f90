@@ -23,6 +23,7 @@ program test_referee
     call a_spring_out_of_reach()
     call a_stiff_spring_beside_a_soft_one()
     call a_spring_beside_a_far_softer_link()
+    call an_overhang_on_next_to_nothing()
     call finish(status)
     if (status /= 0) stop 1, quiet=.true.
 
@@ -253,6 +254,24 @@ contains
             call check_close(work%reaction(:2), [115.0_wp, 132.0_wp], "and carries its share", 1e-12_wp)
         end do
     end subroutine a_spring_beside_a_far_softer_link
+
+    !> A spring of 1e-28 at the tip of an overhang holds nothing, and the tip goes where the loads bend it
+    subroutine an_overhang_on_next_to_nothing()
+        type(sample_type), target :: sample
+        type(workspace_type) :: work
+        type(outcome_type) :: outcome
+        type(error_type), allocatable :: error
+        logical :: closed(3)
+        ! q a (3 a**3 + 4 a**2 b - b**3)/(24 EI)
+        real(wp), parameter :: a = 3.0_wp, b = 4.0_wp, ei = 1e4_wp, tip = a*(3*a**3 + 4*a**2*b - b**3)/(24*ei)
+
+        call make_beam([a, b], [ei, ei], [1.0_wp, 1.0_wp], [0.0_wp, 0.0_wp], &
+                       [node_support_type(0, both, 1e-28_wp, 0.0_wp), node_support_type(1, both, infinite(), 0.0_wp), &
+                        node_support_type(2, both, infinite(), 0.0_wp)], sample)
+        closed = .true.
+        call decide(sample, closed, work, outcome, error)
+        call check_close(work%answers(0)%deflection, tip, "a tip on next to nothing is bent by its loads", 1e-14_wp)
+    end subroutine an_overhang_on_next_to_nothing
 
     !> The scheme of dead and live loads
     subroutine decide(sample, closed, work, outcome, error)

@@ -7,10 +7,10 @@ module gapbeam_lane_reactions
     use gapbeam_lane_shared, only: find_levels, share_forces
     implicit none
     private
-    public :: complete, find_shears
+    public :: complete, find_shears, doubt_corrections
 
-    !> As first_width of gapbeam_rules and worst_digits of gapbeam_referee
-    real(wp), parameter :: width = 32.0_wp, worst_digits = 1e-8_wp
+    !> As first_width of gapbeam_rules, worst_digits and worst_correction of gapbeam_referee
+    real(wp), parameter :: width = 32.0_wp, worst_digits = 1e-8_wp, worst_correction = 1e-6_wp
 
 contains
 
@@ -217,6 +217,29 @@ contains
             if (off(l) > worst_digits*most(l)) doubtful(l) = doubtful(l) + 1.0_wp
         end do
     end subroutine find_reactions
+
+    !> Are deflections known to few digits, as in digits_lost of gapbeam_referee
+    pure subroutine doubt_corrections(n, w, dw, room, doubtful)
+        integer, intent(in) :: n
+        !> Deflections and their corrections; sizes of deflections in room 2, by find_sizes
+        real(wp), intent(in) :: w(lanes, 0:n), dw(lanes, 0:n), room(lanes, 0:n, 10)
+        !> Raised where they are
+        real(wp), intent(inout) :: doubtful(lanes)
+        real(wp) :: largest(lanes), change(lanes), beyond
+        integer :: i, l
+
+        largest(:) = 0.0_wp
+        change(:) = 0.0_wp
+        do i = 0, n
+            !$omp simd private(beyond)
+            do l = 1, lanes
+                largest(l) = merge(abs(w(l, i)), largest(l), abs(w(l, i)) > largest(l))
+                beyond = merge(abs(dw(l, i)), 0.0_wp, abs(dw(l, i)) > width*epsilon(1.0_wp)*room(l, i, 2))
+                change(l) = merge(beyond, change(l), beyond > change(l))
+            end do
+        end do
+        where (change > worst_correction*largest) doubtful = doubtful + 1.0_wp
+    end subroutine doubt_corrections
 
     !> The larger of two
     elemental function larger(a, b) result(c)

@@ -11,7 +11,7 @@ module gapbeam_lane_search
     use gapbeam_lane_sweeps, only: sweep_three_moments, sweep_chain
     use gapbeam_lane_passes, only: pass_both_ends, find_wrong_between, correct_both_ends
     use gapbeam_lane_residual, only: find_rest, find_rest_at_restraints
-    use gapbeam_lane_reactions, only: complete
+    use gapbeam_lane_reactions, only: complete, doubt_corrections
     use gapbeam_lane_shared, only: keep_loads, join_supports, find_wrong_beside, wait_beside
     implicit none
     private
@@ -377,6 +377,7 @@ contains
         end if
         call add_correction(n, pack%dw, pack%dl, pack%dr, pack%w, pack%ml, pack%mr)
         call complete(beam, n, pack, doubt)
+        call doubt_corrections(n, pack%w, pack%dw, pack%room, doubt)
         doubtful = doubt + moves > 0.5_wp
     end subroutine finish_pack
 

@@ -12,7 +12,7 @@ module gapbeam_referee
     use gapbeam_memory, only: reserve_memory, for_refining
     use gapbeam_law, only: always_closed, has_laws
     use gapbeam_model, only: beam_type
-    use gapbeam_workspace, only: workspace_type
+    use gapbeam_workspace, only: workspace_type, method_pivoting
     use gapbeam_rules, only: find_doubtful, find_wrong, first_width
     use gapbeam_system, only: solve_and_refine
     use gapbeam_band, only: band_ok
@@ -42,6 +42,8 @@ module gapbeam_referee
     integer, parameter :: most_examined = 64
     !> Rounding error of a reaction, relative to the largest, from which on quadruple precision is worth its time
     real(wp), parameter :: worst_digits = 1e-8_wp
+    !> And correction of deflections, relative to the largest, that refining them once may leave too much of
+    real(wp), parameter :: worst_correction = 1e-6_wp
     !> Of the largest load smaller shares are what is left out of reactions as rounding, and what rounding may do to one of which
     !> nothing is left
     real(qp), parameter :: most_left_out = 2.0_qp**(-27), most_hidden = 2.0_qp**(-10)
@@ -136,13 +138,19 @@ contains
         outcome%undecided = undecided
     end subroutine solve_given
 
-    !> Are reactions known to few digits, as those of springs far stiffer than the beam beside each other
+    !> Are reactions known to few digits, as those of springs far stiffer than the beam beside each other, or deflections
     pure function digits_lost(work) result(lost)
         type(workspace_type), intent(in) :: work
         logical :: lost
 
         lost = .false.
         if (size(work%reaction) > 0) lost = maxval(work%reaction_error) > worst_digits*maxval(abs(work%reaction))
+        if (lost .or. work%method == method_pivoting .or. allocated(work%end_shear)) return
+        ! Elimination loses what springs hold that are next to nothing beside the links: the correction tells
+        associate (change => abs(work%correction%deflection))
+            lost = maxval(change, change > first_width*epsilon(1.0_wp)*work%deflection_size) &
+                > worst_correction*maxval(abs(work%answers%deflection))
+        end associate
     end function digits_lost
 
     !> A scheme that is known, in quadruple precision
