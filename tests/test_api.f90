@@ -133,7 +133,7 @@ contains
         call refuse(model, 4, 2, "case")
         model%loads = [point_force(gapbeam_infinity, x=1.0_wp)]
         call refuse(model, 4, 1, "value")
-        model%loads = [uniform_load(1.0_wp, from=2.0_wp, to=2.0_wp)]
+        model%loads = [uniform_load(1.0_wp, from=2.0_wp, to=1.0_wp)]
         call refuse(model, 4, 1, "no length")
         model%loads = [axial_force(1.0_wp, node=1)]
         call refuse(model, 4, 1, "axial")

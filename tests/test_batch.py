@@ -189,6 +189,23 @@ def test_numbers_too_large_for_a_double_are_a_reason(tmp_path):
     assert np.isnan(found["reaction.2"]).tolist() == 3 * [True] + 3 * [False]
 
 
+@pytest.mark.parametrize("tiny", ["1e-400", "-3.0E-324999", "0." + 400 * "0" + "5", "0." + 250 * "0" + "5e-99"])
+def test_numbers_too_small_for_a_double_are_a_reason(tmp_path, tiny):
+    """They are not taken to be zero; what is written as zero is."""
+    (tmp_path / "table.csv").write_text(f"beam.GA,loads[1].F\n1e4,{tiny}\n1e4,0.0\n1e4,0e-400\n1e4,1e-310\n")
+    found = gapbeam.batch(SCENE, tmp_path / "table.csv", tmp_path / "out").read()
+    assert found["status"].tolist() == ["refused", "solved", "solved", "solved"]
+    assert found["reason"][0].startswith("loads[1].F: ")
+    assert " is nearer to zero than any number of double precision, 4.9e-324; " in found["reason"][0]
+
+
+@pytest.mark.parametrize("limit", ["1e-400", "1e400"])
+def test_limits_on_the_command_line_are_in_range(tmp_path, limit, capsys):
+    gapbeam.batch(SCENE, {"loads[1].F": [1.0]}, tmp_path / "out")
+    assert main(["batch", "--summary", str(tmp_path / "out"), "--limit", f"reaction.2={limit}"]) == 2
+    assert f"--limit: reaction.2: {limit} is " in capsys.readouterr().err
+
+
 def test_envelopes_of_combinations_and_trains(tmp_path):
     storm = {"name": "storm", "factors": {"dead": 1.0, "wind": 1.0, "crane": 1.0}, "settlements": {"R-101": 0.01}}
     combinations = [{"name": "calm", "factors": {"dead": 1.0}}, storm]
@@ -371,20 +388,23 @@ def heed_ctrl_c():
     signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
-def test_ctrl_c_ends_the_command(tmp_path):
-    """Whether processes or threads work, one line is said, and the folder goes on."""
+@pytest.mark.parametrize(("number", "words"), [(signal.SIGINT, "interrupted"), (signal.SIGTERM, "ended by SIGTERM")])
+def test_signals_end_the_command(tmp_path, number, words):
+    """Whether processes or threads work, one line is said, nothing in part is left, and the folder goes on."""
     (tmp_path / "beam.toml").write_text(TOML)
     for column, rows in (("factors.wind", 1_000_000), ("beam.EI", 200_000)):
         (tmp_path / f"{column}.csv").write_text("\n".join([column, *["1.0"] * rows]))
         command = [sys.executable, "-m", "gapbeam", "batch", "beam.toml", f"{column}.csv", "--out", column, "--jobs", "2"]
-        process = subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE, text=True, preexec_fn=heed_ctrl_c)
+        process = subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE, text=True, preexec_fn=heed_ctrl_c,
+                                   start_new_session=True)  # fmt: skip
         while not (tmp_path / column / "_manifest.json").exists() and process.poll() is None:
             time.sleep(0.01)
         time.sleep(0.1)
-        process.send_signal(signal.SIGINT)
-        assert process.communicate()[1] == "gapbeam: interrupted\n"
-        assert process.returncode == 130
+        os.killpg(process.pid, number)
+        assert process.communicate()[1] == f"gapbeam: {words}\n"
+        assert process.returncode == 128 + number
         assert gapbeam.Batch(tmp_path / column).done < 200_000
+        assert not list((tmp_path / column).glob(".part-*"))
 
 
 def test_it_goes_on_after_kills(tmp_path):

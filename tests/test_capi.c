@@ -89,8 +89,9 @@ static void refused_arguments(void)
     other.load_value = NULL;
     check(gapbeam_prepare(&other, &beam, NULL, 0) == GAPBEAM_BAD_INPUT, "prepare: an array is missing");
     other.load_value = three;
+    other.load_x = three;
     other.load_to = zero;
-    check(gapbeam_prepare(&other, &beam, message, sizeof message) == GAPBEAM_BAD_INPUT, "prepare: a stretch without length");
+    check(gapbeam_prepare(&other, &beam, message, sizeof message) == GAPBEAM_BAD_INPUT, "prepare: a stretch that ends before it begins");
     check(!strncmp(message, "load 1 of 1: ", 13), "names the load");
     check(gapbeam_prepare(&other, &beam, message, 5) == GAPBEAM_BAD_INPUT && !strcmp(message, "load"), "a short message");
     check(gapbeam_prepare(&other, &beam, message, 0) == GAPBEAM_BAD_INPUT && !strcmp(message, "load"), "no room for one");

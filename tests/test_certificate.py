@@ -1,13 +1,15 @@
 """Certificates: the error bound holds and is not wasteful; what precision cannot decide is named; free positions are said."""
 
 import random
+from dataclasses import replace
 
 import gapbeam
 import numpy as np
 import oracle
 import pytest
+from gapbeam.scene.reading import read_beam
 from mpmath import mpf
-from scenes import INF, at, force, random_scene, scene, uniform
+from scenes import INF, at, force, random_scene, scene, stretch, uniform
 
 PIVOTING = 2  # of Solution.method
 
@@ -74,6 +76,29 @@ def test_stiff_and_soft_together():
     assert all(error <= bound for error, bound in zip(errors, result.steps[-1].bounds, strict=True))
 
 
+LOST = {
+    "between two stops": scene(
+        [1.625],
+        [at(1, side="below", gap=0.00394, settlement=0.00659), at(0, side="below", gap=0.00462, stiffness=4.11e9),
+         at(1, side="above", gap=0.00899, settlement=0.00659)],
+        [uniform(-11.7), force(0.40625, 23.1), {"type": "linear", "q": [-4.06, 3.86], "case": "dead"}], EI=1.87e10),
+    "a short stiff end": scene(
+        [0.0390625, 30.0, 0.15625],
+        [at(1, side="above", gap=4460.0), at(0, side="below", gap=-0.0589), at(3, side="below", gap=9.25e6, stiffness=1170.0),
+         at(2, stiffness=3.22e-5)],
+        [uniform(-318.0, **stretch(0.0390625, 30.1953125)), force(30.0390625, 2.08e6),
+         uniform(2430.0, **stretch(30.0390625, 30.1953125))], EI=1270.0, GA=[INF, 103.0, INF]),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("made", LOST.values(), ids=LOST)
+def test_what_elimination_loses_is_in_the_bounds(made):
+    """The errors are many times what the last digits of the data move: bounds by those alone are below them."""
+    step = gapbeam.solve(made).steps[-1]
+    errors = true_errors(made, step, range(len(made["supports"])))
+    assert all(error <= bound for error, bound in zip(errors, step.bounds, strict=True))
+
+
 def test_bound_where_pivoting_is_needed():
     """Rigid stretches beside clamps and rigid supports: LAPACK solves them, and the bound holds as well."""
     compared = 0
@@ -132,3 +157,18 @@ def test_no_supports_at_all():
     assert result.status == "no-equilibrium"
     assert "moves down as a whole" in result.reason
     assert result.motion == [(0.0, 1.0), (2.0, 1.0)]
+
+
+@pytest.mark.parametrize("share", [1e-3, 1e-7])
+def test_an_error_put_in_on_purpose_is_within_its_bound(share):
+    """The difference from the solution in quadruple precision counts in full: here it is all there is."""
+    made = scene([6.0, 4.0, 5.0], [at(0), at(1, side="below", stiffness=3e4), at(2), at(3, side="below")], [uniform(2.0)], EI=1e4)
+    beam = read_beam(made)[1]
+    solution = beam.solve(1.0, "block", np.ones(4, dtype=np.int32))
+    for changed, of in (("deflection", 0), ("reaction", 1), ("moment", 4)):
+        names = ("moment_left", "moment_right") if changed == "moment" else (changed,)
+        wrong = replace(solution, **{name: getattr(solution, name) * (1 + share) for name in names})
+        size = np.abs(getattr(solution, names[0])).max()
+        _, bounds, known = beam.certify(1.0, wrong)
+        assert known
+        assert share * size <= bounds[of] <= 8 * share * size

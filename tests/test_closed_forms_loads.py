@@ -5,6 +5,8 @@ On a simple beam the deflection is written with Macaulay's brackets <x - a>, zer
     M = R x + M0      EI w = -R x^3/6 + W0 + C x      R, C from M(L) = 0 and w(L) = 0
 """
 
+import math
+
 import gapbeam
 import numpy as np
 import pytest
@@ -237,6 +239,24 @@ def test_dead_and_live_loads_follow_the_load_factor():
             5 * Q * L**4 / 384 / EI - 1e-3 * L**2 / 8 + step.factor * (P * L**3 / 48 - P * L**2 / 16) / EI
         )
         near(result.at(L / 2, step=k).deflection, middle, Q * L**4 / EI)
+
+
+@pytest.mark.parametrize(("q_a", "q_b"), [(0.0, 3.7), (3.7, 0.0)])
+def test_extremes_under_a_triangular_load(q_a, q_b):
+    length, q = 6.5, max(q_a, q_b)
+    extremes = solve([length], SIMPLE, [linear(q_a, q_b)]).extremes()
+
+    def place(share):
+        return length * (share if q_b else 1.0 - share)
+
+    moment, x = extremes["moment"]["max"]
+    assert moment == pytest.approx(q * length**2 / (9 * math.sqrt(3)), rel=1e-14)
+    assert x == pytest.approx(place(1 / math.sqrt(3)), rel=1e-7)
+    share = math.sqrt(1 - math.sqrt(8 / 15))
+    expected = q * length**4 / (360 * EI) * share * (7 - 10 * share**2 + 3 * share**4)
+    deflection, x = extremes["deflection"]["max"]
+    assert deflection == pytest.approx(expected, rel=1e-13)
+    assert x == pytest.approx(place(share), rel=1e-7)
 
 
 def test_many_loads_add_up():

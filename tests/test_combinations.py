@@ -231,6 +231,19 @@ def test_signs_and_spans_expand_to_every_pattern():
     assert found.steps[-1].reaction == pytest.approx(direct.steps[-1].reaction, rel=1e-13)
 
 
+def test_patterns_are_of_the_spans_that_the_case_reaches():
+    """Loads of other cases stand in the other spans: they make no patterns."""
+    made = rack(factors={"dead": 1.0, "live": 1.0, "snow": 1.0}, expand={"snow": "spans"})
+    made["loads"].append(uniform(3.0, **{"from": 7.0, "to": 17.0, "case": "snow"}))
+    result = gapbeam.solve(made)
+    assert result.names == tuple(f"cold [snow {bits}]" for bits in ("11", "10", "01", "00"))
+    stretches = {"11": (7.0, 17.0), "10": (7.0, 12.0), "01": (12.0, 17.0)}
+    for bits, (start, stop) in stretches.items():
+        direct = scene([6.0] * 3, made["supports"], [*made["loads"][:2], uniform(3.0, **{"from": start, "to": stop})], EI=1e4)
+        found = result.combinations[f"cold [snow {bits}]"].steps[-1].reaction
+        assert found == pytest.approx(gapbeam.solve(direct).steps[-1].reaction, rel=1e-13)
+
+
 def test_linear_loads_are_cut_at_span_ends():
     made = rack(factors={"snow": 1.0, "dead": 1.0}, expand={"snow": "spans"})
     made["loads"].append({"type": "linear", "q": [1.0, 4.0], "from": 2.0, "to": 17.0, "case": "snow"})
@@ -247,6 +260,13 @@ def test_all_equal_values_are_named():
     assert [source.combination for source in extreme.ties] == ["a", "b"]
     assert extreme.x == 3.0
     assert extreme.concurrent["deflection"] == extreme.result.at(3.0).deflection
+
+
+@pytest.mark.parametrize(("names", "words"), [("ab", "a, b"), ("abc", "a, b, c"), ("abcd", "a, b, c and 1 more")])
+def test_the_report_names_a_few_of_equal_values(names, words):
+    made = rack() | {"combinations": [{"name": name, "factors": {"live": 1.0}} for name in names]}
+    (line,) = (line for line in report_text(gapbeam.solve(made)).splitlines() if line.startswith("moment"))
+    assert line.split(None, 4)[-1].rstrip() == words
 
 
 def test_smallest_reactions_are_not_floored_at_zero():

@@ -176,6 +176,16 @@ def test_unsolved_cases_are_equal_to_themselves():
     assert cases == beam.solve([[1.0, 1.0], [1.0, 0.01]])
 
 
+def test_curves_without_values_are_equal_to_themselves():
+    """Of a train under which the beam stands at no position."""
+    made = {**tipping(), "analysis": {}, "loads": tipping()["loads"][:1]}
+    made["trains"] = [{"axles": [[0.0, 100.0]], "from": 1.5}]
+    one, same = (gapbeam.solve(made).envelope().fields for _ in range(2))
+    assert np.isnan(one.largest["moment"]).all()
+    assert one == same
+    assert one != gapbeam.solve({**made, "trains": [{"axles": [[0.0, 0.01]]}]}).envelope().fields
+
+
 def test_scenes_that_hold_arrays_can_be_compared():
     def made(spans, q):
         return gapbeam.Scene(beam=gapbeam.Beam(spans=spans, EI=1.0), loads=[gapbeam.LinearLoad(q=q)])

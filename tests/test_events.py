@@ -27,6 +27,15 @@ def test_midspan_gap_closes():
     assert events(result) == [(pytest.approx(76.8 * 3.0 * 0.01 / 4.0**4 / 10.0, rel=1e-14), 1, "closes")]
 
 
+def test_a_beam_that_turns_opens_first_and_closes_last():
+    """A seesaw with 10 on its left arm tips as 20 on the right one reach half: onto the support 0.1 below."""
+    supports = [at(1), at(0, side="below"), at(2, side="below", gap=0.1)]
+    result = solve(scene([4.0, 4.0], supports, [force(0.0, 10.0, case="dead"), force(8.0, 20.0)], EI=1e4))
+    assert events(result) == [(0.5, 1, "opens"), (0.5, 2, "turns"), (0.5, 2, "closes")]
+    assert [state for _, state in result.history()] == [("bilateral", "closed", "open"), ("bilateral", "open", "closed")]
+    assert result.state(1.0).reaction == pytest.approx([20.0, 0.0, 10.0], rel=1e-14)
+
+
 def test_far_end_lifts():
     """Two equal spans on three one-sided supports: the far end lifts at q = 6 g exactly."""
     supports = [at(i, side="below") for i in range(3)]

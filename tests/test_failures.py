@@ -123,7 +123,7 @@ def test_the_help_tells_the_statuses(capsys):
     with pytest.raises(SystemExit):
         main(["--help"])
     statuses = capsys.readouterr().out.partition("Exit status:\n")[2]
-    assert re.findall(r"^ +(\d+) ", statuses, re.MULTILINE) == ["0", "1", "2", "3", "130"]
+    assert re.findall(r"^ +(\d+) ", statuses, re.MULTILINE) == ["0", "1", "2", "3", "130", "143"]
 
 
 def test_only_a_structure_that_cannot_stand_is_1(scene, tmp_path, capsys):

@@ -125,6 +125,23 @@ def scaled_scene(seed, factor):
     return made
 
 
+@pytest.mark.parametrize("F", [20.0, 400.0])
+def test_moduli_that_add_up_to_a_constant(F):
+    """One rises as the other falls; the force of that on a slope is quadratic along the beam."""
+    made = {
+        "beam": {"spans": [4.0], "EI": 100.0},
+        "foundation": [{"k": [100.0, 300.0], "side": "below", "gap": [0.0, 0.02]}, {"k": [300.0, 100.0], "side": "below"}],
+        "loads": [{"type": "uniform", "q": 60.0}, {"type": "force", "x": 1.0, "F": F}],
+    }
+    result, x = gapbeam.solve(made), np.linspace(0.0, 4.0, 17)
+    fields = result.at(x)
+    with mp.workdps(50):
+        right = reference(made, digits=25)
+        for name, of in (("deflection", right.w), ("moment", right.moment)):
+            assert close(getattr(fields, name), [of(place) for place in x], 1e-12), name
+    assert [zone.foundation for zone in result.steps[-1].contact] == [0, 1]
+
+
 def test_a_part_of_a_beam_on_an_edge():
     """A load at the very end of the ground tips the part up to the first hinge; the part behind the next one lies on the ground."""
     made = {"beam": {"spans": [6.0], "EI": 2850.0, "hinges": [1.7, 2.3]}, "foundation": [{"k": 196.0, "side": "below"}],

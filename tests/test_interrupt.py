@@ -124,6 +124,62 @@ def test_what_another_handler_raises_ends_a_call_too():
     signal.signal(signal.SIGALRM, old)
 
 
+# What ends between two linear solves
+
+
+def test_the_engine_hears_signals_itself(monkeypatch):
+    """In one call, in the main thread; then the beam is as it was."""
+    monkeypatch.setattr(calls, "FEW_NODES", 10**12)
+    monkeypatch.setattr(calls._BESIDE, "make", None)
+    beam = gapbeam.prepare(gapped_spans(3))
+    factors = np.random.default_rng(1).uniform(0.0, 9.0, (1_000_000, 3))
+    before = beam.solve(factors[:9]).reaction
+    interrupt(lambda: beam.solve(factors))
+    assert np.array_equal(beam.solve(factors[:9]).reaction, before)
+
+
+def test_handlers_that_raise_nothing_let_calls_go_on(monkeypatch):
+    monkeypatch.setattr(calls, "FEW_NODES", 10**12)
+    heard, begun = [], time.perf_counter()
+    old = signal.signal(signal.SIGALRM, lambda *_: heard.append(time.perf_counter()))
+    beam = gapbeam.prepare(gapped_spans(3))
+    factors = np.random.default_rng(1).uniform(0.0, 9.0, (1_000_000, 3))
+    signal.setitimer(signal.ITIMER_REAL, 0.05, 0.05)
+    found = beam.solve(factors)
+    signal.setitimer(signal.ITIMER_REAL, 0.0)
+    signal.signal(signal.SIGALRM, old)
+    assert (found.status == 0).all()
+    assert len(heard) > 2
+    assert np.diff([begun, *heard]).max() < SECOND
+
+
+def test_what_goes_on_beside_is_ended_too(monkeypatch):
+    """The thread has ended its call, long before it was done, and takes the next one."""
+    monkeypatch.setattr(calls, "NODES_AT_A_TIME", 10**12)
+    ended, direct = [], calls._Call.end
+    monkeypatch.setattr(calls._Call, "end", lambda call: ended.append(direct(call)) or ended[-1])
+    beam = gapbeam.prepare(gapped_spans(3))
+    factors = np.random.default_rng(1).uniform(0.0, 9.0, (1_000_000, 3))
+    before = beam.solve(factors[:9]).reaction
+    interrupt(lambda: beam.solve(factors))
+    assert ended in ([True], [])  # or Python itself was at work
+    assert np.array_equal(beam.solve(factors[:9]).reaction, before)
+
+
+def test_small_beams_on_ground_are_interrupted(monkeypatch):
+    """On curves even a few nodes may take long between two solves, so they are solved beside."""
+    made, make = [], calls._BESIDE.make
+    monkeypatch.setattr(calls._BESIDE, "make", lambda *about: made.append(about[0]) or make(*about))
+    scene = {
+        "beam": {"spans": [6.0, 6.0], "EI": 1e4},
+        "foundation": [{"law": {"type": "tanh", "stiffness": 500.0, "limit": 30.0}, "side": "below"}],
+        "loads": [{"type": "uniform", "q": 2.0, "case": "dead"}, {"type": "force", "x": 4.1, "F": 50.0}],
+    }
+    assert gapbeam.solve(scene).status == "solved"
+    assert calls._engine.gbsolv in made
+    interrupt(lambda: gapbeam.solve({**scene, "analysis": {"steps": 200}}))
+
+
 # The thread beside the main one
 
 
@@ -226,6 +282,67 @@ def test_parts_take_a_fraction_of_a_second(monkeypatch):
 
 # The command
 
+AT_IMPORTS = """
+import os, signal, sys
+signal.signal(signal.{name}, signal.{handler})
+count = -1
+
+def press(event, about):
+    global count
+    if event == "import":
+        count += about[0] == "gapbeam.cli" or count >= 0
+        if count == {after}:
+            os.kill(os.getpid(), signal.{name})
+
+sys.addaudithook(press)
+try:
+    from gapbeam.cli import main
+except KeyboardInterrupt:
+    os._exit(77)  # the import of the package itself, which is no line of the command yet
+sys.argv[1:] = ["run", "scene.json", "--quiet"]
+sys.exit(main())
+"""
+ENDINGS = {"SIGINT": (130, "gapbeam: interrupted\n"), "SIGTERM": (143, "gapbeam: ended by SIGTERM\n")}
+
+
+@pytest.mark.parametrize(("name", "handler"), [("SIGINT", "default_int_handler"), ("SIGTERM", "SIG_DFL")])
+def test_the_command_is_ended_from_its_first_line_on(tmp_path, monkeypatch, name, handler):
+    """A signal at the first imports, at all others now and then, while the command loads itself."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "scene.json").write_text(json.dumps(gapped_spans(3)))
+    for after in (2, 3, 4, 5, 10, 30, 60, 100, 200):
+        words = [sys.executable, "-c", AT_IMPORTS.format(name=name, handler=handler, after=after)]
+        run = subprocess.run(words, capture_output=True, text=True, timeout=50)
+        assert (run.returncode, run.stderr) == ENDINGS[name], after
+        assert run.stdout == ""
+
+
+@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM"])
+def test_the_command_is_ended_while_python_ends(tmp_path, monkeypatch, name):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "scene.json").write_text(json.dumps(gapped_spans(3)))
+    ending = f"import atexit, os, signal, sys; signal.signal(signal.SIGINT, signal.default_int_handler);" \
+        f"atexit.register(os.kill, os.getpid(), signal.{name}); from gapbeam.cli import main; sys.exit(main())"
+    run = subprocess.run([sys.executable, "-c", ending, "check", "scene.json"], capture_output=True, text=True, timeout=50)
+    assert (run.returncode, run.stderr) == ENDINGS[name]
+    assert run.stdout.startswith("scene.json: valid")
+
+
+def test_importing_gapbeam_changes_no_handler():
+    words = "import signal; before = [signal.getsignal(k) for k in (2, 15)]; import gapbeam, gapbeam.cli; gapbeam.solve;" \
+        "gapbeam.cli.main(['schema']); assert before == [signal.getsignal(k) for k in (2, 15)]"
+    assert subprocess.run([sys.executable, "-c", words], capture_output=True, timeout=50).returncode == 0
+
+
+def test_signals_that_are_ignored_stay_so(tmp_path, monkeypatch):
+    """As under nohup."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "scene.json").write_text(json.dumps(gapped_spans(3)))
+    words = "import os, signal, sys; signal.signal(signal.SIGHUP, signal.SIG_IGN); import gapbeam.cli as cli;" \
+        "cli.see_to_signals(); os.kill(os.getpid(), signal.SIGHUP); sys.exit(cli.main())"
+    assert subprocess.run([sys.executable, "-c", words, "check", "scene.json"], capture_output=True, timeout=50).returncode == 0
+
+
 COMMAND = """
 import os, signal, sys, threading, time
 signal.signal(signal.SIGINT, signal.default_int_handler)
@@ -237,7 +354,7 @@ def press():
         time.sleep(0.01)
     with open("pressed", "w") as stream:
         stream.write(repr(time.time()))
-    os.kill(os.getpid(), signal.SIGINT)
+    os.kill(os.getpid(), signal.{name})
 
 begin = time.time()
 threading.Thread(target=press, daemon=True).start()
@@ -247,17 +364,19 @@ LATER = "time.time() > begin + 0.5"
 WRITING = "any(name.startswith('.gapbeam-') and os.stat(name).st_size for name in os.listdir())"
 
 
+@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM"])
 @pytest.mark.parametrize(
     ("spans", "analysis", "when"), [(300, {"steps": 10**5}, LATER), (100_000, {}, LATER), (20_000, {}, WRITING)]
 )
-def test_the_command_is_interrupted(tmp_path, monkeypatch, spans, analysis, when):
+def test_the_command_is_interrupted(tmp_path, monkeypatch, spans, analysis, when, name):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "scene.json").write_text(json.dumps({**gapped_spans(spans), "analysis": analysis}))
     (tmp_path / "a.json").write_text("as it was")
-    words = [sys.executable, "-c", COMMAND.format(when=when), "run", "scene.json", "--json", "a.json", "--csv", "a.csv"]
+    code = COMMAND.format(when=when, name=name)
+    words = [sys.executable, "-c", code, "run", "scene.json", "--json", "a.json", "--csv", "a.csv"]
     run = subprocess.run(words, capture_output=True, text=True)
     ended = time.time()
-    assert (run.returncode, run.stdout, run.stderr) == (130, "", "gapbeam: interrupted\n")
+    assert (run.returncode, run.stdout, run.stderr) == (ENDINGS[name][0], "", ENDINGS[name][1])
     assert ended - float((tmp_path / "pressed").read_text()) < SECOND
     assert (tmp_path / "a.json").read_text() == "as it was"
     assert sorted(os.listdir()) == ["a.json", "pressed", "scene.json"]
@@ -296,7 +415,8 @@ def test_the_command_is_interrupted_while_objects_are_freed():
 @pytest.mark.parametrize("study", ["extremes", "accuracy", "contact", "kernel", "schemes"])
 def test_studies_are_interrupted(tmp_path, monkeypatch, study):
     monkeypatch.chdir(tmp_path)
-    words = [sys.executable, "-c", COMMAND.format(when="time.time() > begin + 2"), "study", study, "--markdown", "a.md"]
+    code = COMMAND.format(when="time.time() > begin + 2", name="SIGINT")
+    words = [sys.executable, "-c", code, "study", study, "--markdown", "a.md"]
     run = subprocess.run(words, capture_output=True, text=True)
     ended = time.time()
     assert (run.returncode, run.stdout, run.stderr) == (130, "", "gapbeam: interrupted\n")
@@ -306,7 +426,7 @@ def test_studies_are_interrupted(tmp_path, monkeypatch, study):
 
 def test_waiting_for_standard_input_is_interrupted(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    words = [sys.executable, "-c", COMMAND.format(when=LATER), "check", "-"]
+    words = [sys.executable, "-c", COMMAND.format(when=LATER, name="SIGINT"), "check", "-"]
     with subprocess.Popen(words, stdin=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
         assert process.wait() == 130
         assert process.stderr.read() == "gapbeam: interrupted\n"

@@ -110,8 +110,9 @@ contains
         n = size(lowered%beam%links) + 1
         m = size(lowered%beam%supports)
         c = size(factors, 2)
-        allocate (found%closed(m, c), found%solves(c), found%w(n, c), found%ml(n, c), found%mr(n, c), found%reaction(m, c), &
-                  found%done(c))
+        ! A row more than there are supports, as in Python
+        allocate (found%closed(m + 1, c), found%solves(c), found%w(n, c), found%ml(n, c), found%mr(n, c), &
+                  found%reaction(m + 1, c), found%done(c))
         found%closed(:, :) = 1
         found%w(:, :) = 0.0_wp
         found%ml(:, :) = 0.0_wp
@@ -119,6 +120,9 @@ contains
         found%reaction(:, :) = 0.0_wp
         call solve_in_lanes(lowered, loads, factors, values, spans, room, found%closed, found%w, found%ml, found%mr, &
                             found%reaction, found%solves, found%done, level)
+        if (any(found%closed(m + 1, :) /= 1) .or. any(abs(found%reaction(m + 1, :)) > 0.0_wp)) then
+            call check(.false., "what is beyond the supports stays as it was")
+        end if
         allocate (found%extremes(2, 4, c), found%places(2, 4, c), found%fields(4, 2, c))
         found%fields(:, :, :) = 0.0_wp
         found%extremes(:, :, :) = 0.0_wp
@@ -173,13 +177,14 @@ contains
         type(workspace_type) :: work
         type(error_type), allocatable :: error
         logical, allocatable :: acting(:)
-        integer :: i, status
+        integer :: i, m, status
 
         lowered = given
         loads = given_loads
         beam = lowered%beam
         call new_workspace(beam, work)
-        allocate (acting(size(beam%supports)))
+        m = size(beam%supports)
+        allocate (acting(m))
         do i = 1, cases
             if (size(spans, 2) > 0) then
                 lowered%model%spans%EI = spans(1, :, i)
@@ -197,14 +202,14 @@ contains
                 cycle
             end if
             associate (units => lowered%units, a => work%answers)
-                if (status == gapbeam_solved .and. all(acting .eqv. found%closed(:, i) == 1)) then
+                if (status == gapbeam_solved .and. all(acting .eqv. found%closed(:m, i) == 1)) then
                     if (all(bits(scale(a%deflection, units%deflection)) == bits(found%w(:, i)) &
                             .and. bits(scale(a%moment_left, moment_unit(units))) == bits(found%ml(:, i)) &
                             .and. bits(scale(a%moment_right, moment_unit(units))) == bits(found%mr(:, i))) &
-                        .and. all(bits(scale(work%reaction, units%force)) == bits(found%reaction(:, i)))) cycle
+                        .and. all(bits(scale(work%reaction, units%force)) == bits(found%reaction(:m, i)))) cycle
                     associate (w => scale(a%deflection, units%deflection), r => scale(work%reaction, units%force))
                         if (long .and. all(abs(w - found%w(:, i)) <= 1e-12_wp*maxval(abs(w))) &
-                            .and. all(abs(r - found%reaction(:, i)) <= 1e-12_wp*maxval(abs(r)))) cycle
+                            .and. all(abs(r - found%reaction(:m, i)) <= 1e-12_wp*maxval(abs(r)))) cycle
                     end associate
                 end if
             end associate

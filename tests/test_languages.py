@@ -34,6 +34,7 @@ def scene_of(seed):
         made["supports"].append({"node": 0, "direction": "axial", "settlement": rng.choice((0.0, 0.01))})
         if rng.random() < 0.5:
             made["supports"].append({"x": end, "direction": "axial", "stiffness": 3e3})
+        made["analysis"] = {**made.get("analysis", {}), "first_order": True}  # the others know no Euler load
         made["loads"] += [{"type": "axial", "x": rng.uniform(0.0, end), "F": rng.uniform(-9, 9)} for _ in range(2)]
     if rng.random() < 0.05:
         # Far from 1: these are solved in other units

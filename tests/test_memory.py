@@ -3,15 +3,20 @@
 import hashlib
 import json
 import os
+import re
+import shutil
 import subprocess
 import sys
 from collections import Counter
 from contextlib import suppress
+from pathlib import Path
 
 import gapbeam
 import numpy as np
 import pytest
 from gapbeam.base.errors import Status, check_status
+from gapbeam.base.memory import available
+from gapbeam.cli import main as cli
 from gapbeam.scene import read_scene
 
 resource = pytest.importorskip("resource")
@@ -140,6 +145,17 @@ def main(name):
     print(json.dumps(Counter(ends)))
 
 
+@pytest.mark.parametrize("limit", [123_456_789, resource.RLIM_INFINITY])
+def test_no_more_can_be_had_than_the_address_space(monkeypatch, limit):
+    """Without a limit, which is told as a number below zero, what the machine has."""
+    unlimited = resource.RLIM_INFINITY
+    monkeypatch.setattr(resource, "getrlimit", lambda _: (unlimited, unlimited))
+    machine = available()
+    assert machine > 10e6
+    monkeypatch.setattr(resource, "getrlimit", lambda _: (limit, unlimited))
+    assert available() == pytest.approx(machine if limit == unlimited else min(machine, limit), rel=0.5)
+
+
 def test_the_status_is_a_memory_error():
     with pytest.raises(MemoryError, match=r"no more memory: .* or take fewer spans"):
         check_status(Status.NO_MEMORY)
@@ -152,6 +168,74 @@ def test_every_limit(name):
     assert set(ended) <= {str(RIGHT), str(REFUSED)}, run.stderr
     assert ended[str(RIGHT)] > 2
     assert ended[str(REFUSED)] > 2
+
+
+SCENE = {
+    "beam": {"spans": [6.0, 6.0], "EI": 1e4},
+    "supports": [{"node": 0}, {"node": 1, "side": "below", "gap": 0.01}, {"node": 2}],
+    "loads": [{"type": "uniform", "q": 20.0}],
+}
+LIMITS = {  # megabytes; known to have ended otherwise are 63 to 121, 131, 140, 335, 440, 448
+    "run scene.json --quiet --json a.json": (28, 40, 63, 85, 100, 121, 131, 140, 175, 190, 210, 225, 335, 900, 3600),
+    "run scene.json --quiet --plot a.svg": (121, 190, 230, 260, 280, 300, 3600),
+    "batch scene.json gaps.csv --out out --jobs 2 --quiet": (121, 225, 335, 400, 440, 448, 470, 500, 530, 900, 3600),
+    "batch scene.json spans.csv --out out --jobs 2 --quiet": (225, 440, 500, 900, 3600),
+    "batch --summary kept --quiet --json a.json": (225, 400, 448, 500, 3600),
+}
+
+
+def written():
+    """What a command has written, but for the time that it took."""
+    found = {one: (Path("out") / one).read_bytes() for one in os.listdir("out")} if os.path.isdir("out") else {}
+    for name in ("a.json", "a.svg"):
+        if os.path.exists(name):
+            text = re.sub(r'"seconds": [^,\n]*|<dc:date>.*?</dc:date>', "", Path(name).read_text(encoding="utf-8"))
+            found[name] = re.sub(r"\b[mp][0-9a-f]{10}\b", "id", text).encode()
+    return found
+
+
+@pytest.mark.parametrize("command", LIMITS)
+def test_the_command_under_limits(tmp_path, monkeypatch, command):
+    """The right result, or status 3 and one line; libraries that end the process where they get no memory are not let do so."""
+    monkeypatch.chdir(tmp_path)
+    Path("scene.json").write_text(json.dumps(SCENE))
+    Path("gaps.csv").write_text("supports[1].gap\n" + "".join(f"{0.0001 * k}\n" for k in range(200)))
+    Path("spans.csv").write_text("beam.spans[0]\n" + "".join(f"{6.0 + 0.001 * k}\n" for k in range(40)))
+    if "kept" in command:
+        gapbeam.batch("scene.json", "gaps.csv", "kept")
+    ends, right = Counter(), None
+    for limit in (None, *LIMITS[command]):
+        for name in ("a.json", "a.svg"):
+            Path(name).unlink(missing_ok=True)
+        shutil.rmtree("out", ignore_errors=True)
+        run = subprocess.run(
+            [sys.executable, "-m", "gapbeam", *command.split()], capture_output=True, text=True, timeout=100,
+            preexec_fn=lambda most=limit: most and resource.setrlimit(resource.RLIMIT_AS, (most * 2**20, most * 2**20)),
+        )  # fmt: skip
+        ends[run.returncode] += 1
+        assert run.stdout == ""
+        if run.returncode == 3:
+            assert re.fullmatch(r"gapbeam: error: .*memory.*\n", run.stderr), (limit, run.stderr)
+            assert not os.path.exists("a.json")
+        else:
+            assert (run.returncode, run.stderr) == (0, ""), limit
+            right = right or written()
+            assert written() == right, limit
+    assert set(ends) == {0, 3}
+
+
+def test_a_package_that_fails_to_load_is_not_missing(tmp_path, monkeypatch, capsys):
+    """Where memory is short a package is there and cannot be loaded: that is no matter of installing it."""
+    monkeypatch.chdir(tmp_path)
+    Path("scene.json").write_text(json.dumps(SCENE))
+    Path("gaps.csv").write_text("supports[1].gap\n0.0\n")
+    (tmp_path / "broken" / "pyarrow").mkdir(parents=True)
+    (tmp_path / "broken" / "pyarrow" / "__init__.py").write_text("raise ImportError('failed to map segment from shared object')")
+    for name in [name for name in sys.modules if name.partition(".")[0] == "pyarrow"]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.syspath_prepend(tmp_path / "broken")
+    assert cli(["batch", "scene.json", "gaps.csv", "--out", "out"]) == 3
+    assert "cannot be loaded (failed to map segment from shared object); give it more memory" in capsys.readouterr().err
 
 
 if __name__ == "__main__":

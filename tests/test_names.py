@@ -66,3 +66,30 @@ def test_refusals(change, message):
     with pytest.raises(gapbeam.SceneError) as caught:
         gapbeam.read_scene(made)
     assert message in str(caught.value)
+
+
+def test_combinations_may_have_numbers_for_names(tmp_path):
+    """A text is a name before it is a number; a number is none."""
+    made = named()
+    cases = list(dict.fromkeys(load.get("case", "live") for load in made["loads"]))
+    made["combinations"] = [
+        {"name": name, "factors": dict.fromkeys(cases, factor)} for name, factor in (("1", 1.0), ("0", 2.0), ("7", 3.0))
+    ]
+    made["combinations"].append({"name": "scheme", "factors": {cases[0]: 1.0}, "scheme_of": "0"})
+    result = gapbeam.solve(made)
+    assert result.names == ("1", "0", "7", "scheme")
+    first, second = result.combinations["1"], result.combinations["0"]
+    assert (result.combinations[0].scene.title, result.combinations[1].scene.title) == (first.scene.title, second.scene.title)
+    assert first.scene.title.endswith("1")
+    with pytest.raises(KeyError, match="there is no combination"):
+        result.combinations["2"]
+    assert result.envelope().extremes["moment"]["max"].combination == "7"
+    assert [one["name"] for one in result.to_dict()["combinations"]] == ["1", "0", "7", "scheme"]
+    columns = {f"combinations.0.factors.{cases[0]}": [2.0, 9.0]}
+    found = gapbeam.batch({**made, "combinations": made["combinations"][:2]}, columns, tmp_path / "out").read()
+    others = [{"name": "x", "factors": {**dict.fromkeys(cases, 2.0), cases[0]: factor}} for factor in (2.0, 9.0)]
+    given = [{**made, "combinations": [made["combinations"][0], one]} for one in others]
+    largest = [gapbeam.solve(one).envelope().extremes["moment"]["max"].value for one in given]
+    assert found["moment.max"] == pytest.approx(largest, rel=1e-12)
+    with pytest.raises(gapbeam.SceneError, match="is the name of combinations"):
+        gapbeam.solve({**made, "combinations": [made["combinations"][0]] * 2})

@@ -10,8 +10,9 @@ import pytest
 from clibrary import F77Beam
 from gapbeam.base.errors import SceneError
 from gapbeam.scene import POSITION_TOLERANCE
+from gapbeam.scene.places import locate
 from gapbeam.scene.reading import read_beam, read_scene
-from scenes import at, curvature, force, moment, scene, stretch, uniform
+from scenes import at, curvature, force, linear, moment, scene, stretch, uniform
 
 
 def at_nodes(spans):
@@ -181,3 +182,118 @@ def test_what_is_at_the_same_point_is_refused_everywhere(library, supports, hing
         assert beam == 11
         assert message.startswith(f"{kind} {entry + 1} of ")
         assert F77Beam(library, made).info_ < 0
+
+
+BEYOND = (1.0 + 9e-13, 1.0 + 3e-14, 1.0 + 2e-16, 1.0)
+
+
+@pytest.mark.parametrize("x", BEYOND)
+def test_what_lies_beyond_the_end_by_rounding_is_at_the_end(x):
+    """Sums of spans are off by more than the last digits: ten thousand tenths by 1e-13 of their sum and more."""
+    begin = 1.0 - x
+    made = scene(
+        [0.25] * 4, [at(x=begin), at(x=x)],
+        [uniform(2.0, **stretch(begin, x)), force(x, 3.0), force(begin, 4.0), moment(x, 0.5), curvature(0.1, **stretch(0.5, x))],
+        sections=[{**stretch(0.5, x), "EI": 2.0}],
+    )  # fmt: skip
+    made["foundation"] = [{**stretch(0.75, x), "k": 1e-3}]
+    right = scene(
+        [0.25] * 4, [at(x=0.0), at(x=1.0)],
+        [uniform(2.0), force(1.0, 3.0), force(0.0, 4.0), moment(1.0, 0.5), curvature(0.1, **stretch(0.5, 1.0))],
+        sections=[{**stretch(0.5, 1.0), "EI": 2.0}],
+    )  # fmt: skip
+    right["foundation"] = [{**stretch(0.75, 1.0), "k": 1e-3}]
+    found, known = (gapbeam.solve(one) for one in (made, right))
+    assert found.steps[-1].reaction.tolist() == known.steps[-1].reaction.tolist()
+    assert found.extremes() == known.extremes()
+    assert found.at([begin, x], side="left").moment.tolist() == known.at([0.0, 1.0], side="left").moment.tolist()
+
+
+def test_a_sum_in_doubles_is_the_end():
+    spans = [0.1] * 10_000
+    x = sum(spans)
+    assert x - 1000.0 > 64 * np.finfo(float).eps * 1000.0
+    result = gapbeam.solve(scene(spans, [at(0), at(x=x)], [uniform(1.0, to=x)], EI=1e6))
+    assert result.steps[-1].reaction == pytest.approx([500.0, 500.0], rel=1e-12)
+
+
+@pytest.mark.parametrize("x", [1.0 + 2e-12, -2e-12])
+def test_what_lies_farther_out_is_refused(x):
+    for made in (
+        scene([0.5, 0.5], [at(0), at(x=x)]),
+        scene([0.5, 0.5], [at(0), at(2)], [force(x, 1.0)]),
+        scene([0.5, 0.5], [at(0), at(2)], [uniform(1.0, **(stretch(x, 0.5) if x < 0.0 else stretch(0.5, x)))]),
+    ):
+        with pytest.raises(SceneError, match="is outside the beam, which runs from x = 0 to x = 1"):
+            gapbeam.solve(made)
+
+
+@pytest.mark.parametrize("both", [False, True])
+def test_axles_beyond_an_end_by_rounding_are_at_it(both):
+    made = scene([0.5, 0.5], [at(0), at(2)])
+    made["trains"] = [{"axles": [[0.0, 2.0], [0.25, 1.0]], "from": -9e-13, "to": 1.25 + 9e-13, "both_directions": both}]
+    train = gapbeam.solve(made).trains["train 1"]
+    assert train.at(1.0 + 1e-14).reaction == pytest.approx([0.25, 2.75])
+    assert train.at(-1e-14).reaction == pytest.approx([2.0, 0.0])
+    assert train.at(1.25 + 1e-14).reaction == pytest.approx([0.0, 1.0])
+    made["trains"][0]["from"] = 1.25 + 9e-13
+    made["trains"][0]["to"] = 1.25 + 9e-13
+    envelope = gapbeam.solve(made).envelope()
+    largest = envelope.supports[1]["reaction"]["max"].value
+    assert largest == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("ground", [False, True])
+def test_trains_as_long_as_the_beam_but_for_rounding(ground):
+    """Its length is a sum of the spans in another order: both ends act where it is inside, whichever way it goes."""
+    made = scene([0.1] * 10, [at(0), at(10)], EI=10.0)
+    made["trains"] = [{"axles": [[0.0, 1.0], [1.0 + 3e-13, 2.0]], "q": 3.0, "inside": True, "both_directions": True}]
+    if ground:
+        made["foundation"] = [{"k": 1e-9}]
+    result = gapbeam.solve(made)
+    for position, direction, ends in ((1.0, "right", [3.5, 2.5]), (0.0, "left", [2.5, 3.5])):
+        assert result.trains["train 1"].at(position, direction).reaction == pytest.approx(ends, rel=1e-6)
+    largest = [row["reaction"]["max"].value for row in result.envelope().supports]
+    assert largest == pytest.approx([3.5, 3.5], rel=1e-6)
+    made["trains"][0]["axles"][1][0] = 1.0 + 2e-12
+    with pytest.raises(SceneError, match="is nowhere inside the beam"):
+        gapbeam.solve(made)
+
+
+def test_load_stretches_without_length_act_on_nothing():
+    loads = [uniform(2.0)]
+    idle = [
+        uniform(7.0, **stretch(0.3, 0.3)), uniform(7.0, **stretch(1.0, 1.0 + 5e-13)), linear(5.0, -3.0, **stretch(0.0, 0.0)),
+        linear(5.0, -3.0, **stretch(0.75, 0.75 * (1 + 2e-16))), curvature(4.0, **stretch(0.5, 0.5)),
+    ]  # fmt: skip
+    supports = [at(0), at(1, side="below", gap=0.001), at(2)]
+    known = gapbeam.solve(scene([0.5, 0.5], supports, loads)).steps[-1].reaction
+    made = scene([0.5, 0.5], supports, [*loads, *idle])
+    assert gapbeam.solve(made).steps[-1].reaction == pytest.approx(known, rel=1e-12)
+    beam = gapbeam.prepare(made)
+    for count in (1, 3, 40):
+        cases = beam.solve(np.ones((count, 6)))
+        assert cases.reaction == pytest.approx(np.tile(known, (count, 1)), rel=1e-12)
+        alone = beam.solve(np.tile([0.0, 1.0, 1.0, 1.0, 1.0, 1.0], (count, 1)))
+        assert np.abs(alone.reaction).max() == 0.0
+        assert np.abs(alone.extremes()["moment"]["max"][0]).max() == 0.0
+    made["loads"].pop()  # patterns are of distributed loads
+    made["combinations"] = [{"name": "all", "factors": {"live": 1.0}, "expand": {"live": "spans"}}]
+    without = {**made, "loads": loads}
+    largest, right = (gapbeam.solve(one).envelope().supports[0]["reaction"]["max"].value for one in (made, without))
+    assert largest == pytest.approx(right, rel=1e-12)
+    for key in ("sections", "foundation"):
+        wrong = scene([0.5, 0.5], supports, loads) | {key: [{**stretch(0.3, 0.3), "EI" if key == "sections" else "k": 1.0}]}
+        with pytest.raises(SceneError, match=r"the stretch from = 0\.3 to = 0\.3 has no length"):
+            gapbeam.solve(wrong)
+    with pytest.raises(SceneError, match="has no length; from must be less than to"):
+        gapbeam.solve(scene([0.5, 0.5], supports, [uniform(1.0, **stretch(0.4, 0.3))]))
+
+
+def test_the_end_of_a_span_is_the_beginning_of_the_next():
+    """With no distance from it, also where places differ from it by rounding; at the end of the beam that span is not there."""
+    ends, near = np.array([0.0, 6.0, 9.0]), 0.9 * POSITION_TOLERANCE
+    x = [0.0, 1.5, 6.0 * (1 - 2 * POSITION_TOLERANCE), *(6.0 * (1 + k * near) for k in (-1, 0, 1)), 7.5, 9.0 * (1 - near), 9.0]
+    span, offset = locate(np.array(x), ends)
+    assert span.tolist() == [0, 0, 0, 1, 1, 1, 1, 2, 2]
+    assert offset.tolist() == [0.0, 1.5, x[2], 0.0, 0.0, 0.0, 1.5, 0.0, 0.0]

@@ -60,9 +60,11 @@ def test_every_unit_has_the_same_digits(seed):
 def test_axial_system_in_any_units():
     supports = [at(0), at(1), at(0, direction="axial", settlement=2e-3), at(1, direction="axial", stiffness=5.0)]
     loads = [{"type": "axial", "x": 2.0, "F": 3.0}]
-    here = gapbeam.solve(scene([6.0], supports, loads, EI=1.0, EA=7.0))
+    meant = {"first_order": True}
+    here = gapbeam.solve(scene([6.0], supports, loads, EI=1.0, EA=7.0, analysis=meant))
     for strength, way in ((-900, 0), (900, 0), (0, -1000), (-600, -600), (400, 800)):
-        made = scene([6.0], [dict(s) for s in supports], [{**loads[0], "F": math.ldexp(3.0, strength)}], EI=1.0)
+        made = scene([6.0], [dict(s) for s in supports], [{**loads[0], "F": math.ldexp(3.0, strength)}], EI=1.0,
+                     analysis=meant)  # fmt: skip
         made["beam"]["EA"] = math.ldexp(7.0, strength - way)
         made["supports"][2]["settlement"] = math.ldexp(2e-3, way)
         made["supports"][3]["stiffness"] = math.ldexp(5.0, strength - way)

@@ -12,6 +12,7 @@ import pytest
 import scenes
 from gapbeam.report import report_text, to_csv, to_json
 from gapbeam.report.scheme import merged, scheme_table
+from gapbeam.report.text import MOST_LIMITS
 
 
 def rocking(steps=8):
@@ -55,14 +56,15 @@ def test_json_reads_back_to_the_same_numbers(result):
     assert data == json.loads(json.dumps(result.to_dict()))
     assert data["steps"][-1]["supports"][0]["reaction"] == result.steps[-1].reaction[0]
     assert data["fields"]["moment"] == result.fields().moment.tolist()
-    assert list(data)[:2] == ["title", "units"]
+    assert list(data)[:3] == ["schema", "title", "units"]
+    assert data["schema"] == "gapbeam-result 1"
     assert {"status", "system", "steps", "fields", "extremes"} <= set(data)
     assert all(map(math.isfinite, numbers(data)))
 
 
 def test_json_holds_one_line_a_support(result):
     lines = to_json(result).splitlines()
-    assert sum('"reaction"' in line for line in lines) == 8 * 3
+    assert sum('"reaction"' in line and '"state"' in line for line in lines) == 8 * 3
 
 
 def test_csv_is_the_table_of_the_fields(result):
@@ -145,6 +147,44 @@ def test_the_history_of_many_supports_has_a_symbol_for_each(supports):
     _, rows = scheme_table([(1.0, states)], 80)
     symbols = "".join(row[-1].replace(" ", "") for row in rows)
     assert symbols == "".join("○" if state == "open" else "●" for state in states)
+
+
+@pytest.mark.parametrize("supports", [49, 50, 51])
+def test_up_to_fifty_supports_have_a_column_each(supports):
+    headings, rows = scheme_table([(1.0, ("open",) * supports)], 400)
+    each, tens = [str(index) for index in range(supports)], "".join(f"{index:<11}" for index in range(0, 50, 10))
+    assert headings == ["load factor", *(each if supports <= 50 else ["from", tens.rstrip()])]
+    assert "".join("".join(row) for row in rows).count("○") == supports
+
+
+@pytest.mark.parametrize(("more", "words"), [(0, None), (1, "... and 1 more limit."), (2, "... and 2 more limits.")])
+def test_the_headline_names_five_limits(more, words):
+    """Beside each other supports that break one after the other, at one load each."""
+    spans = MOST_LIMITS + more
+    brittle = [{"type": "brittle", "stiffness": 500.0, "limit": 1.0 + 0.1 * i} for i in range(spans)]
+    supports = [scenes.at(2 * i) for i in range(spans + 1)]
+    supports += [scenes.at(2 * i + 1, side="below", law=law) for i, law in enumerate(brittle)]
+    made = scenes.scene([0.5, 0.5] * spans, supports, [scenes.force(i + 0.5, 10.0) for i in range(spans)], EI=1.0,
+                        analysis={"follow": "events", "at_limit": "jump"})  # fmt: skip
+    result = gapbeam.solve(made)
+    assert len(result.limits) == spans
+    lines = report_text(result).splitlines()
+    assert sum(line.startswith("limit load at load factor") for line in lines) == MOST_LIMITS == 5
+    assert [line for line in lines if "more limit" in line] == ([words] if words else [])
+
+
+@pytest.mark.parametrize("points", [1, 4])
+def test_fields_are_the_values_at_their_places(points):
+    made = scenes.scene([2.0, 3.0], [scenes.at(0), scenes.at(1), scenes.at(2)],
+                        [scenes.uniform(1.0), scenes.force(0.75, 4.0), scenes.force(4.0, 2.0)])  # fmt: skip
+    result = gapbeam.solve(made)
+    fields = result.fields(points=points)
+    assert {0.0, 0.75, 2.0, 4.0, 5.0} <= set(fields.x.tolist())
+    assert (fields.x[0], fields.x[-1]) == (0.0, 5.0)
+    inside = np.flatnonzero(np.diff(fields.x, prepend=-1.0) * np.diff(fields.x, append=6.0) > 0.0)
+    assert np.all(np.diff(fields.x) >= 0.0)
+    for name in ("deflection", "moment", "shear"):
+        np.testing.assert_allclose(getattr(fields, name)[inside], getattr(result.at(fields.x[inside]), name), atol=1e-13)
 
 
 def test_a_bilateral_beam_has_no_history():

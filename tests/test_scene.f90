@@ -180,8 +180,8 @@ contains
         model%supports(3)%rotation = 0.0_wp
         model%loads = [point_couple(1.0_wp, x=6.0_wp)]
         call expect(model, of_loads, 1, at_hinge, "", "a couple at a hinge")
-        model%loads = [uniform_load(1.0_wp, from=5.0_wp, to=5.0_wp)]
-        call expect(model, of_loads, 1, no_stretch, "", "a load without length")
+        model%loads = [uniform_load(1.0_wp, from=5.0_wp, to=4.0_wp)]
+        call expect(model, of_loads, 1, no_stretch, "", "a load from right to left")
         model%loads = [uniform_load(nan, from=5.0_wp, to=6.0_wp)]
         call expect(model, of_loads, 1, not_expected, "value", "a load that is no number")
         model%loads(1)%kind = 5

@@ -20,7 +20,7 @@ from gapbeam.scene import (
     UniformLoad,
     read_scene,
 )
-from gapbeam.scene.wording import beyond
+from gapbeam.scene.wording import beyond, shown
 
 inf = float("inf")
 BEAM = {"spans": [6.0, 6.0, 6.0], "EI": 1.0e4}
@@ -221,6 +221,11 @@ x = 6.0; law = [[0.01, 5.0], [0.02, 4.0]] ->
     on it stays, such as [1.02, 4]
 x = 6.0; law = [[0.0, 0.0]] ->
     supports[0].law: the point [0, 0] stands there twice, or at the origin; leave it out
+x = 6.0; law = [[0.0, 2.0], [0.0, 1.0], [0.0, 3.0], [1.0, 3.0]] ->
+    supports[0].law: there are two vertical pieces at 0; give the outer points only
+x = 6.0; side = "below"; law = [[0.01, 10.0], [0.02, 60.0]]; unloading = "plastic" ->
+    supports[0].law: plastic unloading is parallel to its first piece, but the piece up to [0.02, 60] is steeper, so it
+    would give back more work than it took; begin with the steepest piece, or leave unloading out
 x = 6.0; law = [[0.0, 1.0], [0.0, 2.0]] ->
     supports[0].law: there are two vertical pieces at 0; give the outer points only
 x = 6.0; direction = "axial"; law = [[0.01, 5.0]] ->
@@ -330,8 +335,8 @@ type = "moment"; M = -inf; x = 1.0 -> loads[1].M: expected a finite number, got 
 type = "uniform"; q = nan -> loads[1].q: expected a finite number, got nan
 type = "linear"; q = [1.0, inf] -> loads[1].q: expected finite numbers, got [1.0, inf]
 type = "curvature"; kappa = inf -> loads[1].kappa: expected a finite number, got inf
-type = "uniform"; q = 1.0; from = 5.0; to = 5.0 ->
-    loads[1]: the stretch from = 5 to = 5 has no length; from must be less than to
+type = "uniform"; q = 1.0; from = 5.0; to = 4.0 ->
+    loads[1]: the stretch from = 5 to = 4 has no length; from must be less than to
 type = "linear"; q = [1.0, 2.0]; from = 5.0; to = 25.0 ->
     loads[1].to: 25 is outside the beam, which runs from x = 0 to x = 18
 type = "curvature"; kappa = 1.0; from = -5.0 ->
@@ -544,6 +549,22 @@ def test_numbers_too_large_for_a_double(tmp_path, name, text, place):
         read_scene(tmp_path / name)
 
 
+@pytest.mark.parametrize(
+    ("name", "text", "place"),
+    [
+        ("a.toml", "[beam]\nspans = [6.0, 0.0, 1e-400]\n", "beam.spans[2]: 1e-400"),
+        ("a.toml", "[[supports]]\ngap = 0.00e-999\n[[supports]]\ngap = -2.5E-325\n", "supports[1].gap: -2.5E-325"),
+        ("a.json", '{"beam": {"EI": 0e-400, "spans": [1e-310]}, "loads": [{"F": 10.0e-400}]}', "loads[0].F: 10.0e-400"),
+        ("a.json", '{"beam": {"EI": 0.' + 330 * "0" + "1}}", "beam.EI: 0.0"),
+    ],
+)
+def test_numbers_too_small_for_a_double(tmp_path, name, text, place):
+    """They would be taken to be zero; what is written as zero is."""
+    (tmp_path / name).write_text(text)
+    with pytest.raises(SceneError, match=re.escape(place) + ".* is nearer to zero than any number of double precision, 4.9e-324; "):
+        read_scene(tmp_path / name)
+
+
 def test_other_files(tmp_path):
     assert write(tmp_path, "scene.yaml", "") == ': a scene file ends in .toml or .json, not in ".yaml"'
     assert write(tmp_path, "scene", "") == ': a scene file ends in .toml or .json, not in ""'
@@ -577,3 +598,10 @@ def test_numbers_of_other_kinds_are_refused_as_what_they_are():
     expected = 'supports[0].gap: expected a number, got "a"'
     assert message(supports=[{"x": Fraction(1, 2), "gap": "a"}]) == expected
     assert message(supports=[{"x": np.float64(0.5), "side": "up"}]).endswith('got "up"')
+
+
+@pytest.mark.parametrize("length", [59, 60, 61, 1000])
+def test_values_of_up_to_sixty_characters_are_shown_whole(length):
+    word = ("0123456789" * 100)[:length]
+    assert shown(word) == (f'"{word}"' if length <= 60 else f'"{word[:57]}..."')
+    assert message(supports=[{"x": word}]).endswith(f"got {shown(word)}")

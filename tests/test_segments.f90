@@ -12,7 +12,8 @@ program test_segments
     use gapbeam_workspace, only: workspace_type, new_workspace
     use gapbeam_search, only: rule_block
     use gapbeam_cases, only: case_loads_type, split_loads, solve_case, replace_supports
-    use gapbeam_lane_levels, only: least_level, best_level
+    use gapbeam_lane_levels, only: least_level, best_level, audit_segments_at
+    use gapbeam_segment_types, only: segment_room_type
     use gapbeam_segment_cases, only: segments_type, fits_segments, solve_in_segments
     implicit none
 
@@ -28,6 +29,7 @@ program test_segments
 
     call segments_have_the_bits_of_the_whole()
     call couples_and_lifted_ends_are_left()
+    call what_is_broken_is_found()
     call finish(status)
     if (status /= 0) stop 1, quiet=.true.
 
@@ -105,6 +107,61 @@ contains
         call check(all(found%closed == 1), "with the start as it was")
     end subroutine couples_and_lifted_ends_are_left
 
+    !> Every kind of number broken on purpose, anywhere along the beam, at every level of the processor
+    subroutine what_is_broken_is_found()
+        integer, parameter :: kinds = 4, places = 40
+        character(len=12), parameter :: names(kinds) = [character(len=12) :: "a reaction", "a deflection", "a moment", "a state"]
+        type(lowered_type) :: lowered
+        type(case_loads_type) :: loads
+        type(error_type), allocatable :: error
+        type(found_type) :: found
+        type(segments_type) :: segments
+        type(segment_room_type) :: broken
+        real(wp), allocatable :: factors(:, :), values(:, :, :)
+        integer(int64) :: seed
+        integer :: b, i, k, kind, level, missed(kinds), refused, passed
+        logical :: wrong
+
+        seed = 521288629_int64
+        missed(:) = 0
+        refused = 0
+        passed = 0
+        do b = 1, 6
+            call make_beam(seed, b, lowered)
+            call split_loads(lowered, loads, error)
+            call draw_cases(seed, lowered, b, factors, values)
+            call make_room(lowered, 1, found)
+            segments%made = .false.
+            call solve_in_segments(lowered, loads, factors(:, :1), values(:, :, :1), segments, found%closed, found%w, found%ml, &
+                                   found%mr, found%reaction, found%solves, found%done)
+            if (.not. found%done(1)) cycle
+            passed = passed + 1
+            do level = least_level, best_level()
+                call audit_segments_at(level, segments%beam, segments%room, wrong)
+                if (wrong) refused = refused + 1
+                do kind = 1, kinds
+                    do i = 1, places
+                        broken = segments%room
+                        k = int((segments%beam%n + 1)*random(seed))
+                        ! Supports are at some nodes only
+                        if (kind == 1 .or. kind == 4) k = lowered%beam%supports(1 + modulo(k, size(lowered%beam%supports)))%node
+                        if (kind == 1) broken%reaction(k) = broken%reaction(k) + 1e-7_wp*maxval(abs(broken%reaction))
+                        if (kind == 2) broken%w(k) = broken%w(k) - 1e-7_wp*maxval(abs(broken%w))
+                        if (kind == 3) broken%m(k) = broken%m(k) + 1e-7_wp*maxval(abs(broken%m))
+                        if (kind == 4) broken%closed(k) = 1.0_wp - broken%closed(k)
+                        call audit_segments_at(level, segments%beam, broken, wrong)
+                        if (.not. wrong) missed(kind) = missed(kind) + 1
+                    end do
+                end do
+            end do
+        end do
+        call check(refused == 0 .and. passed > 3, "what has been solved is a solution")
+        do kind = 1, kinds
+            call check(missed(kind) == 0, trim(names(kind))//" that is wrong is found")
+        end do
+        write (*, "(a, *(1x, i0))") "# passed, refused, missed:", passed, refused, missed
+    end subroutine what_is_broken_is_found
+
     !> Room for what comes out
     subroutine make_room(lowered, c, found)
         type(lowered_type), intent(in) :: lowered
@@ -114,8 +171,9 @@ contains
 
         n = size(lowered%beam%links) + 1
         m = size(lowered%beam%supports)
-        allocate (found%closed(m, c), found%solves(c), found%w(n, c), found%ml(n, c), found%mr(n, c), found%reaction(m, c), &
-                  found%done(c))
+        ! A row more than there are supports, as in Python
+        allocate (found%closed(m + 1, c), found%solves(c), found%w(n, c), found%ml(n, c), found%mr(n, c), &
+                  found%reaction(m + 1, c), found%done(c))
         found%closed(:, :) = 1
         found%w(:, :) = 0.0_wp
         found%ml(:, :) = 0.0_wp
@@ -131,10 +189,15 @@ contains
         integer, intent(in) :: level
         type(found_type), intent(out) :: found
         type(segments_type) :: segments
+        integer :: beyond
 
         call make_room(lowered, size(factors, 2), found)
         call solve_in_segments(lowered, loads, factors, values, segments, found%closed, found%w, found%ml, found%mr, &
                                found%reaction, found%solves, found%done, level)
+        beyond = size(lowered%beam%supports) + 1
+        if (any(found%closed(beyond, :) /= 1) .or. any(abs(found%reaction(beyond, :)) > 0.0_wp)) then
+            call check(.false., "what is beyond the supports stays as it was")
+        end if
     end subroutine solve
 
     !> The same by the engine for all beams
@@ -159,11 +222,11 @@ contains
             found%done(i) = state == gapbeam_solved
             if (.not. found%done(i)) cycle
             associate (units => lowered%units, a => work%answers)
-                found%closed(:, i) = merge(1, 0, acting)
+                found%closed(:size(acting), i) = merge(1, 0, acting)
                 found%w(:, i) = scale(a%deflection, units%deflection)
                 found%ml(:, i) = scale(a%moment_left, moment_unit(units))
                 found%mr(:, i) = scale(a%moment_right, moment_unit(units))
-                found%reaction(:, i) = scale(work%reaction, units%force)
+                found%reaction(:size(acting), i) = scale(work%reaction, units%force)
             end associate
         end do
     end subroutine solve_one_by_one

@@ -172,3 +172,19 @@ def test_the_page_of_a_study(name, tmp_path, capsys):
     assert not re.search(r"(?<!\\)[`*_<>$|]", re.sub(r"\\\\", "", heading))
     assert list(csv.reader((tmp_path / "a.csv").open(encoding="utf-8")))[1][0] == shown
     ElementTree.parse(tmp_path / "a.svg")
+
+
+@pytest.mark.parametrize("name", ["=cmd|' /C calc'!A0", "+1", "-2+3", "@SUM(A1)", "\tx", "\r=1", "\n=1"])
+def test_no_cell_is_a_formula(name):
+    """Spreadsheets work out what begins like one, whoever named the combination."""
+    combinations = [{"name": name, "factors": {"live": 1.0}}, {"name": "plain", "factors": {"live": -1.0}}]
+    made = {**scene("beam"), "combinations": combinations}
+    rows = list(csv.reader(io.StringIO(to_csv(gapbeam.solve(made)))))
+    cells = {cell for row in rows for cell in row}
+    assert f"'{visible(name)}" in cells or (name == "\tx" and r"\tx" in cells)
+    for cell in cells - {"plain", ""}:
+        try:
+            float(cell)  # numbers stay numbers, of whatever sign
+        except ValueError:
+            assert not cell.startswith(("=", "+", "-", "@", "\t", "\r", "\n")), cell
+    assert any(cell.startswith("-") for cell in cells)

@@ -63,7 +63,8 @@ def random_scene(rng):
     distances = np.concatenate([[0], np.cumsum(rng.choice([0.5, 1.0, 1.3], int(rng.integers(0, 3))))]).tolist()
     train = {"axles": [[d, float(rng.uniform(1, 10))] for d in distances], "both_directions": bool(rng.random() < 0.3)}
     if rng.random() < 0.4:
-        train |= {"q": float(rng.uniform(0.5, 4)), "factor": 1.25}
+        q = float(rng.uniform(0.5, 4))
+        train |= {"q": q if distances[-1] else [[0.0, 1.0, q]], "factor": 1.25}
     if rng.random() < 0.3:
         train["q"] = [[0.0, 1.0, float(rng.uniform(0.5, 4))], [float(rng.choice([0.5, 1.0, 1.7])), 3.0, float(rng.uniform(-1, 4))]]
     return {**made, "trains": [train]}
@@ -278,6 +279,7 @@ def test_outputs():
         ({"together": [["b", -1.0]]}, r"trains\[0\]\.together\[0\]\[1\]: expected a distance .* got -1"),
         ({"together": [["b", 1.0]], "q": 2.0}, r"trains\[0\]\.q: a train made of others has the uniform loads"),
         ({"axles": [[0.0, 1.0]], "q": [[2.0, 1.0, 5.0]]}, r"trains\[0\]\.q\[0\]: the distances from 2 to 1 are no stretch"),
+        ({"axles": [[0.0, 1.0]], "q": 5.0}, r"trains\[0\]\.q: 5 acts over the length of the train, which is 0: .* \[\[from, to"),
         ({"axles": [[0.0, 1.0]], "q": "5"}, r'trains\[0\]\.q: expected a number or a list of lists of three numbers, got "5"'),
         ({"axles": [[0.0, 1.0]], "unfavourable": True}, r"trains\[0\]\.unfavourable: axles only where"),
     ],
@@ -379,6 +381,7 @@ def test_axial_loads_do_not_meet_trains(seed):
     made["supports"].append({"node": 0, "direction": "axial", "settlement": 0.01})
     made["supports"].append({"x": length, "direction": "axial", "stiffness": 9.0})
     made["loads"].append({"type": "axial", "x": length / 4, "F": 3.0})
+    made["analysis"] = {**made.get("analysis", {}), "first_order": True}
     result = gapbeam.solve(made)
     train, count = result.trains["train 1"], len(made["supports"]) - 2
     assert [(e.support, e.event) for e in train.events] == [(e.support, e.event) for e in plain.events]

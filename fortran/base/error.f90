@@ -5,7 +5,7 @@ module gapbeam_error
     public :: error_type, fatal_error, no_memory, status_text, status_codes, status_texts, unknown_status
     public :: gapbeam_solved, gapbeam_no_equilibrium
     public :: gapbeam_bad_input, gapbeam_indeterminate, gapbeam_not_converged, gapbeam_not_finite
-    public :: gapbeam_no_memory, gapbeam_not_prepared, gapbeam_other_version
+    public :: gapbeam_no_memory, gapbeam_not_prepared, gapbeam_other_version, gapbeam_stopped
 
     !> Outcome: the scene is solved
     integer, parameter :: gapbeam_solved = 0
@@ -25,12 +25,14 @@ module gapbeam_error
     integer, parameter :: gapbeam_not_prepared = 16
     !> Error: caller and library were built with different versions of a structure
     integer, parameter :: gapbeam_other_version = 17
+    !> Error: whoever watches the call has ended it
+    integer, parameter :: gapbeam_stopped = 18
 
     !> All codes, and what they mean
-    integer, parameter :: status_codes(9) = [gapbeam_solved, gapbeam_no_equilibrium, gapbeam_bad_input, gapbeam_indeterminate, &
+    integer, parameter :: status_codes(10) = [gapbeam_solved, gapbeam_no_equilibrium, gapbeam_bad_input, gapbeam_indeterminate, &
                                              gapbeam_not_converged, gapbeam_not_finite, gapbeam_no_memory, gapbeam_not_prepared, &
-                                             gapbeam_other_version]
-    character(len=*), parameter :: status_texts(9) = [character(len=88) :: &
+                                             gapbeam_other_version, gapbeam_stopped]
+    character(len=*), parameter :: status_texts(10) = [character(len=88) :: &
         "solved", &
         "no equilibrium: the loads push the beam along a free motion that no support resists", &
         "bad input: a number or an array makes no sense", &
@@ -39,7 +41,8 @@ module gapbeam_error
         "numbers left the range of double precision", &
         "not enough memory", &
         "no beam has been prepared, or no state solved, in what was passed", &
-        "caller and library were built with different versions of a structure"]
+        "caller and library were built with different versions of a structure", &
+        "ended before it was done, by whoever watches the call or by its time limit"]
     character(len=*), parameter :: unknown_status = "unknown status"
 
     !> An error: allocated means failed

@@ -8,7 +8,7 @@ module gapbeam_foundation_fields
     use gapbeam_foundation_long, only: long_type, long_of, decay_type, long_response
     implicit none
     private
-    public :: fields_at
+    public :: fields_at, sloped_start, sloped_fields_from
 
 contains
 
@@ -129,25 +129,57 @@ contains
         type(stretch_ends_type), intent(in) :: ends
         real(wp), intent(in) :: xi
         real(wp), intent(out) :: w, psi, moment, shear
+        real(wp) :: start(4, 2)
+        integer :: side
+
+        side = merge(1, 2, xi <= 0.5_wp)
+        start(:, side) = sloped_start(stretch, load, ends, side)
+        call sloped_fields_from(stretch, load, start, xi, w, psi, moment, shear)
+    end subroutine sloped_fields
+
+    !> v = w - M/GA, psi, M and V at an end of a stretch whose modulus changes, seen from there
+    pure function sloped_start(stretch, load, ends, side) result(y)
+        type(stretch_type), intent(in) :: stretch
+        type(stretch_load_type), intent(in) :: load
+        type(stretch_ends_type), intent(in) :: ends
+        !> 1 left, 2 right
+        integer, intent(in) :: side
+        real(wp) :: y(4)
         type(half_type) :: h
-        real(wp) :: y(4), v_a, v_b, by_load(2)
+        real(wp) :: v_a, v_b, by_load(2)
 
         v_a = ends%w_a - stretch%shear_flexibility*ends%moment_a
         v_b = ends%w_b - stretch%shear_flexibility*ends%moment_b
-        if (xi <= 0.5_wp) then
+        if (side == 1) then
             call half_link(stretch, [load], h, by_load(1:1), by_load(2:2))
-            call advance(stretch, load, 0.0_wp, start_of(stretch, h, by_load, v_a, v_b, ends%moment_a, ends%moment_b), xi, y)
+            y = start_of(stretch, h, by_load, v_a, v_b, ends%moment_a, ends%moment_b)
         else
             call half_link(mirrored(stretch), [turned(load)], h, by_load(1:1), by_load(2:2))
-            call advance(mirrored(stretch), turned(load), 0.0_wp, &
-                         start_of(stretch, h, by_load, v_b, v_a, ends%moment_b, ends%moment_a), 1 - xi, y)
+            y = start_of(stretch, h, by_load, v_b, v_a, ends%moment_b, ends%moment_a)
+        end if
+    end function sloped_start
+
+    !> Fields from those at the nearer end
+    pure subroutine sloped_fields_from(stretch, load, start, xi, w, psi, moment, shear)
+        type(stretch_type), intent(in) :: stretch
+        type(stretch_load_type), intent(in) :: load
+        !> By sloped_start at both ends, shape (4, 2); that of the farther end is not used
+        real(wp), intent(in) :: start(:, :)
+        real(wp), intent(in) :: xi
+        real(wp), intent(out) :: w, psi, moment, shear
+        real(wp) :: y(4)
+
+        if (xi <= 0.5_wp) then
+            call advance(stretch, load, 0.0_wp, start(:, 1), xi, y)
+        else
+            call advance(mirrored(stretch), turned(load), 0.0_wp, start(:, 2), 1 - xi, y)
             y = [y(1), -y(2), y(3), -y(4)]
         end if
         w = y(1) + stretch%shear_flexibility*y(3)
         psi = y(2)
         moment = y(3)
         shear = y(4)
-    end subroutine sloped_fields
+    end subroutine sloped_fields_from
 
     !> v = w - M/GA, psi, M and V at the left end from v and M at both
     pure function start_of(stretch, half, by_load, v_a, v_b, moment_a, moment_b) result(y)

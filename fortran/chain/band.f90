@@ -26,13 +26,13 @@ module gapbeam_band
     implicit none
     private
     public :: node_type, rhs_type, pivot_type, answer_type, factor_chain, solve_chain, correct_chain
-    public :: band_ok, band_mechanism, band_needs_pivoting
+    public :: band_ok, band_mechanism, band_needs_pivoting, band_stopped
     public :: plain, hinge, restrained
     ! For gapbeam_foundation_chain, which eliminates likewise
     public :: full, w_known, m_known, both_known, statics, end_of_beam
 
     !> What factor_chain found
-    integer, parameter :: band_ok = 0, band_mechanism = 1, band_needs_pivoting = 2
+    integer, parameter :: band_ok = 0, band_mechanism = 1, band_needs_pivoting = 2, band_stopped = 3
 
     !> A node as the working scheme at hand sees it
     type :: node_type

@@ -207,26 +207,12 @@ contains
         end_b%psi = plus_product(plus_product(turn, -link%fab, a%moment_right), -link%fbb, b%moment_left)
         end_a%shear = divided(plus(double_double(b%moment_left, 0.0_wp), -a%moment_right), link%length)
         end_b%shear = end_a%shear
-        size_of_turn = slope_size(nodes(1), nodes(2), link, a, b)
+        size_of_turn = difference_size(b%deflection, a%deflection)/link%length
         end_a%size_of_psi = size_of_turn + link%faa*abs(a%moment_right) + abs(link%fab*b%moment_left)
         end_b%size_of_psi = size_of_turn + abs(link%fab*a%moment_right) + link%fbb*abs(b%moment_left)
         end_a%size_of_shear = difference_size(b%moment_left, a%moment_right)/link%length
         end_b%size_of_shear = end_a%size_of_shear
     end subroutine ends_of_link
-
-    !> Size of the slope of a link as a term
-    pure function slope_size(node, next, link, a, z) result(total)
-        type(node_type), intent(in) :: node, next
-        type(link_type), intent(in) :: link
-        type(answer_type), intent(in) :: a, z
-        real(wp) :: total
-
-        total = difference_size(z%deflection, a%deflection)
-        ! Contact levels are sums, rounded once
-        if (node%held) total = total + abs(a%deflection)/8
-        if (next%held) total = total + abs(z%deflection)/8
-        total = total/link%length
-    end function slope_size
 
     !> A difference, and what double-double arithmetic may lose of it
     elemental function difference_size(x, y) result(total)

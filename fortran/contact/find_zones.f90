@@ -2,6 +2,7 @@
 !> certainty, and what acts between them is judged anew
 module gapbeam_find_zones
     use gapbeam_kinds, only: wp
+    use gapbeam_watch, only: is_stopped
     use gapbeam_foundation, only: stretch_load_type
     use gapbeam_foundation_fields, only: fields_at
     use gapbeam_foundation_roots, only: find_crossings, find_limits
@@ -30,7 +31,7 @@ contains
         type(zones_type), intent(in) :: zones
         real(wp), intent(in) :: factor
         type(workspace_type), intent(in) :: work
-        !> The zones with which to go on
+        !> The zones with which to go on; not to be used where the work is stopped
         type(zones_type), intent(out) :: found
         real(wp), allocatable :: cuts(:)
         type(zones_type) :: next
@@ -144,6 +145,7 @@ contains
                 associate (layer => ground%layers(k))
                     if (layer%side == 0) cycle
                     do i = first, last
+                        if (is_stopped(ground%beam%watch)) exit
                         call take_curved(ground, grounded, zones, factor, work, i, curved)
                         associate (from => zones%from(i), to => zones%to(i))
                             do law = 1, pieces_of_law(layer)

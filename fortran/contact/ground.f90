@@ -204,6 +204,7 @@ contains
         allocate (grounded%stretches(m), grounded%dead(m), grounded%live(m), grounded%node(0:n))
         associate (beam => grounded%beam, given => ground%beam)
             allocate (beam%links(m), beam%ground(m), beam%kind(0:m), beam%compliance(0:m), beam%force(2, 0:m), beam%couple(2, 0:m))
+            beam%watch = given%watch
             beam%kind(:) = plain
             beam%compliance(:) = 0.0_wp
             beam%force(:, :) = 0.0_wp

@@ -16,15 +16,15 @@ module gapbeam_law
     use gapbeam_kinds, only: wp
     use gapbeam_require, only: checked, require
     use gapbeam_band, only: node_type, rhs_type, answer_type
-    use gapbeam_polyline, only: node_support_type, piece_that_acts, piece_force, kink_margin, is_watched, open_beyond, &
-        go_one_piece, go_to_level
+    use gapbeam_polyline, only: node_support_type, piece_that_acts, piece_force, kink_margin, is_watched, beside_level, &
+        open_beyond, go_one_piece, go_to_level
     implicit none
     private
     public :: node_support_type, below, above, both, nodes_at_a_time
     public :: is_support, is_rigid, may_change, always_closed, separate_rigid_pairs
-    public :: add_supports, share_forces
+    public :: add_supports, share_forces, force_by_spring, is_plainly_right
     public :: margin_of, margin_in_scheme, margin_rates, find_margins, find_wrong_states, &
-        find_doubtful_states, largest_violations
+        find_doubtful_states
     public :: has_laws, is_watched_in, open_beyond, go_one_piece, go_to_level
 
     !> Sides of a support: pushes up only, pushes down only, both
@@ -135,8 +135,9 @@ contains
                     if (.not. acts) cycle
                     level(s%node) = max(level(s%node), abs(s%contact))
                     if (abs(slope) > huge(slope)) then
+                        ! Another one may hold it elsewhere in a scheme that is wrong (beside_level)
+                        if (.not. node%held) r%deflection = s%contact
                         node%held = .true.
-                        r%deflection = s%contact
                     else
                         node%stiffness = node%stiffness + slope
                         r%shear = r%shear + (slope*s%contact - s%side*s%force)
@@ -253,6 +254,32 @@ contains
             end if
         end associate
     end subroutine force_by_spring
+
+    !> Is a support without kinks on its law, in the right state, but for rounding. What is not so at a glance may still be so
+    pure function is_plainly_right(support, closed, deflection, deflection_size, reaction, force_size, limit) result(right)
+        type(node_support_type), intent(in) :: support
+        logical, intent(in) :: closed
+        !> Of its node, and the size of that for rounding errors
+        real(wp), intent(in) :: deflection, deflection_size
+        !> Its reaction, and the size of the forces at its node
+        real(wp), intent(in) :: reaction, force_size
+        !> Share of the terms that may be left over
+        real(wp), intent(in) :: limit
+        logical :: right
+
+        right = .false.
+        if (support%kink > 0) return
+        if (.not. closed) then
+            right = .not. abs(reaction) > 0.0_wp .and. support%side*(support%contact - deflection) >= 0.0_wp
+        else if (support%side*reaction >= 0.0_wp) then
+            if (is_rigid(support)) then
+                right = abs(deflection - support%contact) <= limit*abs(support%contact)
+            else
+                right = abs(reaction - support%stiffness*(deflection - support%contact)) &
+                    <= limit*(support%stiffness*(deflection_size + abs(support%contact)) + force_size)
+            end if
+        end if
+    end function is_plainly_right
 
     ! Margins
 
@@ -379,8 +406,12 @@ contains
                     call margin_of(supports(k), closed(k), answers(i)%deflection, deflection_size(i), reaction(k), &
                                    reaction_error(k), margin, rounding)
                 else
-                    call margin_in_scheme(supports, closed, k, answers(i)%deflection, deflection_size(i), reaction, &
-                                          reaction_error, margin, rounding)
+                    call beside_level(supports, closed, k, answers(i)%deflection, deflection_size(i), margin, rounding)
+                    margin = -margin
+                    if (.not. abs(margin) > width*rounding) then
+                        call margin_in_scheme(supports, closed, k, answers(i)%deflection, deflection_size(i), reaction, &
+                                              reaction_error, margin, rounding)
+                    end if
                 end if
             end associate
             wrong(k) = margin < -width*rounding
@@ -419,32 +450,5 @@ contains
             in_doubt = in_doubt .or. (doubtful(k) .and. rounding > 0.0_wp) .or. margin < -width*rounding
         end do
     end subroutine find_doubtful_states
-
-    !> The largest force with which a closed one-sided support pulls, and the largest penetration of an open one
-    pure subroutine largest_violations(supports, closed, answers, reaction, pull, penetration)
-        !> As for find_margins
-        type(node_support_type), intent(in) :: supports(:)
-        logical, intent(in) :: closed(:)
-        type(answer_type), intent(in) :: answers(0:)
-        real(wp), intent(in) :: reaction(:)
-        !> 0 if none does
-        real(wp), intent(out) :: pull, penetration
-        real(wp) :: margin, rounding
-        logical :: by_force
-        integer :: k
-
-        pull = 0.0_wp
-        penetration = 0.0_wp
-        do k = 1, size(closed)
-            ! Rounding errors do not matter here
-            call margin_in_scheme(supports, closed, k, answers(supports(k)%node)%deflection, 0.0_wp, reaction, reaction, margin, &
-                                  rounding, by_force)
-            if (by_force) then
-                pull = max(pull, -margin)
-            else
-                penetration = max(penetration, -margin)
-            end if
-        end do
-    end subroutine largest_violations
 
 end module gapbeam_law

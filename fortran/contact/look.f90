@@ -4,12 +4,14 @@
 !> solution is refined; on a long beam that is not solved from both ends it is kept up to date from then on.
 module gapbeam_look
     use gapbeam_kinds, only: wp
-    use gapbeam_band, only: band_ok
+    use gapbeam_watch, only: is_stopped
+    use gapbeam_band, only: band_ok, band_stopped
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type
     use gapbeam_system, only: solve_deflections, complete_scheme, refine_scheme
     use gapbeam_update, only: keep_factor, update_scheme, find_groups
     use gapbeam_signs, only: sign_type, prepare_signs, find_clearly_wrong
+    use gapbeam_reactions, only: by_stretches
     use gapbeam_rules, only: find_wrong, first_width
     use gapbeam_fronts, only: base_type
     implicit none
@@ -66,7 +68,7 @@ contains
             call look_around_changes(beam, closed, work, search)
             if (allocated(search%applied)) deallocate (search%applied)
             if (allocated(search%kept)) then
-                settled = search%wrong_now == 0
+                settled = search%wrong_now == 0 .and. search%state == band_ok
                 return
             end if
         end if
@@ -90,7 +92,7 @@ contains
         call complete_scheme(beam, closed, work)
         call find_wrong(beam, closed, search%width, work, search%wrong)
         search%wrong_now = count(search%wrong)
-        if (search%wrong_now > 0 .and. search%wrong_now <= few) then
+        if (search%wrong_now <= few .and. (search%wrong_now > 0 .or. (search%carefully .and. by_stretches))) then
             ! Near the end signs depend on the last digits
             call refine_scheme(beam, closed, work)
             call find_wrong(beam, closed, search%width, work, search%wrong)
@@ -116,6 +118,10 @@ contains
         type(search_type), intent(inout) :: search
         integer :: changed(few), groups(2, few), number, parts, k, j, window(2), state
 
+        if (is_stopped(beam%watch)) then
+            search%state = band_stopped
+            return
+        end if
         number = 0
         do k = 1, size(closed)
             if (closed(k) .eqv. search%kept(k)) cycle
@@ -126,6 +132,7 @@ contains
             number = number + 1
             changed(number) = k
         end do
+        work%refined = .false.
         call find_groups(beam, changed(:number), groups(:, :number), parts)
         do j = 1, parts
             call update_scheme(beam, closed, groups(:, j), .false., work, window, state)

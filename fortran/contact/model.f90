@@ -1,5 +1,6 @@
 !> The beam as arrays: links, nodes, supports
 module gapbeam_model
+    use, intrinsic :: iso_c_binding, only: c_ptr, c_null_ptr
     use gapbeam_kinds, only: wp
     use gapbeam_require, only: checked, require
     use gapbeam_link, only: link_type
@@ -28,6 +29,8 @@ module gapbeam_model
         type(node_support_type), allocatable :: supports(:)
         !> Their numbers from left to right; those at node i are order(first(i)) to order(first(i + 1) - 1)
         integer, allocatable :: order(:), first(:)
+        !> Address of the watch on calls with this beam (gapbeam_watch), and with all that are made of it
+        type(c_ptr) :: watch = c_null_ptr
     end type beam_type
 
 contains

@@ -93,6 +93,7 @@ contains
         m = to - from
         if (checked) call require(0 <= from .and. from < to .and. to <= size(beam%links), "cut_out: from, to")
         allocate (part%links(m), part%kind(0:m), part%compliance(0:m), part%force(2, 0:m), part%couple(2, 0:m))
+        part%watch = beam%watch
         part%links(:) = beam%links(from + 1:to)
         part%kind(:) = beam%kind(from:to)
         part%compliance(:) = beam%compliance(from:to)

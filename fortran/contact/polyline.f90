@@ -14,6 +14,7 @@ module gapbeam_polyline
     implicit none
     private
     public :: node_support_type, piece_that_acts, piece_force, kink_margin, is_watched
+    public :: beside_level, vertical_pieces
     public :: open_beyond, go_one_piece, go_to_level, coincide, last_kink, join_pieces
 
     !> A support at a node, or a kink of its law
@@ -101,7 +102,7 @@ contains
             if (.not. beside) then
                 if (abs(here) > huge(here)) return
             else
-                by_force = abs(here) > abs(there)
+                by_force = abs(here) > abs(there) .or. abs(here) > huge(here)
             end if
             if (by_force) then
                 margin = s%side*reaction(from) - s%force
@@ -142,6 +143,56 @@ contains
             end if
         end associate
     end subroutine look_around
+
+    !> By how much a node is beyond an end of the vertical piece on which a support of it is, since another one holds it elsewhere
+    pure subroutine beside_level(supports, closed, k, deflection, deflection_size, beyond, rounding)
+        !> As for kink_margin
+        type(node_support_type), intent(in) :: supports(:)
+        logical, intent(in) :: closed(:)
+        integer, intent(in) :: k
+        real(wp), intent(in) :: deflection, deflection_size
+        !> Deflection past the kink, away from the piece, below zero the other way; 0 where the piece is not vertical
+        real(wp), intent(out) :: beyond, rounding
+        real(wp) :: here, there
+        integer :: from
+        logical :: beside
+
+        beyond = 0.0_wp
+        rounding = 0.0_wp
+        if (supports(k)%passed) return
+        call look_around(supports, closed, k, beside, from, here, there)
+        if (.not. beside .or. abs(here) <= huge(here)) return
+        associate (s => supports(k))
+            beyond = s%side*(deflection - s%contact)
+            if (closed(k)) beyond = -beyond
+            rounding = epsilon(deflection)*max(deflection_size, abs(s%contact))
+        end associate
+    end subroutine beside_level
+
+    !> On how many vertical pieces some supports are: with two at one node nothing tells what each of them takes
+    pure function vertical_pieces(supports, closed, numbers) result(pieces)
+        !> All supports, the scheme, and the numbers of those in question
+        type(node_support_type), intent(in) :: supports(:)
+        logical, intent(in) :: closed(:)
+        integer, intent(in) :: numbers(:)
+        integer :: pieces
+        real(wp) :: slope
+        logical :: acts
+        integer :: j
+
+        pieces = 0
+        do j = 1, size(numbers)
+            associate (k => numbers(j))
+                if (supports(k)%kink > 0) then
+                    call piece_that_acts(supports, closed, k, acts, slope)
+                else
+                    acts = closed(k)
+                    slope = supports(k)%stiffness
+                end if
+                if (acts .and. abs(slope) > huge(slope)) pieces = pieces + 1
+            end associate
+        end do
+    end function vertical_pieces
 
     !> Can a kink be passed next or at once with others: not if a vertical piece lies between it and the piece that acts
     pure function is_watched(supports, closed, k) result(watched)

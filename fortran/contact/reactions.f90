@@ -1,12 +1,17 @@
 !> What follows from a solution: shears, reactions, and how far rounding errors reach
 module gapbeam_reactions
     use gapbeam_kinds, only: wp
+    use gapbeam_band, only: restrained
     use gapbeam_law, only: share_forces, nodes_at_a_time
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, reach_type
     implicit none
     private
-    public :: find_sizes, find_shears, find_reactions
+    public :: find_sizes, find_shears, find_reactions, by_stretches
+
+    !> Are links between which nothing holds the beam taken together once a solution is refined: in quadruple precision, which
+    !> has the last word; doubles, alone or side by side, are in doubt instead
+    logical, parameter :: by_stretches = precision(1.0_wp) > 20
 
 contains
 
@@ -119,13 +124,22 @@ contains
         integer, intent(in) :: range(2)
         type(workspace_type), intent(inout) :: work
         type(reach_type) :: beside
-        real(wp) :: moment, turn, flexibility, length
-        integer :: i
+        real(wp) :: moment, turn, flexibility, length, of_stretch
+        integer :: i, last
+        logical :: stretches
 
         do i = range(1), range(2)
             work%reach_own(i) = reach_type(work%load_size(i), abs(work%answers(i)%deflection))
         end do
+        stretches = by_stretches .and. work%refined .and. range(1) == 0 .and. range(2) == size(beam%links) &
+            .and. .not. allocated(beam%ground)
+        last = 0
+        of_stretch = 0.0_wp
         do i = max(range(1), 1), min(range(2) + 1, size(beam%links))
+            if (stretches .and. i > last) then
+                last = end_of_stretch(work, i)
+                of_stretch = shear_of_stretch(beam, work, i, last)
+            end if
             associate (link => beam%links(i), a => work%answers(i - 1), b => work%answers(i))
                 ! Also the moments that imposed rotations and contact levels would make if they were held fast
                 turn = work%turn_size(i) + (work%level(i) + work%level(i - 1))*link%inverse
@@ -138,12 +152,46 @@ contains
                     beside = reach_type(2*moment/length, flexibility*length*moment)
                 else
                     beside = reach_type(2*moment*link%inverse, work%reach(i)*moment)
+                    if (stretches) beside%shear = min(beside%shear, of_stretch)
                 end if
                 if (i > range(1)) work%reach_own(i - 1) = passed_on(beside, work%reach_own(i - 1), .false.)
                 if (i <= range(2)) work%reach_own(i) = passed_on(beside, work%reach_own(i), .false.)
             end associate
         end do
     end subroutine find_own_sizes
+
+    !> Last link of the stretch that a link begins: nodes without support and restraint do not divide it
+    pure function end_of_stretch(work, first) result(last)
+        type(workspace_type), intent(in) :: work
+        integer, intent(in) :: first
+        integer :: last
+
+        last = first
+        do while (last < ubound(work%nodes, 1))
+            associate (node => work%nodes(last))
+                if (node%held .or. abs(node%stiffness) > work%ease(last) .or. node%kind == restrained) return
+            end associate
+            last = last + 1
+        end do
+    end function end_of_stretch
+
+    !> Size of the shear in a stretch as if it were one link: its inner nodes pass shears on, and nothing holds a link of it fast,
+    !> however short it is and however far its support has gone
+    pure function shear_of_stretch(beam, work, first, last) result(shear)
+        type(beam_type), intent(in) :: beam
+        type(workspace_type), intent(in) :: work
+        !> Its links
+        integer, intent(in) :: first, last
+        real(wp) :: shear, length, bending, moment
+
+        length = sum(beam%links(first:last)%length)
+        bending = sum(beam%links(first:last)%bending)
+        moment = max(maxval(abs(work%answers(first - 1:last - 1)%moment_right)), &
+                     maxval(abs(work%answers(first:last)%moment_left)))
+        if (bending > 0.0_wp) moment = max(moment, (sum(work%turn_size(first:last)) &
+                                                    + (work%level(first - 1) + work%level(last))/length)/bending)
+        shear = 2*moment/length
+    end function shear_of_stretch
 
     !> Sizes at a node: its own, and those that come from its neighbour
     pure function passed_on(from, own, held) result(reach)

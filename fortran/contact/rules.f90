@@ -1,12 +1,12 @@
 !> Which supports are wrong in a scheme, which of them a rule changes, and whether a scheme has come back
 module gapbeam_rules
     use gapbeam_kinds, only: wp
-    use gapbeam_law, only: find_margins, find_wrong_states, find_doubtful_states, largest_violations
+    use gapbeam_law, only: find_margins, find_wrong_states, find_doubtful_states
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type
     implicit none
     private
-    public :: find_wrong, find_doubtful, complementarity
+    public :: find_wrong, find_doubtful
     public :: keep_worst_pull, keep_local_worst, keep_least_index, first_width
     public :: mark_type, set_mark, came_back
 
@@ -51,20 +51,6 @@ contains
                                   work%reaction_error, first_width, doubtful, not_zero)
         if (present(in_doubt)) in_doubt = not_zero
     end subroutine find_doubtful
-
-    !> Largest wrong-signed reaction relative to the largest reaction, or penetration relative to the largest deflection
-    pure function complementarity(beam, closed, work) result(violation)
-        type(beam_type), intent(in) :: beam
-        logical, intent(in) :: closed(:)
-        type(workspace_type), intent(in) :: work
-        real(wp) :: violation, pull, penetration
-
-        violation = 0.0_wp
-        if (size(closed) == 0) return
-        call largest_violations(beam%supports, closed, work%answers, work%reaction, pull, penetration)
-        violation = max(pull/max(maxval(abs(work%reaction)), tiny(violation)), &
-                        penetration/max(maxval(abs(work%answers%deflection)), tiny(violation)))
-    end function complementarity
 
     !> The paper's rule (section 3): of the closed supports that pull release the one that pulls most, and put back every
     !> open one that is penetrated

@@ -18,6 +18,7 @@ module gapbeam_scheme
     use gapbeam_kinematics, only: free_motions, motion_type
     use gapbeam_runaways, only: runaway_type, find_runaways, prefer_tipping, no_speed
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
+    use gapbeam_reactions, only: by_stretches
     use gapbeam_system, only: solve_and_refine, refine_scheme, complete_scheme, is_finite
     use gapbeam_rules, only: find_wrong, first_width
     use gapbeam_search, only: settle, refuse_scheme, rule_least_index
@@ -95,10 +96,10 @@ contains
             if (checked) call require(all(closed .or. .not. always_closed(beam%supports)), "find_scheme: opened a bilateral one")
             ! Once, so that the last digits are those of the scheme, whatever way led to it
             if (.not. refined) call refine_scheme(beam, closed, work)
-            if (.not. (settled .and. work%from_both_ends .and. is_finite(work))) exit
+            if (.not. (settled .and. (work%from_both_ends .or. by_stretches) .and. is_finite(work))) exit
             call find_wrong(beam, closed, first_width, work, wrong)
             if (.not. any(wrong)) exit
-            ! That has turned a sign
+            ! That has turned a sign, or shown one that elimination had hidden
         end do
         if (.not. is_finite(work)) then
             call fatal_error(error, gapbeam_not_finite, "numbers left the range of double precision: choose units " &

@@ -18,7 +18,8 @@
 module gapbeam_search
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, fatal_error, gapbeam_indeterminate, gapbeam_not_converged
-    use gapbeam_band, only: band_ok, band_mechanism, band_needs_pivoting
+    use gapbeam_watch, only: end_if_stopped
+    use gapbeam_band, only: band_ok, band_mechanism, band_needs_pivoting, band_stopped
     use gapbeam_law, only: separate_rigid_pairs, has_laws, open_beyond, go_one_piece
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type
@@ -358,7 +359,9 @@ contains
         character(len=40) :: text
 
         write (text, "(i0, a, i0)") place, " of ", size(beam%links)
-        if (state == band_needs_pivoting) then
+        if (state == band_stopped) then
+            call end_if_stopped(beam%watch, error)
+        else if (state == band_needs_pivoting) then
             call fatal_error(error, gapbeam_indeterminate, "a rigid stretch of the beam near node "//trim(text)// &
                              " rests on more rigid supports than statics can tell apart: give the stretch"// &
                              " or one of its supports a finite stiffness")

@@ -136,6 +136,7 @@ contains
         end do
         call join_pieces(supports(:m))
         call order_supports(supports(:m), beam)
+        beam%watch = ground%beam%watch
     end subroutine make_beam
 
     !> A part of a piece as a link

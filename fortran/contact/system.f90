@@ -1,7 +1,9 @@
 !> One working scheme solved: the system it needs is chosen, assembled and solved; reactions follow.
 module gapbeam_system
     use gapbeam_kinds, only: wp
-    use gapbeam_band, only: node_type, rhs_type, factor_chain, solve_chain, band_ok, band_mechanism, band_needs_pivoting
+    use gapbeam_watch, only: is_stopped
+    use gapbeam_band, only: node_type, rhs_type, factor_chain, solve_chain, band_ok, band_mechanism, band_needs_pivoting, &
+        band_stopped
     use gapbeam_foundation_chain, only: factor_foundation_chain, solve_foundation_chain
     use gapbeam_foundation_residual, only: residual_on_ground
     use gapbeam_residual, only: residual_chain
@@ -14,7 +16,7 @@ module gapbeam_system
     use gapbeam_reactions, only: find_sizes, find_shears, find_reactions
     implicit none
     private
-    public :: solve_scheme, solve_and_refine, solve_deflections, complete_scheme, refine_scheme, check_scheme, is_finite
+    public :: solve_scheme, solve_and_refine, solve_deflections, complete_scheme, refine_scheme, is_finite
 
     !> Zones of a smaller share of the beam, or of what the ground holds elsewhere, lose digits that are wanted back, in so many
     !> steps at most
@@ -68,7 +70,7 @@ contains
         logical, intent(in) :: acting(:)
         !> Loads in, solution out
         type(workspace_type), intent(inout) :: work
-        !> band_ok, band_mechanism, or band_needs_pivoting where even pivoting finds no unique solution
+        !> band_ok, band_mechanism, band_needs_pivoting where even pivoting finds no unique solution, or band_stopped
         integer, intent(out) :: state
         !> Node at which another state than band_ok was found
         integer, intent(out) :: place
@@ -77,6 +79,11 @@ contains
         type(motion_type), allocatable :: motions(:)
         logical :: regular, has_rows
 
+        place = 0
+        if (is_stopped(beam%watch)) then
+            state = band_stopped
+            return
+        end if
         has_rows = .false.
         if (present(applied)) then
             has_rows = work%plain%has_rows
@@ -86,8 +93,8 @@ contains
         end if
         work%plain%has_rows = .false.
         work%complete = .false.
+        work%refined = .false.
         work%solves = work%solves + 1
-        place = 0
         if (allocated(beam%ground)) then
             call solve_on_ground(beam, work, state, place)
             return
@@ -214,6 +221,7 @@ contains
         work%answers%deflection = work%answers%deflection + work%correction%deflection
         work%answers%moment_left = work%answers%moment_left + work%correction%moment_left
         work%answers%moment_right = work%answers%moment_right + work%correction%moment_right
+        work%refined = .true.
         call complete_scheme(beam, acting, work)
     end subroutine refine_scheme
 
@@ -276,14 +284,5 @@ contains
 
         it_is = all(abs(work%answers%deflection) <= huge(1.0_wp)) .and. all(abs(work%answers%moment_left) <= huge(1.0_wp))
     end function is_finite
-
-    !> Relative residuals of the last solve, into work%compatibility and work%equilibrium
-    pure subroutine check_scheme(beam, work)
-        type(beam_type), intent(in) :: beam
-        type(workspace_type), intent(inout) :: work
-
-        call residual_chain(work%nodes, beam%links, work%rhs, work%answers, work%eliminated, work%sizes, &
-                            work%compatibility, work%equilibrium)
-    end subroutine check_scheme
 
 end module gapbeam_system

@@ -39,6 +39,8 @@ module gapbeam_workspace
         logical :: without_couples = .false., from_both_ends = .false.
         !> May the force of supports fall; are reactions and sizes those of the solution
         logical :: may_soften = .false., complete = .false.
+        !> Is the solution refined, so that rounding errors are not those of elimination
+        logical :: refined = .false.
         !> The solution, and a correction of it
         type(answer_type), allocatable :: answers(:), correction(:)
         !> Sizes of the terms of every row, by check_scheme

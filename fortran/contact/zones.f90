@@ -7,6 +7,7 @@
 !> themselves, since all crossings inside a stretch are isolated with certainty.
 module gapbeam_zones
     use gapbeam_kinds, only: wp
+    use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_not_converged
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_scheme, only: find_scheme, outcome_type
@@ -70,6 +71,8 @@ contains
             if (allocated(error)) return
             if (outcome%status /= gapbeam_solved) return
             call find_zones(ground, grounded, zones, factor, work, found)
+            call end_if_stopped(ground%beam%watch, error)
+            if (allocated(error)) return
             before = moved
             moved = max(way_of_ends(zones, found), way_of_fields(ground, grounded, zones, found))
             asked = found
@@ -187,6 +190,8 @@ contains
                 found%from(i + 1) = found%to(i)
             end associate
         end do
+        ! Nor are there zones that end before they begin
+        others = others .or. any(found%to <= found%from)
     end subroutine move_ends
 
     !> Far from the solution an end goes the same way by nearly the same length round after round, since what happens beyond

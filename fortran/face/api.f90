@@ -88,7 +88,10 @@ contains
             else
                 call no_memory(error)
             end if
-            if (.not. allocated(error)) call move_alloc(other, beam%lowered)
+            if (.not. allocated(error)) then
+                other%beam%watch = beam%lowered%beam%watch
+                call move_alloc(other, beam%lowered)
+            end if
         end if
         call ieee_set_status(environment)
     end subroutine replace_loads
@@ -163,7 +166,8 @@ contains
         !> The new state; result%status says whether there is equilibrium
         type(result_type), intent(inout) :: result
         !> gapbeam_bad_input, also of beams whose state depends on the way of the load, gapbeam_indeterminate,
-        !> gapbeam_not_converged, gapbeam_not_finite, gapbeam_no_memory or gapbeam_not_prepared; result%status is then -1
+        !> gapbeam_not_converged, gapbeam_not_finite, gapbeam_no_memory, gapbeam_not_prepared or gapbeam_stopped; result%status
+        !> is then -1
         type(error_type), allocatable, intent(out) :: error
         type(ieee_status_type) :: environment
 

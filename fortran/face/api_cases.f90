@@ -4,7 +4,8 @@ module gapbeam_api_cases
         ieee_set_rounding_mode, ieee_nearest, ieee_all, ieee_value, ieee_quiet_nan
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_bad_input, gapbeam_no_memory, &
-        gapbeam_not_prepared
+        gapbeam_not_prepared, gapbeam_stopped
+    use gapbeam_watch, only: end_if_stopped
     use gapbeam_words, only: shown, whole
     use gapbeam_refusal, only: named, of_supports, of_loads
     use gapbeam_scene, only: gapbeam_axial, gapbeam_both
@@ -155,10 +156,9 @@ contains
                                cases%ml(:merge(cases%nodes, 0, present(moment_left)), :n), &
                                cases%mr(:merge(cases%nodes, 0, present(moment_right)), :n), &
                                cases%reaction(:merge(cases%supports, 0, present(reaction)), :n), cases%solves(:n), codes(:n))
-            if (codes(1) == gapbeam_no_memory) then
-                call no_memory(error)
-                exit
-            end if
+            if (codes(1) == gapbeam_no_memory) call no_memory(error)
+            if (codes(1) == gapbeam_stopped) call end_if_stopped(beam%lowered%beam%watch, error)
+            if (allocated(error)) exit
             status(first:last) = codes(:n)
             if (present(deflection)) deflection(:, first:last) = cases%w(:, :n)
             if (present(moment_left)) moment_left(:, first:last) = cases%ml(:, :n)

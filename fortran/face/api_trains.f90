@@ -133,6 +133,7 @@ contains
         call ieee_get_status(environment)
         call ieee_set_halting_mode(ieee_all, .false.)
         call ieee_set_rounding_mode(ieee_nearest)
+        passing%track%beam%watch = beam%lowered%beam%watch
         call find_envelope(beam%lowered, passing%track, passing%train, passing%passage, envelope, error)
         if (.not. allocated(error)) then
             fields(:, :) = first_tie(envelope%fields)
@@ -169,6 +170,7 @@ contains
         call ieee_get_status(environment)
         call ieee_set_halting_mode(ieee_all, .false.)
         call ieee_set_rounding_mode(ieee_nearest)
+        passing%track%beam%watch = beam%lowered%beam%watch
         call find_pieces(beam%lowered, x, .false., piece, distance, error)
         if (.not. allocated(error)) call find_curves(beam%lowered, passing%track, passing%train, passing%passage, piece, distance, &
                                                      value, position, error)

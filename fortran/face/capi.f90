@@ -86,6 +86,7 @@ contains
                 if (allocated(error)) then
                     deallocate (handle)
                 else
+                    handle%beam%lowered%beam%watch = c_loc(handle%watch)
                     beam = c_loc(handle)
                 end if
             end if

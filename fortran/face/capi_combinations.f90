@@ -43,6 +43,7 @@ contains
                 if (allocated(error)) then
                     deallocate (made)
                 else
+                    made%beam%lowered%beam%watch = c_loc(made%watch)
                     combined = c_loc(made)
                 end if
             end if

@@ -3,6 +3,7 @@ module gapbeam_capi_objects
     use, intrinsic :: iso_c_binding, only: c_int, c_char, c_size_t, c_ptr, c_f_pointer, c_associated, c_null_char, c_sizeof
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_bad_input, gapbeam_not_prepared, &
         gapbeam_other_version
+    use gapbeam_watch, only: watch_type
     use gapbeam_api, only: prepared_type, options_type, result_type
     implicit none
     private
@@ -19,6 +20,8 @@ module gapbeam_capi_objects
     type :: beam_handle
         integer :: tag = beam_tag
         type(prepared_type) :: beam
+        !> On calls with it
+        type(watch_type) :: watch
     end type beam_handle
     type :: state_handle
         integer :: tag = state_tag

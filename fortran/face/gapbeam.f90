@@ -44,7 +44,7 @@
 module gapbeam
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_bad_input, gapbeam_indeterminate, &
         gapbeam_not_converged, gapbeam_not_finite, gapbeam_no_memory, gapbeam_not_prepared, gapbeam_other_version, &
-        gapbeam_status_message => status_text
+        gapbeam_stopped, gapbeam_status_message => status_text
     use gapbeam_version, only: gapbeam_version_major, gapbeam_version_minor, gapbeam_version_patch, gapbeam_version_string
     use gapbeam_search, only: gapbeam_rule_block => rule_block, gapbeam_rule_single => rule_single
     use gapbeam_scene, only: span_type, section_type, support_type, law_point_type, load_type, model_type, &
@@ -68,6 +68,7 @@ module gapbeam
         gapbeam_arrived, gapbeam_limit_point, gapbeam_bifurcation, gapbeam_mechanism, gapbeam_path_ended
     use gapbeam_api_cases, only: cases_type, prepare_cases, solve_cases, get_nodes
     use gapbeam_api_combinations, only: combine_loads
+    use gapbeam_api_watch, only: watch_type, watch_beam, stop_calls
     use gapbeam_api_trains, only: moving_train_type, passing_type, train_event_type, train_gap_type, train_extreme_type, &
         follow_train, get_train_extremes, get_train_curves, gapbeam_moves_freely
     use gapbeam_api_ground, only: contact_type, free_span_type, ground_event_type, follow_ground, get_contact, get_free_spans, &

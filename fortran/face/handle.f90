@@ -1,9 +1,10 @@
 !> Prepared beams as numbers that Python keeps: the address of what gapbeam_lower made of a scene
 module gapbeam_handle
     use, intrinsic :: iso_fortran_env, only: int64
-    use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer, c_null_ptr
+    use, intrinsic :: iso_c_binding, only: c_int, c_ptr, c_loc, c_funloc, c_f_pointer, c_null_ptr
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved
+    use gapbeam_watch, only: watch_type, begin_watch, end_watched
     use gapbeam_scene, only: model_type
     use gapbeam_lowered, only: lowered_type
     use gapbeam_lower, only: lower_model
@@ -17,7 +18,7 @@ module gapbeam_handle
     implicit none
     private
     public :: keep_ground, take_ground, ground_rows, pack_ground, unpack_ground
-    public :: handle_type, new_handle, copy_handle, handle_of, drop_handle, state_of, report
+    public :: handle_type, new_handle, copy_handle, handle_of, drop_handle, state_of, report, listen, stop_calls
     public :: new_room, room_of, drop_room
 
     !> Rows of a solution on the ground as an array, beside those of the layers
@@ -25,6 +26,9 @@ module gapbeam_handle
 
     !> What a handle stands for
     type :: handle_type
+        !> On calls with it, and the thread that hears signals
+        type(watch_type) :: watch
+        integer(int64) :: thread = 0
         type(lowered_type) :: lowered
         !> Its loads one by one, where they have been asked for
         type(case_loads_type), allocatable :: cases
@@ -39,7 +43,38 @@ module gapbeam_handle
         type(ground_solution_type), allocatable :: solution
     end type kept_ground_type
 
+    interface
+        !> Let Python see to signals that have come, in its main thread; not 0 where what it did then is an exception
+        function hear_signals(thread) result(raised) bind(c, name="gb_hear_signals")
+            import :: c_int, c_ptr
+            implicit none
+            type(c_ptr), intent(in), value :: thread
+            integer(c_int) :: raised
+        end function hear_signals
+    end interface
+
 contains
+
+    !> From now on calls with a beam end where Python hears a signal that raises an exception; what was ended goes on
+    subroutine listen(address, thread)
+        integer(int64), intent(in) :: address
+        !> Python's main thread, by its number
+        integer(int64), intent(in) :: thread
+        type(handle_type), pointer :: handle
+
+        handle => handle_of(address)
+        handle%thread = thread
+        call begin_watch(handle%watch, c_funloc(hear_signals), transfer(thread, c_null_ptr), real(huge(thread), wp))
+    end subroutine listen
+
+    !> Let all calls with a beam end, those to come too, until it listens again
+    subroutine stop_calls(address)
+        integer(int64), intent(in) :: address
+        type(handle_type), pointer :: handle
+
+        handle => handle_of(address)
+        call end_watched(handle%watch)
+    end subroutine stop_calls
 
     !> Lower a model and keep it
     subroutine new_handle(model, address, error)
@@ -73,6 +108,7 @@ contains
         if (allocated(error)) then
             deallocate (handle)
         else
+            handle%lowered%beam%watch = c_loc(handle%watch)
             address = transfer(c_loc(handle), address)
         end if
     end subroutine new_handle
@@ -94,7 +130,9 @@ contains
             return
         end if
         to%lowered = from%lowered
+        to%lowered%beam%watch = c_loc(to%watch)
         copy = transfer(c_loc(to), copy)
+        call listen(copy, from%thread)
     end subroutine copy_handle
 
     !> What a handle stands for

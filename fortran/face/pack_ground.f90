@@ -21,7 +21,7 @@ module gapbeam_pack_ground
                           of_ends = storage_size(stretch_ends_type())/storage_size(1.0_wp), &
                           integers_beside = 1, reals_beside = of_stretch + of_load + of_ends + 7
     !> Numbers of a solution beside its stretches: layers; bounds and residuals
-    integer, parameter :: integers_of_all = 1, reals_of_all = 7
+    integer, parameter :: integers_of_all = 1, reals_of_all = 8
 
 contains
 

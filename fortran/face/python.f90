@@ -9,12 +9,12 @@
 
 ! Prepare a beam
 subroutine gbmake(mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw, span, hinge, sect, isup, sup, ilaw, alaw, &
-                  iload, aload, ifound, found, iprof, aprof, iflaw, aflaw, &
+                  iload, aload, ifound, found, iprof, aprof, iflaw, aflaw, thread, &
                   beam, status, reason, table, entry, partner, key, message)
     use gapbeam_error, only: error_type
     use gapbeam_scene, only: model_type
     use gapbeam_arrays, only: model_from_arrays, foundations_from_arrays
-    use gapbeam_handle, only: new_handle, report
+    use gapbeam_handle, only: new_handle, listen, report
     implicit none
     ! One more than there are
     integer, intent(in) :: mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw
@@ -24,6 +24,8 @@ subroutine gbmake(mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw,
     ! As for foundations_from_arrays
     integer, intent(in) :: ifound(mfound), iprof(mprof), iflaw(mflaw)
     double precision, intent(in) :: found(13, mfound), aprof(2, mprof), aflaw(2, mflaw)
+    ! Python's main thread, which hears signals
+    integer(8), intent(in) :: thread
     ! The handle; 0 where it is refused
     integer(8), intent(out) :: beam
     ! Why: as in gapbeam_error and gapbeam_refusal; entries count from 1
@@ -56,13 +58,32 @@ subroutine gbmake(mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw,
                                                              model, error)
     if (.not. allocated(error)) call new_handle(model, beam, error)
     call report(error, status, message)
-    if (.not. allocated(error)) return
+    if (.not. allocated(error)) then
+        call listen(beam, thread)
+        return
+    end if
     reason = error%reason
     table = error%table
     entry = error%entry
     partner = error%partner
     key = error%key
 end subroutine gbmake
+
+! End the calls with a beam that are at work, and those to come (ENDS = 1), until they may go on again (0)
+subroutine gbstop(beam, ends)
+    use gapbeam_handle, only: handle_type, handle_of, stop_calls, listen
+    implicit none
+    integer(8), intent(in) :: beam
+    integer, intent(in) :: ends
+    type(handle_type), pointer :: handle
+
+    if (ends /= 0) then
+        call stop_calls(beam)
+    else
+        handle => handle_of(beam)
+        call listen(beam, handle%thread)
+    end if
+end subroutine gbstop
 
 ! Free a beam
 subroutine gbdrop(beam)

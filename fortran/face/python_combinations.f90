@@ -4,7 +4,7 @@
 subroutine gbcomb(beam, ns, nd, nm, nc, nx, nv, np, nf, factor, settle, supp, span, modul, rule, closed, piece, dist, value, &
                   extr, place, field, solves, status)
     use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-    use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_memory
+    use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_memory, gapbeam_stopped
     use gapbeam_handle, only: handle_type, handle_of
     use gapbeam_solution, only: state_type
     use gapbeam_combinations, only: combination_type, varied_type, combine, solve_combination, values_of_combination
@@ -87,7 +87,7 @@ subroutine gbcomb(beam, ns, nd, nm, nc, nx, nv, np, nf, factor, settle, supp, sp
         place(:, :, i) = nan
         field(:, :, i) = nan
         closed(:, i) = 0
-        if (error%code == gapbeam_no_memory) then
+        if (any(error%code == [gapbeam_no_memory, gapbeam_stopped])) then
             status(i:) = error%code
             return
         end if

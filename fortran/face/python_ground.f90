@@ -95,8 +95,9 @@ subroutine gbgget(ground, ng, ny, values, bounds, resid)
     integer, intent(in) :: ng, ny
     ! As for pack_ground, in the engine's units
     double precision, intent(out) :: values(19 + 2*ny, ng)
-    ! Bounds of the errors of deflection, rotation, moment, shear and reactions; residuals of compatibility and equilibrium
-    double precision, intent(out) :: bounds(5), resid(2)
+    ! Bounds of the errors of deflection, rotation, moment, shear and reactions; residuals of compatibility, equilibrium,
+    ! complementarity
+    double precision, intent(out) :: bounds(5), resid(3)
     type(ground_solution_type), allocatable :: solution
 
     call take_ground(ground, solution)

@@ -8,6 +8,8 @@ module gapbeam_lane_certificate
     use gapbeam_lane_search, only: add_loads, apply_scheme
     use gapbeam_lane_residual, only: find_rest, find_rest_at_restraints
     use gapbeam_lane_reactions, only: complete
+    use gapbeam_lane_audit, only: audit_pack
+    use gapbeam_lane_measures, only: measure_pack
     use gapbeam_lane_fields, only: find_rotations
     use gapbeam_lane_movements, only: find_movements, kinds_of_movement, of_deflection, of_moment, of_shear, of_rotation
     implicit none
@@ -34,17 +36,20 @@ contains
         type(pack_type), intent(inout) :: pack
         !> Room, shape (lanes, 0:n, kinds_of_movement)
         real(wp), intent(inout), contiguous :: moves(:, 0:, :)
-        !> Relative residuals of compatibility and equilibrium; largest errors of deflections of the nodes and of reactions; of
-        !> deflections, rotations, moments, shears along the beam
-        real(wp), intent(out) :: found(lanes, 8)
-        !> Above 0 for cases that are not certified here: a sign within its rounding error, few digits
+        !> Relative residuals of compatibility, equilibrium and complementarity (gapbeam_lane_measures); largest errors of
+        !> deflections of the nodes and of reactions; of deflections, rotations, moments, shears along the beam
+        real(wp), intent(out) :: found(lanes, 9)
+        !> Above 0 for cases that are not certified here: not a solution, a sign within its rounding error, few digits
         real(wp), intent(out) :: poor(lanes)
         real(wp) :: lost(lanes)
+        logical :: wrong(lanes)
         integer :: n
 
         n = beam%n
         call add_loads(beam, n, factors, pack%left, pack%right, pack%shear, pack%couple, pack%load_size, pack%turn_size, &
                        pack%room, pack%force)
+        call audit_pack(beam, pack, wrong)
+        call measure_pack(beam, pack, found(:, :3))
         call apply_scheme(n, pack%shear, pack%stiffness, pack%rigid, pack%contact, pack%closed, pack%held, pack%known, &
                           pack%spring, pack%force)
         pack%nothing(:, :) = pack%reaction
@@ -58,7 +63,7 @@ contains
         call look_at_known(n, pack%known_rest, poor)
         call find_sizes(beam, n, rounding, pack%left, pack%right, pack%force, pack%couple, pack%load_size, pack%turn_size, &
                         pack%held, pack%spring, pack%w, pack%ml, pack%mr, pack%left_rest, pack%turn_rest, pack%force_rest, &
-                        pack%dw, pack%dl, pack%dr, found)
+                        pack%dw, pack%dl, pack%dr)
         call look_at_range(n, pack%dw, pack%dl, pack%dr, poor)
         call find_movements(beam, n, pack%held, pack%spring, pack%dw, pack%dl, pack%dr, moves, lost)
         poor(:) = poor + lost
@@ -68,7 +73,7 @@ contains
         call bound_nodes(beam, n, rounding, pack, moves, found, poor)
         call bound_fields(beam, n, rounding, pack%load_size, pack%turn_size, pack%w, pack%ml, pack%mr, pack%room, moves, found)
         ! A link that hangs between a hinge and the end of the beam has no neighbour that knows its rotation
-        poor(:) = poor + merge(1.0_wp, 0.0_wp, found(:, 6) > greatest)
+        poor(:) = poor + merge(1.0_wp, 0.0_wp, found(:, 7) > greatest .or. wrong)
     end subroutine certify_pack
 
     !> Cases with a known deflection that is another
@@ -86,9 +91,9 @@ contains
         end do
     end subroutine look_at_known
 
-    !> Relative residuals, and by how much the rows are off: residuals, rounding of coefficients, last digits of the data
+    !> By how much the rows are off: residuals, rounding of coefficients, last digits of the data
     pure subroutine find_sizes(beam, n, rounding, left, right, force, couple, load_size, turn_size, held, spring, w, ml, mr, &
-                               left_rest, turn_rest, force_rest, left_off, turn_off, force_off, found)
+                               left_rest, turn_rest, force_rest, left_off, turn_off, force_off)
         type(lane_beam_type), intent(in) :: beam
         integer, intent(in) :: n
         type(lane_rounding_type), intent(in) :: rounding
@@ -98,19 +103,13 @@ contains
         !> Of compatibility left of restraints, 0 elsewhere; of compatibility, 0 at hinges and at ends without restraint; of
         !> equilibrium, at nodes that are held what it does to the reaction there
         real(wp), intent(out), dimension(lanes, 0:n) :: left_off, turn_off, force_off
-        real(wp), intent(out) :: found(lanes, 8)
         real(wp) :: h, faa, fab, fbb, soft, long, slope, step, a, b, apart, compliance, size_of_turn, size_of_shear, both, of_load
         real(wp) :: couple_size
-        real(wp), dimension(lanes) :: largest_turn, largest_shear, turn, shear
         integer :: i, k, l
 
         left_off(:, :) = 0.0_wp
         turn_off(:, :) = 0.0_wp
         force_off(:, :) = 0.0_wp
-        largest_turn(:) = tiny(1.0_wp)
-        largest_shear(:) = tiny(1.0_wp)
-        turn(:) = 0.0_wp
-        shear(:) = 0.0_wp
         of_load = larger(unit, epsilon(1.0_wp) + rounding%of_loads)
         ! Sums of the absolute values of the terms, first without those of loads
         do k = 1, n
@@ -131,8 +130,6 @@ contains
                 left_off(l, k) = left_off(l, k) + apart*(slope + abs(fab)*a + fbb*b)
                 force_off(l, k - 1) = force_off(l, k - 1) + step
                 force_off(l, k) = force_off(l, k) + step
-                largest_turn(l) = larger(largest_turn(l), h*(abs(w(l, k)) + abs(w(l, k - 1))))
-                largest_shear(l) = larger(largest_shear(l), h*(a + b))
             end do
         end do
         do i = 0, n
@@ -148,21 +145,13 @@ contains
                 ! The rotation of a restraint
                 b = compliance*abs(ml(l, i) - mr(l, i) + couple(l, i))
                 size_of_turn = apart*(left_off(l, i) + b + abs(left(l, i)))
-                largest_turn(l) = larger(largest_turn(l), size_of_turn)
-                turn(l) = larger(turn(l), apart*abs(left_rest(l, i)))
                 left_off(l, i) = apart*(unit*size_of_turn + abs(left_rest(l, i)) + of_load*compliance*abs(couple(l, i)))
                 size_of_turn = both*(turn_off(l, i) + b + (1.0_wp - apart)*abs(left(l, i)) + abs(right(l, i)))
                 size_of_shear = force_off(l, i) + abs(force(l, i)) + abs(spring(l, i)*w(l, i))
-                largest_turn(l) = larger(largest_turn(l), size_of_turn)
-                largest_shear(l) = larger(largest_shear(l), size_of_shear)
-                turn(l) = larger(turn(l), abs(turn_rest(l, i)))
-                shear(l) = larger(shear(l), abs(force_rest(l, i)))
                 turn_off(l, i) = unit*size_of_turn + abs(turn_rest(l, i)) + of_load*compliance*abs(couple(l, i))
                 force_off(l, i) = unit*size_of_shear + of_load*load_size(l, i) + abs(force_rest(l, i))
             end do
         end do
-        found(:, 1) = turn/largest_turn
-        found(:, 2) = shear/largest_shear
         do k = 1, n
             h = beam%inverse(k)
             soft = rounding%flexibility(k)
@@ -312,7 +301,7 @@ contains
         type(lane_rounding_type), intent(in) :: rounding
         type(pack_type), intent(in) :: pack
         real(wp), intent(in) :: moves(lanes, 0:n, kinds_of_movement)
-        real(wp), intent(inout) :: found(lanes, 8), poor(lanes)
+        real(wp), intent(inout) :: found(lanes, 9), poor(lanes)
         real(wp) :: of_load, there, left, right, left_error, right_error, own, error, other
         real(wp), dimension(lanes) :: deflection, moment, reaction, straight, largest_w, largest_m, largest_r
         integer :: i, l, after
@@ -351,11 +340,11 @@ contains
             end do
         end do
         do l = 1, lanes
-            found(l, 3) = deflection(l) + epsilon(1.0_wp)*largest_w(l)
+            found(l, 4) = deflection(l) + epsilon(1.0_wp)*largest_w(l)
             ! What loads and shears may be off where the deflection is known goes straight into the reaction
             reaction(l) = reaction(l) + straight(l)
-            found(l, 4) = reaction(l) + epsilon(1.0_wp)*largest_r(l)
-            found(l, 7) = moment(l)
+            found(l, 5) = reaction(l) + epsilon(1.0_wp)*largest_r(l)
+            found(l, 8) = moment(l)
             if (.not. (deflection(l) <= largest_share*largest_w(l) .and. moment(l) <= largest_share*largest_m(l) &
                        .and. reaction(l) <= largest_share*largest_r(l))) poor(l) = poor(l) + 1.0_wp
         end do
@@ -369,14 +358,14 @@ contains
         type(lane_rounding_type), intent(in) :: rounding
         real(wp), intent(in), dimension(lanes, 0:n) :: load_size, turn_size, w, ml, mr
         real(wp), intent(in) :: room(lanes, 0:n, 10), moves(lanes, 0:n, kinds_of_movement)
-        real(wp), intent(inout) :: found(lanes, 8)
+        real(wp), intent(inout) :: found(lanes, 9)
         real(wp) :: length, soft, bending, slip, share, of_load, p, m, turns, ends, v_error, m_error, turn_error, w_error
         real(wp), dimension(lanes) :: deflection, rotation, moment, shear
         integer :: k, l
 
-        deflection(:) = found(:, 3)
+        deflection(:) = found(:, 4)
         rotation(:) = 0.0_wp
-        moment(:) = found(:, 7)
+        moment(:) = found(:, 8)
         shear(:) = 0.0_wp
         of_load = larger(unit, epsilon(1.0_wp) + rounding%of_loads)
         do k = 1, n
@@ -407,10 +396,10 @@ contains
                                        + length*(turn_error + room(l, k, 8) + bending*m_error/2) + slip*(v_error + of_load*p))
             end do
         end do
-        found(:, 5) = deflection
-        found(:, 6) = rotation
-        found(:, 7) = moment
-        found(:, 8) = shear
+        found(:, 6) = deflection
+        found(:, 7) = rotation
+        found(:, 8) = moment
+        found(:, 9) = shear
     end subroutine bound_fields
 
     !> The larger of two

@@ -8,13 +8,15 @@ module gapbeam_lane_levels
         lane_spans_type
     use gapbeam_lane_columns, only: take_columns, take_numbers, give_pack
     use gapbeam_lane_search, only: search_pack, finish_pack
+    use gapbeam_lane_audit, only: audit_pack
     use gapbeam_lane_extremes, only: extremes_of_pack
     use gapbeam_lane_values, only: fields_of_pack
     use gapbeam_lane_certificate, only: certify_pack
     use gapbeam_segment_types, only: segment_beam_type, segment_room_type
-    use gapbeam_segment_finish, only: solve_long_beam
+    use gapbeam_segment_finish, only: solve_long_beam, audit_long_beam
     use gapbeam_lane_links, only: make_links
     use gapbeam_lane_search_own, only: search_pack_own => search_pack, finish_pack_own => finish_pack
+    use gapbeam_lane_audit_own, only: audit_pack_own => audit_pack
     use gapbeam_lane_extremes_own, only: extremes_of_pack_own => extremes_of_pack
     use gapbeam_lane_values_own, only: fields_of_pack_own => fields_of_pack
 #ifdef GAPBEAM_LEVELS
@@ -24,25 +26,29 @@ module gapbeam_lane_levels
     use gapbeam_lane_links_v4, only: make_links_v4 => make_links
     use gapbeam_lane_search_v3, only: search_pack_v3 => search_pack, finish_pack_v3 => finish_pack
     use gapbeam_lane_search_v4, only: search_pack_v4 => search_pack, finish_pack_v4 => finish_pack
+    use gapbeam_lane_audit_v3, only: audit_pack_v3 => audit_pack
     use gapbeam_lane_extremes_v3, only: extremes_of_pack_v3 => extremes_of_pack
     use gapbeam_lane_values_v3, only: fields_of_pack_v3 => fields_of_pack
+    use gapbeam_lane_audit_v4, only: audit_pack_v4 => audit_pack
     use gapbeam_lane_extremes_v4, only: extremes_of_pack_v4 => extremes_of_pack
     use gapbeam_lane_values_v4, only: fields_of_pack_v4 => fields_of_pack
     use gapbeam_lane_certificate_v3, only: certify_pack_v3 => certify_pack
     use gapbeam_lane_certificate_v4, only: certify_pack_v4 => certify_pack
-    use gapbeam_segment_finish_v3, only: solve_long_beam_v3 => solve_long_beam
-    use gapbeam_segment_finish_v4, only: solve_long_beam_v4 => solve_long_beam
+    use gapbeam_segment_finish_v3, only: solve_long_beam_v3 => solve_long_beam, audit_long_beam_v3 => audit_long_beam
+    use gapbeam_segment_finish_v4, only: solve_long_beam_v4 => solve_long_beam, audit_long_beam_v4 => audit_long_beam
     use gapbeam_lane_search_own_v3, only: search_pack_own_v3 => search_pack, finish_pack_own_v3 => finish_pack
     use gapbeam_lane_search_own_v4, only: search_pack_own_v4 => search_pack, finish_pack_own_v4 => finish_pack
+    use gapbeam_lane_audit_own_v3, only: audit_pack_own_v3 => audit_pack
     use gapbeam_lane_extremes_own_v3, only: extremes_of_pack_own_v3 => extremes_of_pack
     use gapbeam_lane_values_own_v3, only: fields_of_pack_own_v3 => fields_of_pack
+    use gapbeam_lane_audit_own_v4, only: audit_pack_own_v4 => audit_pack
     use gapbeam_lane_extremes_own_v4, only: extremes_of_pack_own_v4 => extremes_of_pack
     use gapbeam_lane_values_own_v4, only: fields_of_pack_own_v4 => fields_of_pack
 #endif
     implicit none
     private
     public :: best_level, least_level, take_columns_at, take_numbers_at, give_pack_at, search_pack_at, finish_pack_at, &
-        extremes_of_pack_at, fields_of_pack_at, certify_pack_at, solve_segments_at, make_links_at
+        audit_pack_at, extremes_of_pack_at, fields_of_pack_at, certify_pack_at, solve_segments_at, audit_segments_at, make_links_at
 
     !> Level of what every processor has
     integer, parameter :: least_level = 2
@@ -195,6 +201,33 @@ contains
         end select
     end subroutine finish_pack_at
 
+    !> audit_pack likewise
+    subroutine audit_pack_at(level, beam, pack, wrong)
+        integer, intent(in) :: level
+        !> As for audit_pack
+        type(lane_beam_type), intent(in) :: beam
+        type(pack_type), intent(inout) :: pack
+        !> In which cases the numbers are no solution
+        logical, intent(out) :: wrong(lanes)
+
+        select case (level + merge(own, 0, size(beam%links, 1) > 1))
+#ifdef GAPBEAM_LEVELS
+        case (4)
+            call audit_pack_v4(beam, pack, wrong)
+        case (3)
+            call audit_pack_v3(beam, pack, wrong)
+        case (own + 4)
+            call audit_pack_own_v4(beam, pack, wrong)
+        case (own + 3)
+            call audit_pack_own_v3(beam, pack, wrong)
+#endif
+        case (own + least_level)
+            call audit_pack_own(beam, pack, wrong)
+        case default
+            call audit_pack(beam, pack, wrong)
+        end select
+    end subroutine audit_pack_at
+
     !> extremes_of_pack likewise
     subroutine extremes_of_pack_at(level, beam, pieces, wanted, factors, pack, fields, extremes, poor)
         integer, intent(in) :: level
@@ -267,7 +300,7 @@ contains
         real(wp), intent(in), contiguous :: factors(:, :)
         type(pack_type), intent(inout) :: pack
         real(wp), intent(inout), contiguous :: moves(:, 0:, :)
-        real(wp), intent(out) :: found(lanes, 8), poor(lanes)
+        real(wp), intent(out) :: found(lanes, 9), poor(lanes)
 
         select case (level)
 #ifdef GAPBEAM_LEVELS
@@ -301,6 +334,26 @@ contains
             call solve_long_beam(beam, room, solves, doubtful)
         end select
     end subroutine solve_segments_at
+
+    !> audit_long_beam likewise
+    subroutine audit_segments_at(level, beam, room, wrong)
+        integer, intent(in) :: level
+        !> As for audit_long_beam
+        type(segment_beam_type), intent(in) :: beam
+        type(segment_room_type), intent(in) :: room
+        logical, intent(out) :: wrong
+
+        select case (level)
+#ifdef GAPBEAM_LEVELS
+        case (4)
+            call audit_long_beam_v4(beam, room, wrong)
+        case (3)
+            call audit_long_beam_v3(beam, room, wrong)
+#endif
+        case default
+            call audit_long_beam(beam, room, wrong)
+        end select
+    end subroutine audit_segments_at
 
     !> make_links likewise
     pure subroutine make_links_at(level, spans, length, stiffness, flexibility, shear_flexibility, links, to_link)

@@ -4,12 +4,13 @@ module gapbeam_segment_finish
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes
     use gapbeam_lane_residual, only: find_rest_along
+    use gapbeam_lane_audit, only: audit_along
     use gapbeam_segment_types, only: segment_beam_type, segment_room_type, node_of, half
     use gapbeam_segment_passes, only: solve_segments
     use gapbeam_segment_search, only: search_segments
     implicit none
     private
-    public :: solve_long_beam
+    public :: solve_long_beam, audit_long_beam
 
     !> As first_width of gapbeam_rules and worst_digits of gapbeam_referee
     real(wp), parameter :: width = 32.0_wp, worst_digits = 1e-8_wp
@@ -31,6 +32,19 @@ contains
         doubtful = .not. found
         if (found) call finish_segments(beam, room, doubtful)
     end subroutine solve_long_beam
+
+    !> Audit what came of a case (gapbeam_lane_audit)
+    pure subroutine audit_long_beam(beam, room, wrong)
+        type(segment_beam_type), intent(in) :: beam
+        !> By solve_long_beam
+        type(segment_room_type), intent(in) :: room
+        !> Is a sum or a sign not what it should be
+        logical, intent(out) :: wrong
+
+        call audit_along(beam%n, beam%inverse, beam%faa, beam%fab, beam%fbb, beam%side, beam%there, beam%changing, room%left, &
+                         room%right, room%shear, room%stiffness, room%rigid, room%contact, room%closed, room%w, room%m, &
+                         room%reaction, wrong)
+    end subroutine audit_long_beam
 
     !> Refine a solution once, and find reactions
     pure subroutine finish_segments(beam, room, doubtful)

@@ -8,20 +8,22 @@
 module gapbeam_branch
     use gapbeam_kinds, only: wp => qp
     use gapbeam_error, only: error_type
-    use gapbeam_polyline_quad, only: piece_that_acts, last_kink
+    use gapbeam_polyline_quad, only: node_support_type, piece_that_acts, last_kink
     use gapbeam_law_quad, only: margin_in_scheme, is_watched_in
     use gapbeam_model_quad, only: beam_type
     use gapbeam_line_quad, only: value_at, width_at, zero_of
-    use gapbeam_ways, only: lines_type, way_type, new_lines, solve_lines, find_ways, turn, from_nowhere
+    use gapbeam_lines, only: lines_type, way_type, new_lines, solve_lines, are_one, turn, from_nowhere
+    use gapbeam_ways, only: find_ways
     implicit none
     private
-    public :: branch_type, segment_type, start_branch, step_branch, goes_on, arrived, no_way_on, never_ends
+    public :: branch_type, segment_type, start_branch, step_branch, goes_on, arrived, no_way_on, never_ends, not_told
     public :: along_law, parallel, stays_broken
 
     !> How a support unloads
     integer, parameter :: along_law = 0, parallel = 1, stays_broken = 2
-    !> What a step came to: the next kink; the factor asked for; the end of the path; no further kink, whatever the load
-    integer, parameter :: goes_on = 0, arrived = 1, no_way_on = 2, never_ends = 3
+    !> What a step came to: the next kink; the factor asked for; the end of the path; no further kink, whatever the load; supports
+    !> of which nothing tells how they share a change of load
+    integer, parameter :: goes_on = 0, arrived = 1, no_way_on = 2, never_ends = 3, not_told = 4
 
     !> A path on its way
     type :: branch_type
@@ -40,6 +42,8 @@ module gapbeam_branch
         integer :: taken = 0
         !> Direction of the load times (-1)**index: it stays along the path (Eaves and Scarf 1976)
         integer :: sense = 0
+        !> The two supports, where nothing tells how they share what comes
+        integer :: shared(2) = 0
     end type branch_type
 
     !> A stretch of the path on which all pieces stay the same
@@ -62,7 +66,7 @@ contains
         !> rise or fall: where the load goes
         integer, intent(in) :: direction
         type(branch_type), intent(out) :: branch
-        !> goes_on or no_way_on
+        !> goes_on, no_way_on or not_told
         integer, intent(out) :: outcome
         type(error_type), allocatable, intent(out) :: error
 
@@ -89,7 +93,7 @@ contains
         integer, intent(in) :: leg
         !> What was passed; branch%way is another one already where the path goes on
         type(segment_type), intent(out) :: segment
-        !> goes_on, arrived, no_way_on or never_ends
+        !> goes_on, arrived, no_way_on, never_ends or not_told
         integer, intent(out) :: outcome
         type(error_type), allocatable, intent(out) :: error
         logical, allocatable :: at_hand(:)
@@ -104,7 +108,7 @@ contains
             outcome = never_ends
             if (.not. any(at_hand)) return
         else
-            call look_ahead(branch, next, at_hand)
+            call look_ahead(branch, target, next, at_hand)
             if (direction == leg .and. direction*(next - target) >= 0.0_wp) then
                 branch%factor = target
                 segment%to = target
@@ -130,8 +134,8 @@ contains
         integer, intent(out) :: outcome
         type(error_type), allocatable, intent(out) :: error
         type(way_type), allocatable :: ways(:)
-        logical, allocatable :: reached(:), broken(:)
-        integer :: w, best, came
+        logical, allocatable :: reached(:), broken(:), other(:)
+        integer :: v, w, best, came
 
         allocate (reached(size(at_hand)))
         reached(:) = at_hand
@@ -151,11 +155,19 @@ contains
         do w = 2, size(branch%ways)
             if (preference(branch%ways(w)) < preference(branch%ways(best))) best = w
         end do
-        branch%taken = best
         branch%way = branch%ways(best)
+        allocate (other(size(branch%ways)))
+        do w = 1, size(other)
+            other(w) = w == best .or. .not. are_one(branch%ways(w), branch%way)
+            if (other(w) .and. w /= best) other(w) = .not. any([(are_one(branch%ways(w), branch%ways(v)), v=1, w - 1)])
+        end do
+        branch%taken = count(other(:best))
+        branch%ways = branch%ways(pack([(w, w=1, size(other))], other))
         if (branch%way%direction /= turn) branch%sense = sense_of(branch%way)
         if (any(branch%lines%closed .neqv. branch%way%closed)) call solve_lines(branch%beam, branch%way%closed, branch%lines)
         outcome = goes_on
+        if (branch%way%direction /= turn) call find_shared(branch)
+        if (all(branch%shared > 0)) outcome = not_told
 
     contains
 
@@ -182,27 +194,83 @@ contains
 
     end subroutine go_on
 
+    !> Find supports at one node that could share a change of load in any way: one on a vertical piece, another one at the end of
+    !> such a piece at the same deflection, to which its own set has brought it
+    subroutine find_shared(branch)
+        type(branch_type), intent(inout) :: branch
+        real(wp) :: slope, rate
+        logical :: acts, rigid
+        integer :: i, j, k
+
+        associate (beam => branch%beam, closed => branch%way%closed)
+            do k = 1, size(closed)
+                associate (s => beam%supports(k))
+                    acts = closed(k)
+                    slope = s%stiffness
+                    if (s%kink > 0) call piece_that_acts(beam%supports, closed, k, acts, slope)
+                    if (.not. (acts .and. slope > huge(slope))) cycle
+                    rate = branch%way%direction*s%side*branch%lines%live%reaction(k)
+                    do i = beam%first(s%node), beam%first(s%node + 1) - 1
+                        j = beam%order(i)
+                        associate (other => beam%supports(j))
+                            if (branch%unloading(j) /= parallel .or. other%passed .or. other%side /= s%side) cycle
+                            if (abs(other%contact - s%contact) > 64*epsilon(rate)*abs(s%contact)) cycle
+                            rigid = rate < 0.0_wp .and. ends_at(beam%supports, closed, j) .and. other%before > huge(rate)
+                            if (other%kink == 1 .and. .not. closed(j)) rigid = rate > 0.0_wp .and. other%stiffness > huge(rate)
+                            if (rigid) branch%shared = [k, j]
+                        end associate
+                    end do
+                end associate
+            end do
+        end associate
+    end subroutine find_shared
+
+    !> Is a closed kink the last one that is not passed before the piece that acts
+    pure function ends_at(supports, closed, k) result(last)
+        type(node_support_type), intent(in) :: supports(:)
+        logical, intent(in) :: closed(:)
+        integer, intent(in) :: k
+        logical :: last
+        integer :: j
+
+        j = k
+        do while (supports(j)%more)
+            if (.not. supports(j + 1)%passed) exit
+            j = j + 1
+        end do
+        last = closed(k)
+        if (supports(j)%more) last = last .and. .not. closed(j + 1)
+    end function ends_at
+
     !> The next kink along a line
-    subroutine look_ahead(branch, next, at_hand)
+    subroutine look_ahead(branch, target, next, at_hand)
         type(branch_type), intent(in) :: branch
+        !> What is there but for rounding is there, and so it is at 0
+        real(wp), intent(in) :: target
         !> Its load factor; huge if there is none
         real(wp), intent(out) :: next
         !> The kinks there
         logical, allocatable, intent(out) :: at_hand(:)
+        real(wp) :: zero, passed, slack
         integer :: k, direction
 
         direction = branch%way%direction
         next = direction*huge(next)
+        passed = abs(branch%factor)
+        if (abs(target) < huge(target)) passed = max(passed, abs(target))
         associate (supports => branch%beam%supports, closed => branch%way%closed, lines => branch%lines%line)
             allocate (at_hand(size(closed)))
             at_hand(:) = .false.
             do k = 1, size(closed)
                 at_hand(k) = is_watched_in(supports, closed, k) .and. direction*lines(k)%v1 < -lines(k)%error_of_v1
                 if (.not. at_hand(k)) cycle
-                associate (zero => zero_of(lines(k)))
-                    ! What is behind by rounding is here
-                    next = direction*min(direction*next, max(direction*zero, direction*branch%factor))
-                end associate
+                zero = zero_of(lines(k))
+                slack = max(64*epsilon(zero)*passed, width_at(lines(k), zero)/abs(lines(k)%v1))
+                if (abs(zero) <= slack) zero = 0.0_wp
+                if (abs(zero - target) <= slack) zero = target
+                ! What is behind by rounding is here
+                if (abs(zero - branch%factor) <= slack) zero = branch%factor
+                next = direction*min(direction*next, max(direction*zero, direction*branch%factor))
             end do
             do k = 1, size(closed)
                 if (at_hand(k)) at_hand(k) = value_at(lines(k), next) <= 2*width_at(lines(k), next)
@@ -305,6 +373,7 @@ contains
                     s(k + 1:top)%force = force
                     s(k + 1:top)%stiffness = s(top)%stiffness
                     s(k + 2:top)%before = s(top)%stiffness
+                    s(k + 2:top)%passed = .true.
                     s(k + 1)%before = branch%first_slope(k)
                 end associate
             end if

@@ -18,6 +18,7 @@ module gapbeam_path
     use gapbeam_kinds, only: wp, qp
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_indeterminate, gapbeam_not_converged
     use gapbeam_memory, only: for_following_closely
+    use gapbeam_polyline, only: vertical_pieces
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_rules, only: find_doubtful
@@ -231,6 +232,15 @@ contains
         if (any(factor - stretch%last_change(moving) <= same_factor*abs(factor))) return
         call change_supports(beam, moving, factor, closed, stretch)
         if (stretch%current) done = .not. any([(falls(line_in(beam, closed, at_zero(j), stretch)), j=1, size(at_zero))])
+        do j = 1, size(moving)
+            if (beam%supports(moving(j))%kink == 0) cycle
+            associate (i => beam%supports(moving(j))%node)
+                ! Two that hold a node share what is there as nothing tells
+                associate (numbers => beam%order(beam%first(i):beam%first(i + 1) - 1))
+                    if (vertical_pieces(beam%supports, closed, numbers) > 1) done = .false.
+                end associate
+            end associate
+        end do
         if (.not. done) then
             ! The lines are those of the scheme tried
             stretch%current = .false.

@@ -6,99 +6,26 @@
 !> load rising or falling. Mostly there is one way. There is none where the path ends, and there are several at a
 !> bifurcation. Where the loads do work on a free motion the load stays, and the beam turns until something holds it.
 !> (Katzenelson 1965; Chien and Kuh 1977; docs/method.md 11.)
+!> Where no force falls there is one way (gapbeam_single_way); elsewhere all choices are tried.
 module gapbeam_ways
     use gapbeam_kinds, only: wp => qp
     use gapbeam_error, only: error_type, fatal_error, gapbeam_not_converged
-    use gapbeam_band_quad, only: band_ok
-    use gapbeam_polyline_quad, only: node_support_type, coincide, piece_that_acts
+    use gapbeam_polyline_quad, only: node_support_type, coincide
     use gapbeam_law_quad, only: margin_in_scheme, is_watched_in
     use gapbeam_model_quad, only: beam_type
     use gapbeam_kinematics_quad, only: free_motions, motion_type
-    use gapbeam_workspace_quad, only: workspace_type, new_workspace, set_loads
-    use gapbeam_system_quad, only: solve_and_refine
-    use gapbeam_pivoting_quad, only: count_unstable
-    use gapbeam_line_quad, only: line_type, line_of, without_dead_loads, value_at, width_at
+    use gapbeam_lines, only: lines_type, way_type, solve_lines, find_falling, find_index, is_held_twice, rise, fall, turn, &
+        from_nowhere
+    use gapbeam_single_way, only: find_single_way
     implicit none
     private
-    public :: lines_type, way_type, new_lines, solve_lines, find_ways, rise, fall, turn, from_nowhere
+    public :: find_ways
+    ! Of gapbeam_lines, for those who ask for ways
+    public :: way_type, rise, fall, turn, from_nowhere
 
-    !> Directions of the load factor along a way
-    integer, parameter :: rise = 1, fall = -1, turn = 0
-    !> Instead of the direction in which the path came: no way leads back
-    integer, parameter :: from_nowhere = 2
     !> Of more kinks at one factor than these not all combinations are tried
     integer, parameter :: most_at_once = 12
-    !> Rounding errors within which another kink is at zero too
-    real(wp), parameter :: near = 2.0_wp**10
-    !> Share of the rates beside it below which a rate is none
-    real(wp), parameter :: no_rate = 2.0_wp**(-70)
-
-    !> A cell: what all supports do over the load factor while their pieces stay the same
-    type :: lines_type
-        type(beam_type) :: incremental
-        type(workspace_type) :: dead, live
-        type(line_type), allocatable :: line(:)
-        !> How fast supports move themselves with the factor (while settlements grow with the dead loads), shape (size(supports))
-        real(wp), allocatable :: settling(:)
-        !> The scheme solved last; is there a unique solution
-        logical, allocatable :: closed(:)
-        logical :: regular = .false.
-        !> Linear solves
-        integer :: solves = 0
-    end type lines_type
-
-    !> A way on
-    type :: way_type
-        logical, allocatable :: closed(:)
-        !> rise, fall or turn
-        integer :: direction = rise
-        !> Number of ways in which the beam gives way by itself: stable if 0
-        integer :: index = 0
-        !> Where the beam turns: displacements of the nodes, shape (0:n)
-        real(wp), allocatable :: motion(:)
-    end type way_type
-
 contains
-
-    !> Room for the lines of a beam
-    subroutine new_lines(beam, lines)
-        type(beam_type), intent(in) :: beam
-        type(lines_type), intent(out) :: lines
-
-        call without_dead_loads(beam, lines%incremental)
-        call new_workspace(beam, lines%dead)
-        call new_workspace(lines%incremental, lines%live)
-        call set_loads(beam, 0.0_wp, lines%dead)
-        call set_loads(lines%incremental, 1.0_wp, lines%live)
-        allocate (lines%line(size(beam%supports)), lines%settling(size(beam%supports)))
-        lines%settling(:) = 0.0_wp
-        allocate (lines%closed(size(beam%supports)))
-        lines%closed(:) = .false.
-    end subroutine new_lines
-
-    !> Solve a cell
-    subroutine solve_lines(beam, closed, lines)
-        !> The beam, whose supports may have changed since new_lines, and the scheme
-        type(beam_type), intent(in) :: beam
-        logical, intent(in) :: closed(:)
-        type(lines_type), intent(inout) :: lines
-        integer :: state, place, k
-
-        associate (s => lines%incremental%supports)
-            s = beam%supports
-            s%contact = lines%settling
-            s%force = 0.0_wp
-        end associate
-        call solve_and_refine(beam, closed, lines%dead, state, place)
-        if (state == band_ok) call solve_and_refine(lines%incremental, closed, lines%live, state, place)
-        lines%solves = lines%solves + 2
-        lines%closed(:) = closed
-        lines%regular = state == band_ok
-        if (.not. lines%regular) return
-        do k = 1, size(closed)
-            lines%line(k) = line_of(beam, lines%incremental, closed, k, lines%dead, lines%live)
-        end do
-    end subroutine solve_lines
 
     !> Find all ways on
     subroutine find_ways(beam, factor, before, came, wanted, deflection, broken, at_hand, lines, ways, error)
@@ -127,13 +54,15 @@ contains
         integer :: mask, u, number, count_before, direction
         logical :: leads
 
+        call find_single_way(beam, factor, before, came, wanted, broken, at_hand, lines, ways)
+        if (size(ways) > 0) return
         allocate (closed(size(before)), more(size(before)))
         do
             call find_units(beam, before, at_hand, first, last)
             number = size(first)
             if (number > most_at_once) then
                 call fatal_error(error, gapbeam_not_converged, "so many supports reach a kink of their law at once that not "// &
-                                 "all ways on can be tried")
+                                 "all ways on can be tried: give their laws kinks that differ a little")
                 return
             end if
             if (allocated(ways)) deallocate (ways)
@@ -146,6 +75,7 @@ contains
                     if (btest(mask, u - 1)) closed(first(u):last(u)) = .not. before(first(u))
                 end do
                 if (.not. is_nested(beam%supports, closed)) cycle
+                if (is_held_twice(beam, closed)) cycle
                 call solve_lines(beam, closed, lines)
                 if (.not. lines%regular) then
                     call try_motion(beam, closed, factor, mask == 0, came, deflection, broken, at_hand, lines, way, leads, more)
@@ -159,6 +89,7 @@ contains
                     if (.not. leads) cycle
                     way%closed = closed
                     way%direction = direction
+                    way%still = abs(lines%line%v1) <= lines%line%error_of_v1
                     if (allocated(way%motion)) deallocate (way%motion)
                     call find_index(beam, closed, lines, way%index)
                     ways = [ways, way]
@@ -181,18 +112,9 @@ contains
         logical, intent(out) :: leads
         logical, intent(inout) :: more(:)
         logical, allocatable :: falling(:)
-        integer :: k
 
         allocate (falling(size(closed)))
-        do k = 1, size(closed)
-            falling(k) = .false.
-            if (.not. is_watched_in(beam%supports, closed, k)) cycle
-            associate (line => lines%line(k))
-                falling(k) = direction*line%v1 < -max(line%error_of_v1, no_rate*abs(line%v1))
-                ! What is at hand is at zero, whatever this cell has made of it by rounding
-                if (.not. at_hand(k)) falling(k) = falling(k) .and. value_at(line, factor) <= near*width_at(line, factor)
-            end associate
-        end do
+        call find_falling(beam, closed, factor, direction, at_hand, lines, falling)
         leads = .not. any(falling .and. at_hand)
         if (.not. leads) return
         leads = .not. any(falling)
@@ -300,26 +222,5 @@ contains
             if (supports(k)%kink > 1) nested = nested .and. (closed(k - 1) .or. .not. closed(k))
         end do
     end function is_nested
-
-    !> In how many ways the beam gives way by itself in a cell
-    subroutine find_index(beam, closed, lines, index)
-        type(beam_type), intent(in) :: beam
-        logical, intent(in) :: closed(:)
-        !> Solved
-        type(lines_type), intent(in) :: lines
-        integer, intent(out) :: index
-        real(wp) :: slope
-        integer :: k
-        logical :: acts
-
-        index = 0
-        if (any(lines%dead%nodes%stiffness < 0.0_wp)) call count_unstable(lines%dead%nodes, beam%links, index)
-        do k = 1, size(closed)
-            if (beam%supports(k)%kink == 0) cycle
-            call piece_that_acts(beam%supports, closed, k, acts, slope)
-            ! A vertical drop holds its node, so it is none of the system's stiffnesses
-            if (acts .and. slope < -huge(slope)) index = index + 1
-        end do
-    end subroutine find_index
 
 end module gapbeam_ways

@@ -2,7 +2,8 @@
 !> (gapbeam_lane_certificate), the others one by one (gapbeam_certificate)
 module gapbeam_case_certificates
     use gapbeam_kinds, only: wp, qp
-    use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_memory, gapbeam_not_converged
+    use gapbeam_watch, only: is_stopped
+    use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_memory, gapbeam_not_converged, gapbeam_stopped
     use gapbeam_model_quad, only: fine_beam_type => beam_type
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads, apply_scheme
     use gapbeam_reactions, only: find_shears
@@ -78,8 +79,10 @@ contains
             end if
         end if
         do i = 1, size(status)
+            if (is_stopped(lowered%beam%watch)) exit
             if (.not. done(i)) call certify_alone(i)
         end do
+        if (is_stopped(lowered%beam%watch)) status(:) = gapbeam_stopped
 
     contains
 
@@ -179,7 +182,7 @@ contains
         type(pack_type) :: pack
         real(wp), allocatable :: factors_of(:, :), moves(:, :, :), turned(:, :)
         integer, allocatable :: wanted(:)
-        real(wp) :: numbers(lanes, 8), poor(lanes)
+        real(wp) :: numbers(lanes, certificate_numbers), poor(lanes)
         integer :: case_of(lanes), first, i, k, l, number
         logical :: made, lost
 
@@ -204,6 +207,7 @@ contains
         pack%reaction(:, :) = 0.0_wp
         moves(:, :, :) = 0.0_wp
         do first = 1, number, lanes
+            if (is_stopped(lowered%beam%watch)) return
             ! The last lanes repeat the last case
             case_of = [(wanted(min(first + l, number)), l=0, lanes - 1)]
             if (size(values, 2) > 0) then
@@ -225,8 +229,7 @@ contains
             call certify_pack_at(level, beam, rounding, factors_of, pack, moves, numbers, poor)
             do l = 1, min(lanes, number - first + 1)
                 if (poor(l) > 0.5_wp) cycle
-                ! No sign is in doubt, so no condition of contact is violated
-                found(:, case_of(l)) = in_scene(lowered, [numbers(l, 1), numbers(l, 2), 0.0_wp, numbers(l, 3:8)])
+                found(:, case_of(l)) = in_scene(lowered, numbers(l, :))
                 done(case_of(l)) = .true.
             end do
         end do

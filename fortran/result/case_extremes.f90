@@ -2,7 +2,8 @@
 !> at the nodes: whatever solved them, and whatever the company of a case, its digits are the same
 module gapbeam_case_extremes
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_memory
+    use gapbeam_watch, only: is_stopped
+    use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_memory, gapbeam_stopped
     use gapbeam_law, only: has_laws
     use gapbeam_units, only: moment_unit, rotation_unit, stiffness_unit
     use gapbeam_lowered, only: lowered_type, point_x
@@ -98,6 +99,7 @@ contains
         found(:, :, :) = 0.0_wp
         outside(:) = .false.
         do first = 1, number, lanes
+            if (is_stopped(lowered%beam%watch)) exit
             ! The last lanes repeat the last case
             case_of = [(solved(min(first + l, number)), l=0, lanes - 1)]
             lost = .false.
@@ -136,6 +138,7 @@ contains
                 if (.not. fits) call solve_alone(i)
             end do
         end do
+        if (is_stopped(lowered%beam%watch)) status(:) = gapbeam_stopped
 
     contains
 

@@ -16,7 +16,7 @@ module gapbeam_cases
     use gapbeam_lower_units, only: load_in_units, support_in_units
     implicit none
     private
-    public :: case_loads_type, split_loads, replace_supports, leave_room, solve_case, take_case
+    public :: case_loads_type, split_loads, replace_supports, leave_room, solve_case, take_case, give_case
 
     !> What a load does to a link: rotations and shears of the simple bar, sums of absolute values (link_type)
     type :: share_type
@@ -66,6 +66,7 @@ contains
         do k = 1, size(lowered%model%loads)
             associate (a => lowered%load_from(k), b => lowered%load_to(k), load => lowered%model%loads(k))
                 if (load%kind == gapbeam_axial_force) cycle
+                if (is_stretch(load) .and. a == b) cycle
                 if (is_stretch(load)) then
                     shares = shares + link_of(b) - link_of(a + 1) + 1
                 else if (lowered%node_of_point(a) >= 0) then
@@ -85,6 +86,7 @@ contains
         do k = 1, size(lowered%model%loads)
             associate (a => lowered%load_from(k), b => lowered%load_to(k), load => lowered%model%loads(k))
                 if (load%kind == gapbeam_axial_force) cycle
+                if (is_stretch(load) .and. a == b) cycle
                 if (is_stretch(load)) then
                     call spread_load(lowered, load, a, b, on_pieces)
                     do i = a + 1, b
@@ -262,5 +264,37 @@ contains
         lowered%model%loads%case = gapbeam_live
         call lower_loads(lowered, error)
     end subroutine take_case
+
+    !> Put the solution of a case into columns of the scene's units, which hold it
+    pure subroutine give_case(units, place, scheme, deflection, moment_left, moment_right, force, closed, w, ml, mr, reaction)
+        !> Of deflections, moments and forces, as numbers
+        real(wp), intent(in) :: units(3)
+        !> Where the number of every support is in arrays of them, counted from 0
+        integer, intent(in) :: place(:)
+        !> In the engine's units; scheme (1 closed) and forces of supports by places, the others by nodes
+        real(wp), intent(in), dimension(0:) :: scheme, deflection, moment_left, moment_right, force
+        !> Columns as long as there are supports, or longer: what is beyond stays
+        integer, intent(inout) :: closed(:)
+        real(wp), intent(inout) :: reaction(:)
+        !> As long as there are nodes; these and reactions without rows where they are not wanted
+        real(wp), intent(inout), dimension(:) :: w, ml, mr
+        integer :: k
+
+        do k = 1, size(w)
+            w(k) = deflection(k - 1)*units(1)
+        end do
+        do k = 1, size(ml)
+            ml(k) = moment_left(k - 1)*units(2)
+        end do
+        do k = 1, size(mr)
+            mr(k) = moment_right(k - 1)*units(2)
+        end do
+        do k = 1, merge(size(place), 0, size(reaction) > 0)
+            reaction(k) = force(place(k))*units(3)
+        end do
+        do k = 1, size(place)
+            closed(k) = merge(1, 0, scheme(place(k)) > 0.5_wp)
+        end do
+    end subroutine give_case
 
 end module gapbeam_cases

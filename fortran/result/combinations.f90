@@ -76,6 +76,7 @@ contains
                 call lower_loads(lowered, error)
             end if
         end associate
+        combined%lowered%beam%watch = base%beam%watch
         ! What an error leaves behind is no beam to go on with
         combined%moved = moves .or. allocated(error)
     end subroutine combine

@@ -4,6 +4,7 @@ module gapbeam_ground_distance
     use gapbeam_element, only: field_type
     use gapbeam_curved, only: curved_type
     use gapbeam_ground_laws, only: contact_line, along
+    use gapbeam_ground_fields, only: deflection_size
     use gapbeam_ground_solver, only: ground_solution_type
     use gapbeam_lowered, only: lowered_type
     use gapbeam_ground_query, only: values_in, curved_in, peaks_in
@@ -84,8 +85,7 @@ contains
 
     end subroutine largest_ways
 
-    !> Distance between the beam and the line at which a layer begins to act, and the size of what it is the difference of, which
-    !> times the rounding unit bounds its error (N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2002, section 3.1)
+    !> Distance between the beam and the line at which a layer begins to act, and the size of what it is the difference of
     pure subroutine distance_at(lowered, solution, i, k, at, distance, rounding)
         !> As for largest_ways
         type(lowered_type), intent(in) :: lowered
@@ -96,22 +96,14 @@ contains
         !> Positive where there is no contact; size of its terms
         real(wp), intent(out) :: distance, rounding
         type(field_type) :: field
-        real(wp) :: line, moment, q, square
+        real(wp) :: line
 
-        associate (layer => lowered%layers(k), s => solution%stretches(i), ends => solution%ends(i), load => solution%loads(i))
+        associate (layer => lowered%layers(k))
             call values_in(lowered, solution, i, at, field)
             line = contact_line(layer, along(solution%from(i), solution%to(i), at, 1.0_wp), &
                                 lowered%pieces(solution%piece(i))%length)
             distance = layer%side*(line - field%deflection)
-            moment = max(abs(ends%moment_a), abs(ends%moment_b))
-            q = max(abs(load%qa), abs(load%qb))
-            ! What moment and load bend a simple beam by; on elastic ground what is farther away than 1/beta is not felt
-            square = s%length**2/8
-            if (s%modulus_a > 0.0_wp .and. s%flexibility > 0.0_wp) then
-                square = min(square, 1/sqrt(s%modulus_a)/sqrt(s%flexibility))
-            end if
-            rounding = max(abs(ends%w_a), abs(ends%w_b)) + abs(line) &
-                + square*(s%flexibility*(moment + square*q) + abs(load%kappa)) + s%shear_flexibility*(moment + square*q)
+            rounding = deflection_size(solution, i) + abs(line)
         end associate
     end subroutine distance_at
 

@@ -2,10 +2,10 @@
 module gapbeam_ground_pressure
     use gapbeam_kinds, only: wp
     use gapbeam_element, only: field_type
-    use gapbeam_layers, only: law_piece_type, law_piece, is_curve, law_by_points
-    use gapbeam_law_series, only: curve_force
+    use gapbeam_layers, only: law_piece, law_by_points
     use gapbeam_curved, only: curved_type
-    use gapbeam_ground_laws, only: contact_line, slope_of_layer, offset_of_layer, parameters_at, along
+    use gapbeam_ground_laws, only: contact_line, slope_of_layer, along
+    use gapbeam_ground_fields, only: push_of_layer
     use gapbeam_ground_solver, only: ground_solution_type
     use gapbeam_lowered, only: lowered_type
     use gapbeam_ground_query, only: stretch_of, share_of, values_in, peaks_in
@@ -39,32 +39,18 @@ contains
         type(ground_solution_type), intent(in) :: solution
         integer, intent(in) :: i
         real(wp), intent(in) :: xi
-        real(wp) :: pressure, place, push
+        real(wp) :: pressure, place
         type(field_type) :: field
-        type(law_piece_type) :: law
-        integer :: k, acts
+        integer :: k
 
         pressure = 0.0_wp
         call values_in(lowered, solution, i, xi, field)
         associate (j => solution%piece(i))
             place = along(solution%from(i), solution%to(i), xi, 1.0_wp)
             do k = lowered%layer_first(j), lowered%layer_first(j + 1) - 1
-                acts = solution%acts(k - lowered%layer_first(j) + 1, i)
-                if (acts == 0) cycle
-                associate (layer => lowered%layers(k), length => lowered%pieces(j)%length)
-                    law = law_piece(layer, lowered%law_pieces, acts)
-                    if (is_curve(layer, acts)) then
-                        push = layer%side*curve_force(layer%law, parameters_at(layer, place, length), &
-                                                      layer%side*(field%deflection - contact_line(layer, place, length)))
-                    else
-                        push = layer%side*offset_of_layer(layer, law, acts, place, length) &
-                            + slope_of_layer(layer, law, acts, place, length) &
-                            *(field%deflection - contact_line(layer, place, length))
-                    end if
-                    ! At an end of a zone it is zero but for rounding
-                    if (layer%side /= 0) push = layer%side*max(0.0_wp, layer%side*push)
-                    pressure = pressure + push
-                end associate
+                pressure = pressure + push_of_layer(lowered%layers(k), lowered%law_pieces, &
+                                                    solution%acts(k - lowered%layer_first(j) + 1, i), place, &
+                                                    lowered%pieces(j)%length, field%deflection)
             end do
         end associate
     end function pressure_in

@@ -2,12 +2,11 @@
 module gapbeam_ground_query
     use gapbeam_kinds, only: wp
     use gapbeam_element, only: field_type
-    use gapbeam_foundation, only: stretch_ends_type, decay_lengths
-    use gapbeam_foundation_fields, only: fields_at
+    use gapbeam_foundation, only: stretch_ends_type
     use gapbeam_foundation_roots, only: find_peaks
-    use gapbeam_layers, only: is_curve
-    use gapbeam_curved, only: curved_type, curved_fields
-    use gapbeam_ground_laws, only: take_curves, along
+    use gapbeam_curved, only: curved_type
+    use gapbeam_ground_laws, only: along
+    use gapbeam_ground_fields, only: inside_type, look_inside, field_at_end, field_inside, curved_stretch
     use gapbeam_ground_solver, only: ground_solution_type
     use gapbeam_lowered, only: lowered_type
     implicit none
@@ -79,58 +78,17 @@ contains
         integer, intent(in) :: i
         real(wp), intent(in) :: xi
         type(field_type), intent(out) :: field
-        type(curved_type), allocatable :: curved
-        real(wp) :: off(2, 2)
+        type(inside_type) :: inside
 
-        associate (ends => solution%ends(i))
-            if (xi <= 0.0_wp) then
-                field%deflection = ends%w_a
-                field%moment = ends%moment_a
-                field%rotation = solution%rotation(1, i)
-                field%shear = solution%shear(1, i)
-            else if (xi >= 1.0_wp) then
-                field%deflection = ends%w_b
-                field%moment = ends%moment_b
-                field%rotation = solution%rotation(2, i)
-                field%shear = solution%shear(2, i)
-            else
-                call curved_in(lowered, solution, i, curved)
-                if (allocated(curved)) then
-                    call curved_fields(curved, xi, field%deflection, field%rotation, field%moment, field%shear)
-                    return
-                end if
-                ! Beside the chord
-                call fields_at(solution%stretches(i), solution%loads(i), &
-                               stretch_ends_type(0.0_wp, 0.0_wp, ends%moment_a, ends%moment_b), xi, field%deflection, &
-                               field%rotation, field%moment, field%shear)
-                field%deflection = along(ends%w_a, ends%w_b, xi, 1.0_wp) + field%deflection
-                field%rotation = solution%slope(i) + field%rotation
-                if (decay_lengths(solution%stretches(i)) > 1.0_wp) return
-                ! In a short stretch the shear is a small difference of moments by a small length, and where shear bends most the
-                ! rotation one of slopes: their errors are those at the ends, where they are known
-                off(:, 1) = off_at(1)
-                off(:, 2) = off_at(2)
-                field%rotation = field%rotation + along(off(1, 1), off(1, 2), xi, 1.0_wp)
-                field%shear = field%shear + along(off(2, 1), off(2, 2), xi, 1.0_wp)
-            end if
+        if (xi <= 0.0_wp .or. xi >= 1.0_wp) then
+            field = field_at_end(solution, i, merge(1, 2, xi <= 0.0_wp))
+            return
+        end if
+        associate (j => solution%piece(i))
+            call look_inside(lowered%layers(lowered%layer_first(j):lowered%layer_first(j + 1) - 1), lowered%pieces(j)%length, &
+                             solution, i, inside)
         end associate
-
-    contains
-
-        !> What rotation and shear at an end of the stretch lack when they are made of load and moments
-        pure function off_at(side) result(lacking)
-            !> 1 left, 2 right
-            integer, intent(in) :: side
-            real(wp) :: lacking(2), deflection, rotation, moment, shear
-
-            associate (ends => solution%ends(i))
-                call fields_at(solution%stretches(i), solution%loads(i), &
-                               stretch_ends_type(0.0_wp, 0.0_wp, ends%moment_a, ends%moment_b), real(side - 1, wp), deflection, &
-                               rotation, moment, shear)
-            end associate
-            lacking = [solution%rotation(side, i) - (solution%slope(i) + rotation), solution%shear(side, i) - shear]
-        end function off_at
-
+        call field_inside(inside, xi, field)
     end subroutine values_in
 
     !> A stretch on which ground acts by curves
@@ -141,19 +99,9 @@ contains
         !> Not allocated if the ground is linear there
         type(curved_type), allocatable, intent(out) :: curved
 
-        associate (j => solution%piece(i), ends => solution%ends(i), s => solution%stretches(i))
-            associate (layers => lowered%layers(lowered%layer_first(j):lowered%layer_first(j + 1) - 1))
-                if (.not. any(is_curve(layers, solution%acts(:size(layers), i)))) return
-                allocate (curved)
-                call take_curves(layers, solution%acts(:, i), solution%from(i), solution%to(i), lowered%pieces(j)%length, &
-                                 curved%curves)
-            end associate
-            curved%stretch = s
-            curved%load = solution%loads(i)
-            curved%left = [ends%w_a - s%shear_flexibility*ends%moment_a, solution%rotation(1, i), ends%moment_a, &
-                           solution%shear(1, i)]
-            curved%right = [ends%w_b - s%shear_flexibility*ends%moment_b, solution%rotation(2, i), ends%moment_b, &
-                            solution%shear(2, i)]
+        associate (j => solution%piece(i))
+            call curved_stretch(lowered%layers(lowered%layer_first(j):lowered%layer_first(j + 1) - 1), lowered%pieces(j)%length, &
+                                solution, i, curved)
         end associate
     end subroutine curved_in
 

@@ -1,7 +1,9 @@
 !> The load followed through factors in turn, by the path itself: past limit points, with supports that soften, break or keep a set
 module gapbeam_history
     use gapbeam_kinds, only: wp, qp
-    use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_not_converged, no_memory
+    use gapbeam_watch, only: end_if_stopped
+    use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_not_converged, gapbeam_indeterminate, no_memory
+    use gapbeam_words, only: shown
     use gapbeam_memory, only: for_following_closely
     use gapbeam_polyline, only: node_support_type, last_kink
     use gapbeam_polyline_quad, only: fine_support_type => node_support_type
@@ -11,10 +13,10 @@ module gapbeam_history
     use gapbeam_refined, only: refine_beam
     use gapbeam_referee, only: reserve_for
     use gapbeam_cell, only: find_cell, cell_type
-    use gapbeam_ways, only: way_type, rise, fall, turn
-    use gapbeam_branch, only: branch_type, segment_type, start_branch, step_branch, goes_on, no_way_on, never_ends
+    use gapbeam_lines, only: way_type, rise, fall, turn
+    use gapbeam_branch, only: branch_type, segment_type, start_branch, step_branch, goes_on, no_way_on, never_ends, not_told
     use gapbeam_scene, only: gapbeam_elastic, gapbeam_both
-    use gapbeam_lowered, only: lowered_type
+    use gapbeam_lowered, only: lowered_type, point_x
     use gapbeam_state, only: detail_of
     implicit none
     private
@@ -121,6 +123,7 @@ contains
             call drop_live(beam, dead)
             laws%contact = laws%contact - settling
             call go_leg(dead, 0, 0.0_qp, 1.0_qp)
+            call end_if_stopped(beam%watch, error)
             if (allocated(error) .or. history%ending /= no_limit) return
             laws%contact = laws%contact + settling
             settling(:) = 0.0_qp
@@ -129,6 +132,7 @@ contains
         do leg = 1, size(factors)
             if (.not. abs(factors(leg) - factor) > 0.0_qp) cycle
             call go_leg(beam, leg, factor, real(factors(leg), qp))
+            call end_if_stopped(beam%watch, error)
             if (allocated(error)) return
             if (history%ending /= no_limit) exit
             factor = factors(leg)
@@ -164,6 +168,18 @@ contains
                 if (allocated(error) .or. history%ending /= no_limit) return
             end if
             call start_branch(beam, unloading, settling, closed, from, way, branch, outcome, error)
+            if (history%number == 0 .and. .not. allocated(error) .and. outcome == goes_on .and. branch%way%index > 0) then
+                ! No force falls in a beam without load: the search has gone too far
+                call find_rest(lowered, closed)
+                call start_branch(beam, unloading, settling, closed, from, way, branch, outcome, error)
+                if (.not. allocated(error) .and. outcome == goes_on .and. branch%way%index > 0) outcome = no_way_on
+                if (.not. allocated(error) .and. outcome == no_way_on) then
+                    call fatal_error(error, gapbeam_not_converged, "the beam moves freely before it carries any load, to "// &
+                                     "supports whose forces may fall, and no stable state was found there: hold it, or give "// &
+                                     "these supports no gap")
+                end if
+            end if
+            call refuse_shared(outcome)
             if (.not. allocated(error) .and. outcome /= goes_on) call note_limit(mechanism, leg, real(from, wp))
             if (outcome /= goes_on) history%ending = mechanism
             allocate (ways(0))
@@ -187,10 +203,11 @@ contains
                     if (.not. (stable .and. direction == way .and. way*(branch%factor - to) <= 0.0_qp)) target = way*huge(to)
                 end if
                 call step_branch(branch, target, way, segment, outcome, error)
+                call refuse_shared(outcome)
                 if (allocated(error)) exit
                 if (outcome == never_ends) then
                     if (direction == turn) history%motion = real(branch%way%motion, wp)
-                else if (abs(segment%to - segment%from) > 0.0_qp .or. direction == turn) then
+                else if (abs(real(segment%to, wp) - real(segment%from, wp)) > 0.0_wp .or. direction == turn) then
                     if (outcome == goes_on .and. all(unloading == gapbeam_elastic)) then
                         ! No cell is crossed twice, but a path without end may come round to where it began
                         if (branch%way%direction == first_direction .and. all(branch%way%closed .eqv. first)) history%ending = ended
@@ -216,6 +233,18 @@ contains
             laws = branch%beam%supports
         end subroutine go_leg
 
+        !> Refuse to tell what statics cannot
+        subroutine refuse_shared(outcome)
+            integer, intent(in) :: outcome
+            real(wp) :: x
+
+            if (allocated(error) .or. outcome /= not_told) return
+            x = point_x(lowered, lowered%support_point(lowered%normal(branch%shared(1))))
+            call fatal_error(error, gapbeam_indeterminate, "two supports at x = "//trim(shown(x))//" have yielded to the same "// &
+                             "deflection and unload rigidly from there at load factor "//trim(shown(real(branch%factor, wp)))// &
+                             ", so statics cannot tell what each of them takes: give one of them a finite stiffness")
+        end subroutine refuse_shared
+
         !> Keep a stretch
         subroutine add(leg, segment, direction, index, ways, acting, now)
             integer, intent(in) :: leg
@@ -237,7 +266,9 @@ contains
             end if
             history%number = history%number + 1
             associate (s => history%stretches(history%number))
-                s = stretch_type(leg, real(segment%from, wp), real(segment%to, wp), direction, index, ways, .false., acting)
+                ! No negative zeros
+                s = stretch_type(leg, real(segment%from, wp) + 0.0_wp, real(segment%to, wp) + 0.0_wp, direction, index, ways, &
+                                 .false., acting)
                 if (any(unloading /= gapbeam_elastic)) s%laws = rounded(now, lowered%beam%supports)
             end associate
         end subroutine add

@@ -2,17 +2,18 @@
 !> solve_case of gapbeam_cases, which takes the other beams, and the cases that are doubtful here
 module gapbeam_lane_cases
     use gapbeam_kinds, only: wp
+    use gapbeam_watch, only: is_stopped
     use gapbeam_error, only: error_type
     use gapbeam_band, only: plain, hinge, restrained
     use gapbeam_model, only: softest
     use gapbeam_law, only: both, is_rigid, has_laws, may_change
     use gapbeam_units, only: moment_unit, stiffness_unit
     use gapbeam_lowered, only: lowered_type
-    use gapbeam_cases, only: case_loads_type, split_loads, leave_room
+    use gapbeam_cases, only: case_loads_type, split_loads, leave_room, give_case
     use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type, new_pack, link_numbers, link_faa, link_fab, link_fbb, &
         link_sum_a, link_sum_b, link_bending, link_determinant, link_fixity, link_reach
     use gapbeam_lane_levels, only: take_columns_at, take_numbers_at, give_pack_at, search_pack_at, finish_pack_at, &
-        best_level
+        audit_pack_at, best_level
     use gapbeam_lane_spans, only: span_room_type, prepare_spans, take_spans, make_pack_links, ease_ratio
     implicit none
     private
@@ -105,6 +106,7 @@ contains
         outside(:) = .false.
         units = scale(1.0_wp, [lowered%units%deflection, moment_unit(lowered%units), lowered%units%force])
         do first = 1, size(done), lanes
+            if (is_stopped(lowered%beam%watch)) exit
             ! The last lanes repeat the last case
             case_of = [(min(first + l, size(done)), l=0, lanes - 1)]
             call take_columns_at(at_level, size(factors, 1), size(factors, 2), factors, case_of, room%factors)
@@ -169,10 +171,12 @@ contains
             integer, intent(in) :: way, numbers(lanes)
             type(pack_type), intent(inout) :: schemes
             real(wp) :: most, largest(lanes)
-            logical :: doubtful(lanes)
+            logical :: doubtful(lanes), wrong(lanes)
             integer :: k
 
             call finish_pack_at(at_level, room%beam, way, schemes, doubtful)
+            call audit_pack_at(at_level, room%beam, schemes, wrong)
+            doubtful = doubtful .or. wrong
             most = maxval(units)
             if (most > 1.0_wp) then
                 largest(:) = largest_values(schemes%w, schemes%ml, schemes%mr, schemes%reaction)
@@ -187,7 +191,9 @@ contains
                 if (doubtful(k) .or. (k > 1 .and. numbers(k) == numbers(max(k - 1, 1)))) cycle
                 associate (i => numbers(k))
                     done(i) = .true.
-                    call give_case(room%beam%place, units, schemes, k, closed(:, i), w(:, i), ml(:, i), mr(:, i), reaction(:, i))
+                    call give_case(units, room%beam%place, schemes%closed(k, :), schemes%w(k, :), schemes%ml(k, :), &
+                                   schemes%mr(k, :), schemes%reaction(k, :), closed(:, i), w(:, i), ml(:, i), mr(:, i), &
+                                   reaction(:, i))
                 end associate
             end do
         end subroutine finish
@@ -470,34 +476,5 @@ contains
             largest(:) = max(largest, abs(reaction(:, i)))
         end do
     end function largest_values
-
-    !> The solution of a case in the scene's units, which hold it
-    pure subroutine give_case(place, units, pack, l, closed, w, ml, mr, reaction)
-        !> As for take_supports
-        integer, intent(in), contiguous :: place(:)
-        !> Of deflections, moments and forces, as numbers
-        real(wp), intent(in) :: units(3)
-        type(pack_type), intent(in) :: pack
-        integer, intent(in) :: l
-        integer, intent(inout), contiguous :: closed(:)
-        real(wp), intent(inout), contiguous :: w(:), ml(:), mr(:), reaction(:)
-        integer :: k
-
-        do k = 1, size(w)
-            w(k) = pack%w(l, k - 1)*units(1)
-        end do
-        do k = 1, size(ml)
-            ml(k) = pack%ml(l, k - 1)*units(2)
-        end do
-        do k = 1, size(mr)
-            mr(k) = pack%mr(l, k - 1)*units(2)
-        end do
-        do k = 1, merge(size(place), 0, size(reaction) > 0)
-            reaction(k) = pack%reaction(l, place(k))*units(3)
-        end do
-        do k = 1, size(place)
-            closed(k) = merge(1, 0, pack%closed(l, place(k)) > 0.5_wp)
-        end do
-    end subroutine give_case
 
 end module gapbeam_lane_cases

@@ -1,7 +1,8 @@
 !> Cases of a beam: side by side in lanes where that can be (gapbeam_lane_cases), the others one by one
 module gapbeam_many_cases
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_memory, gapbeam_not_finite
+    use gapbeam_watch, only: is_stopped
+    use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_memory, gapbeam_not_finite, gapbeam_stopped
     use gapbeam_memory, only: enough_memory, for_solving
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, new_workspace
@@ -59,7 +60,8 @@ contains
         !> In the scene's units: deflections, moments left and right of the nodes, reactions, as many rows as of the schemes at
         !> least; without rows: not wanted. Those of a case that is not solved are not numbers
         real(wp), intent(inout), contiguous :: w(:, :), ml(:, :), mr(:, :), reaction(:, :)
-        !> Linear solves; gapbeam_solved, gapbeam_no_equilibrium or the code of an error. Where memory ends all say so
+        !> Linear solves; gapbeam_solved, gapbeam_no_equilibrium or the code of an error. Where memory ends, or whoever watches
+        !> the call has ended it, all say so
         integer, intent(out) :: solves(:), status(:)
         logical, allocatable :: acting(:), done(:)
         integer :: i, m, stat
@@ -102,8 +104,10 @@ contains
                 room%loaded_is_made = .true.
             end if
             if (m > 0 .and. size(values, 2) == 0) room%loaded%supports(:) = lowered%beam%supports
+            room%loaded%watch = lowered%beam%watch
         end if
         do i = 1, size(status)
+            if (is_stopped(lowered%beam%watch)) exit
             if (done(i)) cycle
             acting(:) = closed(:m, i) /= 0
             solves(i) = 0
@@ -121,6 +125,7 @@ contains
                 return
             end if
         end do
+        if (is_stopped(lowered%beam%watch)) status(:) = gapbeam_stopped
 
     contains
 
@@ -168,6 +173,7 @@ contains
             allocate (room%varied, source=lowered, stat=stat)
             if (stat /= 0) return
         end if
+        room%varied%beam%watch = lowered%beam%watch
         room%varied%model%spans%EI = spans(1, :)
         room%varied%model%spans%GA = spans(2, :)
         call lower_loads(room%varied, error)

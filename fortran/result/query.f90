@@ -6,7 +6,7 @@ module gapbeam_query
     use gapbeam_fields, only: values_at, find_extremes
     use gapbeam_units, only: moment_unit, rotation_unit
     use gapbeam_lowered, only: lowered_type, point_x, piece_length
-    use gapbeam_places, only: locate, position_tolerance
+    use gapbeam_places, only: locate, position_tolerance, end_tolerance
     use gapbeam_lower_units, only: name_farthest
     use gapbeam_words, only: shown
     use gapbeam_refusal, only: refuse_range
@@ -88,7 +88,7 @@ contains
 
         end = lowered%ends(ubound(lowered%ends, 1))
         do i = 1, size(x)
-            if (x(i) >= -position_tolerance*end .and. x(i) <= end + position_tolerance*end) cycle
+            if (x(i) >= -end_tolerance*end .and. x(i) <= end + end_tolerance*end) cycle
             call fatal_error(error, gapbeam_bad_input, "x: "//trim(shown(x(i)))//" is outside the beam, which runs from x = 0 "// &
                              "to x = "//trim(shown(end)))
             error%entry = i

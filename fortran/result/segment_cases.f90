@@ -2,15 +2,16 @@
 !> the digits of solve_case of gapbeam_cases, which takes the other beams, and the cases that are doubtful here
 module gapbeam_segment_cases
     use gapbeam_kinds, only: wp
+    use gapbeam_watch, only: is_stopped
     use gapbeam_band, only: plain
     use gapbeam_law, only: both, is_rigid, has_laws, may_change
     use gapbeam_units, only: moment_unit
     use gapbeam_lowered, only: lowered_type
     use gapbeam_lower_units, only: support_in_units
-    use gapbeam_cases, only: case_loads_type
+    use gapbeam_cases, only: case_loads_type, give_case
     use gapbeam_lane_types, only: lanes
     use gapbeam_segment_types, only: segment_beam_type, segment_room_type, new_segments, node_of
-    use gapbeam_lane_levels, only: solve_segments_at, best_level
+    use gapbeam_lane_levels, only: solve_segments_at, audit_segments_at, best_level
     implicit none
     private
     public :: segments_type, fits_segments, solve_in_segments, least_alone
@@ -77,6 +78,7 @@ contains
             if (size(values, 2) == 0 .and. .not. segments%with_own_supports) call take_supports(lowered, room)
             segments%with_own_supports = size(values, 2) == 0
             do i = 1, size(done)
+                if (is_stopped(lowered%beam%watch)) exit
                 lost = .false.
                 if (size(values, 2) > 0) call take_values(lowered, values(:, :, i), room, lost)
                 if (lost) cycle
@@ -84,10 +86,16 @@ contains
                 if (couples) cycle
                 call take_start(lowered, closed(:, i), room)
                 call solve_segments_at(at_level, segments%beam, room, solves(i), doubtful)
+                if (.not. doubtful) call audit_segments_at(at_level, segments%beam, room, doubtful)
                 if (doubtful) cycle
                 largest = max(maxval(abs(room%w)), maxval(abs(room%m)), maxval(abs(room%reaction)))
                 done(i) = largest <= huge(1.0_wp)/max(maxval(units), 1.0_wp)
-                if (done(i)) call give_case(lowered, units, room, closed(:, i), w(:, i), ml(:, i), mr(:, i), reaction(:, i))
+                if (.not. done(i)) cycle
+                call give_case(units, lowered%beam%supports%node, room%closed, room%w, room%m, room%m, room%reaction, &
+                               closed(:, i), w(:, i), ml(:, i), mr(:, i), reaction(:, i))
+                ! Beyond the ends there is no moment
+                if (size(ml) > 0) ml(1, i) = 0.0_wp
+                if (size(mr) > 0) mr(size(mr, 1), i) = 0.0_wp
             end do
         end associate
     end subroutine solve_in_segments
@@ -253,35 +261,5 @@ contains
             end associate
         end do
     end subroutine take_start
-
-    !> The solution in the scene's units, which hold it
-    pure subroutine give_case(lowered, units, room, closed, w, ml, mr, reaction)
-        type(lowered_type), intent(in) :: lowered
-        !> Of deflections, moments and forces, as numbers
-        real(wp), intent(in) :: units(3)
-        type(segment_room_type), intent(in) :: room
-        integer, intent(inout) :: closed(:)
-        real(wp), intent(inout), contiguous :: w(:), ml(:), mr(:), reaction(:)
-        integer :: k
-
-        do k = 1, size(w)
-            w(k) = room%w(k - 1)*units(1)
-        end do
-        do k = 1, size(ml)
-            ml(k) = room%m(k - 1)*units(2)
-        end do
-        do k = 1, size(mr)
-            mr(k) = room%m(k - 1)*units(2)
-        end do
-        ! Beyond the ends there is no moment
-        if (size(ml) > 0) ml(1) = 0.0_wp
-        if (size(mr) > 0) mr(size(mr)) = 0.0_wp
-        do k = 1, size(reaction)
-            reaction(k) = room%reaction(lowered%beam%supports(k)%node)*units(3)
-        end do
-        do k = 1, size(lowered%beam%supports)
-            closed(k) = merge(1, 0, room%closed(lowered%beam%supports(k)%node) > 0.5_wp)
-        end do
-    end subroutine give_case
 
 end module gapbeam_segment_cases

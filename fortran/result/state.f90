@@ -1,8 +1,9 @@
 !> The state of a beam at one load factor: solved, certified, and followed from event to event
 module gapbeam_state
     use gapbeam_kinds, only: wp
+    use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_no_equilibrium, &
-        gapbeam_indeterminate, gapbeam_not_finite
+        gapbeam_indeterminate, gapbeam_not_finite, gapbeam_not_converged
     use gapbeam_element, only: field_type
     use gapbeam_model, only: beam_type
     use gapbeam_polyline, only: last_kink
@@ -14,10 +15,13 @@ module gapbeam_state
     use gapbeam_search, only: rule_block
     use gapbeam_ground, only: ground_type
     use gapbeam_ground_solver, only: solve_on_ground
+    use gapbeam_ledger, only: ledger_type, words_for
+    use gapbeam_audit, only: audit_axial
+    use gapbeam_ground_audit, only: audit_ground
     use gapbeam_certificate, only: certificate_type, certify
     use gapbeam_path, only: follow_path, path_type, event_turns
     use gapbeam_pieces, only: acting_type, acting_piece, what_happens, nothing
-    use gapbeam_axial, only: solve_axial, axial_slides, axial_indeterminate
+    use gapbeam_axial, only: solve_axial, axial_ok, axial_slides, axial_indeterminate
     use gapbeam_words, only: shown
     use gapbeam_lowered, only: lowered_type, point_x, find_length_errors
     use gapbeam_lower_units, only: name_farthest
@@ -55,7 +59,7 @@ contains
         type(lowered_type), intent(in), target :: lowered
         !> Factor of the live loads
         real(wp), intent(in) :: factor
-        !> rule_block, rule_single or rule_given
+        !> rule_block, rule_single, rule_given or rule_extended
         integer, intent(in) :: rule
         !> From new_state or an earlier solve
         type(state_type), intent(inout) :: state
@@ -90,16 +94,22 @@ contains
             call settle(lowered%beam)
         end if
         if (.not. allocated(error) .and. state%status == gapbeam_solved) call check_range(lowered, state, error)
+        call end_if_stopped(lowered%beam%watch, error)
 
     contains
 
         !> Find the scheme of a beam, and take its solution
         subroutine settle(beam)
             type(beam_type), intent(in) :: beam
+            type(ledger_type) :: fault
 
             call new_workspace(beam, work)
             call set_loads(beam, factor, work)
-            call decide_scheme(beam, detail_of(lowered), factor, rule, acting, work, outcome, error)
+            call decide_scheme(beam, detail_of(lowered), factor, rule, acting, work, outcome, error, fault)
+            if (fault%wrong /= 0) then
+                fault%piece = lowered%node_point(fault%piece) + 1
+                call name_fault(lowered, fault, error)
+            end if
             call name_range(lowered, error)
             if (allocated(error)) return
             state%solves = work%solves
@@ -127,9 +137,10 @@ contains
         !> The same on the ground
         subroutine settle_on_ground(ground)
             type(ground_type), intent(in) :: ground
+            type(ledger_type) :: ledger
 
             allocate (state%ground)
-            call solve_on_ground(ground, detail_of(lowered), factor, merge(rule_block, rule, rule == rule_given), acting, &
+            call solve_on_ground(ground, detail_of(lowered), factor, merge(rule_block, rule, rule >= rule_given), acting, &
                                  state%ground, outcome, error)
             if (.not. allocated(error) .and. outcome%status == gapbeam_solved) then
                 call refuse_redundancy(ground%beam, acting, state%ground%undecided, error)
@@ -150,6 +161,8 @@ contains
             state%moment_left(:) = state%ground%moment_left
             state%moment_right(:) = state%ground%moment_right
             state%reaction(:) = state%ground%reaction
+            call audit_ground(ground, factor, acting, state%ground, ledger, state%ground%residuals)
+            call name_fault(lowered, ledger, error)
         end subroutine settle_on_ground
 
     end subroutine solve_state
@@ -182,6 +195,20 @@ contains
         if (error%code == gapbeam_not_finite) call name_farthest(lowered, error)
     end subroutine name_range
 
+    !> Refuse a state that does not stand its audit, in the user's words
+    subroutine name_fault(lowered, ledger, error)
+        type(lowered_type), intent(in) :: lowered
+        type(ledger_type), intent(in) :: ledger
+        !> What is wrong, and where
+        type(error_type), allocatable, intent(out) :: error
+
+        if (ledger%wrong == 0) return
+        call fatal_error(error, gapbeam_not_converged, "the result does not stand its own audit: at x = " &
+                         //trim(shown(point_x(lowered, ledger%piece - 1) + scale(ledger%distance, lowered%units%length))) &
+                         //" "//trim(words_for(ledger%wrong))//", by "//trim(shown(real(nint(min(ledger%excess, 1e9_wp)), wp))) &
+                         //" roundings or more; look for stiffnesses or lengths that lie far apart, and report the scene")
+    end subroutine name_fault
+
     !> Solve the axial system, if there is one
     subroutine solve_along_axis(lowered, state, error)
         type(lowered_type), intent(in) :: lowered
@@ -189,6 +216,7 @@ contains
         type(state_type), intent(inout) :: state
         !> Supports that hold a rigid stretch at both ends
         type(error_type), allocatable, intent(out) :: error
+        type(ledger_type) :: ledger
         integer :: found, place
 
         if (.not. allocated(lowered%axial%point)) return
@@ -196,6 +224,12 @@ contains
             call solve_axial(axial%flexibility, axial%force(1, :) + state%factor*axial%force(2, :), axial%stiffness, &
                              axial%settlement, state%displacement, state%tension, state%axial_reaction, found, place)
             state%slides = found == axial_slides
+            if (found == axial_ok) then
+                call audit_axial(axial%flexibility, axial%force(1, :) + state%factor*axial%force(2, :), axial%stiffness, &
+                                 axial%settlement, state%displacement, state%tension, state%axial_reaction, ledger)
+                ledger%piece = axial%point(ledger%piece) + 1
+                call name_fault(lowered, ledger, error)
+            end if
             if (found /= axial_indeterminate) return
             associate (point => axial%point(place))
                 call fatal_error(error, gapbeam_indeterminate, "the axial support at x = " &
@@ -248,8 +282,9 @@ contains
 
         if (allocated(state%ground)) then
             associate (bounds => state%ground%bounds, residuals => state%ground%residuals)
-                certificate = certificate_type(compatibility=residuals(1), equilibrium=residuals(2), reaction=bounds(5), &
-                                               moment=bounds(3), shear=bounds(4), known=.not. state%indifferent)
+                certificate = certificate_type(compatibility=residuals(1), equilibrium=residuals(2), &
+                                               complementarity=residuals(3), reaction=bounds(5), moment=bounds(3), &
+                                               shear=bounds(4), known=.not. state%indifferent)
                 if (state%indifferent) return
                 certificate%of_nodes = bounds(1)
                 certificate%deflection = bounds(1)
@@ -271,6 +306,7 @@ contains
             call certify(lowered%beam, detail_of(lowered), state%factor, state%closed, state%deflection, state%moment_left, &
                          state%moment_right, state%reaction, starts, length_error, certificate, error)
         end if
+        call end_if_stopped(lowered%beam%watch, error)
     end subroutine certify_state
 
     !> Follow the load from factor 0 to `factor`: every change of the working scheme at its load factor. The state is that at
@@ -312,6 +348,7 @@ contains
             if (allocated(error)) return
             call follow_path(lowered%beam, detail_of(lowered), factor, changes_at_a_time, at, state%closed, state%undecided, &
                              path, outcome, error)
+            call end_if_stopped(lowered%beam%watch, error)
             call name_range(lowered, error)
             if (allocated(error)) then
                 error%message = "at load factor "//trim(shown(at))//": "//error%message

@@ -9,6 +9,7 @@
 !> passes an end of the beam.
 module gapbeam_train_bounds
     use gapbeam_kinds, only: wp
+    use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved
     use gapbeam_nodes, only: hinge
     use gapbeam_lowered, only: lowered_type
@@ -89,6 +90,8 @@ contains
         count = 0
         start(:) = 0
         do k = 1, passage%number
+            call end_if_stopped(track%beam%watch, error)
+            if (allocated(error)) return
             if (passage%status(k) /= gapbeam_solved) cycle
             call show_stretch(track, train, passage, k, bounds%view)
             if (.not. bounds%view%clear) then
@@ -112,6 +115,8 @@ contains
         call mark_stretches(bounds%supports, bounds%of_supports)
         call drop_parts()
         do i = 1, count
+            call end_if_stopped(track%beam%watch, error)
+            if (allocated(error)) return
             do k = parts(i)%first, parts(i)%last
                 call look_closely(parts(i)%link, k)
             end do

@@ -1,6 +1,7 @@
 !> A train at chosen places of the beam: the largest and smallest values there
 module gapbeam_train_curves
     use gapbeam_kinds, only: wp
+    use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved
     use gapbeam_bernstein, only: sample_points, to_coefficients
     use gapbeam_patch, only: patch_type, greatest_on_patch
@@ -81,6 +82,8 @@ contains
         near = least_distance(track, train)
         told = .true.
         do k = 1, passage%number
+            call end_if_stopped(track%beam%watch, error)
+            if (allocated(error)) return
             if (passage%status(k) /= gapbeam_solved) cycle
             call show()
             if (.not. view%clear) cycle
@@ -107,6 +110,7 @@ contains
         do f = 1, 4
             where (abs(value(:, f, :)) < huge(1.0_wp)) value(:, f, :) = scale(value(:, f, :), powers(f))
         end do
+        call end_if_stopped(track%beam%watch, error)
 
     contains
 
@@ -144,6 +148,8 @@ contains
             integer :: c
 
             do k = 1, passage%number
+                call end_if_stopped(track%beam%watch, error)
+                if (allocated(error)) return
                 if (passage%status(k) /= gapbeam_solved) cycle
                 call show()
                 wanted(:) = .not. (told .and. view%clear)

@@ -5,6 +5,7 @@
 !> left is looked into (gapbeam_bernstein).
 module gapbeam_train_envelope
     use gapbeam_kinds, only: wp
+    use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved
     use gapbeam_bernstein, only: to_coefficients, highest_degree
     use gapbeam_patch, only: patch_type, greatest_on_patch, most_along
@@ -85,6 +86,8 @@ contains
         end do
         stays(:, :) = .false.
         do k = 1, passage%number
+            call end_if_stopped(track%beam%watch, error)
+            if (allocated(error)) return
             if (passage%status(k) /= gapbeam_solved) cycle
             renewed = k == 1
             if (.not. renewed) renewed = passage%status(k - 1) /= gapbeam_solved .or. &
@@ -114,6 +117,8 @@ contains
         end associate
         do f = 1, 4
             do i = 1, 2
+                call end_if_stopped(track%beam%watch, error)
+                if (allocated(error)) return
                 call find_extreme(lowered, track, train, passage, samples%cells, of_fields(i, f), i, powers(f), f == 1, &
                                   envelope%fields(i, f))
                 do c = 1, m

@@ -134,6 +134,9 @@ contains
                 if (to - from > least_distance(track, train)) return
                 if (u <= 0.0_wp) tie%limit = 1
                 if (u >= 1.0_wp) tie%limit = 2
+                ! It is on that side of the support on which the axle is
+                if (cell%left == 0) tie%side = 2
+                if (cell%right == 0) tie%side = 1
             end associate
         end subroutine place_tie
 

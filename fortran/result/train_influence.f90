@@ -1,6 +1,7 @@
 !> Influence lines of a beam in a scheme
 module gapbeam_train_influence
     use gapbeam_kinds, only: wp
+    use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_not_converged
     use gapbeam_band, only: band_ok
     use gapbeam_element, only: field_type
@@ -90,6 +91,7 @@ contains
             call solve_and_refine(bare%beam, closed, work, state, place)
             if (state /= band_ok) then
                 call fatal_error(error, gapbeam_not_converged, "the beam is held by so little that its state is not unique")
+                call end_if_stopped(bare%beam%watch, error)
                 return
             end if
             call find_cells(bare, unit, reach, cells)

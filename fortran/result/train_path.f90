@@ -11,6 +11,7 @@
 !> on, the share grows, so that every reach comes to an end.
 module gapbeam_train_path
     use gapbeam_kinds, only: wp
+    use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_indeterminate, &
         gapbeam_not_converged
     use gapbeam_bernstein, only: highest_degree
@@ -100,6 +101,7 @@ contains
                 call enter_reach(track, train, passage%reaches(r), reach)
             end if
             call cross_reach(track, train, r, reach, closed, changes, known, margins, work, passage, error)
+            call end_if_stopped(track%beam%watch, error)
             if (allocated(error)) return
         end do
     end subroutine pass_train

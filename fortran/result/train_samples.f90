@@ -5,6 +5,7 @@
 !> with a uniform load.
 module gapbeam_train_samples
     use gapbeam_kinds, only: wp
+    use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_not_converged, gapbeam_not_finite
     use gapbeam_words, only: shown
     use gapbeam_bernstein, only: sample_points
@@ -168,6 +169,7 @@ contains
         call solve_and_refine(track%beam, closed, samples%work, state, place)
         if (state /= band_ok) then
             call fatal_error(error, gapbeam_not_converged, "the beam is held by so little that its state is not unique")
+            call end_if_stopped(track%beam%watch, error)
         else if (.not. all(abs(samples%work%answers%deflection) <= huge(1.0_wp))) then
             call fatal_error(error, gapbeam_not_finite, "about position "//trim(shown(s))//" numbers left the range of "// &
                              "double precision: choose units in which lengths, stiffnesses and loads are nearer to 1")

@@ -6,7 +6,7 @@ module gapbeam_check
     use gapbeam_scene, only: model_type, span_type, section_type, support_type, load_type, gapbeam_by_x, &
         gapbeam_unchanged, gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_normal, gapbeam_axial, &
         gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, gapbeam_live, gapbeam_dead
-    use gapbeam_places, only: position_tolerance
+    use gapbeam_places, only: position_tolerance, end_tolerance
     use gapbeam_refusal, only: refuse, of_spans, of_hinges, of_sections, of_supports, of_loads, no_span, not_expected, too_long, &
         lost_length, at_end, off_beam, no_place, no_node, not_axial, no_gap, not_held, idle
     implicit none
@@ -289,7 +289,7 @@ contains
         real(wp), intent(in) :: end
         type(error_type), allocatable, intent(out) :: error
 
-        if (x >= -position_tolerance*end .and. x <= end + position_tolerance*end) return
+        if (x >= -end_tolerance*end .and. x <= end + end_tolerance*end) return
         call refuse_entry(error, here, key, merge(not_expected, off_beam, is_nan(x)), &
                     trim(shown(x))//" is outside the beam, which runs from x = 0 to x = "//shown(end))
         error%message = trim(error%message)

@@ -10,6 +10,9 @@ module gapbeam_check_laws
     private
     public :: check_laws, have_laws
 
+    !> Slopes of points that are rounded may differ by this share and be the same
+    real(wp), parameter :: same_slope = 1e-9_wp
+
 contains
 
     !> Which supports have a law
@@ -55,10 +58,8 @@ contains
                                 "; put one below and one above at this place instead")
                 else
                     call check_points(model%law(first:i))
-                    if (.not. allocated(error) .and. model%supports(k)%unloading == gapbeam_plastic .and. &
-                        .not. model%law(first)%force > 0.0_wp) then
-                        call say("plastic unloading is parallel to its first piece, which does not rise; leave that out, and "// &
-                                 "give a gap")
+                    if (.not. allocated(error) .and. model%supports(k)%unloading == gapbeam_plastic) then
+                        call check_unloading(model%law(first:i))
                     end if
                 end if
                 if (allocated(error)) return
@@ -102,6 +103,7 @@ contains
             integer :: j
 
             before(:) = 0.0_wp
+            slope = 0.0_wp
             do j = 1, size(points)
                 associate (d => points(j)%displacement, f => points(j)%force)
                     if (.not. (abs(d) <= huge(d) .and. abs(f) <= huge(f))) then
@@ -115,8 +117,10 @@ contains
                     else if (.not. (abs(d - before(1)) > 0.0_wp .or. abs(f - before(2)) > 0.0_wp)) then
                         call say("the point "//trim(pair(d, f))//" stands there twice, or at the origin; leave it out")
                     else if (.not. abs(d - before(1)) > 0.0_wp .and. j > 1) then
-                        if (is_vertical(points(:j - 1))) call say("there are two vertical pieces at "//trim(shown(d))// &
-                                                                  "; give the outer points only")
+                        ! Rigid up to a force at which it breaks is a law
+                        if (is_vertical(points(:j - 1)) .and. .not. (slope > 0.0_wp .and. f < before(2))) then
+                            call say("there are two vertical pieces at "//trim(shown(d))//"; give the outer points only")
+                        end if
                     end if
                     if (allocated(error)) return
                     if (abs(d - before(1)) > 0.0_wp) then
@@ -133,6 +137,30 @@ contains
                 end associate
             end do
         end subroutine check_points
+
+        !> Unloading parallel to the first piece must not give back more work than a steeper one has taken
+        subroutine check_unloading(points)
+            type(law_point_type), intent(in) :: points(:)
+            real(wp) :: width, rise
+            integer :: j
+
+            associate (first => points(1))
+                if (.not. first%force > 0.0_wp) then
+                    call say("plastic unloading is parallel to its first piece, which does not rise; leave that out, and "// &
+                             "give a gap")
+                    return
+                end if
+                do j = 2, size(points)
+                    width = points(j)%displacement - points(j - 1)%displacement
+                    rise = points(j)%force - points(j - 1)%force
+                    if (rise*first%displacement <= first%force*width*(1 + same_slope)) cycle
+                    call say("plastic unloading is parallel to its first piece, but the piece up to "// &
+                             trim(pair(points(j)%displacement, points(j)%force))//" is steeper, so it would give back more "// &
+                             "work than it took; begin with the steepest piece, or leave unloading out")
+                    return
+                end do
+            end associate
+        end subroutine check_unloading
 
         !> Is the last piece of some points vertical
         pure function is_vertical(points) result(vertical)

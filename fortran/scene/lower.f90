@@ -171,7 +171,8 @@ contains
             do i = 1, size(model%loads)
                 lowered%load_from(i) = point(at + 2*i - 1)
                 lowered%load_to(i) = point(at + 2*i)
-                if (is_stretch(model%loads(i)) .and. lowered%load_from(i) >= lowered%load_to(i)) then
+                ! One without length acts on nothing
+                if (is_stretch(model%loads(i)) .and. lowered%load_from(i) > lowered%load_to(i)) then
                     call refuse_empty(of_loads, i, size(model%loads))
                 else if (model%loads(i)%kind == gapbeam_couple .and. lowered%hinged(lowered%load_from(i))) then
                     call refuse(error, of_loads, i, size(model%loads), at_hinge, "", &

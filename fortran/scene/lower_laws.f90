@@ -1,15 +1,19 @@
 !> Laws of supports: from the points that the user gave to kinks, in the user's units (gapbeam_polyline)
 module gapbeam_lower_laws
     use gapbeam_kinds, only: wp
+    use gapbeam_error, only: error_type
+    use gapbeam_words, only: shown, whole
     use gapbeam_scene, only: model_type, support_type, law_point_type, gapbeam_both, gapbeam_below, gapbeam_infinity, &
         gapbeam_elastic
     use gapbeam_model, only: node_support_type
     use gapbeam_law, only: always_closed
     use gapbeam_kinematics, only: free_motions, motion_type
     use gapbeam_lowered, only: lowered_type
+    use gapbeam_places, only: position_tolerance
+    use gapbeam_refusal, only: refuse, of_supports, twice
     implicit none
     private
-    public :: find_laws, count_kinks, make_kinks, depends_on_path
+    public :: find_laws, count_kinks, make_kinks, check_rigid_pieces, depends_on_path
 
 contains
 
@@ -29,6 +33,64 @@ contains
             end associate
         end do
     end subroutine find_laws
+
+    !> No two supports at a place may be rigid at one deflection, if one of them has a law: statics could not tell what each of them
+    !> takes. One that begins to push up and another one to push down there may.
+    subroutine check_rigid_pieces(lowered, error)
+        !> With its supports in the user's units
+        type(lowered_type), intent(in) :: lowered
+        !> The supports
+        type(error_type), allocatable, intent(out) :: error
+        integer :: i, j, k
+
+        associate (beam => lowered%beam)
+            do i = 0, size(beam%links)
+                do j = beam%first(i) + 1, beam%first(i + 1) - 1
+                    do k = beam%first(i), j - 1
+                        call look(beam%order(j), beam%order(k))
+                        if (allocated(error)) return
+                    end do
+                end do
+            end do
+        end associate
+
+    contains
+
+        !> Compare two supports or kinks of a place
+        subroutine look(j, k)
+            integer, intent(in) :: j, k
+            type(node_support_type) :: a, b
+            logical :: apart
+
+            associate (this => lowered%normal(j), other => lowered%normal(k), given => lowered%model%supports)
+                if (this == other .or. .not. (lowered%with_law(this) .or. lowered%with_law(other))) return
+                a = rise_of(j)
+                b = rise_of(k)
+                if (min(a%stiffness, b%stiffness) <= huge(1.0_wp)) return
+                apart = abs(a%contact - b%contact) > position_tolerance*max(abs(a%contact), abs(b%contact))
+                apart = apart .or. (given(this)%side*given(other)%side < 0 .and. .not. max(a%force, b%force) > 0.0_wp)
+                if (apart) return
+                call refuse(error, of_supports, this, size(given), twice, "", "this one and support "//trim(whole(other))// &
+                            " stand at the same place and are rigid at the same deflection of "//trim(shown(a%contact))// &
+                            ", so statics cannot tell what each of them takes; give one of them a finite stiffness", other)
+                error%key = "law"
+            end associate
+        end subroutine look
+
+        !> The piece that begins at a kink, or that of a support without a law, which has no numbers yet
+        pure function rise_of(k) result(made)
+            integer, intent(in) :: k
+            type(node_support_type) :: made
+
+            made = lowered%beam%supports(k)
+            associate (s => lowered%model%supports(lowered%normal(k)))
+                if (lowered%with_law(lowered%normal(k))) return
+                made%stiffness = s%stiffness
+                made%contact = s%settlement + s%side*s%gap
+            end associate
+        end function rise_of
+
+    end subroutine check_rigid_pieces
 
     !> Does a state depend on the way of the load to it: a force may fall, or a support unloads otherwise than along its law
     function depends_on_path(lowered) result(depends)

@@ -8,7 +8,7 @@ module gapbeam_lower_supports
     use gapbeam_model, only: node_support_type, order_supports
     use gapbeam_words, only: shown, whole
     use gapbeam_lowered, only: lowered_type
-    use gapbeam_lower_laws, only: find_laws, count_kinks, make_kinks
+    use gapbeam_lower_laws, only: find_laws, count_kinks, make_kinks, check_rigid_pieces
     use gapbeam_places, only: position_tolerance
     use gapbeam_refusal, only: refuse, refuse_range, named, of_supports, twice, no_room, at_hinge
     implicit none
@@ -28,6 +28,8 @@ contains
         call choose_nodes(lowered, error)
         if (allocated(error)) return
         call place_supports(lowered, error)
+        if (allocated(error)) return
+        call check_rigid_pieces(lowered, error)
         if (allocated(error)) return
         if (any(lowered%model%loads%kind == gapbeam_axial_force) &
             .or. any(lowered%model%supports%direction == gapbeam_axial &

@@ -19,12 +19,13 @@ module gapbeam_certificate
     use gapbeam_kinematics_quad, only: held_by_ties
     use gapbeam_refined, only: detail_type, refine_loaded_beam, fine_piece, fine_load
     use gapbeam_referee, only: find_undecided
+    use gapbeam_ledger, only: ledger_type
+    use gapbeam_audit, only: audit_beam, audit_residuals
     use gapbeam_element_quad, only: fine_field_type => field_type
     use gapbeam_model_quad, only: fine_beam_type => beam_type, softest
     use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type
     use gapbeam_band_quad, only: band_ok
-    use gapbeam_system_quad, only: solve_and_refine, check_scheme
-    use gapbeam_rules_quad, only: complementarity
+    use gapbeam_system_quad, only: solve_and_refine
     use gapbeam_search_quad, only: rule_block
     use gapbeam_scheme_quad, only: find_scheme, outcome_type
     use gapbeam_recover_quad, only: recover_beam
@@ -124,20 +125,39 @@ contains
             certificate%reaction = certificate%reaction + springs
             certificate%moment = certificate%moment + springs*real(sum(fine%links%length), wp)
             certificate%shear = certificate%shear + springs + moves(of_shears) + real(fine_error*maxval(work%shear_size), wp)
-            ! Signs as they are, residuals of the numbers as they are given
-            certificate%complementarity = real(complementarity(fine, closed, work), wp)
-            a%deflection = deflection
-            a%moment_left = moment_left
-            a%moment_right = moment_right
         end associate
-        call check_scheme(fine, work)
-        certificate%compatibility = real(work%compatibility, wp)
-        certificate%equilibrium = real(work%equilibrium, wp)
+        call measure_residuals(beam, factor, closed, undecided, deflection, moment_left, moment_right, reaction, certificate)
         if (certificate%known) return
         certificate%of_nodes = 0.0_wp
         certificate%deflection = 0.0_wp
         certificate%rotation = 0.0_wp
     end subroutine certify
+
+    !> The residuals of the audit: those of the numbers as they are given
+    subroutine measure_residuals(beam, factor, closed, undecided, deflection, moment_left, moment_right, reaction, certificate)
+        type(beam_type), intent(in) :: beam
+        real(wp), intent(in) :: factor
+        logical, intent(in) :: closed(:), undecided(:)
+        real(wp), intent(in) :: deflection(0:), moment_left(0:), moment_right(0:), reaction(:)
+        type(certificate_type), intent(inout) :: certificate
+        type(plain_workspace_type) :: work
+        type(ledger_type) :: ledger
+        real(wp) :: residuals(3)
+        integer :: n
+
+        n = size(beam%links)
+        call new_plain_workspace(beam, work)
+        call set_plain_loads(beam, factor, work)
+        work%answers%deflection = deflection
+        work%answers%moment_left = moment_left
+        work%answers%moment_right = moment_right
+        call audit_beam(beam, closed, undecided, .not. certificate%known, 1.0_wp, work%answers, &
+                        (moment_left(1:) - moment_right(:n - 1))*beam%links%inverse, reaction, work, ledger, measured=.true.)
+        residuals = audit_residuals(ledger)
+        certificate%compatibility = residuals(1)
+        certificate%equilibrium = residuals(2)
+        certificate%complementarity = residuals(3)
+    end subroutine measure_residuals
 
     !> By how much results move when the data change in their last digits
     subroutine find_movements(beam, factor, closed, ease, deflection, moment_left, moment_right, length_error, moves, inside)

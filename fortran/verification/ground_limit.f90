@@ -6,6 +6,7 @@
 !> zones nor springs tell, this does.
 module gapbeam_ground_limit
     use gapbeam_kinds, only: wp, qp
+    use gapbeam_watch, only: is_stopped
     use gapbeam_nodes, only: hinge, restrained
     use gapbeam_ground_quad, only: ground_type
     use gapbeam_layers_quad, only: layer_type, has_limit, law_by_points
@@ -83,10 +84,10 @@ contains
     end subroutine find_collapse
 
     !> Between two load factors, neighbours in double precision of which the loads of the first one are borne, and of the second not
-    pure subroutine find_limit(ground, low, high, found)
+    subroutine find_limit(ground, low, high, found)
         type(ground_type), intent(in) :: ground
         real(wp), intent(inout) :: low, high
-        !> Are there such factors
+        !> Are there such factors; false also where the search is stopped
         logical, intent(out) :: found
         real(wp), allocatable :: motion(:)
         real(wp) :: middle
@@ -101,6 +102,8 @@ contains
         do
             middle = low + (high - low)/2
             if (middle <= low .or. middle >= high) return
+            found = .not. is_stopped(ground%beam%watch)
+            if (.not. found) return
             call find_collapse(ground, real(middle, qp), collapses, tied, stands, motion)
             if (stands) then
                 low = middle

@@ -49,9 +49,9 @@ module gapbeam_ground_solution
         logical, allocatable :: undecided(:)
         !> Linear solves; rounds of zones in double precision
         integer :: solves = 0
-        !> Bounds of the errors of deflections, rotations, moments, shears along the beam, and of reactions; largest residuals of
-        !> compatibility and equilibrium at the borders of stretches, relative to the largest of their kind
-        real(wp) :: bounds(5) = 0.0_wp, residuals(2) = 0.0_wp
+        !> Bounds of the errors of deflections, rotations, moments, shears along the beam, and of reactions; residuals of
+        !> compatibility, equilibrium and complementarity by the audit (gapbeam_ground_audit)
+        real(wp) :: bounds(5) = 0.0_wp, residuals(3) = 0.0_wp
     end type ground_solution_type
 
 contains

@@ -6,7 +6,7 @@
 module gapbeam_ground_solver
     use gapbeam_kinds, only: wp, qp
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_not_converged, &
-        gapbeam_not_finite, gapbeam_no_memory, gapbeam_indeterminate
+        gapbeam_not_finite, gapbeam_no_memory, gapbeam_indeterminate, gapbeam_stopped
     use gapbeam_foundation, only: stretch_ends_type
     use gapbeam_memory, only: reserve_memory, for_solving, for_ground
     use gapbeam_ground, only: ground_type, zones_type, grounded_type, full_contact
@@ -112,7 +112,7 @@ contains
                 solution%solves = solution%solves + solves
                 if (allocated(error)) then
                     ! Other springs may tell
-                    if (error%code == gapbeam_no_memory .or. try == last) return
+                    if (any(error%code == [gapbeam_no_memory, gapbeam_stopped]) .or. try == last) return
                     cycle
                 end if
                 if (outcome%status /= gapbeam_solved) then
@@ -127,7 +127,7 @@ contains
             call settle_zones(ground, factor, rule, rough, zones, closed, grounded, work, outcome, known, moved, error)
             solution%solves = solution%solves + work%solves
             if (allocated(error)) then
-                if (error%code == gapbeam_no_memory) return
+                if (any(error%code == [gapbeam_no_memory, gapbeam_stopped])) return
                 ! Supports that hold both ways are as many on any zones
                 if (error%code == gapbeam_indeterminate .and. all(ground%beam%supports%side == both)) return
             end if
@@ -333,12 +333,6 @@ contains
             largest(5) = maxval(abs(solution%reaction))
         end if
         solution%bounds(:) = safety*(solution%bounds + epsilon(1.0_wp)*largest)
-        do i = 1, m - 1
-            if (solution%piece(i) /= solution%piece(i + 1)) cycle
-            solution%residuals = max(solution%residuals, abs([solution%rotation(1, i + 1) - solution%rotation(2, i), &
-                                                              solution%shear(1, i + 1) - solution%shear(2, i)]))
-        end do
-        solution%residuals = solution%residuals/max(largest([2, 4]), tiny(1.0_wp))
 
     contains
 

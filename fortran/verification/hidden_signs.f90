@@ -19,6 +19,8 @@ module gapbeam_hidden_signs
     real(qp), parameter :: least_share = 2.0_qp**(-44)
     !> Supports that are turned before the state counts as unknown, and solves for supports that are at zero
     integer, parameter :: most_turned = 64, most_ties = 64
+    !> Rounding errors beyond which a sign is no matter of rounding
+    real(qp), parameter :: far_beyond = 2.0_qp**17
 
 contains
 
@@ -55,6 +57,8 @@ contains
             other = work
             call solve_and_refine(beam, turned, other, state, place)
             work%solves = other%solves
+            known = state == band_ok .or. .not. is_surely_wrong(beam, closed, k, work)
+            if (.not. known) exit
             if (state == band_ok .and. (turned(k) .neqv. closed(k))) then
                 if (maxval(abs(other%reaction - work%reaction)) > least_that_matters(work)) then
                     closed(:) = turned
@@ -97,6 +101,22 @@ contains
         end do
         first = 0
     end function first_wrong
+
+    !> Is a support wrong by far more than rounding: turned, it would leave the beam without hold
+    pure function is_surely_wrong(beam, closed, k, work) result(is_wrong)
+        type(beam_type), intent(in) :: beam
+        logical, intent(in) :: closed(:)
+        integer, intent(in) :: k
+        type(workspace_type), intent(in) :: work
+        logical :: is_wrong
+        real(qp) :: margin, rounding
+
+        associate (s => beam%supports(k))
+            call margin_of(s, closed(k), work%answers(s%node)%deflection, work%deflection_size(s%node), work%reaction(k), &
+                           work%reaction_error(k), margin, rounding)
+        end associate
+        is_wrong = margin < -far_beyond*rounding
+    end function is_surely_wrong
 
     !> Bound of the stiffness with which the links beside a node hold it
     pure function stiffness_beside(beam, node) result(stiffness)

@@ -7,7 +7,7 @@
 !> data move (gapbeam_sensitivity), is a tie: then either state is right, and the support is named (undecided).
 module gapbeam_referee
     use gapbeam_kinds, only: wp, qp
-    use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_no_memory, gapbeam_indeterminate, &
+    use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_no_memory, gapbeam_stopped, gapbeam_indeterminate, &
         gapbeam_not_converged
     use gapbeam_memory, only: reserve_memory, for_refining
     use gapbeam_law, only: always_closed, has_laws
@@ -29,12 +29,15 @@ module gapbeam_referee
     use gapbeam_scheme_quad, only: find_fine_scheme => find_scheme, fine_outcome_type => outcome_type
     use gapbeam_hidden_signs, only: turn_hidden
     use gapbeam_refined, only: detail_type, refine_loaded_beam
+    use gapbeam_ledger, only: ledger_type, words_for
+    use gapbeam_audit, only: audit_beam
     implicit none
     private
-    public :: decide_scheme, rule_given, find_undecided, detail_type, reserve_for
+    public :: decide_scheme, rule_given, rule_extended, find_undecided, detail_type, reserve_for
 
-    !> Beside the rules of gapbeam_search: the scheme is known
-    integer, parameter :: rule_given = 2
+    !> Beside the rules of gapbeam_search: the scheme is known; its lines are followed beyond where it holds, as tangents are, and
+    !> signs say nothing
+    integer, parameter :: rule_given = 2, rule_extended = 3
     !> Rounding errors in quadruple precision beyond which a sign counts: some digits more than in doubles are given away, there
     !> are enough of them
     real(qp), parameter :: fine_width = 2.0_qp**17
@@ -47,11 +50,15 @@ module gapbeam_referee
     !> Of the largest load smaller shares are what is left out of reactions as rounding, and what rounding may do to one of which
     !> nothing is left
     real(qp), parameter :: most_left_out = 2.0_qp**(-27), most_hidden = 2.0_qp**(-10)
+    !> Roundings by which signs of a scheme that is known from the path may be wrong: the last digit of the load factor moves a beam
+    !> that is nearly unstable so far
+    real(wp), parameter :: given_leeway = 2.0_wp**26
 
 contains
 
-    !> Find the working scheme and its solution, whatever precision it takes; refused where other reactions would do as well
-    subroutine decide_scheme(beam, detail, factor, rule, closed, work, outcome, error)
+    !> Find the working scheme and its solution, whatever precision it takes; refused where other reactions would do as well, and
+    !> where what came out does not stand its audit
+    subroutine decide_scheme(beam, detail, factor, rule, closed, work, outcome, error, fault)
         !> The beam, and what its links are made of
         type(beam_type), intent(in) :: beam
         type(detail_type), intent(in) :: detail
@@ -62,9 +69,38 @@ contains
         type(workspace_type), intent(inout) :: work
         type(outcome_type), intent(out) :: outcome
         type(error_type), allocatable, intent(out) :: error
+        !> What the audit found wrong, at which node
+        type(ledger_type), intent(out), optional :: fault
+        type(ledger_type) :: ledger
+        logical, allocatable :: undecided(:)
+        character(len=40) :: place
+        integer :: known
 
-        call look_for_scheme(beam, detail, factor, rule, closed, work, outcome, error)
+        known = min(rule, rule_given)
+        call look_for_scheme(beam, detail, factor, known, closed, work, outcome, error)
         if (allocated(error) .or. outcome%status /= gapbeam_solved) return
+        call audit_beam(beam, closed, outcome%undecided .or. rule == rule_extended, outcome%indifferent, &
+                        merge(given_leeway, 1.0_wp, known == rule_given), work%answers, work%shear, work%reaction, work, ledger)
+        if (ledger%wrong /= 0) then
+            ! Quadruple precision has the last word on that as well
+            allocate (undecided(size(closed)))
+            if (known == rule_given .and. has_laws(beam%supports)) then
+                call refer_given(beam, detail, factor, closed, undecided, work, outcome, error)
+            else
+                call refer(beam, detail, factor, closed, undecided, work, outcome, error)
+            end if
+            if (allocated(error) .or. outcome%status /= gapbeam_solved) return
+            call move_alloc(undecided, outcome%undecided)
+            call audit_beam(beam, closed, outcome%undecided .or. rule == rule_extended, outcome%indifferent, &
+                            merge(given_leeway, 1.0_wp, known == rule_given), work%answers, work%shear, work%reaction, work, ledger)
+        end if
+        if (ledger%wrong /= 0) then
+            write (place, "(i0, a, i0)") ledger%piece, " of ", size(beam%links)
+            call fatal_error(error, gapbeam_not_converged, "the result does not stand its own audit: at node "//trim(place)//" "// &
+                             trim(words_for(ledger%wrong)))
+            if (present(fault)) fault = ledger
+            return
+        end if
         call refuse_redundancy(beam, closed, outcome%undecided, error)
     end subroutine decide_scheme
 
@@ -96,7 +132,7 @@ contains
         end if
         call find_scheme(beam, factor, merge(rule_block, rule, rule == rule_given), closed, work, outcome, error)
         if (allocated(error)) then
-            if (error%code == gapbeam_no_memory) return
+            if (any(error%code == [gapbeam_no_memory, gapbeam_stopped])) return
             in_doubt = .true.
         else if (outcome%status == gapbeam_solved) then
             call find_doubtful(beam, closed, work, undecided, in_doubt)
@@ -166,6 +202,8 @@ contains
         type(error_type), allocatable, intent(out) :: error
         type(fine_beam_type) :: fine
         type(fine_workspace_type) :: fine_work
+        logical, allocatable :: found(:)
+        logical :: same
         integer :: state, place
 
         undecided(:) = .false.
@@ -175,6 +213,16 @@ contains
         call solve_and_refine_fine(fine, closed, fine_work, state, place)
         work%solves = work%solves + fine_work%solves
         if (state /= band_ok) then
+            ! Part of the beam may move freely without work of the loads: its forces are unique, and the search knows how
+            found = closed
+            call refer(beam, detail, factor, found, undecided, work, outcome, error)
+            same = .not. allocated(error) .and. outcome%status == gapbeam_solved .and. outcome%indifferent
+            if (same) same = all((found .eqv. closed) .or. undecided)
+            if (same) return
+            if (allocated(error)) then
+                if (error%code == gapbeam_no_memory) return
+                deallocate (error)
+            end if
             call fatal_error(error, gapbeam_not_converged, "the beam is held by so little here that its state is not unique")
             return
         end if

@@ -53,6 +53,7 @@ contains
         call new_beam(links, beam%kind, fine_reciprocal(beam%compliance), real(beam%force, qp), real(beam%couple, qp), &
                       fine_support(beam%supports), fine)
         call join_pieces(fine%supports)
+        fine%watch = beam%watch
     end subroutine refine_beam
 
     !> The beam in quadruple precision, and room for its solution at a load factor

@@ -27,7 +27,8 @@ module gapbeam_sensitivity
     type :: sensitivity_type
         !> Is there a unique solution, so that there are any; is there no factor, so that every solve is one with pivoting
         logical :: known = .false., pivoting = .false.
-        !> Movements of the rows: compatibility left and right of the nodes, equilibrium; shape (3, 0:n)
+        !> Movements of the rows: compatibility left and right of the nodes, equilibrium; of the levels of held nodes, sums that are
+        !> rounded once; shape (4, 0:n)
         real(wp), allocatable :: weight(:, :)
         !> What loads and shears at held nodes may be off: they go into the reactions only
         real(wp) :: at_held = 0.0_wp
@@ -58,13 +59,15 @@ contains
                             equilibrium)
         call add_load_sizes(beam, factor, work)
         call add_couple_sizes(beam, factor, work, sensitivity)
-        allocate (sensitivity%weight(3, 0:n))
+        allocate (sensitivity%weight(4, 0:n))
         do i = 0, n
             associate (s => work%sizes(i), weight => sensitivity%weight(:, i))
-                weight = epsilon(1.0_dp)*[s%left, s%right, s%shear]
+                weight = epsilon(1.0_dp)*[s%left, s%right, s%shear, abs(work%answers(i)%deflection)/2]
                 if (work%nodes(i)%held) then
                     sensitivity%at_held = max(sensitivity%at_held, weight(3))
                     weight(3) = 0.0_wp
+                else
+                    weight(4) = 0.0_wp
                 end if
             end associate
         end do
@@ -159,12 +162,12 @@ contains
         type(workspace_type), intent(inout) :: work
         real(wp), intent(out) :: movement
         real(wp), allocatable :: x(:), image(:)
-        type(rhs_type), allocatable :: rhs(:)
+        type(rhs_type), allocatable :: rhs(:), result(:)
         integer :: n, turn, j, last
 
         ! Higham's estimate of the 1-norm of diag(weight) K^-1 L': the signs of an image lead to a unit vector with a larger one
         n = size(beam%links)
-        allocate (x(4*(n + 1)), image(3*(n + 1)), rhs(0:n))
+        allocate (x(4*(n + 1)), image(4*(n + 1)), rhs(0:n), result(0:n))
         x(:) = 1.0_wp/size(x)
         movement = 0.0_wp
         last = 0
@@ -204,6 +207,7 @@ contains
             do i = 0, n
                 call add_functional(beam, work%nodes, kind, i, x(4*i + 1:4*i + 4), rhs)
             end do
+            result(:) = rhs
         end subroutine spread
 
         !> K^-1 times a right-hand side, into the correction
@@ -215,21 +219,20 @@ contains
         end subroutine solve
 
         pure function weighed() result(image)
-            real(wp) :: image(3, 0:n)
+            real(wp) :: image(4, 0:n)
 
-            image(1, :) = sensitivity%weight(1, :)*work%correction%moment_left
-            image(2, :) = sensitivity%weight(2, :)*work%correction%moment_right
-            image(3, :) = sensitivity%weight(3, :)*work%correction%deflection
+            image = effects(beam, work%nodes, result, work%correction)*sensitivity%weight
         end function weighed
 
         !> Rows weighted, as a right-hand side
         subroutine weigh(image, rhs)
-            real(wp), intent(in) :: image(3, 0:n)
+            real(wp), intent(in) :: image(4, 0:n)
             type(rhs_type), intent(out) :: rhs(0:)
 
             rhs%left = sensitivity%weight(1, :)*image(1, :)
             rhs%right = sensitivity%weight(2, :)*image(2, :)
             rhs%shear = sensitivity%weight(3, :)*image(3, :)
+            rhs%deflection = sensitivity%weight(4, :)*image(4, :)
         end subroutine weigh
 
         !> L times the correction
@@ -253,7 +256,7 @@ contains
         integer, intent(in) :: k
         type(workspace_type), intent(inout) :: work
         real(wp), intent(out) :: movement
-        type(rhs_type), allocatable :: rhs(:)
+        type(rhs_type), allocatable :: rhs(:), result(:)
         real(wp) :: rate, level
         logical :: regular, is_force
         integer :: i
@@ -264,10 +267,10 @@ contains
         associate (by_force => is_force .and. work%nodes(i)%held)
             call add_functional(beam, work%nodes, merge(of_reactions, of_deflections, by_force), i, &
                                 [1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp], rhs)
+            allocate (result(0:size(beam%links)))
+            result(:) = rhs
             call solve_again(beam%links, sensitivity, work, rhs, regular)
-            associate (c => work%correction, w => sensitivity%weight)
-                movement = sum(w(1, :)*abs(c%moment_left) + w(2, :)*abs(c%moment_right) + w(3, :)*abs(c%deflection))
-            end associate
+            movement = sum(sensitivity%weight*abs(effects(beam, work%nodes, result, work%correction)))
             if (by_force) then
                 movement = movement + epsilon(1.0_dp)*work%sizes(i)%shear
             else
@@ -294,6 +297,49 @@ contains
         end if
     end subroutine solve_again
 
+    !> What a result moves when a row, or the level of a held node, is off by one: the solution whose right-hand side it is, and at
+    !> held nodes how its shear jumps there, and what the result has of the level itself
+    pure function effects(beam, nodes, of, solution) result(effect)
+        type(beam_type), intent(in) :: beam
+        type(node_type), intent(in) :: nodes(0:)
+        !> The result as a right-hand side, by add_functional, and its solution
+        type(rhs_type), intent(in) :: of(0:)
+        type(answer_type), intent(in) :: solution(0:)
+        real(wp) :: effect(4, 0:size(beam%links))
+        real(wp), dimension(0:size(beam%links) + 1) :: shear, error
+        real(wp), dimension(0:size(beam%links)) :: change, passed
+        integer :: i, n
+
+        n = size(beam%links)
+        shear(:) = 0.0_wp
+        error(:) = 0.0_wp
+        do i = 1, n
+            associate (a => solution(i - 1)%moment_right, b => solution(i)%moment_left)
+                shear(i) = (b - a)*beam%links(i)%inverse
+                error(i) = (abs(b) + abs(a))*beam%links(i)%inverse
+            end associate
+        end do
+        ! That of a short link is told better by its neighbour, as in find_shears of gapbeam_reactions
+        change = nodes%stiffness*solution%deflection - of%shear
+        passed = abs(nodes%stiffness*solution%deflection) + abs(of%shear)
+        do i = 1, n - 1
+            if (nodes(i)%held .or. error(i) + passed(i) >= error(i + 1)) cycle
+            shear(i + 1) = shear(i) + change(i)
+            error(i + 1) = error(i) + passed(i)
+        end do
+        do i = n - 1, 1, -1
+            if (nodes(i)%held .or. error(i + 1) + passed(i) >= error(i)) cycle
+            shear(i) = shear(i + 1) - change(i)
+            error(i) = error(i + 1) + passed(i)
+        end do
+        do i = 0, n
+            associate (s => solution(i))
+                effect(:, i) = [s%moment_left, s%moment_right, s%deflection, 0.0_wp]
+            end associate
+            if (nodes(i)%held) effect(4, i) = of(i)%shear + (shear(i + 1) - shear(i))
+        end do
+    end function effects
+
     !> Add the results at a node (by default rotations), each times a factor, as the right-hand side whose solution they are a
     !> row of
     subroutine add_functional(beam, nodes, kind, i, x, rhs)
@@ -309,7 +355,7 @@ contains
         n = size(beam%links)
         select case (kind)
         case (of_deflections)
-            call add_deflection(i, x(1))
+            if (.not. nodes(i)%held) call add_deflection(i, x(1))
         case (of_reactions)
             if (i > 0) call add_shear(i, -x(1))
             if (i < n) call add_shear(i + 1, x(1))
@@ -339,12 +385,12 @@ contains
             call add_moment(k - 1, .false., -amount*beam%links(k)%inverse)
         end subroutine add_shear
 
-        !> The deflection of a node; nothing if that is known
+        !> The deflection of a node; of a held one no row of the system has it
         subroutine add_deflection(k, amount)
             integer, intent(in) :: k
             real(wp), intent(in) :: amount
 
-            if (.not. nodes(k)%held) rhs(k)%shear = rhs(k)%shear + amount
+            rhs(k)%shear = rhs(k)%shear + amount
         end subroutine add_deflection
 
         !> The moment left or right of a node, in the row that belongs to it; nothing if that is known

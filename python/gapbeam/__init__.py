@@ -13,16 +13,16 @@ Units: any consistent set. Signs: x to the right; deflections and loads positive
 sagging, rotations and couples clockwise.
 """
 
-from importlib import import_module
-from importlib.util import find_spec
-from typing import TYPE_CHECKING, Any
-
+TYPE_CHECKING = False  # that of typing would be imported before the command can see to signals
 if TYPE_CHECKING:
     from .interface import *  # noqa: F403
 
 
-def __getattr__(name: str) -> Any:
+def __getattr__(name: str) -> object:
     """Import what is first asked for, so that the command can report when that fails, or is interrupted."""
+    from importlib import import_module
+    from importlib.util import find_spec
+
     if find_spec(f"{__name__}.{name}"):
         return import_module(f"{__name__}.{name}")
     interface = import_module(f"{__name__}.interface")

@@ -1,6 +1,6 @@
 """``python -m gapbeam`` is the command ``gapbeam``."""
 
-from .cli.command import main
+from .cli import main
 
 if __name__ == "__main__":
     raise SystemExit(main())

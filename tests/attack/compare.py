@@ -105,7 +105,8 @@ def pairs(beam, step, look, values, loose):
     bounds = step.error_bounds
     yield "reaction", bounds["reaction"], step.reaction.tolist(), values[beam.force_column : beam.couple_column]
     inside = {Fraction(0): "right", beam.length: "left"}
-    places = [*beam.points, *((a + b) / 2 for a, b in pairwise(beam.points))]
+    # Between the points at doubles: beside a great force half a digit of the place is more than a bound
+    places = [*beam.points, *(Fraction(float((a + b) / 2)) for a, b in pairwise(beam.points))]
     fields, exact = [], []
     for side in ("left", "right"):
         fields.append(look.at(list(map(float, places)), side=side))

@@ -116,4 +116,4 @@ def compare_step(made, beam, step, solution):
     return "; ".join(unlike)
 
 
-FAMILY = Family("enumeration", PROMISE, draw, judge)
+FAMILY = Family("enumeration", PROMISE, draw, judge, share=0.5)

@@ -270,4 +270,4 @@ def no_single_path(beam, error):
     return error.status == Status.INDETERMINATE and redundant(beam)
 
 
-FAMILY = Family("events", PROMISE, draw_scene, judge)
+FAMILY = Family("events", PROMISE, draw_scene, judge, share=0.12)

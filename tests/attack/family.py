@@ -58,6 +58,8 @@ class Family:
         From a case and its seed to a `Verdict`.
     write, read : callable
         From a case and a title to the suffix and the bytes of a file; from its path to the case and its seed.
+    share : float
+        Of the cases asked for, those that are drawn: cases of some families take a hundred times as long as those of others.
     """
 
     name: str
@@ -66,6 +68,7 @@ class Family:
     judge: Callable
     write: Callable = write_scene
     read: Callable = read_scene
+    share: float = 1.0
 
     def judged(self, case, seed):
         """The verdict on a case; an exception that nobody promised is one, too."""

@@ -145,4 +145,4 @@ def balance_faults(beam, step):
     return faults
 
 
-FAMILY = Family("hinges", PROMISE, draw_scene, judge)
+FAMILY = Family("hinges", PROMISE, draw_scene, judge, share=0.5)

@@ -218,4 +218,4 @@ def read(path):
     return (task, beam, int(count), float(share)), 0
 
 
-FAMILY = Family("memory", PROMISE, draw, judge, write, read)
+FAMILY = Family("memory", PROMISE, draw, judge, write, read, share=0.08)

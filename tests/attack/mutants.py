@@ -293,4 +293,4 @@ def read(path):
     return (path.suffix, path.read_bytes()), 0
 
 
-FAMILY = Family("mutants", PROMISE, draw_case, judge, write, read)
+FAMILY = Family("mutants", PROMISE, draw_case, judge, write, read, share=0.15)

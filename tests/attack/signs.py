@@ -122,4 +122,4 @@ def right(beam, closed):
         return False
 
 
-FAMILY = Family("signs", PROMISE, draw_scene, judge)
+FAMILY = Family("signs", PROMISE, draw_scene, judge, share=0.4)

@@ -1,4 +1,4 @@
-"""Characters that would not be seen in a line of text, but would change how it looks."""
+"""Characters that do something: in a line of text they are not seen and change how it looks, in a table they begin a formula."""
 
 import re
 
@@ -30,3 +30,30 @@ def visible(text: str) -> str:
     ('50 % of $F$ [kN]', 'beam\\n\\x1b[31m')
     """
     return UNSEEN.sub(lambda found: found[0].encode("unicode_escape").decode("ascii"), text)
+
+
+FORMULA = ("=", "+", "-", "@")
+"""What a cell begins with that spreadsheets take for a formula; they do not see tabs and ends of lines before it."""
+
+
+def cell(value: object) -> object:
+    """Give what stands in a cell of a table that a spreadsheet may open: no text that it would work out.
+
+    Parameters
+    ----------
+    value : object
+        A name, or a number, which stays.
+
+    Returns
+    -------
+    object
+        The text in one line, with an apostrophe before it where it begins like a formula.
+
+    Examples
+    --------
+    >>> cell("=1+1"), cell("dead + wind"), cell(-1.5)
+    ("'=1+1", 'dead + wind', -1.5)
+    """
+    if not isinstance(value, str):
+        return value
+    return ("'" if value.lstrip().startswith(FORMULA) else "") + visible(value)

@@ -10,6 +10,7 @@ supports[2].gap: expected a number, got "0,02"
 from __future__ import annotations
 
 import re
+from collections.abc import Container
 from enum import IntEnum
 
 from .characters import visible
@@ -61,6 +62,7 @@ class Status(IntEnum):
     NO_MEMORY = 15
     NOT_PREPARED = 16
     OTHER_VERSION = 17
+    STOPPED = 18
 
     @property
     def word(self) -> str:
@@ -70,6 +72,8 @@ class Status(IntEnum):
 
 WITHOUT_ANSWER = (Status.INDETERMINATE, Status.NOT_CONVERGED, Status.NOT_FINITE)
 """Errors that are about one load on a beam: other loads on it may have an answer."""
+ENDED = (Status.NO_MEMORY, Status.STOPPED)
+"""Errors that are about a whole call, however many loads it is for."""
 
 
 class EngineError(GapbeamError, RuntimeError):
@@ -97,6 +101,24 @@ class EngineError(GapbeamError, RuntimeError):
         return type(self), (str(self), int(self.status))
 
 
+def check_ended(status: Container[int]) -> None:
+    """Raise what has ended a call for many loads.
+
+    Parameters
+    ----------
+    status : numpy.ndarray of int
+        From the engine, of every load.
+
+    Raises
+    ------
+    MemoryError, EngineError
+        As for `check_status`.
+    """
+    for one in ENDED:
+        if one in status:
+            check_status(one)
+
+
 def check_status(status: int, message: bytes = b"", where: str = "") -> None:
     """Raise what a status of the engine says, unless it is an outcome.
 
@@ -121,6 +143,8 @@ def check_status(status: int, message: bytes = b"", where: str = "") -> None:
             f"{where}the system gives the engine no more memory: end other programs, raise the limit of this one "
             "(ulimit -v), or take fewer spans and supports"
         )
+    if status == Status.STOPPED:
+        raise EngineError(f"{where}the call was ended before it was done: a signal has ended another call with this beam", status)
     if status not in (Status.SOLVED, Status.NO_EQUILIBRIUM):
         words = re.sub(r"support (\d+) of \d+", lambda found: f"supports[{int(found[1]) - 1}]", message.decode().strip())
         raise EngineError(where + words.replace("]: stiffness", "].stiffness"), status)

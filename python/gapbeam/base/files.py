@@ -7,6 +7,7 @@ import os
 import stat
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
+from typing import BinaryIO
 
 _UNFINISHED: set[str] = set()
 """Files that are not complete, by the names that they have until then."""
@@ -51,7 +52,8 @@ def write_files(contents: Mapping[str | os.PathLike, bytes | Iterable[str]]) -> 
 def write_lasting(path: str | os.PathLike, data: bytes) -> None:
     """Write a file that is there in whole or not at all, even where the machine loses its power meanwhile.
 
-    It is written beside its place, under its name after a dot, down to the disk; then it is renamed, and the folder written.
+    It is written beside its place, under its name after a dot, down to the disk; then it is renamed, and the folder written. A link
+    at either place is replaced, not followed.
 
     Parameters
     ----------
@@ -70,7 +72,9 @@ def write_lasting(path: str | os.PathLike, data: bytes) -> None:
     _UNFINISHED.add(beside)
     try:
         with _named(path):
-            with open(beside, "wb") as stream:
+            with suppress(FileNotFoundError):
+                os.unlink(beside)
+            with open(beside, "xb") as stream:
                 stream.write(data)
                 stream.flush()
                 os.fsync(stream.fileno())
@@ -78,6 +82,37 @@ def write_lasting(path: str | os.PathLike, data: bytes) -> None:
             _sync_folder(folder)
     finally:
         remove_unfinished([beside])
+
+
+def open_own(path: str | os.PathLike) -> BinaryIO:
+    """Open a file for reading where it is one by itself: no link is followed, and nothing is waited for.
+
+    Parameters
+    ----------
+    path : path
+        The file.
+
+    Returns
+    -------
+    binary file
+
+    Raises
+    ------
+    OSError
+        Names the file, and why it cannot be read.
+    """
+    with _named(path):
+        flags = os.O_RDONLY | sum(getattr(os, name, 0) for name in ("O_NOFOLLOW", "O_NONBLOCK", "O_CLOEXEC", "O_BINARY"))
+        try:
+            descriptor = os.open(path, flags)
+        except OSError as error:
+            if error.errno != errno.ELOOP:
+                raise
+            raise OSError(errno.ELOOP, "it is a link") from None
+        if not stat.S_ISREG(os.fstat(descriptor).st_mode):
+            os.close(descriptor)
+            raise OSError(errno.EINVAL, "it is no file")
+        return open(descriptor, "rb")
 
 
 def _sync_folder(folder: str) -> None:

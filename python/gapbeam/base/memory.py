@@ -41,6 +41,39 @@ def available() -> float:
     return min(found)
 
 
+def reserve(amount: int) -> bool:
+    """See that so much of the address space is there, where it has a limit: some libraries end the process where it is not.
+
+    Parameters
+    ----------
+    amount : int
+        Bytes.
+
+    Returns
+    -------
+    bool
+        Whether it has a limit.
+
+    Raises
+    ------
+    MemoryError
+        It is not there.
+    """
+    try:
+        import resource
+    except ImportError:  # Windows
+        return False
+    if resource.getrlimit(resource.RLIMIT_AS)[0] == resource.RLIM_INFINITY:
+        return False
+    import mmap
+
+    try:
+        mmap.mmap(-1, amount).close()
+    except OSError:
+        raise MemoryError(f"{size(amount)} of the address space are needed to go on (ulimit -v)") from None
+    return True
+
+
 def refuse_beyond(place: str, what: str, needed: float, remedy: str) -> None:
     """Refuse what takes more memory than there is.
 

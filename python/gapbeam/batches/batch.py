@@ -102,7 +102,20 @@ class Batch:
                 hint = f"did you mean {shown(near[0])}?" if near else f"there are {', '.join(map(shown, self.columns[:12]))}"
                 raise SceneError(str(self.path), f"has no column {shown(name)}; {hint}")
         for k in self._chunks:
-            yield read_columns(self._folder.file(k), names)
+            yield self._columns_of(k, names)
+
+    def _columns_of(self, chunk: int, names: Sequence[str]) -> dict[str, np.ndarray]:
+        """Read columns of a file, which has the cases that it should have."""
+        found = read_columns(self._folder.file(chunk), names)
+        for column in found.values():
+            self._folder.expect_cases(chunk, len(column))
+        return found
+
+    def _statuses_of(self, chunk: int) -> dict[str, int]:
+        """Count the cases of a file by their outcome, likewise."""
+        found = count_statuses(self._folder.file(chunk))
+        self._folder.expect_cases(chunk, sum(found.values()))
+        return found
 
     def read(self, names: str | Sequence[str] | None = None) -> dict[str, np.ndarray]:
         """Give columns of all cases that are done, as `pandas.DataFrame` takes them.
@@ -136,7 +149,7 @@ class Batch:
         """
         found: Counter[str] = Counter()
         for chunk in self._chunks:
-            found.update(count_statuses(self._folder.file(chunk)))
+            found.update(self._statuses_of(chunk))
         return dict(found.most_common())
 
     def reasons(self) -> dict[str, str]:
@@ -149,9 +162,8 @@ class Batch:
         """
         found: dict[str, str] = {}
         for chunk in self._chunks:
-            file = self._folder.file(chunk)
-            if count_statuses(file).keys() - found.keys() - {"solved"}:
-                part = read_columns(file, ["status", "reason"])
+            if self._statuses_of(chunk).keys() - found.keys() - {"solved"}:
+                part = self._columns_of(chunk, ["status", "reason"])
                 for k in np.flatnonzero(part["reason"] != "").tolist():
                     found.setdefault(part["status"][k], part["reason"][k])
         return found
@@ -163,7 +175,7 @@ class Batch:
         -------
         list of int
         """
-        return [chunk for chunk in self._chunks if FAILED & count_statuses(self._folder.file(chunk)).keys()]
+        return [chunk for chunk in self._chunks if FAILED & self._statuses_of(chunk).keys()]
 
     def summary(self, names: Iterable[str] | None = None, **options: Any) -> Summary:
         """Tell how results are distributed: quantiles, histograms, how many exceed a limit.
@@ -217,7 +229,7 @@ class Batch:
         if not 0 <= case < self.cases or case // size not in self._chunks:
             raise ValueError(f"scene_of: case {case} is not done; there are {self.done:,} of {self.cases:,}")
         data = from_json(manifest["data"])
-        row = read_columns(self._folder.file(case // size), manifest["inputs"])
+        row = self._columns_of(case // size, manifest["inputs"])
         values = [float(row[name][case % size]) for name in manifest["inputs"]]
         paths = find_paths(read_scene(data), manifest["inputs"])
         return read_scene(with_values(data, paths, values))

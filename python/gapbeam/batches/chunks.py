@@ -3,17 +3,24 @@
 from __future__ import annotations
 
 import io
+import sys
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from importlib.util import find_spec
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from ..base.errors import SceneError
+from ..base.files import open_own
+from ..base.memory import reserve
 
 FORMATS = ("parquet", "npy")
 TEXTS = ("scene", "status", "reason")
+NO_ARROW = SceneError("the folder of results holds Parquet files, which need pyarrow: pip install gapbeam[batch]")
+FOR_ARROW = 350_000_000
+"""Bytes of the address space that loading pyarrow takes, and what it does then: with less it may end the process."""
 
 
 def best_format() -> str:
@@ -25,6 +32,39 @@ def best_format() -> str:
         ``parquet`` or ``npy``.
     """
     return FORMATS[0] if find_spec("pyarrow") else FORMATS[1]
+
+
+def load_arrow(refusal: SceneError) -> Any:
+    """Load pyarrow, which is to start no threads: it does not survive where there is no memory for them.
+
+    Parameters
+    ----------
+    refusal : SceneError
+        What to say where it is not installed.
+
+    Returns
+    -------
+    module
+
+    Raises
+    ------
+    SceneError
+        The refusal.
+    MemoryError
+        There is too little memory for it.
+    ImportError
+        It is there, and cannot be loaded.
+    """
+    if "pyarrow" not in sys.modules:
+        reserve(FOR_ARROW)
+    try:
+        import pyarrow
+        import pyarrow.parquet
+    except ModuleNotFoundError as error:
+        if (error.name or "").partition(".")[0] != "pyarrow":
+            raise
+        raise refusal from None
+    return pyarrow
 
 
 def writer(kind: str) -> str:
@@ -42,11 +82,7 @@ def writer(kind: str) -> str:
     """
     if kind == "npy":
         return "npy"
-    try:
-        import pyarrow
-    except ImportError:
-        raise SceneError("the folder of results holds Parquet files, which need pyarrow: pip install gapbeam[batch]") from None
-    return f"pyarrow {pyarrow.__version__}"
+    return f"pyarrow {load_arrow(NO_ARROW).__version__}"
 
 
 def encode(columns: Mapping[str, np.ndarray], kind: str) -> bytes:
@@ -71,12 +107,10 @@ def encode(columns: Mapping[str, np.ndarray], kind: str) -> bytes:
             rows[name] = column
         np.save(stream, rows)
         return stream.getvalue()
-    import pyarrow
-    from pyarrow import parquet
-
+    pyarrow = load_arrow(NO_ARROW)
     arrays = [_texts(column, name == "reason") if name in TEXTS else pyarrow.array(column) for name, column in columns.items()]
     table = pyarrow.Table.from_arrays(arrays, names=list(columns))
-    parquet.write_table(table, stream, use_dictionary=[name for name in TEXTS if name in columns])
+    pyarrow.parquet.write_table(table, stream, use_dictionary=[name for name in TEXTS if name in columns])
     return stream.getvalue()
 
 
@@ -109,19 +143,12 @@ def read_columns(path: Path, names: Sequence[str]) -> dict[str, np.ndarray]:
     SceneError
         It cannot be read.
     """
-    with _readable(path):
-        if path.suffix == ".npy":
-            rows = np.load(path, mmap_mode="r")
-            return {name: _decoded(rows[name]) if name in TEXTS else np.array(rows[name]) for name in names}
-        from pyarrow import parquet
-
-        table = parquet.read_table(path, columns=list(names), partitioning=None)
-        return {
-            name: np.array([text or "" for text in table[name].to_pylist()], dtype=object)
-            if name in TEXTS
-            else table[name].to_numpy()
-            for name in names
-        }
+    with _opened(path, names) as table:
+        found = {name: _texts_of(table[name]) if name in TEXTS else np.asarray(table[name]) for name in names}
+        for name, column in found.items():
+            if name not in TEXTS and column.dtype.kind not in "fiu":
+                raise ValueError(f"its column {name} holds no numbers")
+        return found
 
 
 def count_statuses(path: Path) -> dict[str, int]:
@@ -141,23 +168,35 @@ def count_statuses(path: Path) -> dict[str, int]:
     SceneError
         It cannot be read.
     """
-    with _readable(path):
-        if path.suffix == ".npy":
-            found, counts = np.unique(np.load(path, mmap_mode="r")["status"], return_counts=True)
-            return dict(zip(_decoded(found).tolist(), counts.tolist(), strict=True))
-        from pyarrow import parquet
-
-        counted = parquet.read_table(path, columns=["status"], partitioning=None)["status"].value_counts().to_pylist()
-        return {one["values"]: one["counts"] for one in counted}
+    with _opened(path, ["status"]) as table:
+        if isinstance(table["status"], np.ndarray):
+            found, counts = np.unique(table["status"], return_counts=True)
+            return dict(zip(_texts_of(found).tolist(), counts.tolist(), strict=True))
+        counted = table["status"].value_counts().to_pylist()
+        return dict(zip(_texts_of([one["values"] for one in counted]), (one["counts"] for one in counted), strict=True))
 
 
 @contextmanager
-def _readable(path: Path) -> Iterator[None]:
+def _opened(path: Path, names: Sequence[str]) -> Iterator[Any]:
+    """Open a file, which may hold anything, for some columns by name."""
     try:
-        yield
-    except (OSError, ValueError, KeyError) as error:
-        raise SceneError(str(path), f"cannot be read ({error}); remove it and start the batch again, which makes it anew") from None
+        with open_own(path) as stream:
+            if path.suffix == ".npy":
+                yield np.lib.format.read_array(stream)
+                return
+            yield load_arrow(NO_ARROW).parquet.ParquetFile(stream, pre_buffer=False).read(columns=list(names), use_threads=False)
+    except SceneError:
+        raise
+    except (OSError, ValueError, KeyError, IndexError, TypeError, NotImplementedError, EOFError) as error:
+        reason = error.strerror if isinstance(error, OSError) and error.strerror else " ".join(str(error).split())
+        remedy = "remove it and start the batch again, which makes it anew"
+        raise SceneError(str(path), f"cannot be read ({reason}); {remedy}") from None
 
 
-def _decoded(column: np.ndarray) -> np.ndarray:
-    return np.array([text.decode() for text in column.tolist()], dtype=object)
+def _texts_of(column: Any) -> np.ndarray:
+    """Texts of a column, whatever it is made of; empty where there is none."""
+    entries = column.to_pylist() if hasattr(column, "to_pylist") else list(column)
+    texts = [one.decode() if isinstance(one, bytes) else one or "" for one in entries]
+    if not all(isinstance(one, str) for one in texts):
+        raise ValueError("what should be a text is none")
+    return np.array(texts, dtype=object)

@@ -5,22 +5,24 @@ from __future__ import annotations
 import csv
 import hashlib
 import io
+import re
 from contextlib import suppress
 from dataclasses import dataclass
 from itertools import islice
-from math import isinf
 from pathlib import Path
 from warnings import catch_warnings, simplefilter
 
 import numpy as np
 
 from ..base.errors import SceneError
-from ..scene.wording import beyond, shown
+from ..scene.wording import below, beyond, out_of_range, shown
 
 BLOCK = 2**22
 """Bytes that are looked through at a time."""
 EVERY = 1024
 """Every so many lines their place in the file is kept."""
+TINY = re.compile(rb"[eE]-[0-9]*[1-9][0-9][0-9]|0{200}")
+"""In what is written so a number may be, of which doubles make zero."""
 RETURN = "a carriage return that ends no line"
 
 
@@ -43,8 +45,10 @@ class CsvRows:
             with catch_warnings():
                 simplefilter("ignore")  # of no rows
                 found = np.loadtxt(io.StringIO(text), delimiter=",", ndmin=2, comments=None)
-            # What is infinite has to be written so, not as 1e400
-            if found.shape == (self.count, len(self.names)) and np.isinf(found).sum() == self.text.lower().count(b"inf"):
+            # What is infinite has to be written so, not as 1e400, and what is zero not as 1e-400
+            are_written = np.isinf(found).sum() == self.text.lower().count(b"inf")
+            are_written = are_written and not ((found == 0.0).any() and TINY.search(self.text))
+            if found.shape == (self.count, len(self.names)) and are_written:
                 return np.ascontiguousarray(found.T), {}
         except ValueError:
             pass
@@ -68,8 +72,8 @@ class CsvRows:
                 except ValueError:
                     problems.setdefault(row, f"{self.names[k]}: expected a number, got {shown(cell)}")
                     continue
-                if isinf(value) and "inf" not in cell.lower():
-                    problems.setdefault(row, f"{self.names[k]}: {beyond(cell.strip())}")
+                if problem := out_of_range(cell.strip(), value):
+                    problems.setdefault(row, f"{self.names[k]}: {problem}")
                 else:
                     values[k, row] = value
         return values, problems
@@ -114,7 +118,7 @@ class CsvTable:
         if not self.cases:
             raise SceneError(str(path), "the table has no row; give a case a line below the names of the columns")
         problems = self.rows(0, 1).columns()[1]
-        if problems and not problems[0].endswith((' got ""', beyond(""))):  # these are mistakes of the case alone
+        if problems and not problems[0].endswith((' got ""', beyond(""), below(""))):  # these are mistakes of the case alone
             raise SceneError(f"{path}, first case", f"{problems[0]}; separate values by commas, and write numbers with a point")
 
     def rows(self, first: int, stop: int) -> CsvRows:

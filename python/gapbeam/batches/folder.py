@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -15,7 +16,9 @@ from pathlib import Path
 from typing import Any
 
 from ..base.errors import SceneError
-from ..base.files import write_lasting
+from ..base.files import open_own, write_lasting
+from ..scene.wording import choice, shown
+from .chunks import FORMATS
 
 MANIFEST = "_manifest.json"
 """Programs that read all Parquet files of a folder pass over names that begin like this."""
@@ -30,8 +33,22 @@ CHANGES = {
     "table": "holds results of another table",
     "columns": "holds other columns ({0})",
     "chunk": "has files of {0} cases, not of {1}",
+    "format": "holds {0} files, not {1}",
+    "cases": "says that there are {0} cases, and the table has {1}",
+    "chunks": "says that there are {0} files, and there are {1}",
+    "inputs": "says that the table has the columns {0}, and it has {1}",
+    "want": "says that {0} is wanted, and it is {1}",
+    "supports": "names other supports ({0})",
+    "data": "says that the scene is another one",
 }
-"""What may be different in a folder, in words."""
+"""What may be different in a folder, in words: all that its manifest says."""
+KINDS = {
+    str: ("a text", ("gapbeam", "writer", "format", "scene", "table")),
+    int: ("a whole number from 1 on", ("cases", "chunk", "chunks")),
+    list: ("a list of texts", ("inputs", "want", "columns", "supports")),
+}
+"""What stands in a manifest, but the scene."""
+PART = re.compile(r"part-(\d{6,18})\.(\w+)")
 
 
 @dataclass(frozen=True)
@@ -61,8 +78,21 @@ class Folder:
 
     def done(self) -> list[int]:
         """Give the chunks that are done, in order."""
-        there = {one.name for one in os.scandir(self.path)}
-        return [k for k in range(self.manifest["chunks"]) if self.file(k).name in there]
+        numbers = (int(one[1]) for one in map(PART.fullmatch, os.listdir(self.path)) if one and one[2] == self.manifest["format"])
+        return sorted(k for k in set(numbers) if k < self.manifest["chunks"])
+
+    def expect_cases(self, chunk: int, count: int) -> None:
+        """Refuse a file that has not as many cases as it should have.
+
+        Raises
+        ------
+        SceneError
+            Names the file.
+        """
+        first, stop = self.part(chunk)
+        if count != stop - first:
+            remedy = "remove it and start the batch again, which makes it anew"
+            raise SceneError(str(self.file(chunk)), f"holds {count:,} cases, and should hold {stop - first:,}; {remedy}")
 
     def write(self, chunk: int, data: bytes) -> None:
         """Write a chunk.
@@ -98,16 +128,42 @@ def open_folder(path: str | os.PathLike) -> Folder:
     Raises
     ------
     SceneError
-        It is none.
+        It is none, or its manifest says what cannot be.
     """
     path = Path(path)
     try:
-        manifest = json.loads((path / MANIFEST).read_text(encoding="utf-8"))
+        with open_own(path / MANIFEST) as stream:
+            manifest = json.loads(stream.read())
     except (FileNotFoundError, NotADirectoryError):
         raise SceneError(str(path), "is no folder of a batch; give the one that gapbeam batch --out has written") from None
-    except (OSError, ValueError) as error:
-        raise SceneError(str(path / MANIFEST), f"cannot be read ({error})") from None
+    except (OSError, ValueError, RecursionError) as error:
+        reason = error.strerror if isinstance(error, OSError) else error
+        raise SceneError(str(path / MANIFEST), f"cannot be read ({reason}); {ELSE}") from None
+    _check(str(path / MANIFEST), manifest)
     return Folder(path, manifest)
+
+
+def _check(place: str, manifest: Any) -> None:
+    """Refuse a manifest that no batch can have written."""
+    if not isinstance(manifest, dict):
+        raise SceneError(place, f"expected an object, got {shown(manifest)}; {ELSE}")
+
+    def expect(key: str, words: str, right: bool) -> None:
+        if key not in manifest:
+            raise SceneError(place, f"does not say {key}; {ELSE}")
+        if not right:
+            raise SceneError(f"{place}, {key}", f"expected {words}, got {shown(manifest[key])}; {ELSE}")
+
+    for kind, (words, keys) in KINDS.items():
+        for key in keys:
+            value = manifest.get(key)
+            right = type(value) is kind and (kind is not int or value > 0)
+            expect(key, words, right and (kind is not list or all(isinstance(one, str) for one in value)))
+    expect("data", "a scene, or null", isinstance(manifest.get("data"), dict | None))
+    expect("format", choice(FORMATS), manifest["format"] in FORMATS)
+    chunks = -(-manifest["cases"] // manifest["chunk"])
+    words = f"{chunks}, as many as {manifest['cases']} cases in files of {manifest['chunk']} take"
+    expect("chunks", words, manifest["chunks"] == chunks)
 
 
 def begin_folder(path: Path, manifest: Mapping[str, Any]) -> Folder:
@@ -137,7 +193,7 @@ def begin_folder(path: Path, manifest: Mapping[str, Any]) -> Folder:
         write_lasting(path / MANIFEST, (json.dumps(manifest, indent=1) + "\n").encode())
     folder = open_folder(path)
     for key, words in CHANGES.items():
-        before, now = folder.manifest.get(key), manifest[key]
+        before, now = folder.manifest[key], json.loads(json.dumps(manifest[key]))
         if before != now:
             told = [", ".join(one) if isinstance(one, list) else one for one in (before, now)]
             raise SceneError(str(path), f"{words.format(*told)}; {ELSE}")
@@ -170,7 +226,7 @@ def locked(path: Path) -> Iterator[None]:
     except FileExistsError:
         raise SceneError(str(path), "is a file, and results go into a folder; give --out another name") from None
     name = path / LOCK
-    descriptor = os.open(name, os.O_RDWR | os.O_CREAT, 0o666)
+    descriptor = os.open(name, os.O_RDWR | os.O_CREAT | getattr(os, "O_NOFOLLOW", 0), 0o666)
     try:
         try:
             _lock(descriptor)

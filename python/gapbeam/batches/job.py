@@ -19,7 +19,7 @@ from ..results.step import BOUNDED
 from ..results.stepping import solve
 from ..scene.structs import Scene
 from .paths import KeyPath, with_values
-from .prepared import PreparedRoad, prepared_road
+from .prepared import PreparedRoad, at_once, prepared_road
 from .tables import Rows, SceneFiles
 
 SOLVED, FAILED = "solved", "failed"
@@ -98,6 +98,11 @@ class Job:
         """The prepared beam, where there can be one."""
         return None if self.scene is None else prepared_road(self.scene, self.paths)
 
+    @cached_property
+    def _at_once(self) -> dict[str, Any] | None:
+        """The scene without load steps that change nothing."""
+        return None if self.scene is None else at_once(self.scene, self.paths)
+
     def __getstate__(self) -> dict[str, Any]:
         """Pickle without what is made on the way."""
         return {name: getattr(self, name) for name in self.__dataclass_fields__}
@@ -160,7 +165,9 @@ class Job:
             wrong = next((path.text for path, value in zip(self.paths, row, strict=True) if value != value), None)
             if wrong is not None:
                 raise SceneError(wrong, "expected a number, got nan")
-            result = solve(with_values(self.scene, self.paths, row) if source is None else source)
+            result = solve(with_values(self._at_once, self.paths, row) if source is None else source)
+            if result.status != SOLVED and self._at_once is not self.scene:
+                result = solve(with_values(self.scene, self.paths, row))  # its reason names the load step
             if result.status != SOLVED:
                 return result.status, result.reason or ""
             if result.combinations or result.scene.trains:
@@ -184,10 +191,8 @@ class Job:
             return FAILED, f"internal error: {type(error).__name__} ({error}); this is a fault of gapbeam, please report it"
 
     def _keep_envelope(self, result: Result, k: int, numbers: dict[str, np.ndarray]) -> tuple[str, str]:
-        """Keep what is wanted of an envelope, if the beam can stand everywhere in it."""
+        """Keep what is wanted of an envelope; the beam can stand everywhere in it."""
         envelope = result.envelope()
-        for _, gap in getattr(envelope, "gaps", ()):
-            return "no-equilibrium", f"with a train from x = {gap.from_:g} to {gap.to:g} the beam cannot stand: {gap.reason}"
         at_supports = {
             name: tuple(
                 self._kept(result.scene, np.array([one[name][kind].value for one in envelope.supports])) for kind in KINDS

@@ -22,7 +22,8 @@ from ..base.characters import visible
 from ..base.errors import SceneError
 from ..scene.combinations import VALUES
 from ..scene.names import NAMED, cases_of
-from ..scene.structs import Scene
+from ..scene.structs import Scene, Train
+from ..scene.trains import joined
 from ..scene.typed import plain
 from ..scene.wording import key_of, shown
 
@@ -145,9 +146,17 @@ def with_values(data: Mapping[str, Any], paths: Sequence[KeyPath], values: Seque
         scene["loads"] = [_times(load, factors[load["case"]]) if load["case"] in factors else load for load in scene["loads"]]
         scene["trains"] = [
             {**train, "factor": factors[train["case"]] * train["factor"]} if train["case"] in factors else train
-            for train in scene["trains"]
+            for train in _joined(scene["trains"])
         ]
     return scene
+
+
+def _joined(trains: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """The same where each brings its own axles: the factor of a member's case is not that of a train that it is part of."""
+    if not any(train["together"] for train in trains):
+        return trains
+    typed = msgspec.convert(trains, list[Train])
+    return [msgspec.to_builtins(joined(typed, i)) for i in range(len(trains))]
 
 
 def _by_span(scene: dict[str, Any], parts: tuple[str | int, ...]) -> dict[str, Any]:

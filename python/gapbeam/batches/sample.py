@@ -272,7 +272,7 @@ def draw(
     if method == "latin-hypercube":
         try:
             from scipy.stats.qmc import LatinHypercube
-        except ImportError:
+        except ModuleNotFoundError:
             raise SceneError("method", '"latin-hypercube" needs scipy: pip install scipy, or take "random"') from None
         strata = LatinHypercube(len(columns), seed=seed).random(cases)
         strata = np.clip(strata, 0.5**BITS, 1.0 - 0.5**BITS)

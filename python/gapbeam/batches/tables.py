@@ -17,6 +17,7 @@ import numpy as np
 
 from ..base.errors import SceneError
 from ..scene.wording import choice, shown
+from .chunks import load_arrow
 
 SCENES = (".toml", ".json")
 
@@ -134,13 +135,9 @@ class ParquetTable:
     """
 
     def __init__(self, path: Path):
+        pyarrow = load_arrow(SceneError(str(path), "Parquet files need pyarrow: pip install gapbeam[batch], or give a .csv file"))
         try:
-            import pyarrow
-            import pyarrow.parquet
-        except ImportError:
-            raise SceneError(str(path), "Parquet files need pyarrow: pip install gapbeam[batch], or give a .csv file") from None
-        try:
-            self._file = pyarrow.parquet.ParquetFile(path)
+            self._file = pyarrow.parquet.ParquetFile(path, pre_buffer=False)
         except (OSError, ValueError) as error:
             raise SceneError(str(path), f"cannot be read as a Parquet file ({error})") from None
         schema = self._file.schema_arrow
@@ -175,7 +172,7 @@ class ParquetTable:
         return found[:, :count]
 
     def _batches(self, groups: range) -> Iterator[np.ndarray]:
-        for part in self._file.iter_batches(65_536, row_groups=list(groups)):
+        for part in self._file.iter_batches(65_536, row_groups=list(groups), use_threads=False):
             # Whole numbers beyond 2**53 are rounded, as those of other tables are
             yield np.array([column.cast("float64", safe=False).to_numpy(zero_copy_only=False) for column in part.columns])
 

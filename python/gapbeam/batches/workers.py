@@ -31,7 +31,15 @@ _MADE = threading.local()
 
 
 class LostWorkerError(GapbeamError):
-    """A process that solved cases is gone."""
+    """A process that solved cases is gone.
+
+    Attributes
+    ----------
+    is_failure : bool
+        It is no fault of what was asked.
+    """
+
+    is_failure = True
 
 
 def work(key: str, packed: bytes, rows: Rows, first: int, kind: str, stop: threading.Event | None = None) -> bytes:
@@ -125,9 +133,24 @@ def processes(jobs: int) -> Iterator[Executor]:
         else:
             os.environ["PYTHONWARNINGS"] = before
     try:
+        with _held_back(signal.SIGINT):
+            executor.submit(os.getpid)  # the first task starts all processes
         yield executor
     finally:
         executor.shutdown(wait=False, cancel_futures=True)
+
+
+@contextmanager
+def _held_back(number: int) -> Iterator[None]:
+    """Hold a signal back, in processes that are started meanwhile until they see to it themselves."""
+    if not hasattr(signal, "pthread_sigmask"):  # Windows
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {number})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _begin_process() -> None:

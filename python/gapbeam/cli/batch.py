@@ -11,7 +11,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING
 
 from ..base.errors import SceneError
-from .command import NO_SOLUTION, SOLVED
+from .command import FAILED, NO_SOLUTION, SOLVED, say
 from .outputs import Outputs, source, until_closed
 
 if TYPE_CHECKING:
@@ -31,7 +31,8 @@ polars.read_parquet("DIR/*.parquet"), duckdb: select * from 'DIR/*.parquet'. Wit
 
 Whatever ends a batch, the same command goes on where it was, and the files come out the same to the last byte.
 
-Exit status: 0 all cases are solved, 1 not all, 2 refused, 3 failed, 130 ended by Ctrl-C.
+Exit status: 0 all cases are solved, 1 not all, 2 refused, 3 failed (cases too, for lack of memory), 130 ended by Ctrl-C, 143 by
+SIGTERM.
 """
 
 
@@ -99,7 +100,7 @@ def _executor(arguments: argparse.Namespace) -> Iterator[Executor | None]:
         return
     try:
         from distributed import Client
-    except ImportError:
+    except ModuleNotFoundError:
         raise SceneError("--dask", "needs Dask: pip install gapbeam[dask]") from None
     try:
         client = Client(arguments.dask, timeout=10)
@@ -139,14 +140,18 @@ def _summarize(arguments: argparse.Namespace) -> int:
         raise SceneError("--summary", "solves nothing; leave SCENE, TABLE and --out out")
     outputs = Outputs({"--json": arguments.json, "--plot": arguments.plot})
     from ..batches.batch import Batch
+    from ..scene.wording import out_of_range
 
     limits: dict[str, list[float]] = {}
     for text in arguments.limit:
         name, _, value = text.rpartition("=")
         try:
-            limits.setdefault(name, []).append(float(value))
+            limit = float(value)
         except ValueError:
             raise SceneError("--limit", f'expected a name and a number, such as reaction.R-101=12.5, got "{text}"') from None
+        if problem := out_of_range(value, limit):
+            raise SceneError("--limit", f"{name}: {problem}")
+        limits.setdefault(name, []).append(limit)
     summary = Batch(arguments.summary).summary(limits=limits)
     contents: dict[str, bytes | list[str]] = {}
     if "--json" in outputs:
@@ -196,4 +201,6 @@ def _tell(done: Batch, quiet: bool, clock: _Clock) -> int:
     if not quiet:
         with until_closed():
             print(f"{done.path}: {done.done:,} of {done.cases:,} cases: {counts}")
+    if "failed" in statuses:
+        return say(FAILED, f"error: {statuses['failed']:,} cases failed: {done.reasons()['failed']}")
     return SOLVED if set(statuses) <= {"solved"} else NO_SOLUTION

@@ -5,7 +5,6 @@ What a command does not need is not imported: checking a scene loads neither ric
 
 import argparse
 import os
-import signal
 import sys
 import warnings
 from collections.abc import Iterable, Sequence
@@ -16,15 +15,21 @@ from typing import TYPE_CHECKING, NoReturn
 
 from ..base.characters import visible
 from ..base.errors import GapbeamError, SceneError, Status
-from ..base.files import remove_unfinished
+from ..base.memory import reserve
 from .outputs import Outputs, source, until_closed
 
 if TYPE_CHECKING:
-    from ..results.result import Result
     from ..scene.structs import Scene
 
 #: Exit statuses
 SOLVED, NO_SOLUTION, REFUSED, FAILED, INTERRUPTED = 0, 1, 2, 3, 130
+
+#: Bytes of the address space that loading numpy and the engine takes, every further thread of OpenBLAS, their buffers, and
+#: loading matplotlib
+FOR_NUMPY, FOR_A_THREAD, FOR_BUFFERS, FOR_PICTURES = 200_000_000, 100_000_000, 80_000_000, 120_000_000
+
+#: Solved by LAPACK, since a rigid beam on three rigid supports is
+FOR_LAPACK = {"beam": {"spans": [1.0, 1.0], "EI": float("inf")}, "supports": [{"node": 0}, {"node": 1}, {"node": 2}]}
 
 SCENE = """\
 A small scene, beam.toml:
@@ -74,6 +79,7 @@ Exit status:
        one line on standard error says why, no file is written
   3    failed: not enough memory, or a fault of gapbeam; one line says what happened and what to do
   130  ended by Ctrl-C: no file is written in part
+  143  ended by SIGTERM, likewise
 """
 
 DESCRIPTION = "Beams of many spans on supports that act on one side only, with gaps: a scene file in, a report out."
@@ -90,44 +96,64 @@ class _Parser(argparse.ArgumentParser):
             print(self.format_help(), end="", file=file)
 
 
-def main(argv: Sequence[str] | None = None) -> int:
-    """Run the command.
+def run(argv: Sequence[str] | None = None) -> int:
+    """Run the command, whatever signals are to do.
 
     Parameters
     ----------
     argv : sequence of str, optional
-        Arguments without the name of the program; default ``sys.argv[1:]``: then warnings are one line each, and
-        Ctrl-C ends the process.
+        As for `gapbeam.cli.main`.
 
     Returns
     -------
     int
-        Exit status: 0 solved or valid, 1 the structure cannot stand, 2 refused, 3 failed, 130 ended by Ctrl-C.
+        As there.
     """
     if argv is None:
         warnings.formatwarning = lambda message, *_: f"gapbeam: warning: {message}\n"
-        if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
-            with suppress(ValueError):  # only the main thread may
-                signal.signal(signal.SIGINT, _end)
     try:
         arguments = _parser().parse_args(argv)
+        if reserve(FOR_NUMPY + FOR_A_THREAD * (_threads() - 1)):
+            _take_buffers()
         return arguments.command(arguments)
     except KeyboardInterrupt:
-        return _tell(INTERRUPTED, "interrupted")
+        return say(INTERRUPTED, "interrupted")
     except Exception as error:
         return _report(error)
 
 
-def _end(*_: object) -> NoReturn:
-    """End the process at once: Python drops a KeyboardInterrupt that comes while it frees objects, and a call may go on beside."""
-    remove_unfinished()
-    with suppress(OSError):
-        os.write(2, b"gapbeam: interrupted\n")
-    os._exit(INTERRUPTED)
+def _take_buffers() -> None:
+    """Let OpenBLAS take its buffers while there is memory for them: where it gets none it ends the process, with status 1."""
+    import numpy as np
+
+    from ..results.stepping import solve
+
+    reserve(FOR_BUFFERS)
+    np.linalg.inv(np.eye(2))
+    with suppress(GapbeamError):
+        solve(FOR_LAPACK)
 
 
-def _tell(status: int, message: str) -> int:
-    """Write one line on standard error; where that is closed, the status has to do."""
+def _threads() -> int:
+    """Threads that OpenBLAS starts, as far as somebody has told it."""
+    told = os.environ.get("OPENBLAS_NUM_THREADS", os.environ.get("OMP_NUM_THREADS", ""))
+    return max(int(told), 1) if told.isdecimal() else os.cpu_count() or 1
+
+
+def say(status: int, message: str) -> int:
+    """Write one line on standard error; where that is closed, the status has to do.
+
+    Parameters
+    ----------
+    status : int
+        Given back.
+    message : str
+        The line.
+
+    Returns
+    -------
+    int
+    """
     with suppress(AttributeError, OSError):
         sys.stderr.write(f"gapbeam: {visible(' '.join(message.split()))}\n")
     return status
@@ -135,19 +161,20 @@ def _tell(status: int, message: str) -> int:
 
 def _report(error: Exception) -> int:
     """Say what went wrong, and whose fault it is."""
-    if isinstance(error, MemoryError) or getattr(error, "status", None) == Status.NO_MEMORY:
-        return _tell(FAILED, f"error: not enough memory{_reason(error)}; ask for fewer load steps or files, or give it more")
+    lost = isinstance(error, RuntimeError) and "can't start new thread" in str(error)
+    if isinstance(error, MemoryError) or lost or getattr(error, "status", None) == Status.NO_MEMORY:
+        return say(FAILED, f"error: not enough memory{_reason(error)}; ask for fewer load steps or files, or give it more")
     if isinstance(error, GapbeamError):
-        return _tell(REFUSED, f"error: {error}")
+        return say(FAILED if getattr(error, "is_failure", False) else REFUSED, f"error: {error}")
     if isinstance(error, OSError) and error.filename is not None:
-        return _tell(REFUSED, f"error: {os.fsdecode(error.filename)}: {error.strerror}")
+        return say(REFUSED, f"error: {os.fsdecode(error.filename)}: {error.strerror}")
     if isinstance(error, ImportError):
         while isinstance(error.__cause__, ImportError):
             error = error.__cause__
-        return _tell(FAILED, f"error: a part of gapbeam cannot be loaded{_reason(error)}; give it more memory, or install it again")
+        return say(FAILED, f"error: a part of gapbeam cannot be loaded{_reason(error)}; give it more memory, or install it again")
     frames = [frame for frame in extract_tb(error.__traceback__) if os.path.dirname(frame.filename) == os.path.dirname(__file__)]
     place = f"{os.path.basename(frames[-1].filename)}, line {frames[-1].lineno}"
-    return _tell(
+    return say(
         FAILED,
         f"internal error: {type(error).__name__}{_reason(error)} in {place}; this is a fault of gapbeam, not of the scene: "
         "please send this line, the scene and what gapbeam --version prints to those who maintain it",
@@ -231,15 +258,17 @@ def _run(arguments: argparse.Namespace) -> int:
         raise SceneError("--path", "draws the way of one load, and the scene has combinations; leave it out, or draw that of one "
                          "of them in Python (gapbeam.plots.plot_path)")  # fmt: skip
     result = solve(scene)
-    solved, lost = result.status == "solved", _lost_position(result)
+    solved = result.status == "solved"
     from ..report.json_csv import csv_parts, json_parts, to_json
     from ..report.text import print_report
 
+    if "--plot" in outputs or "--path" in outputs:
+        reserve(FOR_PICTURES)
     contents: dict[str, bytes | Iterable[str]] = {}
     if "--json" in outputs:
         # A file grows part by part; what goes to standard output is made first, so that no failure cuts it off
         contents["--json"] = [to_json(result)] if outputs["--json"] == "-" else json_parts(result)
-    if "--csv" in outputs and (solved or "solved" in getattr(result, "statuses", ())):
+    if "--csv" in outputs and result.has_envelope:
         contents["--csv"] = csv_parts(result)
     if "--plot" in outputs:
         from ..plots.result import figure
@@ -255,23 +284,12 @@ def _run(arguments: argparse.Namespace) -> int:
     if not arguments.quiet and not outputs.on_standard_output:
         with until_closed():  # after the files: the reader of the report, such as head, may leave early
             print_report(result)
-    elif not solved or lost:
-        _tell(NO_SOLUTION, result.reason or lost)
+    elif not solved:
+        say(NO_SOLUTION, result.reason)
     for option in ("--csv", "--path"):
         if option in outputs and option not in contents:
-            _tell(NO_SOLUTION, f"{outputs[option]} is not written: there is nothing to show without equilibrium")
-    return SOLVED if solved and not lost else NO_SOLUTION
-
-
-def _lost_position(result: "Result") -> str:
-    """Say where the first train is at whose positions the beam is not solved; nothing where it is solved at all positions."""
-    from ..results.train_data import passing_trains
-
-    for combination, train in passing_trains(result) if result.scene.trains else ():
-        if train.gaps:
-            gap, where = train.gaps[0], "" if combination is None else f"combination {combination}, "
-            return f"{where}train {train.name}, positions {gap.from_:.6g} to {gap.to:.6g}: {gap.reason}"
-    return ""
+            say(NO_SOLUTION, f"{outputs[option]} is not written: there is nothing to show without equilibrium")
+    return SOLVED if solved else NO_SOLUTION
 
 
 def _check(arguments: argparse.Namespace) -> int:

@@ -71,7 +71,7 @@ class Ground(Record):
     bounds : numpy.ndarray
         Of the errors of deflection, rotation, moment, shear, reactions.
     residuals : numpy.ndarray
-        Of compatibility and equilibrium.
+        Of compatibility, equilibrium and complementarity, by the audit that the state stood.
     """
 
     values: np.ndarray

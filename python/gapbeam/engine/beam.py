@@ -19,10 +19,12 @@ RULES = {"block": 0, "single": 1}
 """Rules by which schemes are found, as in gapbeam_search."""
 GIVEN = "given"
 """Instead of a rule: the scheme is known, as along a path."""
-RULE_GIVEN = 2
-"""Its code, as in gapbeam_referee."""
+RULE_GIVEN, RULE_EXTENDED = 2, 3
+"""Its code, as in gapbeam_referee, and that where lines are followed beyond where it holds, as tangents of smooth laws are."""
 METHODS = ("block tridiagonal mixed", "three-moment", "mixed with pivoting")
 """What was solved, as in gapbeam_system."""
+LAW_ROW, FIRST_CURVE = 6, 3
+"""Row of the laws of foundations in `Columns.foundation`, and the first of their codes that is a curve, as in gapbeam_layers."""
 HINGE, RESTRAINED = 1, 2
 """Kinds of node other than plain ones (0), as in gapbeam_band."""
 FIELDS = ("deflection", "rotation", "moment", "shear", "axial_force", "axial_displacement", "pressure")
@@ -114,6 +116,7 @@ class Beam:
             bool, has
         )
         self.units = Units(*units.tolist())
+        self.handle.has_curves = bool((self.columns.foundation[LAW_ROW] >= FIRST_CURVE).any())
 
     def with_factors(self, factors: np.ndarray) -> Beam:
         """Make another beam: each load times its factor, all of them live.
@@ -265,8 +268,9 @@ class Beam:
         """
         m, n = self.supports, max(self.bars, 0)
         scheme = extended(closed)
+        code = RULES.get(rule, RULE_EXTENDED if self.curves else RULE_GIVEN)
         undecided, w, left, right, shear, reaction, motion, u, tension, values, counts, ground, status, message = _engine.gbsolv(
-            self.handle, self.links, self.scene_supports, n, factor, RULES.get(rule, RULE_GIVEN), scheme
+            self.handle, self.links, self.scene_supports, n, factor, code, scheme
         )
         check_status(status, message)
         solves, method, indifferent, came_back, slides, stretches, layers = counts.tolist()
@@ -328,7 +332,7 @@ class Beam:
         if solution.ground is not None:
             ground = solution.ground
             bounds = np.concatenate((ground.bounds[[0, 4]], ground.bounds[:4]))
-            return np.append(ground.residuals, 0.0), bounds, not solution.indifferent
+            return ground.residuals, bounds, not solution.indifferent
         residuals, bounds, known, status, message = _engine.gbcert(self.handle, *_state(factor, solution))
         check_status(status, message, "the state could not be checked in quadruple precision: ")
         return residuals, bounds, bool(known)

@@ -1,8 +1,10 @@
 """Calls of compiled code that Ctrl-C ends at once.
 
-Python hears signals between its own instructions only, and a call of compiled code is one instruction, however long. So what
-may take long is called in a thread beside the main one, which waits where signals are heard. The thread that is left behind by
-Ctrl-C goes on to the end of its one call, with arrays that nobody else has, and is not heard of again.
+Python hears signals between its own instructions only, and a call of compiled code is one instruction, however long. So the
+engine lets Python hear them between linear solves (face/python_signals.c), which is enough where these are short. What is long
+by itself is called in a thread beside the main one, which waits where signals are heard; Ctrl-C then ends the work there between
+two linear solves too. A thread whose solve is longer than that is left behind: it goes on to the end of it, with arrays that
+nobody else has, and is not heard of again.
 """
 
 from __future__ import annotations
@@ -30,6 +32,8 @@ NODES_AT_A_TIME = 20_000
 """Nodes of all cases in the first call for many cases; later calls take about `SECONDS`, by what the one before took."""
 SECONDS = 0.1
 """Time of a call for some of many cases, and between two looks whether a signal has come."""
+PATIENCE = 0.3
+"""Seconds that the end of an interrupted call is waited for."""
 THREAD = 2**25
 """Bytes that must be there for a thread, mostly its stack: Python does not survive one that cannot begin."""
 PART = 200_000
@@ -45,6 +49,7 @@ class _Call:
         self.error: BaseException | None = None
         self.done = allocate_lock()
         self.done.acquire()
+        self.is_left = False
 
     def make(self) -> None:
         try:
@@ -52,6 +57,19 @@ class _Call:
         except BaseException as error:
             self.error = error
         self.done.release()
+        if self.is_left:
+            go_on(self.arguments)
+
+    def end(self) -> bool:
+        """Let it end where it looks whether it may go on, and wait for that a little; tell whether it has."""
+        if not isinstance(self.arguments[0] if self.arguments else None, Handle):
+            return False
+        self.is_left = True
+        _engine.gbstop(self.arguments[0], 1)
+        ended = self.done.acquire(timeout=PATIENCE)
+        if ended:
+            go_on(self.arguments)
+        return ended
 
 
 class _Beside:
@@ -86,7 +104,12 @@ class _Beside:
             while not call.done.acquire(timeout=SECONDS):
                 pass  # signals that went to another thread are heard now
         except BaseException:
-            self.forget()
+            ended = False
+            try:
+                ended = call.end()
+            finally:  # however often Ctrl-C comes
+                if not ended:
+                    self.forget()
             raise
         if call.error is not None:
             raise call.error
@@ -99,20 +122,33 @@ def _work(calls: SimpleQueue[_Call | None]) -> None:
         del call  # and with it the arrays, before the next one comes
 
 
+def go_on(arguments: tuple) -> None:
+    """Let calls with a beam go on that a signal has ended.
+
+    Parameters
+    ----------
+    arguments : tuple
+        Of the call that was ended; the beam is the first, if it has one.
+    """
+    if arguments and isinstance(arguments[0], Handle):
+        _engine.gbstop(arguments[0], 0)
+
+
 _BESIDE = _Beside()
 if hasattr(os, "register_at_fork"):
     os.register_at_fork(after_in_child=_BESIDE.reset)
 
 
 def interruptible(routine: Callable, size: Callable[..., int] = lambda *_: SHORT) -> Callable:
-    """Let Ctrl-C end the calls of a compiled routine at once, where they may take long.
+    """Let Ctrl-C end the calls of a compiled routine at once.
 
     Parameters
     ----------
     routine : callable
         It must let go of Python's lock, and its arrays must not be used after an interrupted call.
     size : callable
-        Tells from the arguments how many nodes or places a call is for; default: any call may take long.
+        Tells from the arguments how many nodes or places a call is for, where its linear solves are short if these are few;
+        default: any call may take long between them.
 
     Returns
     -------
@@ -122,7 +158,11 @@ def interruptible(routine: Callable, size: Callable[..., int] = lambda *_: SHORT
 
     def call(*arguments: Any) -> Any:
         if size(*arguments) < SHORT or threading.current_thread() is not threading.main_thread():
-            return routine(*arguments)
+            try:
+                return routine(*arguments)
+            except BaseException:
+                go_on(arguments)
+                raise
         return _BESIDE.make(routine, arguments)
 
     return call
@@ -132,7 +172,14 @@ class Handle(int):
     """A beam in the compiled layer, which is freed with the last reference to this number.
 
     Calls that go on after Ctrl-C keep theirs.
+
+    Attributes
+    ----------
+    has_curves : bool
+        Whether there is ground under it whose law is a curve: then even a few nodes may take long between two linear solves.
     """
+
+    has_curves = False
 
     def __del__(self, drop: Callable = _engine.gbdrop) -> None:
         """Free the beam, also when Python ends and modules are gone."""
@@ -183,6 +230,11 @@ def parts(count: int) -> Iterator[slice]:
         yield slice(first, min(first + PART, count))
 
 
+def _on_ground(beam: Handle, ground: np.ndarray) -> int:
+    """Count the stretches of a solution on the ground, as far as they are short work."""
+    return SHORT if beam.has_curves else ground.shape[1]
+
+
 gbsize = _engine.gbsize
 gbroom = _engine.gbroom
 gbone = _engine.gbone
@@ -191,12 +243,12 @@ gbhget = _engine.gbhget
 gbgget = _engine.gbgget
 gbgpte = _engine.gbgpte
 gbmake = interruptible(
-    _engine.gbmake,
+    lambda *arrays: _engine.gbmake(*arrays, threading.main_thread().ident),
     lambda span, hinge, section, codes, support, *rest: span.shape[1] + support.shape[1] + rest[-3].shape[1],  # of profiles
 )
 gbcopy = interruptible(_engine.gbcopy)
 gbplac = interruptible(_engine.gbplac, lambda beam, pieces, *_: pieces)
-gbsolv = interruptible(_engine.gbsolv, lambda beam, links, *_: links)
+gbsolv = interruptible(_engine.gbsolv, lambda beam, links, *_: SHORT if beam.has_curves else links)
 gbpath = interruptible(_engine.gbpath)
 gbhist = interruptible(_engine.gbhist)
 gbgpth = interruptible(_engine.gbgpth)
@@ -205,10 +257,10 @@ gbreco = interruptible(_engine.gbreco, lambda beam, pieces, *_: pieces)
 gbcert = interruptible(_engine.gbcert, lambda beam, factor, closed, w, *_: 3 * len(w))
 gbfind = interruptible(_engine.gbfind, lambda beam, x, *_: len(x))
 gbvalu = interruptible(_engine.gbvalu, lambda beam, factor, starts, u, tension, piece, *_: len(piece))
-gbgval = interruptible(_engine.gbgval, lambda beam, ground, u, tension, piece, *_: len(piece) + ground.shape[1])
-gbgext = interruptible(_engine.gbgext, lambda beam, ground, *_: ground.shape[1])
-gbgrun = interruptible(_engine.gbgrun, lambda beam, ground: ground.shape[1])
-gbgdif = interruptible(_engine.gbgdif, lambda most, beam, ground, *_: ground.shape[1])
+gbgval = interruptible(_engine.gbgval, lambda beam, ground, u, tension, piece, *_: _on_ground(beam, ground) + len(piece))
+gbgext = interruptible(_engine.gbgext, lambda beam, ground, *_: _on_ground(beam, ground))
+gbgrun = interruptible(_engine.gbgrun, lambda beam, ground: _on_ground(beam, ground))
+gbgdif = interruptible(_engine.gbgdif, lambda most, beam, ground, *_: _on_ground(beam, ground))
 gbextr = interruptible(_engine.gbextr, lambda beam, factor, starts, *_: starts.shape[1])
 gblarg = interruptible(_engine.gblarg, lambda beam, factor, starts, *_: starts.shape[1])
 gbcomb = interruptible(_engine.gbcomb)
@@ -220,6 +272,7 @@ gbtget = _engine.gbtget
 gbtenv = interruptible(_engine.gbtenv)
 gbtcur = interruptible(_engine.gbtcur)
 gbtinf = interruptible(_engine.gbtinf)
+_short_cases = interruptible(_engine.gbcase, lambda *_: 0)
 _long_cases = interruptible(_engine.gbcase)
 
 
@@ -235,7 +288,7 @@ def gbcase(
     """
     cases, nodes = factors.shape[1], max(values.shape[0] for values in results[:5])
     if cases * nodes < FEW_NODES:
-        _engine.gbcase(beam, room, factors, supports, spans, rule, *results)
+        _short_cases(beam, room, factors, supports, spans, rule, *results)
         return
     some, first = max(NODES_AT_A_TIME // nodes, 1), 0
     while first < cases:

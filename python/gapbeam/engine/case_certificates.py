@@ -6,7 +6,7 @@ from time import perf_counter
 
 import numpy as np
 
-from ..base.errors import Status, check_status
+from ..base.errors import check_ended
 from . import calls as _engine
 from .beam import RULES, Beam
 from .combinations import Varied
@@ -71,8 +71,7 @@ def case_certificates(
         )  # fmt: skip
         some = max(int(some * min(max(_engine.SECONDS / (perf_counter() - begin), 0.25), 4.0)), 1)
         first = part.stop
-    if Status.NO_MEMORY in state:
-        check_status(Status.NO_MEMORY)
+    check_ended(state)
     found = dict(zip(NUMBERS, numbers.T, strict=True))
     for name in ("nodes", "deflection", "rotation"):
         found[name][known == 0] = np.nan

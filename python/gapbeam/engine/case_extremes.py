@@ -6,7 +6,7 @@ from collections.abc import Collection
 
 import numpy as np
 
-from ..base.errors import Status, check_status
+from ..base.errors import check_ended
 from . import calls as _engine
 from .beam import FIELDS, RULES, Beam
 from .combinations import Varied
@@ -110,6 +110,5 @@ def _follow(
         )  # fmt: skip
         if not there:
             return None
-    if Status.NO_MEMORY in state:
-        check_status(Status.NO_MEMORY)
+    check_ended(state)
     return extremes, x, fields[:, :-1]

@@ -6,7 +6,7 @@ from collections.abc import Collection, Mapping
 
 import numpy as np
 
-from ..base.errors import Status, check_status
+from ..base.errors import ENDED, Status, check_status
 from . import calls as _engine
 from .beam import RULES, Beam
 from .blocks import block_of, new_block
@@ -94,8 +94,8 @@ def solve_cases(
             *(found[name].T if name in found else np.empty((cases, 1)).T for name in WANTED), solves, status,
         )
         beam.rooms.append(room)
-        if status[0] == Status.NO_MEMORY:  # then all are
-            check_status(Status.NO_MEMORY)
+        if status[0] in ENDED:  # then all are
+            check_status(status[0])
     if "reaction" in found:
         found["reaction"] = found["reaction"][:, :m]
     return {**found, "closed": schemes[:, :m], "solves": solves, "status": status}
@@ -150,9 +150,13 @@ class OneCase:
             room = rooms.pop()
         except IndexError:
             room = _room(self.beam)
-        status = call(handle, room, factors, own if supports is None else supports.T, rule, block)
+        try:
+            status = call(handle, room, factors, own if supports is None else supports.T, rule, block)
+        except BaseException:
+            _engine.go_on((handle,))
+            raise
         rooms.append(room)
-        if status == Status.NO_MEMORY:
+        if status in ENDED:
             check_status(status)
         return status != NOT_FINITE
 

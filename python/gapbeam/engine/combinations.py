@@ -8,7 +8,7 @@ from time import perf_counter
 
 import numpy as np
 
-from ..base.errors import Status, check_status
+from ..base.errors import check_ended
 from ..base.records import Record
 from . import calls as _engine
 from .beam import RULES, Beam
@@ -135,8 +135,7 @@ def solve_combinations(
         values, extremes, places, fields_at, solves, status = _engine.gbcomb(
             beam.handle, np.asfortranarray(shares), np.asfortranarray(moves), *own, RULES[rule], scheme, *about
         )
-        if Status.NO_MEMORY in status:
-            check_status(Status.NO_MEMORY)
+        check_ended(status)
         yield part, Combined(
             status, scheme.T[:, :-1], values.T[:, :, :-1], extremes.T, places.T, fields_at.T[:, :-1], solves
         )

@@ -6,6 +6,7 @@ from ..base.characters import visible
 from ..results import formatting as fmt
 from ..results.hints import beyond
 from ..scene.names import labels
+from .over_path import write_over_path
 from .trains import write_trains
 from .writer import Writer
 
@@ -37,13 +38,14 @@ def write_combined(say: Writer, result: "CombinedResult") -> None:
     solves = f"{fmt.count(result.solves, 'linear solve')}, {fmt.duration(result.seconds)}"
     say.line(f"{number:,} of {fmt.count(len(result.names), 'combination')} solved, {solves}")
     _fallen(say, result)
-    if number and scene.trains:
+    if result.has_envelope and scene.trains:
         write_trains(say, result)
     elif number:
         _fields(say, result)
         _supports(say, result)
         _foundations(say, result)
         _factors_between(say, result)
+    write_over_path(say, result)
     _list(say, result)
     for remark in result.remarks:
         say.line(fmt.sentence(visible(remark)))
@@ -51,7 +53,8 @@ def write_combined(say: Writer, result: "CombinedResult") -> None:
 
 def _fallen(say: Writer, result: "CombinedResult") -> None:
     """Say which combinations are not solved, and why."""
-    fallen = [k for k, status in enumerate(result.statuses) if status != "solved"]
+    # Of trains the positions are listed that are not solved, and no more is left out
+    fallen = [k for k, status in enumerate(result.statuses) if status != "solved" and not result.combinations[k].has_envelope]
     if not fallen:
         return
     say.heading("Not solved")

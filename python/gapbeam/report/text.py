@@ -7,11 +7,13 @@ import io
 from collections import Counter
 from typing import TYPE_CHECKING
 
+from ..base.characters import visible
 from ..results import formatting as fmt
 from ..results.step import BOUNDED
 from ..scene.names import label, labels
 from .combined import write_combined
 from .ground import ground_in_words, write_contact, write_contact_history, write_foundations
+from .over_path import write_over_path
 from .scheme import event_table, legend, merged, scheme_table, symbol
 from .trains import write_trains
 
@@ -58,12 +60,12 @@ def print_report(result: "Result", console: "Console | None" = None) -> None:
     _headline(say, result)
     _system(say, result)
     write_trains(say, result)
-    if result.status != "solved":
+    if not result.stands:
         _no_solution(say, result)
     if not result.steps:
         return
     at = f"at load factor {fmt.number(result.steps[-1].factor)}"
-    if result.status != "solved":
+    if not result.stands:
         at += ", the last step that stands"
     _history(say, result)
     _events(say, result)
@@ -72,6 +74,7 @@ def print_report(result: "Result", console: "Console | None" = None) -> None:
     write_foundations(say, result, at)
     write_contact(say, result, at)
     _extremes(say, result, at)
+    write_over_path(say, result)
     _steps(say, result)
 
 
@@ -105,14 +108,14 @@ def _headline(say: "Writer", result: "Result") -> None:
         causes = ", ".join(f"{fmt.support(result.scene, k)} {event}" for k, event in limit.causes)
         say.line(f"{LIMITS[limit.kind]} at load factor {fmt.number(limit.factor, 10)}" + (f": {causes}" if causes else ""))
     if len(result.limits) > MOST_LIMITS:
-        say.line(f"... and {len(result.limits) - MOST_LIMITS} more limits.")
+        say.line(f"... and {fmt.count(len(result.limits) - MOST_LIMITS, 'more limit')}.")
     rough = [segment.stop for segment in result.segments if not getattr(segment, "exact", True)]
     rough += [limit.factor for limit in result.limits if not limit.exact and limit.factor not in rough]
     if rough:
         more = f" and {len(rough) - MOST_LIMITS} more" if len(rough) > MOST_LIMITS else ""
         which = ", ".join(fmt.number(factor, 5) for factor in rough[:MOST_LIMITS]) + more
         say.line(f"Known on the polylines of the smooth laws only, to about one part in a hundred: load factor {which}.")
-    if result.status != "solved":
+    if not result.stands:
         return
     way = fmt.count(len(result.steps), "load step") if result.path is None else fmt.count(len(result.events), "event")
     solves = fmt.count(result.solves, "linear solve")
@@ -126,7 +129,7 @@ def _headline(say: "Writer", result: "Result") -> None:
 def _system(say: "Writer", result: "Result") -> None:
     scene, system = result.scene, result.system
     say.heading("System")
-    left_out = [LEFT_OUT.get(name, name) for name in system.left_out]
+    left_out = [LEFT_OUT.get(name, name) for name in system.left_out if name != "second order"]
     equations = f"{system.method}: {fmt.count(system.nodes, 'node')}, {fmt.count(system.unknowns, 'unknown')}"
     equations += f", half bandwidth {system.half_bandwidth}"
     if system.axial_unknowns:
@@ -139,14 +142,19 @@ def _system(say: "Writer", result: "Result") -> None:
             ("loads", fmt.loads_in_words(scene)),
             ("equations", equations),
             ("left out", ", ".join(left_out) + " (this scene needs none)" if left_out else "nothing"),
+            *([("", f"effect of axial forces on bending: {system.compression.in_words()}")] if system.compression else []),
         ]
     )
+    for remark in result.remarks:
+        say.line(fmt.sentence(visible(remark)), "red")
 
 
 def _no_solution(say: "Writer", result: "Result") -> None:
     title = "No equilibrium" if result.status == "no-equilibrium" else result.status.replace("-", " ").capitalize()
-    say.heading(title)
-    say.line(fmt.sentence(result.reason), "red")
+    say.heading(title if result.without_trains is None else "Without its trains the beam cannot stand")
+    say.line(fmt.sentence(result.without_trains or result.reason), "red" if result.without_trains is None else "")
+    if result.without_trains is not None:
+        say.line("This state is not in the envelope, and changes nothing of it.")
     if result.limits and result.limits[-1].landing is not None:
         _landing(say, result, result.limits[-1].landing)
     if result.motion:
@@ -297,7 +305,7 @@ def _events(say: "Writer", result: "Result") -> None:
         return
     say.heading("Events")
     if not result.events:
-        reach = "at all load factors" if result.status == "solved" else "up to that load factor"
+        reach = "at all load factors" if result.stands else "up to that load factor"
         say.line(f"The working scheme is the same {reach}.")
         return
     shown = result.events[:MOST_EVENTS]

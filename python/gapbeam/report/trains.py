@@ -144,6 +144,7 @@ def _gaps(say: Writer, envelope: "TrainEnvelope") -> None:
     say.heading("Positions that are not solved, and not in what follows")
     for member, gap in envelope.gaps[:MOST_GAPS]:
         where = f"{visible(member.combination)}, " if member.combination else ""
-        say.line(f"{where}{visible(member.train)}, {gap.from_:.6g} to {gap.to:.6g}: {gap.reason}.", "red")
+        reason = gap.reason if gap.status != "solved" else f"{gap.reason}, and they are in what follows"
+        say.line(f"{where}{visible(member.train)}, {gap.from_:.6g} to {gap.to:.6g}: {reason}.", "red")
     if len(envelope.gaps) > MOST_GAPS:
         say.line(f"... and {len(envelope.gaps) - MOST_GAPS} more; --json has all.", "dim")

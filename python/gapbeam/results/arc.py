@@ -99,6 +99,17 @@ class Arc:
         Where between them the load turns round. Places along the arc are told by the deflections alone then, in a way in which
         both parts of it go on.
 
+    Attributes
+    ----------
+    laws : SmoothLaws
+        The laws.
+    weights : numpy.ndarray
+        Sizes of the deflections and of the load factor.
+    springs : numpy.ndarray
+        Stiffnesses of the springs in place of the laws.
+    flexibility, under_load : numpy.ndarray
+        Deflections due to a force at each law, and due to the live loads, with these springs.
+
     Raises
     ------
     LostError
@@ -111,24 +122,24 @@ class Arc:
         if not np.isfinite(self._ends).all():
             raise LostError
         sizes = np.abs(self._ends).max(axis=0)
-        self._weights = np.append(np.full(len(sizes) - 1, sizes[:-1].max() or 1.0), sizes[-1] or 1.0)
-        self._along = (self._ends[1] - self._ends[0]) / self._weights
+        self.weights = np.append(np.full(len(sizes) - 1, sizes[:-1].max() or 1.0), sizes[-1] or 1.0)
+        self._along = (self._ends[1] - self._ends[0]) / self.weights
         if turn is not None:
             parts = turn.deflection - start.deflection, stop.deflection - turn.deflection
             self._along[:] = np.append(sum(part / (np.abs(part).max() or 1.0) for part in parts), 0.0)
-        self._length = float(self._along @ ((self._ends[1] - self._ends[0]) / self._weights))
+        self._length = float(self._along @ ((self._ends[1] - self._ends[0]) / self.weights))
         if not self._length > 0.0:
             raise LostError
-        self._springs = self.laws.springs(self._ends.mean(axis=0)[:-1])
-        if not (np.isfinite(self._springs) & (self._springs > 0.0)).all():
+        self.springs = self.laws.springs(self._ends.mean(axis=0)[:-1])
+        if not (np.isfinite(self.springs) & (self.springs > 0.0)).all():
             raise LostError
-        self._flexibility, self._under_load = self._responses()
+        self.flexibility, self.under_load = self._responses()
         self._known: dict[float, State] = {}
 
     def _solve(self, deflection: np.ndarray, force: np.ndarray, factor: float) -> tuple[Beam, Solution, np.ndarray]:
         """Solve with springs through given points."""
         try:
-            beam = self.laws.with_lines(self._beam, deflection, force, self._springs)
+            beam = self.laws.with_lines(self._beam, deflection, force, self.springs)
             solution = beam.solve(float(factor), GIVEN, self._closed)
         except EngineError:
             raise LostError from None
@@ -136,14 +147,33 @@ class Arc:
             raise LostError
         return beam, solution, self.laws.deflections(solution)
 
+    def holds_at(self, point: np.ndarray, force: np.ndarray, tolerance: float) -> bool:
+        """Tell whether all other supports are on their pieces in a state.
+
+        Parameters
+        ----------
+        point : numpy.ndarray
+            Deflections at the smooth laws, and the load factor.
+        force : numpy.ndarray
+            Forces of the laws there, positive downward deflections resisted.
+        tolerance : float
+            Share of the largest reaction or deflection that is nothing.
+
+        Returns
+        -------
+        bool
+        """
+        beam, solution, _ = self._solve(point[:-1], force, point[-1])
+        return bool(beam.certify(float(point[-1]), solution)[0][2] <= tolerance)
+
     def _responses(self) -> tuple[np.ndarray, np.ndarray]:
         """Deflections due to a force at each law, and due to the live loads."""
         point = self._ends[0]
-        force = self._springs * np.maximum(np.abs(point[:-1]), self._weights[0])
+        force = self.springs * np.maximum(np.abs(point[:-1]), self.weights[0])
         _, _, still = self._solve(point[:-1], 0 * force, point[-1])
-        loaded = self._solve(point[:-1], 0 * force, point[-1] + self._weights[-1])[2]
+        loaded = self._solve(point[:-1], 0 * force, point[-1] + self.weights[-1])[2]
         pushed = [self._solve(point[:-1], row, point[-1])[2] for row in np.diag(force)]
-        return (still - np.array(pushed)).T / force, (loaded - still) / self._weights[-1]
+        return (still - np.array(pushed)).T / force, (loaded - still) / self.weights[-1]
 
     def at(self, place: float) -> State:
         """Find a state.
@@ -180,17 +210,17 @@ class Arc:
             force, slope = self.laws.forces_and_slopes(d)
             beam, solution, deflection = self._solve(point[:-1], force * way, point[-1])
             matrix = np.zeros((len(point), len(point)))
-            matrix[:-1, :-1] = np.eye(len(d)) + self._flexibility * (slope - self._springs)
-            matrix[:-1, -1] = -self._under_load * self._weights[-1] / self._weights[0]
+            matrix[:-1, :-1] = np.eye(len(d)) + self.flexibility * (slope - self.springs)
+            matrix[:-1, -1] = -self.under_load * self.weights[-1] / self.weights[0]
             matrix[-1] = self._along
-            left = place * self._length - self._along @ ((point - self._ends[0]) / self._weights)
+            left = place * self._length - self._along @ ((point - self._ends[0]) / self.weights)
             columns = np.zeros((len(point), 2))
-            columns[:, 0], columns[-1, 1] = np.append((deflection - point[:-1]) / self._weights[0], left), self._length
+            columns[:, 0], columns[-1, 1] = np.append((deflection - point[:-1]) / self.weights[0], left), self._length
             if not (np.isfinite(matrix).all() and np.isfinite(columns).all()):
                 break
             # Where the path branches the way to the other branch is left out
             solved = np.linalg.lstsq(matrix, columns, rcond=BRANCH)[0].T
-            change, rate = solved * self._weights
+            change, rate = solved * self.weights
             size, wrong = np.abs(solved[0]).max(), np.abs(columns[:, 0]).max()
             noise = ROUNDING if correction < MOST_CORRECTIONS // 2 else NOISE
             if wrong <= NOISE and (size <= SETTLED or (size <= noise and size >= before / 2 and not halved)):
@@ -238,11 +268,11 @@ class Arc:
         LostError
             The other supports soften too.
         """
-        values, vectors = np.linalg.eigh((self._flexibility + self._flexibility.T) / 2)
+        values, vectors = np.linalg.eigh((self.flexibility + self.flexibility.T) / 2)
         if values.min() < -NOISE * values.max():
             raise LostError
         root = vectors * np.sqrt(np.maximum(values, 0.0))
-        return np.linalg.eigvalsh(np.eye(len(values)) + root.T @ ((state.slope - self._springs)[:, None] * root))
+        return np.linalg.eigvalsh(np.eye(len(values)) + root.T @ ((state.slope - self.springs)[:, None] * root))
 
     def root(
         self, test: Callable[[State], float], low: float = -np.inf, high: float = np.inf, first: float = 0.0
@@ -302,7 +332,7 @@ class Arc:
         """
         found = {place: test(self.at(place)) for place in np.linspace(0.0, 1.0, CLOSE).tolist()}
         before, last = (self.at(place) for place in list(found)[-2:])
-        if np.abs((before.point + (last.at - before.at) * before.rate - last.point) / self._weights).max() > LONGEST:
+        if np.abs((before.point + (last.at - before.at) * before.rate - last.point) / self.weights).max() > LONGEST:
             raise LostError  # no path from one to the other
         states = []
         for a, b in pairwise(found):

@@ -306,6 +306,21 @@ class BranchPath(Pickled):
         factors = [segment.start, *between, segment.stop]
         return [self._step(segment.number if k else segment.first, factor) for k, factor in enumerate(factors)]
 
+    def at_dead_limits(self) -> list[Step]:
+        """Give the states on both sides of the jumps while the dead loads are put on; their factor is that of the dead loads.
+
+        Returns
+        -------
+        list of Step
+            None where settlements or lacks of fit grow with them.
+        """
+        found, h = [], self._history
+        for factor, (_, leg, before, landing) in zip(h.limit_factors.tolist(), h.limits.tolist(), strict=True):
+            if leg == 0 and self._dead is not None:
+                jumps = landing and not (landing == len(h.about) and self.ending)
+                found += [self._step(k - 1, factor) for k in (before, landing if jumps else 0) if k]
+        return found
+
     def step(self, segment: BranchSegment, factor: float) -> Step:
         """Give the state on a segment at a load factor.
 
@@ -321,6 +336,20 @@ class BranchPath(Pickled):
         Step
         """
         return self._step(segment.number, factor)
+
+    def begin(self, segment: BranchSegment) -> Step:
+        """Give the state with which a segment begins.
+
+        Parameters
+        ----------
+        segment : BranchSegment
+            One of the segments.
+
+        Returns
+        -------
+        Step
+        """
+        return self._step(segment.first, segment.start)
 
     def jumps_to(self, segment: BranchSegment) -> bool:
         """Whether a segment begins where a jump has landed.

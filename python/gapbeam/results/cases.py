@@ -28,6 +28,7 @@ from ..scene.refusals import refusal
 from ..scene.structs import Scene
 from ..scene.wording import key_of
 from .arguments import numbers, scheme
+from .compression import compression_of, pieces_in_sections, refused_cases
 from .following import choose_rule, starting_scheme
 from .result import Result, find_places
 from .solved_cases import Asked, Cases, case_in_block, cases_of, wanted_names
@@ -35,6 +36,8 @@ from .steps import LoadSteps
 from .varied import Given, SupportArrays, base_values, cases_in, replace_numbers, vary
 
 FLOAT = np.dtype(float)
+STATES = ("at_supports", "extremes", "places", "fields")
+"""Values of `Combined`."""
 
 
 class Prepared(Pickled):
@@ -58,6 +61,9 @@ class Prepared(Pickled):
         self.supports = read_only(np.flatnonzero(beam.across))
         # Columns of the supports of the engine; None if these are the same, one by one
         self._carries = None if np.array_equal(beam.numbers, self.supports) else np.searchsorted(self.supports, beam.numbers)
+        # What its effect on bending is, is left out: cases whose compression is beyond the Euler load are refused
+        axial = len(beam.across) - int(beam.across.sum())
+        self._may_buckle = (beam.bars >= 0 or axial > 1) and not scene.analysis.first_order
         self._one = self._one_case()
 
     def __getstate__(self) -> dict[str, Any]:
@@ -76,7 +82,7 @@ class Prepared(Pickled):
             return None
         split_loads(beam)
         short = len(self.scene.loads) > 0 and beam.links + 1 < FEW_NODES
-        if not short or beam.has_laws or self._carries is not None:
+        if not short or beam.has_laws or self._carries is not None or self._may_buckle:
             return None
         return OneCase(beam, self._rule)
 
@@ -114,7 +120,8 @@ class Prepared(Pickled):
         Returns
         -------
         Cases
-            A case that has no solution is recorded in `status`, and the others go on.
+            A case that has no solution is recorded in `status`, and the others go on; so is one whose axial compression is beyond
+            the Euler load (``Status.BAD_INPUT``), unless the scene has ``analysis.first_order = true``.
 
         Raises
         ------
@@ -191,9 +198,41 @@ class Prepared(Pickled):
         asked = Asked(self._beam, self._rule, many, found["closed"], varied, states, closed)
         if self._carries is not None:
             found = self._by_scene(found)
+        if self._may_buckle:
+            asked, found = self._refuse_buckling(asked, found)
         cases = cases_of({}, None, False) if out is None else out
         cases._fill(found, asked, count is None, again)
         return cases
+
+    def _refuse_buckling(self, asked: Asked, found: dict[str, np.ndarray]) -> tuple[Asked, dict[str, np.ndarray]]:
+        """Refuse cases whose compression is beyond the Euler load: their values are not-a-number, and what is asked later too."""
+        solved = found["status"] == Status.SOLVED
+        if self._beam.ground_layers:
+            refused = np.array([bool(solved[k]) and self._buckles(asked, k) for k in range(len(solved))], dtype=bool)
+        else:
+            sections = pieces_in_sections(self.scene, self._beam)
+            refused = solved & refused_cases(self._beam, asked.factors, self._rule, asked.closed, asked.varied, sections)
+        if not refused.any():
+            return asked, found
+        found = {name: values.copy() for name, values in found.items()}
+        for name, values in found.items():
+            values[refused] = Status.BAD_INPUT if name == "status" else 0 if values.dtype.kind == "i" else np.nan
+        factors = asked.factors.copy()
+        factors[refused] = np.nan
+        states = asked.states
+        if states is not None:
+            states = replace(
+                states, status=np.where(refused, Status.BAD_INPUT, states.status).astype(np.int32),
+                **{name: np.where(refused[:, None, None], np.nan, getattr(states, name)) for name in STATES},
+            )  # fmt: skip
+        return replace(asked, factors=factors, states=states), found
+
+    def _buckles(self, asked: Asked, k: int) -> bool:
+        """Whether a case on the ground does."""
+        given = asked.varied.supports, asked.varied.spans, asked.varied.moduli
+        varied = Varied(*(None if one is None else one[k : k + 1] for one in given))
+        found = self._result_of(asked.factors[k], varied).compression
+        return found is not None and found.is_refused
 
     def _fitting(self, out: Cases, want: str | Collection[str] | None, count: int | None) -> tuple[str, ...]:
         """Refuse cases that cannot be filled again with what is wanted; give what that is."""
@@ -333,6 +372,8 @@ class Prepared(Pickled):
         ------
         ValueError
             As for `solve`.
+        SceneError
+            Its axial compression is beyond the Euler load.
         EngineError
             No unique answer exists.
         """
@@ -340,8 +381,14 @@ class Prepared(Pickled):
         given = {"settlement": settlement, "gap": gap, "stiffness": stiffness, "EI": EI, "GA": GA, "k": k}
         if factors.ndim != 1 or cases_in({**given, "settlements": settlements}) is not None:
             raise ValueError(f"{'factors' if factors.ndim != 1 else 'numbers by case'}: expected one case")
+        result = self._result_of(factors, self._vary(settlements, given, 1))
+        if self._may_buckle and result.compression is not None and result.compression.is_refused:
+            raise result.compression.refusal()
+        return result
+
+    def _result_of(self, factors: np.ndarray, varied: Varied) -> Result:
+        """Solve one case with all that there is to say of it, whether the beam would buckle or not."""
         base, scene = self._beam, self.scene
-        varied = self._vary(settlements, given, 1)
         if not varied.is_nothing:
             scene, columns = replace_numbers(scene, base.columns, varied)
             try:
@@ -354,6 +401,8 @@ class Prepared(Pickled):
         fallen = result.steps.solve_all()
         if fallen is not None:
             result.refuse("in this load case", fallen[1])
+        for step in result.steps:
+            result.compression = compression_of(result, step)
         return result
 
 

@@ -192,9 +192,9 @@ class Combinations(Pickled, Mapping[str, Result]):
     def _in_scheme(self, k: int, other: int) -> Result:
         """Solve with the working scheme of another combination."""
         plan, before = self._plan, self[other]
-        if before.status != "solved":
+        if not before.stands:
             result = Result(plan.scene_of(k), self.beam_of(k), self._rule)
-            result.status = before.status
+            result.status, result.has_answer = "no-equilibrium" if before.status == "solved" else before.status, False
             result.reason = (
                 f"the combination {shown(plan.names[other])}, whose working scheme it takes, is not solved"
             )

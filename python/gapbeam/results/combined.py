@@ -11,7 +11,7 @@ import numpy as np
 from ..base.errors import WITHOUT_ANSWER, EngineError, SceneError, Status
 from ..base.memory import refuse_beyond
 from ..base.records import read_only
-from ..engine.beam import Beam
+from ..engine.beam import FIELDS, Beam
 from ..engine.combinations import Combined, all_combinations, solve_combinations
 from ..scene.columns import columns, curves
 from ..scene.combinations import Plan, plan_combinations
@@ -19,6 +19,7 @@ from ..scene.names import label
 from ..scene.structs import Scene
 from ..scene.wording import shown
 from .combinations import Combinations
+from .compression import WARNED, euler, larger
 from .envelope import Envelope, Source
 from .full_load import at_full_load, fields_on_sides
 from .result import Result
@@ -89,6 +90,7 @@ class CombinedResult(Result):
             f"result.combinations[{plan.names[0]!r}], or result.envelope()"
         )
         self.steps = NoSteps(self._words)
+        self._near: list[str] = []
         begin = perf_counter()
         # One solve each, or the whole way of the load, or trains that pass
         analysis = scene.analysis
@@ -99,8 +101,10 @@ class CombinedResult(Result):
         self._found, reasons = self._solve_at_once() if self._at_once else self._solve_one_by_one()
         self.statuses = tuple(reasons)
         self._combinations.take(self._found, self.statuses, self.fields_there)
+        self._check_compression()
         self._seconds = perf_counter() - begin
         self.remarks = [f"no combination has loads of the case {shown(case)}" for case in plan.idle]
+        self.remarks += self._near
         self.remarks += [words for k in range(len(plan)) if (words := self._doubt(k))]
         fallen = [k for k, status in enumerate(self.statuses) if status != "solved"]
         if fallen:
@@ -155,7 +159,7 @@ class CombinedResult(Result):
     def _doubt(self, k: int) -> str:
         """Say whether the scheme that a combination takes is not decided."""
         other = self._plan.scheme_of[k]
-        if other is None or self.statuses[other] != "solved":
+        if other is None or not self.combinations[other].stands:
             return ""
         before = self.combinations[other].steps[-1]
         if not before.undecided:
@@ -178,6 +182,24 @@ class CombinedResult(Result):
             raise SceneError(
                 f"combinations {shown(self.names[k])}", f"loads[{load}] times its factor is too great"
             )
+
+    def _check_compression(self) -> None:
+        """Refuse combinations whose compression is beyond the Euler load; those that are far below it are not looked at."""
+        if self.scene.analysis.first_order or not self._at_once:
+            return  # one by one they are checked as they are solved
+        with np.errstate(invalid="ignore"):
+            force = -self._found.extremes[:, FIELDS.index("axial_force"), 1]
+            least = euler(float(self.beam.places.pieces[:, 1].min()), 2.0 * self.beam.places.end)
+            near = force > WARNED * least
+        for k in np.flatnonzero(near).tolist():
+            self._note_compression(k)
+
+    def _note_compression(self, k: int) -> None:
+        """Keep the largest compression of all combinations, and what is to be said of it."""
+        one = self.combinations[k]
+        if one.compression is not None and larger(self.compression, one.compression) is one.compression:
+            self.compression = one.compression
+            self._near = [f"combination {shown(self.names[k])}: {remark}" for remark in one.remarks]
 
     def _solve_at_once(self) -> tuple[Combined, list[str]]:
         """Solve all in few calls of the engine, those in the scheme of others after them."""
@@ -223,6 +245,7 @@ class CombinedResult(Result):
             self.combinations.failed[k] = error.status
             result.refuse_answer(error)
             values = at_full_load(result)
+        self._note_compression(k)
         found.status[k] = Status.SOLVED if result.status == "solved" else Status.NO_EQUILIBRIUM
         found.at_supports[k], found.extremes[k], found.places[k], found.solves[k] = values
         return result.status
@@ -289,6 +312,11 @@ class CombinedResult(Result):
 
         own = [k for k, other in enumerate(self._plan.scheme_of) if other is None]
         return [hint for k in own for hint in find_hints(self.combinations[k], self.names[k])]
+
+    @property
+    def has_envelope(self) -> bool:
+        """Whether there is anything in the envelope."""
+        return "solved" in self.statuses or any(one.has_envelope for one in self.combinations.values())
 
     @property
     def fields_there(self) -> dict[str, int]:

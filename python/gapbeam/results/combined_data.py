@@ -6,7 +6,8 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 from .combined import CombinedResult
-from .data import event_data, ground_data, limit_data, step_data
+from .data import SCHEMA, event_data, ground_data, limit_data, step_data
+from .over_path import is_followed
 from .result import Result
 from .train_data import trains_data
 
@@ -30,6 +31,7 @@ def combined_data(result: CombinedResult, points: int = 20, combinations: Callab
     """
     scene = result.scene
     data: dict[str, Any] = {
+        "schema": SCHEMA,
         "title": scene.title,
         "units": {"force": scene.units.force, "length": scene.units.length},
         "status": result.status,
@@ -38,9 +40,13 @@ def combined_data(result: CombinedResult, points: int = 20, combinations: Callab
         data["reason"] = result.reason
     if result.remarks:
         data["remarks"] = result.remarks
+    if result.compression is not None:
+        data["compression"] = result.compression.to_dict()
     data["combinations"] = combinations(_each(result))
     data |= trains_data(result)
-    if "solved" in result.statuses:
+    if is_followed(result):
+        data["history_extremes"] = result.history_extremes().to_history()
+    if result.has_envelope:
         data["envelope"] = result.envelope(points).to_dict()
     return data
 
@@ -56,10 +62,14 @@ def _one(result: Result) -> dict[str, Any]:
     if result.status != "solved":
         data["reason"] = result.reason
         data["motion"] = None if result.motion is None else [list(pair) for pair in result.motion]
+    if result.without_trains is not None:
+        data["without_trains"] = result.without_trains
     if result.limits:
         data["limit"] = limit_data(result)
     if result.scene.analysis.follow == "events":
         data["events"] = [event_data(event, result.scene) for event in result.events]
+    if result.compression is not None:
+        data["compression"] = result.compression.to_dict()
     if not result.steps:
         return data
     steps = list(step_data(result))

@@ -13,15 +13,18 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..base.errors import EngineError
+from ..base.errors import EngineError, Status
 from ..base.records import Pickled, read_only
 from ..engine.arrays import History
 from ..engine.beam import GIVEN, Beam
 from .arc import Arc, LostError, Point, State
+from .branching import Tracer
 from .kinks import passed_kinks
 from .smooth import SmoothLaws
 from .step import Step
 
+LIMIT_POINT, BIFURCATION = 1, 2
+"""Kinds of limits, as in the engine."""
 THROUGH, GIVEN_FACTOR, TURNS_ROUND, BRANCHES, EVENT, UNKNOWN = range(6)
 """What there is between two stretches."""
 NEAR = 1e-9
@@ -65,6 +68,7 @@ class CurvedPath(Pickled):
         # Where no force falls there is one state only, and tangents lead to it
         self._unique = bool((h.kinks[:, 2:] >= 0.0).all())
         self._points: dict[tuple[int, int], np.ndarray] = {}
+        self._traced: tuple[int, Tracer, list[np.ndarray]] | None = None
         # Where a jump has landed, a stretch begins at the load factor of the limit
         landings = (h.limits[h.limits[:, 3] > 0, 3] - 1).tolist()
         self._landings = {k for k in landings if h.about[k - 1, 4] and not h.about[k, 4]}
@@ -81,6 +85,8 @@ class CurvedPath(Pickled):
             except LostError:
                 if self._joins[k] == GIVEN_FACTOR and not self._unique:
                     self._miss(k)
+            if self._traced is not None:
+                break
             k = turns[-1] + 1 if turns else k + 1
         for j, (_, leg, before, landing) in enumerate(self.history.limits):
             self.history.limit_factors[j] = self.history.along[before - 1, 1] if before else self.history.limit_factors[j]
@@ -192,6 +198,10 @@ class CurvedPath(Pickled):
             if leg == h.about[-1, 0] and direction == way and way * (state.factor - goal) > 0.0:
                 self._miss(k)  # what happens there does so beyond
         self._keep(k, state)
+        if join == BRANCHES and index == 0:
+            leg = int(self._rough.about[k, 0])
+            if leg > 0 and direction == np.sign(self._goal(leg) - self._begin(leg)):
+                self._branch_off(k, arc, state, leg)
         if join == GIVEN_FACTOR:
             self.history.along[k, 1] = self._rough.along[k, 1]  # there to the last digit, or no step is found there
         if join == EVENT:
@@ -200,6 +210,50 @@ class CurvedPath(Pickled):
             except LostError:
                 self._forget(k)
                 raise
+
+    def _branch_off(self, k: int, arc: Arc, state: State, leg: int) -> None:
+        """Go on from a bifurcation on the laws: on the polylines chance decides whether stable ways go on there."""
+        h, goal = self.history, self._target
+        way = int(self._rough.about[k, 1])
+        last = leg == int(self._rough.about[-1, 0])
+        tracer = Tracer(arc, state)
+        try:
+            points, arrives, lost = tracer.follow(way, goal if last else self._goal(leg))
+        except LostError:
+            return
+        stays = len(points) == 1  # no way on is stable
+        is_limit = bool((h.limits[:, 2] == k + 1).any())
+        if stays and is_limit:
+            return
+        if not self._stops or lost or (arrives and not last):
+            if stays or is_limit or lost:
+                raise EngineError(
+                    f"at load factor {state.factor:.9g} equal smooth laws soften together, and how the beam goes on from there "
+                    'cannot be followed on them: use at_limit = "stop" without further load factors, or make one of them differ '
+                    "a little",
+                    Status.NOT_CONVERGED,
+                )
+            return
+        self._traced = k + 1, tracer, points
+        kept = np.append(np.arange(k + 1), [] if stays else k).astype(int)
+        about, along = h.about[kept], h.along[kept]
+        if not stays:
+            about[-1, 1:], along[-1] = (way, 0, 2, 0), (state.factor, points[-1][-1])
+            self._points[k + 1, 0], self._points[k + 1, 1] = state.deflection, points[-1][:-1]
+        about[:, 4] = np.where(np.arange(len(about)) >= k + 1, 0, about[:, 4])
+        limits, factors = h.limits[h.limits[:, 2] <= k], h.limit_factors[h.limits[:, 2] <= k]
+        if not arrives:
+            limits = np.vstack([limits, [BIFURCATION if stays else LIMIT_POINT, leg, len(kept), 0]]).astype(h.limits.dtype)
+            factors = np.append(factors, points[-1][-1])
+        others = h.others[:, 0] <= k + 1
+        cut = {
+            "closed": h.closed[kept], "kinks": h.kinks[kept], "others": h.others[others], "other_schemes": h.other_schemes[others],
+            "limits": limits, "limit_factors": factors, "ending": "" if arrives else "ended", "motion": None,
+        }  # fmt: skip
+        self.history = replace(h, about=about, along=along, **cut)
+        self._rough = replace(self._rough, about=about.copy(), along=along.copy(), **cut)
+        self._landings = {landing for landing in self._landings if landing <= k}
+        self._joins = [*self._joins[: k + 1], *([] if stays else [GIVEN_FACTOR if arrives else UNKNOWN])]
 
     def _leave(self, k: int, state: State) -> None:
         """Whether the load goes as it does on the polylines after an event."""
@@ -373,11 +427,14 @@ class CurvedPath(Pickled):
         along, direction = self.history.along, self._rough.about[k, 1]
         for at, end in ((first, 0), (last, 1)):
             if (at, end) in self._points and along[at, end] == factor:
-                beam, deflection = self.beam(at), self._points[at, end]
-                laws = SmoothLaws(beam)
-                d, way = laws.past_the_gap(deflection)
-                beam = laws.with_lines(beam, deflection, laws.forces_and_slopes(d)[0] * way, laws.springs(deflection))
-                return Step(beam, factor, GIVEN, self.closed(at), settled=True)
+                return self._through(at, self._points[at, end], factor)
+        if self._traced is not None and self._traced[0] == k:
+            _, tracer, points = self._traced
+            try:
+                deflection = tracer.at_factor(points, factor)[:-1]
+            except LostError:
+                return Step(self.beam(k), factor, GIVEN, self.closed(k), settled=True, exact=False)
+            return self._through(k, deflection, factor)
         unknown = self._joins[last] != THROUGH and not self.is_exact(last) and factor == along[last, 1]
         k = next((k for k in range(first, last + 1) if direction * (along[k, 1] - factor) >= 0.0), last)
         try:
@@ -388,3 +445,9 @@ class CurvedPath(Pickled):
             by_tangents = self._unique and not unknown
             return Step(self.beam(k), factor, GIVEN, self.closed(k), settled=not by_tangents, exact=by_tangents)
 
+    def _through(self, k: int, deflection: np.ndarray, factor: float) -> Step:
+        """Give the state on a stretch with known deflections at the laws."""
+        laws = SmoothLaws(self.beam(k))
+        d, way = laws.past_the_gap(deflection)
+        beam = laws.with_lines(laws.beam, deflection, laws.forces_and_slopes(d)[0] * way, laws.springs(deflection))
+        return Step(beam, factor, GIVEN, self.closed(k), settled=True)

@@ -9,10 +9,14 @@ from ..scene.structs import Scene
 from .branches import BranchPath
 from .fields import Fields
 from .ground_path import GroundEvent
+from .over_path import is_followed
 from .path import Event
 from .result import Result
 from .step import Step
 from .train_data import trains_data
+
+SCHEMA = "gapbeam-result 1"
+"""What the form of the JSON output is called; the number grows when a program that reads it has to change."""
 
 
 def result_data(
@@ -48,6 +52,7 @@ def result_data(
     scene = result.scene
     columns = fields(result.fields(points=points)) if result.steps else {}
     data: dict[str, Any] = {
+        "schema": SCHEMA,
         "title": scene.title,
         "units": {"force": scene.units.force, "length": scene.units.length},
         "status": result.status,
@@ -59,6 +64,8 @@ def result_data(
         data["motion"] = None if result.motion is None else [list(pair) for pair in result.motion]
     if result.limits:
         data["limit"] = limit_data(result)
+    if result.remarks:
+        data["remarks"] = result.remarks
     if scene.analysis.follow == "events":
         data["events"] = [event_data(event, scene) for event in result.events]
     if result.steps:
@@ -66,7 +73,10 @@ def result_data(
         data["extremes"] = {
             name: {which: list(pair) for which, pair in row.items()} for name, row in result.extremes().items()
         }
+    if is_followed(result):
+        data["history_extremes"] = result.history_extremes().to_history()
     if scene.trains:
+        data |= {} if result.without_trains is None else {"without_trains": result.without_trains}
         data |= trains_data(result)
         data["envelope"] = result.envelope(points).to_dict()
     return data

@@ -17,6 +17,7 @@ from .tables import curves_with_sources, support_places
 if TYPE_CHECKING:
     from .ground_envelope import GroundExtreme
     from .result import Result
+    from .step import Step
 
 AT_SUPPORTS = ("reaction", "deflection", "opening", "couple")
 """Rows of the values at supports."""
@@ -35,9 +36,16 @@ class Source(NamedTuple):
     ----------
     combination : str or None
         Name of the combination; None in a scene without any.
+    factor : float or None
+        Load factor, over the whole way of the load; None at full load.
+    leg : int or None
+        Which factor of the history was gone to there, from 0; -1 at a limit while the dead loads were put on, whose factor
+        it is then.
     """
 
     combination: str | None = None
+    factor: float | None = None
+    leg: int | None = None
 
     def to_dict(self) -> dict[str, Any]:
         """As plain data.
@@ -51,7 +59,7 @@ class Source(NamedTuple):
 
 
 class Extreme:
-    """The largest or smallest value of a quantity over all combinations.
+    """The largest or smallest value of a quantity over all combinations, or over the way of the load.
 
     Attributes
     ----------
@@ -82,6 +90,16 @@ class Extreme:
         return self.source.combination
 
     @property
+    def factor(self) -> float | None:
+        """Load factor it comes from, over the whole way of the load; else None."""
+        return self.source.factor
+
+    @property
+    def leg(self) -> int | None:
+        """Which factor of the history was gone to there, from 0; else None."""
+        return self.source.leg
+
+    @property
     def result(self) -> Result:
         """The result of that combination."""
         return self._of.result_of(self._which)
@@ -106,7 +124,8 @@ class Extreme:
         if self.support is not None:
             rows = self._of.at_supports[self._which, :, self.support].tolist()
             return {name: value for name, value in zip(AT_SUPPORTS, rows, strict=True) if name != self.quantity}
-        both = [self.result.at(self.x, side=side).columns() for side in ("right", "left")]
+        state = self._of.state_of(self._which)
+        both = [self.result.at_state(state, self.x, side).columns() for side in ("right", "left")]
         there = min(both, key=lambda fields: abs(float(fields[self.quantity]) - self.value))
         return {name: float(value) for name, value in there.items() if name not in ("x", self.quantity)}
 
@@ -205,14 +224,15 @@ class SupportExtremes(Sequence):
         -------
         dict
             ``support`` (name or number), ``x``, and of every quantity ``reaction_max`` and ``reaction_min``, in a scene with
-            combinations each with the first one it comes from, ``reaction_max_combination``.
+            combinations each with the first one it comes from, ``reaction_max_combination``; over the way of the load with
+            ``reaction_max_factor`` and ``reaction_max_leg``.
         """
         found, supports = support_places(self._of.scene), np.arange(len(self))
         for i, (name, row) in enumerate(zip(OF_SUPPORTS, self._rows, strict=True)):
             for kind, which in self._of_all.items():
                 found[f"{name}_{kind}"] = self._of.at_supports[which[i], row, supports]
-                if self._of.scene.combinations:
-                    found[f"{name}_{kind}_combination"] = [self._of.sources[k].combination for k in which[i].tolist()]
+                for key in self._of.keys:
+                    found[f"{name}_{kind}_{key}"] = [getattr(self._of.sources[k], key) for k in which[i].tolist()]
         return found
 
 
@@ -235,7 +255,11 @@ class Envelope:
         self, scene: Scene, fields: dict[str, int], sources: Sequence[Source], at_supports: np.ndarray, extremes: np.ndarray,
         places: np.ndarray, result_of: Callable[[int], Result],
         curves: Callable[[], tuple[np.ndarray, Iterator[tuple[slice, np.ndarray]]]], on_both_sides: bool,
+        state_of: Callable[[int], Step] | None = None, keys: Sequence[str] | None = None,
     ):  # fmt: skip
+        self.state_of = (lambda k: result_of(k).steps[-1]) if state_of is None else state_of
+        # What of a source tells where a value comes from
+        self.keys = (["combination"] if scene.combinations else []) if keys is None else keys
         self.scene, self.sources, self.at_supports, self.result_of = scene, list(sources), at_supports, result_of
         self._fields, self._values, self._places, self._make = fields, extremes, places, curves
         self._on_both_sides = on_both_sides  # are the second half of the curves' places the first ones again, from the left
@@ -258,7 +282,7 @@ class Envelope:
         float
         """
         if k not in self._bounds:
-            bounds = self.result_of(k).steps[-1].error_bounds
+            bounds = self.state_of(k).error_bounds
             self._bounds[k] = {name: bound or 0.0 for name, bound in bounds.items()}
         return self._bounds[k].get("deflection" if quantity == "opening" else quantity, 0.0)
 
@@ -319,9 +343,9 @@ class Envelope:
         -------
         dict
             ``x``, of every field its largest and smallest values (``moment_max``), and in a scene with combinations the one that
-            gives them (``moment_max_combination``).
+            gives them (``moment_max_combination``); over the way of the load ``moment_max_factor`` and ``moment_max_leg``.
         """
-        return curves_with_sources(self.fields, self.sources, ["combination"] if self.scene.combinations else [])
+        return curves_with_sources(self.fields, self.sources, self.keys)
 
     def to_dict(self) -> dict[str, Any]:
         """Everything as plain data, in the form of the JSON output.

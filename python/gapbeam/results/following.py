@@ -14,6 +14,7 @@ from ..scene.structs import Scene
 from ..scene.wording import shown
 from .arguments import scheme
 from .branches import follow_branches
+from .compression import check_compression
 from .ground_path import follow_on_ground
 from .path import follow
 from .result import Result
@@ -52,16 +53,21 @@ def follow_load(scene: Scene, beam: Beam, rule: str, closed: np.ndarray) -> Resu
         _refuse_on_ground(scene, beam)
     refuse_trains(scene, beam)
     if not scene.trains:
-        return _follow(result, closed)
+        _follow(result, closed)
+        check_compression(result)
+        return result
     result.trains.pass_all()
     try:
-        return _follow(result, closed)
+        _follow(result, closed)
+        check_compression(result)
     except EngineError as error:
         if error.status not in WITHOUT_ANSWER:
             raise
         advice = "; or give it loads that stay, such as its own weight, and have them in every combination"
         more = advice if error.status == Status.NOT_CONVERGED else ""
         raise EngineError(f"without its trains {error}{more}", error.status) from None
+    result.take_trains()
+    return result
 
 
 def _follow(result: Result, closed: np.ndarray) -> Result:
@@ -86,13 +92,15 @@ def _follow(result: Result, closed: np.ndarray) -> Result:
 
 def _refuse_beyond_bounds(result: Result) -> None:
     """Refuse a path along polylines of laws that tend to a force, where the laws themselves cannot carry the load at its end."""
-    last = result.segments[-1]
-    with suppress(EngineError):  # that is said where the step is looked at
-        found = solve_step(result.beam, last.stop, result.rule, result.path.closed(last))
-        if isinstance(found, Solution):
-            result.path = None
-            result.steps = LoadSteps(result.beam, result.rule, starting_scheme(result.beam), 0)
-            result.refuse(f"at load factor {last.stop:g}", found.motion)
+    ends = {getattr(segment, "leg", 0): segment for segment in result.segments}  # of every factor of a history
+    for last in ends.values():
+        with suppress(EngineError):  # that is said where the step is looked at
+            found = solve_step(result.beam, last.stop, result.rule, result.path.closed(last))
+            if isinstance(found, Solution):
+                result.path = None
+                result.steps = LoadSteps(result.beam, result.rule, starting_scheme(result.beam), 0)
+                result.refuse(f"at load factor {last.stop:g}", found.motion)
+                return
 
 
 def _refuse_on_ground(scene: Scene, beam: Beam) -> None:
@@ -113,6 +121,10 @@ def _on_path(result: Result) -> Result:
     if by_steps and analysis.history != [1.0]:
         raise SceneError("analysis.history", 'a history needs follow = "events"')
     result.path = follow_branches(result)
+    if result.beam.curves and not result.beam.depends_on_path and result.status == "solved":
+        _refuse_beyond_bounds(result)
+        if result.path is None:
+            return result
     factors = [(k + 1) / analysis.steps for k in range(analysis.steps)] if by_steps else None
     result.steps = PathSteps(result.beam, result.rule, result.path, factors)
     return result

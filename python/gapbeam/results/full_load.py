@@ -12,6 +12,7 @@ from .envelope import Envelope, Source
 
 if TYPE_CHECKING:
     from .result import Result
+    from .step import Step
 
 
 def envelope_of_one(result: Result, points: int, x: np.ndarray | None = None) -> Envelope:
@@ -53,8 +54,8 @@ def envelope_of_one(result: Result, points: int, x: np.ndarray | None = None) ->
     )
 
 
-def fields_on_sides(result: Result, x: np.ndarray, left: np.ndarray) -> np.ndarray:
-    """Give the fields of the last state at places, each on its side.
+def fields_on_sides(result: Result, x: np.ndarray, left: np.ndarray, state: Step | None = None) -> np.ndarray:
+    """Give the fields of a state at places, each on its side.
 
     Parameters
     ----------
@@ -64,6 +65,8 @@ def fields_on_sides(result: Result, x: np.ndarray, left: np.ndarray) -> np.ndarr
         Places.
     left : numpy.ndarray of bool
         Where the value left of the place is meant.
+    state : Step, optional
+        Default the last one.
 
     Returns
     -------
@@ -72,7 +75,7 @@ def fields_on_sides(result: Result, x: np.ndarray, left: np.ndarray) -> np.ndarr
     """
     values = np.full((len(x), 7), np.nan)
     for side, which in (("left", left), ("right", ~left)):
-        found = result.at(x[which], side=side).columns()
+        found = result.at_state(result.steps[-1] if state is None else state, x[which], side).columns()
         for name, column in result.beam.fields.items():
             values[which, column] = found[name]
     return values
@@ -97,7 +100,7 @@ def at_full_load(result: Result) -> tuple[np.ndarray, np.ndarray, np.ndarray, in
     """
     at_supports = np.full((4, len(result.scene.supports)), np.nan)
     extremes, places = np.full((2, len(FIELDS), 2), np.nan)
-    if result.status == "solved":
+    if result.stands:
         at_supports = result.steps[-1].solution.at_supports
         for name, row in result.extremes().items():
             column = FIELDS.index(name)

@@ -89,7 +89,7 @@ def find_ground_extremes(of: Envelope, solved: Sequence[int]) -> list[dict[str, 
     count = len(of.scene.foundation)
     resultants, spans = np.zeros((len(solved), count)), [[] for _ in range(count)]
     for row, k in enumerate(solved):
-        step = of.result_of(k).steps[-1]
+        step = of.state_of(k)
         for zone in step.contact:
             resultants[row, zone.foundation] += zone.resultant
         for span in step.free_spans:

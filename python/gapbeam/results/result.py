@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..base.errors import WITHOUT_ANSWER, EngineError
+from ..base.errors import EngineError
 from ..base.memory import refuse_beyond
 from ..base.records import Pickled
 from ..engine.arrays import Solution
@@ -30,9 +30,11 @@ from .system import System, system_of
 
 if TYPE_CHECKING:
     from .branches import BranchPath, Limit
+    from .compression import Compression
     from .envelope import Envelope
     from .ground_path import GroundEvent, GroundPath
     from .hints import Hint
+    from .over_path import PathEnvelope
     from .path import Event, Path, Segment
     from .train_envelope import TrainEnvelope
     from .train_members import Member
@@ -64,6 +66,16 @@ class Result(Pickled):
         its scheme; its values are solved for when it is looked at.
     path : Path, BranchPath, GroundPath or None
         Following events, the schemes along the load; with supports whose state depends on it always.
+    without_trains : str or None
+        Why the beam cannot stand while no train is on it, which is not in the envelope and does not count for `status`; None
+        where it can, and in scenes without trains.
+    has_answer : bool
+        Whether there is a unique answer, be it that the beam cannot stand.
+    compression : Compression or None
+        The largest axial compression beside the Euler load in all steps, and while trains pass: what its effect on bending is,
+        is left out. None where nothing is compressed.
+    remarks : list of str
+        What else is to be known: compression that comes near the Euler load.
     """
 
     __hash__ = None
@@ -77,6 +89,10 @@ class Result(Pickled):
         self.beam = beam
         self.rule = rule
         self.path: Path | BranchPath | GroundPath | None = None
+        self.without_trains: str | None = None
+        self.has_answer = True
+        self.compression: Compression | None = None
+        self.remarks: list[str] = []
 
     def __eq__(self, other: object) -> bool:
         """Whether scene, outcome, events and all steps are equal."""
@@ -140,10 +156,23 @@ class Result(Pickled):
         self.reason = f"no equilibrium {where}: {describe_motion(self.beam, motion)}"
         self.motion = list(zip(self.beam.node_x.tolist(), motion.tolist(), strict=True))
 
+    def take_trains(self) -> None:
+        """Take the outcome from the positions of the trains; what the beam does without them is no part of the envelope."""
+        from .train_data import lost_positions
+
+        self.without_trains = self.reason
+        lost = lost_positions(self.trains)
+        self.status, self.reason = lost or ("solved", None)
+
     @property
-    def has_answer(self) -> bool:
-        """Whether there is a unique answer, be it that the beam cannot stand."""
-        return self.status not in (status.word for status in WITHOUT_ANSWER)
+    def stands(self) -> bool:
+        """Whether the beam stands under all loads but the trains."""
+        return self.without_trains is None if self.scene.trains and self.has_answer else self.status == "solved"
+
+    @property
+    def has_envelope(self) -> bool:
+        """Whether there is anything in an envelope; with trains positions may be left out of it."""
+        return self.status == "solved" or bool(self.scene.trains and self.has_answer)
 
     def refuse_answer(self, error: EngineError) -> None:
         """Note that there is no unique answer.
@@ -153,7 +182,7 @@ class Result(Pickled):
         error : EngineError
             What stands in its way.
         """
-        self.status, self.reason, self.path = error.status.word, str(error), None
+        self.status, self.reason, self.path, self.has_answer = error.status.word, str(error), None, False
         self.steps = LoadSteps(self.beam, self.rule, np.ones(self.beam.supports, dtype=np.int32), 0)
 
     def refuse_limit(self, path: BranchPath) -> None:
@@ -256,12 +285,34 @@ class Result(Pickled):
         IndexError
             There is no such step.
         """
+        return self.at_state(self._chosen(step, factor), x, side)
+
+    def at_state(self, state: Step, x: Any, side: str = "right") -> Fields:
+        """Exact values anywhere along the beam in a state of it, for example the landing of a limit.
+
+        Parameters
+        ----------
+        state : Step
+            The state.
+        x, side
+            As for `at`.
+
+        Returns
+        -------
+        Fields
+            Arrays of the shape of `x`.
+
+        Raises
+        ------
+        ValueError
+            As for `at`.
+        """
         x = np.array(numbers("x", x))
         piece, distance = find_places(self.beam, x.ravel(), side)
-        return self._fields(x, piece, distance, self._chosen(step, factor))
+        return self._fields(x, piece, distance, state)
 
     def _fields(self, x: np.ndarray, piece: np.ndarray, distance: np.ndarray, state: Step) -> Fields:
-        values = self.beam.values(state.factor, state.starts, state.solution, piece, distance)
+        values = state.values(piece, distance)
         return Fields(x, **{name: values[row].reshape(x.shape) for name, row in self.beam.fields.items()})
 
     def fields(self, step: int | None = None, points: int = 20) -> Fields:
@@ -331,7 +382,7 @@ class Result(Pickled):
         return {}
 
     def envelope(self, points: int = 20, *, x: Any = None) -> Envelope | TrainEnvelope:
-        """Largest and smallest values: with trains over all their positions, else at full load in the form of combinations.
+        """Largest and smallest values: with trains over all their positions, else over the whole way of the load.
 
         Parameters
         ----------
@@ -343,6 +394,8 @@ class Result(Pickled):
         Returns
         -------
         Envelope or TrainEnvelope
+            Following events, a history or load steps a `PathEnvelope`, each value with its load factor; up to a limit load, where
+            there is one. Else at full load.
 
         Raises
         ------
@@ -350,12 +403,53 @@ class Result(Pickled):
             The beam is not solved, or a place is outside the beam.
         """
         from .full_load import envelope_of_one
+        from .over_path import is_followed
         from .train_envelope import TrainEnvelope, places_given
 
         places = places_given(self.beam, x)
         if self.scene.trains:
             return TrainEnvelope(self, list(self.members()), places, whole("points", points, least=1))
+        if is_followed(self):
+            return self.history_extremes(points, x=x)
         return envelope_of_one(self, points, places)
+
+    def history_extremes(self, points: int = 20, *, x: Any = None) -> PathEnvelope:
+        """Largest and smallest values over the whole way of the load, without trains; with combinations over the ways of all.
+
+        Parameters
+        ----------
+        points, x
+            As for `envelope`.
+
+        Returns
+        -------
+        PathEnvelope
+            Exact for a path from event to event; with smooth laws and on foundations of states along it; else of the load steps.
+
+        Raises
+        ------
+        ValueError
+            The load is not followed, no state stands, or a place is outside the beam.
+        """
+        from .over_path import PathEnvelope, is_followed
+        from .train_envelope import places_given
+
+        points, places = whole("points", points, least=1), places_given(self.beam, x)
+        if not is_followed(self):
+            raise ValueError('the load is not followed; give load steps, a history or follow = "events"')
+        if x is not None or points != 20:
+            return PathEnvelope(self, points, places)
+        return self._over_path
+
+    @cached_property
+    def _over_path(self) -> PathEnvelope:
+        from .over_path import PathEnvelope
+
+        return PathEnvelope(self)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Pickle without what is found again when it is asked for."""
+        return {key: value for key, value in self.__dict__.items() if key != "_over_path"}
 
     def members(self) -> Iterator[Member]:
         """Go through what an envelope with trains is made of.
@@ -401,7 +495,7 @@ class Result(Pickled):
             There is no such step.
         """
         state = self._chosen(step)
-        values, x = self.beam.extremes(state.factor, state.starts, state.solution)
+        values, x = state.extremes()
         return {
             name: {"max": (float(values[0, k]), float(x[0, k])), "min": (float(values[1, k]), float(x[1, k]))}
             for name, k in self.beam.fields.items()

@@ -26,6 +26,10 @@ LAST_DIGIT = np.finfo(float).eps / 2
 """Share of a force by which a tangent at the solution is beside its curve at most."""
 ROUNDING = 1e-13
 """The same where more tangents bring no more digits."""
+AUDITED = 16
+"""So many times that a force may be off its curve when all is done."""
+LESS = 1e-9
+"""Share by which laws are taken to give less than all that they can, to see whether anything else holds the beam."""
 NOT_MET = "the smooth laws of the supports could not be met: give them as polylines"
 
 
@@ -110,6 +114,67 @@ class SmoothLaws:
         is_left = (force == 0.0) & (self.side * moved < 0.0)
         return bool(np.all((moved == 0.0) | gives_all | is_left))
 
+    def at_capacity(self, beam: Beam, factor: float, solution: Solution) -> Solution | None:
+        """Tell whether the load is, to the last digit, all that the laws can ever give, so that no finite displacement carries it.
+
+        Parameters
+        ----------
+        beam : Beam
+            With tangents instead of the laws.
+        factor : float
+            Load factor.
+        solution : Solution
+            Solved with these.
+
+        Returns
+        -------
+        Solution or None
+            That there is no equilibrium; None where there is.
+        """
+        deflection, reaction = self.deflections(solution), self.reactions(solution)
+        d, way = self.past_the_gap(deflection)
+        force, bound = way * reaction, np.array([curve.bound() for curve in self.curves])
+        full = force >= (1.0 - DIGITS) * bound
+        if not full.any():
+            return None
+        # A little less, and level: does anything else hold the beam
+        slope = np.where(full, 0.0, self.forces_and_slopes(d)[1])
+        force = np.where(full, (1.0 - LESS) * bound, force)
+        try:
+            found = self.with_lines(beam, deflection, force * way, slope).solve(factor, "block", solution.closed)
+        except EngineError:
+            return None
+        falls = found.status == NO_EQUILIBRIUM and not found.slides
+        return found if falls and self.let_go(found.motion, np.where(full, bound, force), way) else None
+
+    def audit(self, reached: np.ndarray, d: np.ndarray, given: np.ndarray, size: float) -> None:
+        """Refuse forces that are not on the laws.
+
+        Parameters
+        ----------
+        reached, d : numpy.ndarray
+            Forces and displacements past the gap.
+        given : numpy.ndarray of bool
+            Which displacements are those of the forces.
+        size : float
+            The largest displacement, of which `d` is known to rounding.
+
+        Raises
+        ------
+        EngineError
+            They are off by more than rounding.
+        """
+        force, slope = self.forces_and_slopes(d)
+        with np.errstate(invalid="ignore"):
+            terms = np.abs(force) + slope * size
+            # What rounding makes of the largest may be at one that only touches
+            off = np.abs(force - reached) > AUDITED * (ROUNDING * terms + LAST_DIGIT * np.abs(reached).max(initial=0.0))
+        if np.any(off & ~given):
+            where = int(np.flatnonzero(off & ~given)[0])
+            number = int(self._numbers[where])
+            raise EngineError(f"supports[{number}].law: the result does not stand its own audit: the force is not that of "
+                              "the law at the deflection; give the law as a polyline, and report the scene", Status.NOT_CONVERGED)
+
     def with_lines(self, beam: Beam, deflection: np.ndarray, force: np.ndarray, slope: np.ndarray) -> Beam:
         """Make the beam with lines instead of the laws.
 
@@ -183,14 +248,15 @@ def solve_on_curves(beam: Beam, factor: float, solution: Solution, rule: str = G
             break  # beyond the range of doubles
         size = np.maximum(np.abs(moved), np.abs(laws.gap))
         if np.all(np.abs(d - before) <= (DIGITS * size if tangents < USUAL_TANGENTS else ROUNDING * size.max())):
-            return beam, replace(solution, solves=solves)
+            laws.audit(reached, d, given, size.max(initial=0.0))
+            return beam, replace(laws.at_capacity(beam, factor, solution) or solution, solves=solves)
         if tangents and not given.any():
             # The tangents have met the curves to the last digit: another round would move the displacements by rounding alone
             force, slope = laws.forces_and_slopes(d)
             with np.errstate(invalid="ignore"):
                 met = np.abs(force - reached) <= LAST_DIGIT * (np.abs(force) + slope * size)
             if met.all():
-                return beam, replace(solution, solves=solves)
+                return beam, replace(laws.at_capacity(beam, factor, solution) or solution, solves=solves)
         # From a flat part of a curve the tangent may lead to its other side: first nearer, on this side
         overshot = (before > 0.0) & ((d <= 0.0) | (way != way_before)) & (np.isfinite(before)) & (shortened < MOST_SHORTENED)
         d, way = np.where(overshot, before / 8, d), np.where(overshot, way_before, way)

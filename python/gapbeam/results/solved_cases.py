@@ -86,8 +86,9 @@ class Cases:
     Attributes
     ----------
     status : numpy.ndarray of int
-        0 solved, 1 no equilibrium, above 10 another reason why there is no unique answer; `Prepared.result` of that case
-        says it in words. Values of a case that is not solved are not-a-number.
+        0 solved, 1 no equilibrium, above 10 another reason why there is no unique answer, or why it is refused (11: its axial
+        compression is beyond the Euler load); `Prepared.result` of that case says it in words.
+        Values of a case that is not solved are not-a-number.
     closed : numpy.ndarray of int
         1 where a support across the beam acts, 0 where it is open or the case is not solved; in the order of the scene.
     reaction : numpy.ndarray

@@ -131,6 +131,11 @@ class Step(Pickled):
         """Couple of each support on the beam, positive clockwise; a rotational restraint acts at open supports too."""
         return self.solution.at_supports[3]
 
+    @property
+    def kinks(self) -> np.ndarray:
+        """The laws of the supports as they are in this state, as `Beam.kinks`."""
+        return self._beam.kinks
+
     @cached_property
     def set(self) -> np.ndarray:
         """Permanent set of each support with plastic unloading (length, in the direction in which it gives way), else 0."""
@@ -224,6 +229,29 @@ class Step(Pickled):
     def free_spans(self) -> tuple[FreeSpan, ...]:
         """The stretches in which the beam has no contact with ground that is there."""
         return find_free_spans(self.runs)
+
+    def extremes(self) -> tuple[np.ndarray, np.ndarray]:
+        """Exact extremes of all fields.
+
+        Returns
+        -------
+        values, x : numpy.ndarray
+            Maximum and minimum (rows) of every field in the order of FIELDS (columns), and where they are.
+        """
+        return self._beam.extremes(self.factor, self.starts, self.solution)
+
+    def values(self, piece: np.ndarray, distance: np.ndarray) -> np.ndarray:
+        """Fields at given distances from the left ends of pieces, as `Beam.values`: with the loads that act in this state."""
+        return self._beam.values(self.factor, self.starts, self.solution, piece, distance)
+
+    def forgotten(self) -> Step:
+        """The same step that has not been solved yet: of many steps only what is looked at should be in memory.
+
+        Returns
+        -------
+        Step
+        """
+        return Step(self._beam, self.factor, self._rule, self._start, self._known, self._settled, self.exact)
 
     @cached_property
     def starts(self) -> np.ndarray:

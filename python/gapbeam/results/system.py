@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from ..engine.beam import METHODS
 
 if TYPE_CHECKING:
+    from .compression import Compression
     from .result import Result
 
 
@@ -28,7 +29,9 @@ class System:
     axial_unknowns : int
         Unknowns of the separate axial system.
     left_out : tuple of str
-        What the scene did not need.
+        What the scene did not need; and ``second order``, the effect of axial forces on bending, where something is compressed.
+    compression : Compression or None
+        How large that is: the largest compression beside the Euler load.
     """
 
     nodes: int
@@ -37,6 +40,7 @@ class System:
     method: str
     axial_unknowns: int
     left_out: tuple[str, ...]
+    compression: Compression | None = None
 
     def asdict(self) -> dict[str, Any]:
         """As plain data.
@@ -46,7 +50,10 @@ class System:
         dict
             By the names of the attributes.
         """
-        return asdict(self) | {"left_out": list(self.left_out)}
+        found = {} if self.compression is None else {"compression": self.compression.to_dict()}
+        data = asdict(self) | {"left_out": list(self.left_out)}
+        del data["compression"]
+        return data | found
 
 
 def system_of(result: Result) -> System:
@@ -74,6 +81,7 @@ def system_of(result: Result) -> System:
         "rotational restraints": beam.has_restraints,
         "iteration": beam.is_one_sided or beam.has_one_sided_ground,
         "deflections": not three_moment,
+        "second order": result.compression is None,
     }
     return System(
         nodes=nodes,
@@ -82,4 +90,5 @@ def system_of(result: Result) -> System:
         method=METHODS[method],
         axial_unknowns=2 * beam.bars + 1 if beam.bars >= 0 else 0,
         left_out=tuple(name for name, used in needed.items() if not used),
+        compression=result.compression,
     )

@@ -110,7 +110,7 @@ def extremes_while_trains_pass(combinations: Combinations) -> dict[str, np.ndarr
     rows: list[dict[str, float]] = []
     for one in combinations.values():
         row: dict[str, float] = {}
-        if one.status == "solved":
+        if one.has_envelope:
             envelope = one.envelope()
             found = [(name, kind, extreme) for name, kinds in envelope.extremes.items() for kind, extreme in kinds.items()]
             for name, kind, extreme in found:

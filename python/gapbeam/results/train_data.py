@@ -7,7 +7,7 @@ from typing import Any
 
 from .result import Result
 from .train_ways import TrainEvent
-from .trains import TrainResult
+from .trains import TrainResult, Trains
 
 
 def passing_trains(result: Result) -> Iterator[tuple[str | None, TrainResult]]:
@@ -33,6 +33,26 @@ def passing_trains(result: Result) -> Iterator[tuple[str | None, TrainResult]]:
             yield name, train
 
 
+def lost_positions(trains: Trains) -> tuple[str, str] | None:
+    """Say that positions of trains are not solved.
+
+    Parameters
+    ----------
+    trains : Trains
+        Of a scene, or of a combination.
+
+    Returns
+    -------
+    status, reason : str
+        Of the first at which the beam cannot stand, else of the first without a unique answer; None where all are solved.
+    """
+    lost = [(train, gap) for train in trains.values() for gap in train.gaps if gap.status != "solved"]
+    if not lost:
+        return None
+    train, gap = next((one for one in lost if one[1].status == "no-equilibrium"), lost[0])
+    return gap.status, f"train {train.name}, positions {gap.from_:.6g} to {gap.to:.6g}: {gap.reason}"
+
+
 def trains_data(result: Result) -> dict[str, Any]:
     """Give trains as plain data: events, and positions that are not solved.
 
@@ -55,7 +75,10 @@ def trains_data(result: Result) -> dict[str, Any]:
                 **({} if combination is None else {"combination": combination}),
                 "case": train.train.case,
                 "events": [_event(event, result) for event in train.events],
-                "gaps": [{"from": g.from_, "to": g.to, "reason": g.reason, "direction": g.direction} for g in train.gaps],
+                "gaps": [
+                    {"from": gap.from_, "to": gap.to, "status": gap.status, "reason": gap.reason, "direction": gap.direction}
+                    for gap in train.gaps
+                ],
                 "solves": train.solves,
             }
             for combination, train in passing_trains(result)

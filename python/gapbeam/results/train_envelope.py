@@ -12,6 +12,7 @@ import numpy as np
 
 from ..engine.beam import Beam
 from ..scene.names import names_of
+from ..scene.places import END_TOLERANCE
 from .arguments import numbers
 from .envelope import Curves
 from .tables import KINDS, SupportRows, curves_with_sources
@@ -20,8 +21,6 @@ from .train_members import OF_SUPPORTS, Member, TrainExtreme, fields_of
 if TYPE_CHECKING:
     from .result import Result
 
-SAME_PLACE = 2.0**-46
-"""Share of the beam by which a place may lie beyond its end by rounding (position_tolerance in places.f90)."""
 EQUAL = 2.0**-40
 """Share of a value by which ties differ at most."""
 OF_FOUNDATIONS = {"resultant": (("max", "resultant", 0), ("min", "resultant", 1)),
@@ -264,7 +263,7 @@ def places_given(beam: Beam, x: Any, name: str = "x") -> np.ndarray | None:
     if x is None:
         return None
     x, end = np.atleast_1d(np.array(numbers(name, x), dtype=float)).ravel(), beam.places.end
-    slack = SAME_PLACE * end
+    slack = END_TOLERANCE * end
     off = x[~((x >= -slack) & (x <= end + slack))]
     if len(off):
         raise ValueError(f"{name}: the beam goes from 0 to {end:g}, got {off[0]:g}")

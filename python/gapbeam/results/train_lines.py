@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .train_peaks import ALIKE, NEAREST, highest, vertex
+from .train_peaks import ALIKE, NEAREST, Straight, Unrolled, highest, nearer, ruler_of, vertex
 from .train_states import SHEAR, Placed
 
 if TYPE_CHECKING:
@@ -85,6 +85,7 @@ class Lines:
         """Find what is greater between the states of a run."""
         if len(states) < 2:
             return
+        ruler = ruler_of(self._way, states[0].position, states[-1].position)
         for k in range(len(self._x)):
             passed = self._pass(k, states)
             for start, stop in pairwise((float(at[0]), *passed, float(at[-1]))):
@@ -92,7 +93,7 @@ class Lines:
                 if part is not None:
                     where, values = part
                     for row in range(len(self._rows)):
-                        self._climb_line(row, k, where, values[:, row], states[0])
+                        self._climb_line(row, k, ruler.angle(where), values[:, row], states[0], ruler)
 
     def _pass(self, k: int, states: list[Placed]) -> dict[float, np.ndarray]:
         """Consider the positions at which axles stand at a place; give the fields on both sides of it at those inside a run."""
@@ -145,8 +146,10 @@ class Lines:
             self._passed[position] = self._way.loads.state(position, like.acts)
         return self._passed[position]
 
-    def _climb_line(self, row: int, k: int, at: np.ndarray, values: np.ndarray, like: Placed) -> None:
-        """Find what is greater between positions where the values at one place are known."""
+    def _climb_line(
+        self, row: int, k: int, at: np.ndarray, values: np.ndarray, like: Placed, ruler: Unrolled | Straight
+    ) -> None:
+        """Find what is greater between positions, as angles of a ruler, where the values at one place are known."""
         rise, widths = np.diff(values), np.diff(at)
         bend = np.abs(np.diff(rise / widths)) * np.maximum(widths[1:], widths[:-1])
         gain = np.concatenate((bend[:1], bend, bend[-1:]))
@@ -154,34 +157,58 @@ class Lines:
             up = np.concatenate(([0.0], sign * rise))
             down = np.concatenate((-sign * rise, [0.0]))
             hills = (up >= 0.0) & (down >= 0.0) & (gain > 2.0**-48 * self._scale[row])
-            hills[0] &= down[0] <= gain[0]
-            hills[-1] &= up[-1] <= gain[-1]
+            # Zones are born at the ends of a run only, not where an axle passes
+            if not ruler.begins(at[0]):
+                hills[0] &= down[0] <= gain[0]
+            if not ruler.ends(at[-1]):
+                hills[-1] &= up[-1] <= gain[-1]
             hills &= sign * values + gain > self.best[i, row, k]
             for j in np.flatnonzero(hills).tolist():
-                self._climb_hill(i, row, k, at, values, j, like)
+                self._climb_hill(i, row, k, at, values, j, like, ruler)
 
-    def _climb_hill(self, i: int, row: int, k: int, at: np.ndarray, values: np.ndarray, j: int, like: Placed) -> None:
+    def _climb_hill(
+        self, i: int, row: int, k: int, at: np.ndarray, values: np.ndarray, j: int, like: Placed, ruler: Unrolled | Straight
+    ) -> None:
         """Go to the top near a state by polynomials through its neighbours."""
         sign = 1.0 - 2.0 * i
         first = min(max(j - NEAREST // 2, 0), max(len(at) - NEAREST, 0))
         near = slice(first, first + NEAREST)
         states = dict(zip(at[near].tolist(), (sign * values[near]).tolist(), strict=True))
         left, right, best = float(at[max(j - 1, 0)]), float(at[min(j + 1, len(at) - 1)]), float(at[j])
-        place, height = highest(at[near], sign * values[near], left, right)
+        place, height = self._top(at[near], sign * values[near], left, right, ruler)
         if height is not None and len(states) == NEAREST:
             gain = height - sign * float(values[j])
             if height + gain < self.best[i, row, k]:
                 return  # even with twice of what the polynomial gains here, the greatest is elsewhere
+        width = right - left
         for _ in range(MOST_STEPS):
+            at_end = place is None and (ruler.begins(best) or ruler.ends(best))
+            if at_end:
+                place = nearer(best, left, right, width, ruler)
             if place is None or place in states:
                 return
-            state = self._way.loads.state(place, like.acts)
+            position = ruler.position(place)
+            # Beside the birth of a zone all places are looked at in the same states
+            state = self._state(position, like) if at_end else self._way.loads.state(position, like.acts)
             if state.status != like.status:
                 return
             value = sign * float(state.values(self._x[[k]], self._left[[k]])[self._rows[row], 0])
-            self._take(i, row, k, value, place)
+            self._take(i, row, k, value, state.position)
             if height is not None and abs(value - height) <= ALIKE * self._scale[row]:
                 return
             states[place] = value
+            if best in (left, right) and value < states[best]:
+                left, right = sorted((best, place))
             best = max(best, place, key=states.get)
             place, height = vertex(best, states, left, right)
+
+    def _top(
+        self, at: np.ndarray, values: np.ndarray, left: float, right: float, ruler: Unrolled | Straight
+    ) -> tuple[float | None, float | None]:
+        """Top of the polynomial in the angle or of that in the position, whichever is higher."""
+        place, height = highest(at, values, left, right)
+        if place is None or isinstance(ruler, Straight):
+            return place, height
+        positions = np.array([ruler.position(one) for one in at.tolist()])
+        other, higher = highest(positions, values, ruler.position(left), ruler.position(right))
+        return (place, height) if other is None or higher <= height else (float(ruler.angle(other)), higher)

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..base.errors import EngineError
 from ..engine.beam import Beam
-from ..engine.trains import SIDES, Extremes
+from ..engine.trains import SIDES, Extremes, Passage
 from .envelope import AT_SUPPORTS
 from .ground import size_of
 from .tables import KINDS
@@ -22,6 +23,8 @@ if TYPE_CHECKING:
 
 FIELDS = ("deflection", "rotation", "moment", "shear", "pressure")
 """Fields that have envelopes; the last one on foundations only."""
+OF_FORCES = ("moment", "shear", "reaction", "couple")
+"""What is unique where the beam can move freely without work of the loads."""
 OF_SUPPORTS = ("reaction", "opening", "deflection", "couple")
 """Values of supports that have them."""
 
@@ -83,7 +86,7 @@ class TrainExtreme:
     @property
     def state(self) -> Step:
         """The state in which it is the value: with a train at its position one whose axles are forces."""
-        return self._of.state(self.position)
+        return self._of.state_of(self)
 
     @cached_property
     def concurrent(self) -> dict[str, float]:
@@ -99,9 +102,10 @@ class TrainExtreme:
             return {name: value for name, value in found.items() if name != self.quantity}
         if self.support is not None:
             rows = self.state.solution.at_supports[:, self.support].tolist()
-            return {name: value for name, value in zip(AT_SUPPORTS, rows, strict=True) if name != self.quantity}
-        there = self._of.fields(self.position, self.x, self.side or "right")
-        return {name: value for name, value in there.items() if name not in ("x", self.quantity)}
+            there = dict(zip(AT_SUPPORTS, rows, strict=True))
+        else:
+            there = self._of.fields(self)
+        return {name: value for name, value in there.items() if name not in ("x", self.quantity) and self._of.is_unique(name)}
 
     def source(self) -> dict[str, Any]:
         """Where it comes from, as plain data.
@@ -161,13 +165,18 @@ class Member:
         """Give largest and smallest fields at places, and positions, 2 by fields by places."""
         raise NotImplementedError
 
-    def state(self, position: float | None) -> Step:
-        """Give the state at a position."""
+    def state_of(self, extreme: TrainExtreme) -> Step:
+        """Give the state in which a value is an extreme one."""
         raise NotImplementedError
 
-    def fields(self, position: float | None, x: float, side: str) -> dict[str, float]:
-        """Give all fields at a place in that state."""
-        raise NotImplementedError
+    def fields(self, extreme: TrainExtreme) -> dict[str, float]:
+        """Give all fields in that state at the place of an extreme value."""
+        fields = self.state_of(extreme).fields(extreme.x, extreme.side or "right")
+        return {name: float(value) for name, value in fields.columns().items()}
+
+    def is_unique(self, quantity: str) -> bool:
+        """Tell whether there is but one value of a quantity in such a state."""
+        return True
 
 
 class Passing(Member):
@@ -209,13 +218,70 @@ class Passing(Member):
         """As `Member.curves`."""
         return self._way.passage.curves(piece, distance)
 
-    def state(self, position: float | None) -> Step:
-        """As `Member.state`."""
-        return self._train.at(position, self.direction)
+    def state_of(self, extreme: TrainExtreme) -> Step:
+        """As `Member.state_of`: where the beam tips at a position, that before or that after it, whichever has the value."""
+        states = []
+        for scheme, inside in self._way.schemes(extreme.position):
+            for position in (extreme.position, inside):
+                try:
+                    states.append(self._train.at(position, self.direction, scheme))
+                    break
+                except (EngineError, ValueError):  # on the other side of a change by rounding
+                    continue
+        if not states:
+            return self._train.at(extreme.position, self.direction)
+        return min(states, key=lambda state: abs(_value_in(state, extreme) - extreme.value))
 
-    def fields(self, position: float | None, x: float, side: str) -> dict[str, float]:
-        """As `Member.fields`."""
-        return {name: float(value) for name, value in self.state(position).fields(x, side).columns().items()}
+
+class Neutral(Passing):
+    """A train at positions at which the beam can move freely: forces are unique there, deflections and rotations are not.
+
+    Parameters
+    ----------
+    train, way, combination
+        As of `Passing`.
+    held : Passage
+        On a beam that is kept from moving, by supports after its own.
+    """
+
+    def __init__(self, train: TrainResult, way: TrainWay, combination: str | None, held: Passage):
+        Member.__init__(self, combination)
+        self.train, self.direction = train.name, way.course.direction
+        self._train, self._way, self._held = train, way, held
+        self._fields, self._supports = held.extremes()
+
+    def of_fields(self, quantity: str, i: int) -> list[TrainExtreme]:
+        """As `Member.of_fields`."""
+        return super().of_fields(quantity, i) if quantity in OF_FORCES else []
+
+    def of_supports(self, support: int, quantity: str, i: int) -> list[TrainExtreme]:
+        """As `Member.of_supports`."""
+        return super().of_supports(support, quantity, i) if quantity in OF_FORCES else []
+
+    def curves(self, piece: np.ndarray, distance: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """As `Member.curves`."""
+        values, positions = (found.copy() for found in self._held.curves(piece, distance))
+        values[:, [k for k, name in enumerate(FIELDS[:-1]) if name not in OF_FORCES]] = np.nan
+        return values, positions
+
+    def state_of(self, extreme: TrainExtreme) -> Step:
+        """As `Member.state_of`: one of those that are possible there."""
+        try:
+            return self._train.at(extreme.position, self.direction)
+        except (EngineError, ValueError):  # the beam falls beside it, by rounding there
+            start, end, beside = self._held.ends[0, 0], self._held.ends[-1, 1], 4 * self._way.near
+            return self._train.at(float(min(max(extreme.position, start + beside), end - beside)), self.direction)
+
+    def is_unique(self, quantity: str) -> bool:
+        """As `Member.is_unique`."""
+        return quantity in OF_FORCES
+
+
+def _value_in(state: Step, extreme: TrainExtreme) -> float:
+    """What a state has for an extreme value."""
+    if extreme.support is not None:
+        return float(state.solution.at_supports[AT_SUPPORTS.index(extreme.quantity), extreme.support])
+    return float(state.fields(extreme.x, extreme.side or "right").columns()[extreme.quantity])
 
 
 class Standing(Member):
@@ -231,25 +297,26 @@ class Standing(Member):
 
     def __init__(self, result: Result, combination: str):
         super().__init__(combination)
-        self._result = result
+        self._result, self._step = result, result.steps[-1]
         self._extremes = result.extremes()
 
     def of_fields(self, quantity: str, i: int) -> list[TrainExtreme]:
         """As `Member.of_fields`."""
         value, x = self._extremes[quantity][KINDS[i]]
         side = None
-        if abs(self.fields(None, x, "right")[quantity] - value) > abs(self.fields(None, x, "left")[quantity] - value):
+        right, left = (float(self._result.at(x, side=one).columns()[quantity]) for one in ("right", "left"))
+        if abs(right - value) > abs(left - value):
             side = "left"
         return [TrainExtreme(self, quantity, value, x, side, None, None)]
 
     def of_supports(self, support: int, quantity: str, i: int) -> list[TrainExtreme]:
         """As `Member.of_supports`."""
-        value = float(self.state(None).solution.at_supports[AT_SUPPORTS.index(quantity), support])
+        value = float(self._step.solution.at_supports[AT_SUPPORTS.index(quantity), support])
         return [TrainExtreme(self, quantity, value, None, None, support, None)]
 
     def of_foundations(self, foundation: int, quantity: str, i: int) -> list[TrainExtreme]:
         """As `Member.of_foundations`."""
-        step = self.state(None)
+        step = self._step
         if quantity == "resultant":
             value = sum(zone.resultant for zone in step.contact if zone.foundation == foundation)
             return [TrainExtreme(self, quantity, value, None, None, None, None, foundation)]
@@ -264,13 +331,13 @@ class Standing(Member):
         found = np.array([values[beam.fields[name]] for name in fields_of(beam)])
         return np.stack((found, found)), np.full((2, *found.shape), np.nan)
 
-    def state(self, position: float | None) -> Step:
-        """As `Member.state`."""
-        return self._result.steps[-1]
+    def state_of(self, extreme: TrainExtreme) -> Step:
+        """As `Member.state_of`."""
+        return self._step
 
-    def fields(self, position: float | None, x: float, side: str) -> dict[str, float]:
+    def fields(self, extreme: TrainExtreme) -> dict[str, float]:
         """As `Member.fields`."""
-        return {name: float(value) for name, value in self._result.at(x, side=side).columns().items()}
+        return {name: float(value) for name, value in self._result.at(extreme.x, side=extreme.side or "right").columns().items()}
 
 
 def fields_of(beam: Beam) -> tuple[str, ...]:

@@ -1,13 +1,15 @@
 """Largest and smallest values over all positions of a train, from states at some of them.
 
 Between two changes values are smooth in the position, so around every state that may be near an extreme value parabolas through
-three states lead to it: an error d of the position makes one of d**2 of the value.
+three states lead to it: an error d of the position makes one of d**2 of the value. Where a zone of contact is born they go like
+the power 3/2 of the distance from there, which no polynomial in the position follows, but one in its root does (`Unrolled`).
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from math import cos, pi, sin
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -24,12 +26,89 @@ NEAREST = 7
 """States through which a polynomial goes at most."""
 ALIKE = 1e-9
 """Share of the largest value by which a polynomial may be wrong at its top: the value there is better by half of the digits."""
+NEAREST_BIRTH = 2.0**-11
+"""Share of the angle to the next state down to which is looked beside the birth of a zone: its square is that of the way, and what
+is greater still nearer is so by less than one part in 1e9 of what values bend."""
 MOST_STEPS = 60
 """Parabolas after which the best state is taken; five or so do."""
 SETTLED = 2.0**-20
 """Share of the distance of two states by which the last parabola moves the place at most."""
 GOLDEN = (3.0 - 5.0**0.5) / 2.0
 """Share of the longer part that is tried where a parabola leads nowhere."""
+
+
+class Unrolled(NamedTuple):
+    """Positions between two changes as an angle from 0 to pi, whose square is the distance from either end, next to it.
+
+    Attributes
+    ----------
+    low, high : float
+        The ends.
+
+    Examples
+    --------
+    >>> way = Unrolled(2.0, 6.0)
+    >>> way.angle(np.array([2.0, 4.0, 6.0])).round(6).tolist(), round(way.position(way.angle(2.5)), 12)
+    ([0.0, 1.570796, 3.141593], 2.5)
+    """
+
+    low: float
+    high: float
+
+    def angle(self, position: Any) -> Any:
+        """Give the angle of positions."""
+        below, above = np.maximum(position - self.low, 0.0), np.maximum(self.high - position, 0.0)
+        return 2.0 * np.arctan2(np.sqrt(below), np.sqrt(above))
+
+    def position(self, angle: float) -> float:
+        """Give the position of an angle."""
+        if angle <= pi / 2:
+            return self.low + (self.high - self.low) * sin(angle / 2) ** 2
+        return self.high - (self.high - self.low) * cos(angle / 2) ** 2
+
+    def begins(self, angle: float) -> bool:
+        """Tell whether an angle is the first one."""
+        return angle <= 0.0
+
+    def ends(self, angle: float) -> bool:
+        """Tell whether an angle is the last one."""
+        return angle >= pi
+
+
+class Straight(NamedTuple):
+    """The same where there is nothing to be unrolled: the angle is the position."""
+
+    def angle(self, position: Any) -> Any:
+        """Give the position."""
+        return position
+
+    def position(self, angle: float) -> float:
+        """Give the position."""
+        return angle
+
+    def begins(self, angle: float) -> bool:
+        """Tell that no zone is born."""
+        return False
+
+    ends = begins
+
+
+def ruler_of(way: SearchedWay, low: float, high: float) -> Unrolled | Straight:
+    """Give what positions between two changes are measured by, so that values are smooth up to its ends.
+
+    Parameters
+    ----------
+    way : SearchedWay
+        The states.
+    low, high : float
+        First and last position.
+
+    Returns
+    -------
+    Unrolled or Straight
+        Zones of contact are there on foundations only.
+    """
+    return Unrolled(low, high) if way.loads.beam.ground_layers and high > low else Straight()
 
 
 class Peak(NamedTuple):
@@ -84,12 +163,12 @@ def find_peaks(way: SearchedWay, value: Callable[[Placed], float], further: Sequ
         found += _tops(run, table, best - EQUAL * max(abs(best), scale))
         table = _with_limits(run, table, beside)
         width = run.states[-1].position - run.states[0].position
-        hills = _hills(run, table, most * min(width / step, 1.0))
+        hills = _hills(run, table, most * (min(width / step, 1.0) if step > 0.0 else 0.0), bool(way.loads.beam.ground_layers))
         promising += [(float(table[k]) + gain, run, table, k) for k, gain in hills if gain > 2.0**-46 * scale]
     for reach, run, table, k in sorted(promising, key=lambda one: -one[0]):
         if reach < best:
             break
-        foretold = _foretell(run, table, k)
+        foretold = _foretell(way, run, table, k)
         if foretold is not None and foretold.height + foretold.doubt < best - EQUAL * max(abs(best), scale):
             continue
         top = _climb(way, run, table, k, value, foretold, ALIKE * scale)
@@ -130,35 +209,50 @@ def _bends(run: Run, table: np.ndarray) -> np.ndarray:
     return np.abs(np.diff(np.diff(table) / widths)) * np.maximum(widths[1:], widths[:-1])
 
 
-def _hills(run: Run, table: np.ndarray, most: float) -> list[tuple[int, float]]:
+def _hills(run: Run, table: np.ndarray, most: float, on_ground: bool) -> list[tuple[int, float]]:
     """States around which values may be greater than there, and by how much at most, about; `most` where there are but two."""
     n = len(table)
     if n < 3:
         return [(int(table.argmax()), most)] if n == 2 else []
     rise, bend = np.diff(table), _bends(run, table)
     found = [(k, float(bend[k - 1])) for k in range(1, n - 1) if table[k] >= table[k - 1] and table[k] >= table[k + 1]]
-    # At an end only where the way down from it does not begin at once
+    # At an end only where the way down from it does not begin at once; where zones are born three states do not tell
     for k, inward, curve in ((0, -rise[0], bend[0]), (n - 1, rise[-1], bend[-1])):
-        if 0.0 <= inward <= curve:
+        if inward >= 0.0 and (on_ground or inward <= curve):
             found.append((k, float(curve)))
     return found
 
 
 class _Foretold(NamedTuple):
-    """Where polynomials through states have their top."""
+    """Where polynomials through states have their top: the place as the angle of a ruler."""
 
     place: float
     height: float
     doubt: float
 
 
-def _foretell(run: Run, table: np.ndarray, k: int) -> _Foretold | None:
-    """Top near a state of the polynomial through its neighbours; None where that has none."""
+def _foretell(way: SearchedWay, run: Run, table: np.ndarray, k: int) -> _Foretold | None:
+    """Top near a state of the polynomial through its neighbours; None where that has none.
+
+    On foundations of two polynomials, one in the position and one in the angle: on one side of a change values are smooth in the
+    position, on the other in its root, and what is right of that nobody knows beforehand.
+    """
+    ruler = _ruler(way, run)
+    found = [_top(run, table, k, one, ruler) for one in dict.fromkeys((ruler, Straight()))]
+    if None in found:
+        return None
+    best = max(found, key=lambda one: one.height)
+    apart = best.height - min(one.height for one in found)
+    return best._replace(doubt=max(apart, *(one.doubt for one in found)))
+
+
+def _top(run: Run, table: np.ndarray, k: int, measure: Unrolled | Straight, ruler: Unrolled | Straight) -> _Foretold | None:
+    """Top near a state of the polynomial in one measure."""
     n = len(table)
     if n < NEAREST:
         return None
     first = min(max(k - NEAREST // 2, 0), n - NEAREST)
-    at = np.array([state.position for state in run.states[first : first + NEAREST]])
+    at = measure.angle(np.array([state.position for state in run.states[first : first + NEAREST]]))
     heights, own = table[first : first + NEAREST], k - first
     left, right = at[max(own - 1, 0)], at[min(own + 1, NEAREST - 1)]
     place, height = highest(at, heights, left, right)
@@ -166,7 +260,11 @@ def _foretell(run: Run, table: np.ndarray, k: int) -> _Foretold | None:
         return None
     fewer = slice(1, -1) if 0 < own < NEAREST - 1 else slice(0, -2) if own == 0 else slice(2, None)
     _, other = highest(at[fewer], heights[fewer], left, right)
-    return None if other is None else _Foretold(place, height, 4.0 * abs(height - other))
+    return None if other is None else _Foretold(float(ruler.angle(measure.position(place))), height, 4.0 * abs(height - other))
+
+
+def _ruler(way: SearchedWay, run: Run) -> Unrolled | Straight:
+    return ruler_of(way, run.states[0].position, run.states[-1].position)
 
 
 def _climb(
@@ -176,13 +274,15 @@ def _climb(
     """Go to the top near a state by polynomials, by parabolas, or by golden sections where they lead nowhere."""
     low, high = max(k - 1, 0), min(k + 1, len(table) - 1)
     near = range(max(low - 1, 0), min(high + 2, len(table)))
-    heights = {run.states[i].position: float(table[i]) for i in near}
-    states = {run.states[i].position: run.states[i] for i in near}
-    left, right = run.states[low].position, run.states[high].position
-    width, best, last = right - left, run.states[k].position, np.inf
+    ruler = _ruler(way, run)
+    places = {i: float(ruler.angle(run.states[i].position)) for i in near}
+    heights = {places[i]: float(table[i]) for i in near}
+    states = {places[i]: run.states[i] for i in near}
+    left, right = places[low], places[high]
+    width, best, last = right - left, places[k], np.inf
     acts = run.states[k].acts
     if foretold is not None and foretold.place not in states:
-        state = way.loads.state(foretold.place, acts)
+        state = way.loads.state(ruler.position(foretold.place), acts)
         if state.status == run.states[k].status:
             heights[foretold.place], states[foretold.place] = value(state), state
             if abs(heights[foretold.place] - foretold.height) <= alike:
@@ -196,13 +296,16 @@ def _climb(
     for _ in range(MOST_STEPS):
         place, _ = vertex(best, heights, left, right)
         if place is None and best in (left, right) and len(heights) > 2:
-            break  # from an end of the run values fall
-        if place is None or abs(place - best) > last / 2:
+            # From an end of the run values fall, but what is nearer to the birth of a zone than any state may be greater
+            place = nearer(best, left, right, width, ruler)
+            if place is None:
+                break
+        elif place is None or abs(place - best) > last / 2:
             place = best + GOLDEN * ((right - best) if right - best > best - left else (left - best))
         last = abs(place - best)
         if place in states or last <= SETTLED**2 * width:
             break
-        state = way.loads.state(place, acts)
+        state = way.loads.state(ruler.position(place), acts)
         if state.status != run.states[k].status:
             break
         heights[place], states[place] = value(state), state
@@ -214,6 +317,28 @@ def _climb(
         if last <= SETTLED * width:
             break
     return Peak(heights[best], states[best])
+
+
+def nearer(best: float, left: float, right: float, width: float, ruler: Unrolled | Straight) -> float | None:
+    """Give the angle to look at next where values fall from the end of a run on.
+
+    Parameters
+    ----------
+    best, left, right : float
+        That end, and the bounds.
+    width : float
+        Of the bounds at first.
+    ruler : Unrolled or Straight
+        What angles are of.
+
+    Returns
+    -------
+    float or None
+        None where nothing can be born, or what may still be greater is no more than rounding.
+    """
+    away = right + left - 2.0 * best
+    born = ruler.begins(best) or ruler.ends(best)
+    return best + away / 4.0 if born and abs(away) > NEAREST_BIRTH * width else None
 
 
 def vertex(best: float, heights: Mapping[float, float], left: float, right: float) -> tuple[float | None, float]:

@@ -20,13 +20,17 @@ from ..engine.ground import zone_changes
 from ..scene.ground_laws import CubicGround
 from ..scene.structs import ForceLoad, Scene
 from ..scene.trains import LEFT, Course
+from .compression import tensions
 from .kinks import EVENTS, what_happens
 from .train_changes import neighbours
 from .train_searched import Searched
 from .train_states import SHEAR, Placed, TrainLoads
-from .train_ways import Gap, TrainEvent
+from .train_ways import Gap, TrainEvent, word_of
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from .compression import Compression, Struts
     from .result import Result
     from .trains import TrainResult
 
@@ -126,7 +130,17 @@ class SearchedWay:
         self._fill_short_runs()
         self.solves = self.loads.solves
 
-    def member(self, train: TrainResult, combination: str | None) -> Searched:
+    def compressions(self, struts: Struts, tension: np.ndarray) -> Iterator[Compression | None]:
+        """Go through the largest compressions beside the Euler load, a position after the other, as `TrainWay.compressions`."""
+        for run in self.runs:
+            for state in run.states:
+                if state.status == SOLVED:
+                    here = type(struts)(state.beam)
+                    along = tensions(state.beam, state.step)
+                    on_ground = bool(state.beam.ground_layers)
+                    yield here.on_ground(self._scene, state.step, along) if on_ground else here.largest(state.step.closed, along)
+
+    def members(self, train: TrainResult, combination: str | None) -> list[Searched]:
         """Give what an envelope is made of.
 
         Parameters
@@ -138,9 +152,9 @@ class SearchedWay:
 
         Returns
         -------
-        Searched
+        list of Searched
         """
-        return Searched(train, self, combination)
+        return [Searched(train, self, combination)]
 
     @cached_property
     def limits(self) -> list[Limit]:
@@ -285,7 +299,8 @@ class SearchedWay:
                     run.states.insert(1, middle)
 
     def _note_gap(self, states: list[Placed]) -> None:
-        self.gaps.append(Gap(states[0].position, states[-1].position, states[0].reason, self.course.direction))
+        first, last = states[0], states[-1]
+        self.gaps.append(Gap(first.position, last.position, first.reason, self.course.direction, word_of(first.status)))
 
     def _changes(self, below: Placed, above: Placed) -> list[TrainEvent]:
         """What changes between two neighbours, in the direction of the train."""

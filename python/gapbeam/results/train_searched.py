@@ -88,13 +88,9 @@ class Searched(Member):
         lines = Lines(self._way, x, left, [FIELDS.index(name) for name in fields_of(beam)])
         return lines.best, lines.at
 
-    def state(self, position: float | None) -> Step:
-        """As `Member.state`."""
-        return self._train.at(position, self.direction)
-
-    def fields(self, position: float | None, x: float, side: str) -> dict[str, float]:
-        """As `Member.fields`."""
-        return {name: float(value) for name, value in self.state(position).fields(x, side).columns().items()}
+    def state_of(self, extreme: TrainExtreme) -> Step:
+        """As `Member.state_of`."""
+        return self._train.at(extreme.position, self.direction)
 
 
 def _side(state: Placed, x: float, column: int, value: float) -> str | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -14,9 +14,14 @@ from ..engine.trains import NOT_UNIQUE, Extremes, Passage
 from ..scene.trains import LEFT, Course
 from .kinks import EVENTS
 from .motion import SLIDES, describe_motion
-from .train_members import Passing
+from .train_members import Neutral, Passing
+from .train_neutral import held_passage, passage_of
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from ..scene.structs import Scene
+    from .compression import Compression, Struts
     from .trains import TrainResult
 
 NO_ANSWER = {
@@ -70,12 +75,16 @@ class Gap:
         How the beam moves, or why there is no answer.
     direction : {"right", "left"}
         Which way the train goes.
+    status : str
+        As of a `Result`: ``no-equilibrium``; ``indeterminate`` or ``not-converged`` without a unique answer; ``solved`` where the
+        beam can move freely and its forces are unique: these are in the envelope, deflections and rotations are not.
     """
 
     from_: float
     to: float
     reason: str
     direction: str
+    status: str
 
 
 class TrainWay:
@@ -91,10 +100,11 @@ class TrainWay:
         Distance below which an axle is at the end of the beam.
     """
 
-    def __init__(self, beam: Beam, course: Course, near: float, supports: np.ndarray):
+    def __init__(self, beam: Beam, scene: Scene, course: Course, near: float):
         self.course, self.near = course, near
-        self.passage = Passage(beam, course.offset, course.force, course.uniform, course.from_, course.to, course.direction == LEFT)
-        p = self.passage
+        self._scene = scene
+        self.passage = passage_of(beam, course, course.from_, course.to)
+        p, supports = self.passage, scene.positions(scene.supports)
         self.events = [
             TrainEvent(position, support, float(supports[support]), EVENTS[change], course.direction)
             for position, (support, _, change) in zip(p.positions.tolist(), p.events.tolist(), strict=True)
@@ -105,7 +115,7 @@ class TrainWay:
         """Linear solves."""
         return self.passage.solves
 
-    def member(self, train: TrainResult, combination: str | None) -> Passing:
+    def members(self, train: TrainResult, combination: str | None) -> list[Passing]:
         """Give what an envelope is made of.
 
         Parameters
@@ -117,14 +127,43 @@ class TrainWay:
 
         Returns
         -------
-        Passing
+        list of Passing
+            The train on its way, and where the beam can move freely.
         """
-        return Passing(train, self, combination)
+        return [Passing(train, self, combination), *(Neutral(train, self, combination, one) for one in self.neutral.values())]
 
     @cached_property
     def extremes(self) -> tuple[Extremes, list[Extremes]]:
         """Largest and smallest fields, and the same of every support."""
         return self.passage.extremes()
+
+    def compressions(self, struts: Struts, tension: np.ndarray) -> Iterator[Compression | None]:
+        """Go through the largest compressions beside the Euler load, a scheme after the other.
+
+        Parameters
+        ----------
+        struts : Struts
+            Of the beam.
+        tension : numpy.ndarray
+            Axial force of every piece, which no position changes.
+
+        Yields
+        ------
+        Compression or None
+        """
+        solved = self.passage.closed[self.passage.status == Status.SOLVED]
+        yield from (struts.largest(closed, tension) for closed in np.unique(solved, axis=0))
+
+    @cached_property
+    def neutral(self) -> dict[tuple[float, float], Passage]:
+        """Positions at which the beam can move freely, and how the train goes there on a beam that is kept from it."""
+        p = self.passage
+        found = {}
+        for (start, end), status in zip(p.ends.tolist(), p.status.tolist(), strict=True):
+            held = held_passage(self._scene, self.course, self.near, start, end) if status == NOT_UNIQUE else None
+            if held is not None:
+                found[start, end] = held
+        return found
 
     @cached_property
     def gaps(self) -> list[Gap]:
@@ -134,12 +173,43 @@ class TrainWay:
         for (start, end), status, motion in zip(p.ends.tolist(), p.status.tolist(), p.motion_of.tolist(), strict=True):
             if status == Status.SOLVED:
                 continue
-            if found and found[-1].to == start and reasons[-1] == (status, motion):
-                found[-1] = Gap(found[-1].from_, end, found[-1].reason, self.course.direction)
+            word = "solved" if (start, end) in self.neutral else word_of(status)
+            if found and found[-1].to == start and reasons[-1] == (status, motion, word):
+                found[-1] = replace(found[-1], to=end)
                 continue
             reason = NO_ANSWER.get(status)
             if status == Status.NO_EQUILIBRIUM:
                 reason = f"no equilibrium: {describe_motion(p.beam, p.motions[motion - 1]) if motion else SLIDES}"
-            reasons.append((status, motion))
-            found.append(Gap(start, end, reason, self.course.direction))
+            elif word == "solved":
+                reason += "; the forces are"
+            reasons.append((status, motion, word))
+            found.append(Gap(start, end, reason, self.course.direction, word))
         return found[::-1] if self.course.direction == LEFT else found
+
+    def schemes(self, position: float) -> list[tuple[np.ndarray, float]]:
+        """Give the schemes that act just before and just after a position at which something changes; none elsewhere.
+
+        Beside each stands a position next to it at which it acts for sure.
+        """
+        p, found, beside = self.passage, {}, 4 * self.near
+        for (start, end), status, closed in zip(p.ends.tolist(), p.status.tolist(), p.closed, strict=True):
+            if status == Status.SOLVED and min(abs(position - start), abs(position - end)) <= beside:
+                inside = min(max(position, start + beside), max(end - beside, start))
+                found.setdefault(closed.tobytes(), (closed, inside))
+        return list(found.values())
+
+
+def word_of(status: int) -> str:
+    """Give the word of a status of positions that are not solved.
+
+    Parameters
+    ----------
+    status : int
+        As Status, or NOT_UNIQUE.
+
+    Returns
+    -------
+    str
+        As of a `Result`.
+    """
+    return Status.INDETERMINATE.word if status == NOT_UNIQUE else Status(status).word

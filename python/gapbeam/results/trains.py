@@ -23,20 +23,21 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from msgspec.structs import replace
 
 from ..base.errors import EngineError, SceneError
 from ..base.records import Record
-from ..engine.beam import Beam
+from ..engine.beam import GIVEN, Beam
 from ..scene.columns import columns, curves
-from ..scene.structs import ForceLoad, Scene, UniformLoad
-from ..scene.trains import LEFT, RIGHT, courses, joined, nearest, train_name
+from ..scene.places import POSITION_TOLERANCE
+from ..scene.structs import Scene
+from ..scene.trains import LEFT, RIGHT, at_ends, courses, fitted, joined, nearest, train_name
 from ..scene.wording import choice, shown
 from .arguments import finite
 from .step import Step
 from .steps import LoadSteps
 from .train_envelope import TrainEnvelope, places_along, places_given
 from .train_members import Member, fields_of
+from .train_neutral import loaded
 from .train_ways import Gap, TrainEvent, TrainWay
 
 if TYPE_CHECKING:
@@ -75,7 +76,7 @@ class TrainState(Step):
     """
 
     def __init__(self, result: Result, position: float, direction: str):
-        super().__init__(result.beam, 1.0, result.rule, np.ones(result.beam.supports, dtype=np.int32))
+        super().__init__(result.beam, 1.0, result.rule, result.steps.closed(0))
         self.position = position
         self.direction = direction
         self.result = result
@@ -118,21 +119,20 @@ class TrainResult:
 
     def __init__(self, result: Result, i: int):
         self.name, self.train = train_name(result.scene, i), result.scene.trains[i]
-        self._result, self._joined = result, joined(result.scene, i)
+        self._result, self._joined = result, fitted(joined(result.scene.trains, i), float(result.scene.span_ends()[-1]))
 
     @cached_property
     def ways(self) -> list[TrainWay] | list[SearchedWay]:
         """The train in every direction in which it goes."""
         result = self._result
         end = result.beam.places.end
-        supports = result.scene.positions(result.scene.supports)
         near = nearest(self._joined, end)
         try:
             if is_searched(result.beam):
                 from .train_search import SearchedWay
 
                 return [SearchedWay(result, course, near, self.name) for course in courses(self._joined, end)]
-            return [TrainWay(result.beam, course, near, supports) for course in courses(self._joined, end)]
+            return [TrainWay(result.beam, result.scene, course, near) for course in courses(self._joined, end)]
         except EngineError as error:
             raise EngineError(f"train {self.name}: {error}", error.status) from None
 
@@ -182,9 +182,9 @@ class TrainResult:
         -------
         list of Member
         """
-        return [way.member(self, combination) for way in self.ways]
+        return [member for way in self.ways for member in way.members(self, combination)]
 
-    def at(self, position: float, direction: str = RIGHT) -> TrainState:
+    def at(self, position: float, direction: str = RIGHT, scheme: np.ndarray | None = None) -> TrainState:
         """The state at a position of the train.
 
         Parameters
@@ -193,6 +193,8 @@ class TrainResult:
             Position of its first axle; any, also beyond those that the scene gives.
         direction : {"right", "left"}
             Which way it goes; left needs ``both_directions``.
+        scheme : numpy.ndarray of int, optional
+            Which supports act, where that is known: at a position at which the beam tips, that before or after.
 
         Returns
         -------
@@ -206,13 +208,15 @@ class TrainResult:
         """
         position = finite("position", position)
         way = self._way(direction)
-        scene = self._loaded(way, position)
+        # Extremes beside the end, where an axle has just left, are farther off
+        position = at_ends(position, self._joined, direction, self._result.beam.places.end, POSITION_TOLERANCE)
+        scene = loaded(self._result.scene, way.course, way.near, position)
         from .following import starting_scheme
         from .result import Result
 
         taken = columns(scene)
-        result = Result(scene, Beam(taken, curves(scene, taken)), self._result.rule)
-        result.steps = LoadSteps(result.beam, result.rule, starting_scheme(result.beam), 1)
+        result = Result(scene, Beam(taken, curves(scene, taken)), self._result.rule if scheme is None else GIVEN)
+        result.steps = LoadSteps(result.beam, result.rule, starting_scheme(result.beam) if scheme is None else scheme, 1)
         fallen = result.steps.solve_all()
         if fallen is not None:
             result.refuse(f"at position {position:g} of train {self.name}", fallen[1])
@@ -272,20 +276,6 @@ class TrainResult:
         if direction not in (RIGHT, LEFT):
             raise ValueError(f'direction: expected "right" or "left", got {shown(direction)}')
         raise ValueError(f"direction: train {self.name} goes to the right only; give both_directions = true")
-
-    def _loaded(self, way: TrainWay, position: float) -> Scene:
-        """The scene with the train at a position as forces."""
-        end, course = self._result.beam.places.end, way.course
-        x = position + course.offset
-        acts = (x >= -way.near) & (x <= end + way.near)
-        loads: list[Any] = [ForceLoad(x=place, F=force) for place, force in zip(np.clip(x[acts], 0.0, end).tolist(),
-                                                                                course.force[acts].tolist(), strict=True)]
-        for q, low, high in course.uniform.tolist():
-            low, high = max(position + low, 0.0), min(position + high, end)
-            if q != 0.0 and high - low > way.near:
-                loads.append(UniformLoad(q=q, from_=low, to=high))
-        scene = self._result.scene
-        return replace(scene, loads=[*scene.loads, *loads], trains=[])
 
 
 class Trains(Mapping[str, TrainResult]):

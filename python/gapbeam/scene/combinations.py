@@ -84,7 +84,7 @@ class Plan:
             supports = [_held(one, act) for one, act in zip(supports, acts, strict=True)]
         title = f"{scene.title}: {title}" if scene.title else title
         trains = [
-            msgspec.structs.replace(joined(scene, i), name=train_name(scene, i), factor=train.factor * factor)
+            msgspec.structs.replace(joined(scene.trains, i), name=train_name(scene, i), factor=train.factor * factor)
             for i, (train, factor) in enumerate(zip(scene.trains, self.trains[k].tolist(), strict=True))
             if factor
         ]

@@ -8,13 +8,12 @@ import re
 import sys
 import tomllib
 from dataclasses import dataclass
-from math import isinf
 from pathlib import Path
 from typing import Any, NoReturn
 
 from ..base.errors import SceneError
 from .typed import TOO_DEEP
-from .wording import beyond, key_of, shown
+from .wording import key_of, out_of_range, shown
 
 STANDARD_INPUT = "standard input"
 JSON_INFINITIES = ("1e999", "-1e999", "1E999", "-1E999")
@@ -98,8 +97,8 @@ def _parse(text: str, kind: str, name: str) -> dict[str, Any]:
 
     def number(word: str) -> Any:
         value = float(word)
-        if isinf(value) and word[-1] != "f" and not (kind == ".json" and word in JSON_INFINITIES):  # that is inf itself
-            far.append(_Far(word))
+        if out_of_range(word, value) and not (kind == ".json" and word in JSON_INFINITIES):
+            far.append(_Far(word, value))
             return far[-1]
         return value
 
@@ -122,7 +121,7 @@ def _parse(text: str, kind: str, name: str) -> dict[str, Any]:
     except ValueError:
         raise SceneError(name, f"a number has more than {sys.get_int_max_str_digits()} digits") from None
     if far:
-        raise SceneError(_place(data, far[0]) or name, beyond(far[0].word))
+        raise SceneError(_place(data, far[0]) or name, out_of_range(far[0].word, far[0].value))
     if not isinstance(data, dict):
         raise SceneError("the scene", f"expected a table, got {shown(data)}")
     return data
@@ -130,9 +129,10 @@ def _parse(text: str, kind: str, name: str) -> dict[str, Any]:
 
 @dataclass(eq=False)
 class _Far:
-    """A number that is beyond the range of doubles, as it is written."""
+    """A number that is beyond the range of doubles, as it is written, and what they make of it."""
 
     word: str
+    value: float
 
 
 def _place(data: Any, far: _Far) -> str:

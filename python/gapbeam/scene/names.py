@@ -161,7 +161,8 @@ def check_names(scene: Scene) -> None:
             place = f"{key}[{i}].name"
             if not name.strip():
                 raise SceneError(place, "is empty; give a name or leave it out")
-            if re.fullmatch(r"\s*\d+\s*", name):
+            # What speaks of combinations does so by name; only where there is none is a text taken for a number
+            if key != "combinations" and re.fullmatch(r"\s*\d+\s*", name):
                 raise SceneError(place, f"{shown(name)} could be taken for a number; give a name with a letter in it")
             if name in seen:
                 raise SceneError(place, f"{shown(name)} is the name of {key}[{seen[name]}] already; give another one")

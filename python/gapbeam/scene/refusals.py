@@ -139,6 +139,9 @@ def _support_refusal(scene: Scene, reason: int, i: int, other: int, key: str) ->
         problem = "there is a hinge here, so it is open which side is held; move one aside"
         return SceneError(f"{path}.rotation", problem)
     x = number(scene.positions([item])[0])
+    if reason == TWICE and key == "law":
+        what = "are rigid at the same deflection, so statics cannot tell what each of them takes"
+        return SceneError(path, f"this one and supports[{other}] both stand at x = {x} and {what}; give one a finite stiffness")
     if reason == TWICE:
         what = {"direction": "hold the beam horizontally", "rotation": "hold the rotation of the beam rigidly"}
         does = what.get(key, f'are rigid with side = "{item.side}"')

@@ -395,6 +395,9 @@ class Analysis(Table, forbid_unknown_fields=True, kw_only=True):
         at the same load factor; or follow the path on, with falling load (only with follow = "events").
     history : list of float
         Load factors gone through in turn, from event to event; default [1.0].
+    first_order : bool
+        True: axial forces are meant to have no effect on bending, also where compression is beyond the Euler load. Default
+        false: such a scene is refused, since that effect is left out.
     """
 
     steps: Count = 1
@@ -402,6 +405,7 @@ class Analysis(Table, forbid_unknown_fields=True, kw_only=True):
     rule: Literal["block", "single"] = "block"
     at_limit: Literal["stop", "jump", "follow"] = "stop"
     history: list[float] = field(default_factory=lambda: [1.0])
+    first_order: bool = False
 
 
 class Scene(Table, forbid_unknown_fields=True, kw_only=True):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import isfinite
 from typing import NamedTuple
 
@@ -9,7 +10,7 @@ import numpy as np
 from msgspec.structs import replace
 
 from ..base.errors import SceneError
-from .places import POSITION_TOLERANCE
+from .places import END_TOLERANCE, POSITION_TOLERANCE
 from .structs import Scene, Train
 from .wording import choice, number, shown
 
@@ -78,7 +79,7 @@ def check_trains(scene: Scene) -> None:
         end = float(scene.span_ends()[-1])
         if isfinite(end) and end > 0.0:
             for direction in (RIGHT, LEFT) if train.both_directions else (RIGHT,):
-                _range(joined(scene, i), direction, end, place)
+                _range(joined(scene.trains, i), direction, end, place)
 
 
 def _check_finite(place: str, value: float) -> None:
@@ -95,6 +96,9 @@ def _check_uniform(train: Train, place: str) -> None:
     """Refuse uniform loads that are none."""
     if not isinstance(train.q, list):
         _check_finite(place, train.q)
+        if train.q and train.axles and _longest(train) == 0.0:
+            problem = f"{number(train.q)} acts over the length of the train, which is 0: all its axles stand at distance 0"
+            raise SceneError(place, f"{problem}; give [[from, to, load]], or leave q out")
         return
     for k, (first, last, q) in enumerate(train.q):
         _check_distance(f"{place}[{k}][0]", first)
@@ -121,13 +125,13 @@ def _check_together(scene: Scene, train: Train, names: dict[str, int], place: st
             raise SceneError(f"{where}[0]", problem)
 
 
-def joined(scene: Scene, i: int) -> Train:
+def joined(trains: Sequence[Train], i: int) -> Train:
     """Give a train with all axles and uniform loads that it brings, with their factors.
 
     Parameters
     ----------
-    scene : Scene
-        Its trains make sense.
+    trains : sequence of Train
+        All trains of a scene; they make sense.
     i : int
         Number of the train.
 
@@ -136,10 +140,10 @@ def joined(scene: Scene, i: int) -> Train:
     Train
         One with axles: of trains that go together one with the axles of all.
     """
-    train = scene.trains[i]
+    train = trains[i]
     if not train.together:
         return train
-    members = {train_name(scene, k): one for k, one in enumerate(scene.trains)}
+    members = {_name(trains, k): one for k, one in enumerate(trains)}
     axles, loads = [], []
     for name, behind in train.together:
         one = members[name]
@@ -152,13 +156,18 @@ def _uniform(train: Train) -> list[tuple[float, float, float]]:
     """Uniform loads of a train, from one distance behind its first axle to another."""
     if isinstance(train.q, list):
         return train.q
-    longest = max(distance for distance, _ in train.axles)
+    longest = _longest(train)
     return [(0.0, longest, train.q)] if train.q and longest > 0.0 else []
+
+
+def _longest(train: Train) -> float:
+    """Largest distance of an axle behind the first one."""
+    return max(distance for distance, _ in train.axles)
 
 
 def _length(train: Train) -> float:
     """Largest distance of an axle, or of the end of a uniform load, behind the first axle."""
-    return max(*(distance for distance, _ in train.axles), *(last for _, last, _ in _uniform(train)), 0.0)
+    return max(_longest(train), *(last for _, last, _ in _uniform(train)), 0.0)
 
 
 def train_name(scene: Scene, i: int) -> str:
@@ -176,7 +185,11 @@ def train_name(scene: Scene, i: int) -> str:
     str
         Its own, or ``train 1``, ``train 2`` and so on.
     """
-    return scene.trains[i].name or f"train {i + 1}"
+    return _name(scene.trains, i)
+
+
+def _name(trains: Sequence[Train], i: int) -> str:
+    return trains[i].name or f"train {i + 1}"
 
 
 def courses(train: Train, end: float) -> list[Course]:
@@ -194,6 +207,7 @@ def courses(train: Train, end: float) -> list[Course]:
     list of Course
         To the right first.
     """
+    train = fitted(train, end)
     distance, force = np.array(train.axles, dtype=float).T
     first, last, q = np.array(_uniform(train), dtype=float).reshape(-1, 3).T
     found = []
@@ -203,6 +217,28 @@ def courses(train: Train, end: float) -> list[Course]:
         offset = distance.copy() if back else -distance
         found.append(Course(direction, offset, train.factor * force, uniform, *_range(train, direction, end, "")))
     return found
+
+
+def fitted(train: Train, end: float) -> Train:
+    """Give a train that is longer than the beam by rounding the length of the beam.
+
+    Parameters
+    ----------
+    train : Train
+        From `joined`.
+    end : float
+        Length of the beam.
+
+    Returns
+    -------
+    Train
+        Any other one as it is.
+    """
+    if not end < _length(train) <= end * (1.0 + END_TOLERANCE):
+        return train
+    axles = [(min(distance, end), force) for distance, force in train.axles]
+    q = [(min(first, end), min(last, end), q) for first, last, q in train.q] if isinstance(train.q, list) else train.q
+    return replace(train, axles=axles, q=q)
 
 
 def nearest(train: Train, end: float) -> float:
@@ -222,8 +258,40 @@ def nearest(train: Train, end: float) -> float:
     return POSITION_TOLERANCE * (end + max(distance for distance, _ in train.axles))
 
 
+def at_ends(position: float, train: Train, direction: str, end: float, tolerance: float = END_TOLERANCE) -> float:
+    """Move a train so that no axle lies beyond an end of the beam by rounding.
+
+    Parameters
+    ----------
+    position : float
+        Of the train.
+    train : Train
+        From `joined`.
+    direction : {"right", "left"}
+        Which way it goes.
+    end : float
+        Length of the beam.
+    tolerance : float, optional
+        Share of the length that counts as rounding.
+
+    Returns
+    -------
+    float
+        The position with the first such axle at that end; else the same.
+    """
+    for distance, _ in train.axles:
+        offset = distance if direction == LEFT else -distance
+        x = position + offset
+        if -tolerance * end <= x < 0.0:
+            return -offset
+        if end < x <= end * (1.0 + tolerance):
+            return end - offset
+    return position
+
+
 def _range(train: Train, direction: str, end: float, place: str) -> tuple[float, float]:
     """First and last position of a train, in ascending order."""
+    train = fitted(train, end)
     longest = _length(train)
     if direction == RIGHT:
         low, high = (longest, end) if train.inside else (0.0, end + longest)
@@ -232,8 +300,8 @@ def _range(train: Train, direction: str, end: float, place: str) -> tuple[float,
     if low > high:
         problem = f"the train has a length of {number(longest)} and is nowhere inside the beam, which is {number(end)} long"
         raise SceneError(f"{place}.inside", f"{problem}; leave inside out")
-    first = low if train.from_ is None else train.from_
-    last = high if train.to is None else train.to
+    first = low if train.from_ is None else at_ends(train.from_, train, direction, end)
+    last = high if train.to is None else at_ends(train.to, train, direction, end)
     if first > last:
         raise SceneError(f"{place}.to", f"the positions from {number(first)} to {number(last)} are none; from must be at most to")
     if train.inside:

@@ -7,6 +7,7 @@ import json
 import re
 import sys
 from collections.abc import Iterable, Mapping
+from math import isinf
 from typing import Any
 
 import msgspec
@@ -127,6 +128,54 @@ def beyond(word: str) -> str:
     '1e400 is beyond the largest number of double precision, 1.8e308; take other units, or inf if that is meant'
     """
     return f"{_short(word)} is beyond the largest number of double precision, 1.8e308; take other units, or inf if that is meant"
+
+
+def below(word: str) -> str:
+    """Say of a number as it is written that it is not zero, but no double is so small.
+
+    Parameters
+    ----------
+    word : str
+        The number.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> below("1e-400")
+    '1e-400 is nearer to zero than any number of double precision, 4.9e-324; take other units, or 0 if that is meant'
+    """
+    said = "is nearer to zero than any number of double precision, 4.9e-324; take other units, or 0 if that is meant"
+    return f"{_short(word)} {said}"
+
+
+def out_of_range(word: str, value: float) -> str | None:
+    """Say of a number as it is written that it is beyond the range of doubles.
+
+    Parameters
+    ----------
+    word : str
+        The number.
+    value : float
+        What double precision makes of it.
+
+    Returns
+    -------
+    str or None
+        None where it is not.
+
+    Examples
+    --------
+    >>> out_of_range("0.00e-400", 0.0), out_of_range("-inf", float("-inf")), out_of_range("1e-310", 1e-310)
+    (None, None, None)
+    """
+    if isinf(value) and "inf" not in word.lower():
+        return beyond(word)
+    if value == 0.0 and re.search("[1-9]", re.split("[eE]", word)[0]):
+        return below(word)
+    return None
 
 
 def choice(words: Iterable[str], last: str = "or") -> str:

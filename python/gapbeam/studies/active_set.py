@@ -70,7 +70,7 @@ def active_set(scene: Mapping[str, Any], parts: int, incremental: bool = False) 
     """
     try:
         from scipy.linalg import cho_solve_banded, cholesky_banded
-    except ImportError:
+    except ModuleNotFoundError:
         raise GapbeamError("this study compares with scipy: pip install scipy, or gapbeam[study]") from None
     spans, EI = np.array(scene["beam"]["spans"]), scene["beam"]["EI"]
     ends = np.concatenate(([0.0], np.cumsum(spans)))

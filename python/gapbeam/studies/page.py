@@ -9,6 +9,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import astuple, dataclass
 from typing import TYPE_CHECKING, Any
 
+from ..base.characters import cell
+
 if TYPE_CHECKING:
     from rich.console import Console
 
@@ -129,7 +131,7 @@ def to_csv(columns: Sequence[str], values: Sequence[Sequence]) -> str:
     'beam,error\n"one, long",0.1\n'
     """
     stream = io.StringIO()
-    csv.writer(stream, lineterminator="\n").writerows([columns, *values])
+    csv.writer(stream, lineterminator="\n").writerows(map(cell, row) for row in (columns, *values))
     return stream.getvalue()
 
 

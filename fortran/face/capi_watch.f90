@@ -1,0 +1,41 @@
+!> The end of calls that take long, from outside, for C: marshalling only. include/gapbeam.h says what every function does.
+module gapbeam_capi_watch
+    use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_funptr, c_loc
+    use gapbeam_error, only: gapbeam_solved, gapbeam_bad_input, gapbeam_not_prepared
+    use gapbeam_watch, only: begin_watch, end_watched
+    use gapbeam_capi_objects, only: beam_handle, get_beam
+    implicit none
+    private
+    public :: c_set_watch, c_stop
+
+contains
+
+    !> See the header
+    function c_set_watch(beam, ask, data, seconds) result(status) bind(c, name="gapbeam_set_watch")
+        type(c_ptr), intent(in), value :: beam
+        type(c_funptr), intent(in), value :: ask
+        type(c_ptr), intent(in), value :: data
+        real(c_double), intent(in), value :: seconds
+        integer(c_int) :: status
+        type(beam_handle), pointer :: handle
+
+        status = gapbeam_not_prepared
+        call get_beam(beam, handle)
+        if (.not. associated(handle)) return
+        status = gapbeam_bad_input
+        if (.not. seconds >= 0.0_c_double) return
+        call begin_watch(handle%watch, ask, data, seconds)
+        handle%beam%lowered%beam%watch = c_loc(handle%watch)
+        status = gapbeam_solved
+    end function c_set_watch
+
+    !> See the header
+    subroutine c_stop(beam) bind(c, name="gapbeam_stop")
+        type(c_ptr), intent(in), value :: beam
+        type(beam_handle), pointer :: handle
+
+        call get_beam(beam, handle)
+        if (associated(handle)) call end_watched(handle%watch)
+    end subroutine c_stop
+
+end module gapbeam_capi_watch

@@ -1,0 +1,271 @@
+!> The audit of a beam without ground: does what the user gets hold together?
+!>
+!> Nothing of how the solution was found is used. At every node forces and moments balance, and with that those of every part of the
+!> beam between hinges; rotations are those of one beam but at hinges, or those of the restraint; every support lies on its law at
+!> the deflection told, in the state told, and no contact is violated. What is left over of a sum is measured in roundings of its
+!> terms (gapbeam_ledger).
+module gapbeam_audit
+    use gapbeam_kinds, only: wp
+    use gapbeam_nodes, only: hinge, restrained
+    use gapbeam_band, only: answer_type
+    use gapbeam_law, only: is_plainly_right, force_by_spring, margin_in_scheme, is_watched_in
+    use gapbeam_model, only: beam_type, softest
+    use gapbeam_workspace, only: workspace_type
+    use gapbeam_ledger, only: ledger_type, note, allowed, of_bending, of_equilibrium, of_supports, of_restraints, rotations, &
+        moments, forces, deflections, beyond, pulls, kinds
+    implicit none
+    private
+    public :: audit_beam, audit_axial, audit_residuals
+
+    !> Share of the largest terms of the beam that count as terms of every sum: elimination carries their rounding everywhere, and
+    !> refining leaves the square of it
+    real(wp), parameter :: everywhere = 2.0_wp**(-40)
+    !> Share of the largest load up to which a reaction that is nothing but rounding is left out (gapbeam_referee)
+    real(wp), parameter :: left_out = 2.0_wp**(-27)
+
+contains
+
+    !> Audit a solution of a beam
+    subroutine audit_beam(beam, closed, undecided, floats, leeway, answers, shear, reaction, work, ledger, measured)
+        !> The beam
+        type(beam_type), intent(in) :: beam
+        !> The scheme, and which supports may have either state, shape (m)
+        logical, intent(in) :: closed(:), undecided(:)
+        !> Is the beam free to move without work
+        logical, intent(in) :: floats
+        !> So many times rounding signs may be wrong: 1, or more where the scheme is that of a path at a rounded load factor
+        real(wp), intent(in) :: leeway
+        !> Deflections and moments at the nodes, shape (0:n)
+        type(answer_type), intent(in) :: answers(0:)
+        !> Shear of every link beside that of the simple bar, shape (n), and reactions, up, shape (m)
+        real(wp), intent(in) :: shear(:), reaction(:)
+        !> With the loads
+        type(workspace_type), intent(in) :: work
+        !> What is left over, and what is wrong
+        type(ledger_type), intent(out) :: ledger
+        !> Is all noted that is left over, not only what may be wrong; default no
+        logical, intent(in), optional :: measured
+        real(wp) :: turn, turn_size, before, before_size, after, after_size, up, up_size, jump, slope, slope_size
+        real(wp) :: passed, passed_size, farthest, most_load, limit, least(kinds)
+        integer :: i, j, n
+
+        n = ubound(answers, 1)
+        limit = allowed*epsilon(1.0_wp)
+        if (present(measured)) limit = merge(0.0_wp, limit, measured)
+        farthest = maxval(abs(answers%deflection))
+        least(:) = -1.0_wp
+        before = 0.0_wp
+        before_size = 0.0_wp
+        passed = 0.0_wp
+        passed_size = 0.0_wp
+        do i = 0, n
+            associate (a => answers(i), r => work%loads(i))
+                ! Forces: of the link on the left as they are from the round before, then of that on the right
+                up = passed - r%shear
+                up_size = passed_size + work%load_size(i)
+                do j = beam%first(i), beam%first(i + 1) - 1
+                    up = up + reaction(beam%order(j))
+                    up_size = up_size + abs(reaction(beam%order(j)))
+                end do
+                after = 0.0_wp
+                after_size = 0.0_wp
+                if (i < n) then
+                    associate (link => beam%links(i + 1), b => answers(i + 1))
+                        passed = shear(i + 1)
+                        passed_size = abs(passed) + (abs(a%moment_right) + abs(b%moment_left))*link%inverse
+                        up = up - passed
+                        up_size = up_size + passed_size
+                        turn = passed - (b%moment_left - a%moment_right)*link%inverse
+                        if (.not. abs(turn) <= limit*passed_size) call hold(of_equilibrium, forces, turn, passed_size)
+                        slope = (b%deflection - a%deflection)*link%inverse
+                        slope_size = (abs(b%deflection) + abs(a%deflection))*link%inverse + work%turn_size(i + 1)
+                        after = slope + (link%faa*a%moment_right + link%fab*b%moment_left) + r%right
+                        after_size = slope_size + link%faa*abs(a%moment_right) + abs(link%fab*b%moment_left)
+                    end associate
+                end if
+                if (.not. abs(up) <= limit*up_size) call hold(of_equilibrium, forces, up, up_size)
+                do j = beam%first(i), beam%first(i + 1) - 1
+                    associate (k => beam%order(j))
+                        if (.not. is_plainly_right(beam%supports(k), closed(k), a%deflection, farthest, reaction(k), up_size, &
+                                                   limit)) call audit_support(k)
+                    end associate
+                end do
+                ! Moments and rotations
+                jump = a%moment_left - a%moment_right + r%couple
+                if (beam%kind(i) == restrained) then
+                    turn = beam%compliance(i)*jump
+                    turn_size = beam%compliance(i)*(abs(a%moment_left) + abs(a%moment_right) + abs(r%couple))
+                    if (i > 0) call hold(of_restraints, rotations, before - turn, before_size + turn_size)
+                    if (i < n) call hold(of_restraints, rotations, after - turn, after_size + turn_size)
+                else if (beam%kind(i) == hinge) then
+                    call hold(of_equilibrium, moments, max(abs(a%moment_left), abs(a%moment_right)), 0.0_wp)
+                else
+                    turn_size = abs(a%moment_left) + abs(a%moment_right) + abs(r%couple)
+                    if (.not. abs(jump) <= limit*turn_size) call hold(of_equilibrium, moments, jump, turn_size)
+                    if (i > 0 .and. i < n) then
+                        turn = after - before
+                        turn_size = after_size + before_size
+                        if (.not. abs(turn) <= limit*turn_size) call hold(of_bending, rotations, turn, turn_size)
+                    end if
+                end if
+                if (i == n) exit
+                associate (link => beam%links(i + 1), b => answers(i + 1))
+                    before = slope - (link%fab*a%moment_right + link%fbb*b%moment_left) - work%loads(i + 1)%left
+                    before_size = slope_size + abs(link%fab*a%moment_right) + link%fbb*abs(b%moment_left)
+                end associate
+            end associate
+        end do
+        i = 0
+        call hold(of_equilibrium, moments, answers(0)%moment_left, 0.0_wp)
+        i = n
+        call hold(of_equilibrium, moments, answers(n)%moment_right, 0.0_wp)
+
+    contains
+
+        !> Note what is left over of a sum at node i
+        subroutine hold(what, kind, left, terms)
+            integer, intent(in) :: what, kind
+            real(wp), intent(in) :: left, terms
+            real(wp) :: bent(2), rest
+
+            if (.not. abs(left) > 0.0_wp) return
+            if (least(forces) < 0.0_wp) call find_least()
+            bent = 0.0_wp
+            if (i > 0) bent(1) = forced(i)
+            if (i < n) bent(2) = forced(i + 1)
+            select case (kind)
+            case (forces, pulls)
+                rest = everywhere*sum(bent) + size_left_out(sum(bent))
+            case (moments)
+                rest = everywhere*sum(bent)*beam%links(max(i, 1))%length
+            case default
+                rest = 0.0_wp
+            end select
+            call note(ledger, what, kind, left, terms + least(kind) + rest, i, 0.0_wp)
+            if (.not. terms <= huge(terms)) call note(ledger, what, 0, terms, terms, i, 0.0_wp)
+        end subroutine hold
+
+        !> What the largest terms of the beam leave everywhere
+        subroutine find_least()
+            most_load = maxval(work%load_size)
+            least(:) = 0.0_wp
+            least(forces) = everywhere*max(maxval(abs(shear)), maxval(abs(reaction)), most_load)
+            ! Loads that balance each other on a beam that nothing holds leave as much to rounding
+            if (floats) least(forces) = most_load
+            least(pulls) = least(forces)
+            least(moments) = everywhere*max(maxval(abs(answers%moment_left)), maxval(abs(answers%moment_right)))
+            ! Where all deflections cancel, they do so from the levels of the supports that act, and from what the loads could make
+            if (any(closed)) least(deflections) = maxval(abs(beam%supports%contact), closed)
+            least(deflections) = everywhere*(least(deflections) + most_load/softest(beam))
+            least(rotations) = everywhere*(farthest*maxval(beam%links%inverse) + maxval(work%turn_size)) &
+                + least(deflections)*maxval(beam%links%inverse)
+        end subroutine find_least
+
+        !> What may have been left out of the forces at node i: reactions that are nothing but rounding, of the largest load or of
+        !> what bends the links beside it
+        pure function size_left_out(bent) result(found)
+            real(wp), intent(in) :: bent
+            real(wp) :: found, force, rounding
+            logical :: acts, rigid
+            integer :: k
+
+            found = 0.0_wp
+            do k = beam%first(i), beam%first(i + 1) - 1
+                if (abs(reaction(beam%order(k))) > 0.0_wp) cycle
+                call force_by_spring(beam%supports, closed, beam%order(k), 0.0_wp, 0.0_wp, acts, rigid, force, rounding)
+                if (acts) found = left_out/epsilon(1.0_wp)*most_load + bent
+            end do
+        end function size_left_out
+
+        !> Force that it would take to hold a link straight against its deflections and imposed curvatures; of a rigid one, which
+        !> passes on what others make, the most of all
+        pure recursive function forced(k) result(force)
+            integer, intent(in) :: k
+            real(wp) :: force
+            integer :: other
+
+            force = 0.0_wp
+            associate (link => beam%links(k))
+                if (link%bending > 0.0_wp) then
+                    force = 12*link%inverse*(farthest*link%inverse + work%turn_size(k))/link%bending
+                    return
+                end if
+            end associate
+            do other = 1, n
+                if (beam%links(other)%bending > 0.0_wp) force = max(force, forced(other))
+            end do
+        end function forced
+
+        !> Is a support on its law, in the right state
+        subroutine audit_support(k)
+            integer, intent(in) :: k
+            real(wp) :: force, rounding, margin, of_force
+            logical :: acts, rigid, by_force
+
+            associate (supports => beam%supports, r => reaction(k), w => answers(i)%deflection)
+                call force_by_spring(supports, closed, k, w, farthest, acts, rigid, force, rounding)
+                of_force = rounding/epsilon(1.0_wp) + up_size
+                if (acts .and. rigid) then
+                    call hold(of_supports, deflections, w - supports(k)%contact, abs(supports(k)%contact))
+                else
+                    call hold(of_supports, forces, r - force, merge(of_force, 0.0_wp, acts))
+                end if
+                if (undecided(k) .or. .not. is_watched_in(supports, closed, k)) return
+                ! A kink that is none: either state is right
+                if (supports(k)%kink > 0 .and. .not. abs(supports(k)%stiffness - supports(k)%before) > 0.0_wp) return
+                call margin_in_scheme(supports, closed, k, w, farthest, reaction, reaction, margin, rounding, by_force)
+                if (margin >= 0.0_wp) return
+                call hold(of_supports, merge(pulls, beyond, by_force), margin, &
+                          leeway*merge(of_force, rounding/epsilon(1.0_wp), by_force))
+            end associate
+        end subroutine audit_support
+
+    end subroutine audit_beam
+
+    !> Audit the system along the beam: forces at its points balance, bars are as much longer as their forces make them, supports
+    !> are on their laws
+    subroutine audit_axial(flexibility, force, stiffness, settlement, displacement, tension, reaction, ledger)
+        !> As for solve_axial
+        real(wp), intent(in) :: flexibility(:), force(0:), stiffness(0:), settlement(0:), displacement(0:), tension(:), reaction(0:)
+        !> What is left over, and what is wrong at which point, from 0
+        type(ledger_type), intent(out) :: ledger
+        real(wp) :: left, right, longer, most, farthest
+        integer :: i, n
+
+        n = size(flexibility)
+        most = everywhere*max(maxval(abs(force)), maxval(abs(reaction)))
+        farthest = max(maxval(abs(displacement)), maxval(abs(settlement)))
+        do i = 0, n
+            left = 0.0_wp
+            right = 0.0_wp
+            if (i > 0) left = tension(max(i, 1))
+            if (i < n) right = tension(min(i + 1, n))
+            call note(ledger, of_equilibrium, forces, right - left + (force(i) + reaction(i)), &
+                      abs(left) + abs(right) + abs(force(i)) + abs(reaction(i)) + most, i, 0.0_wp)
+            if (i > 0) then
+                longer = flexibility(max(i, 1))*left
+                call note(ledger, of_bending, deflections, displacement(i) - displacement(max(i, 1) - 1) - longer, &
+                          2*farthest + abs(longer), i, 0.0_wp)
+            end if
+            if (stiffness(i) > huge(most)) then
+                call note(ledger, of_supports, deflections, displacement(i) - settlement(i), abs(settlement(i)), i, 0.0_wp)
+            else
+                call note(ledger, of_supports, forces, reaction(i) + stiffness(i)*(displacement(i) - settlement(i)), &
+                          abs(left) + abs(right) + abs(force(i)) + stiffness(i)*farthest, i, 0.0_wp)
+            end if
+        end do
+    end subroutine audit_axial
+
+    !> Residuals of compatibility, equilibrium and complementarity: the most that is left over of a sum, relative to its terms
+    pure function audit_residuals(ledger) result(residuals)
+        !> By audit_beam
+        type(ledger_type), intent(in) :: ledger
+        real(wp) :: residuals(3)
+
+        associate (relative => epsilon(1.0_wp)*ledger%excesses)
+            residuals = [maxval(relative([deflections, rotations])), maxval(relative([moments, forces])), &
+                         maxval(relative([beyond, pulls]))]
+        end associate
+    end function audit_residuals
+
+end module gapbeam_audit

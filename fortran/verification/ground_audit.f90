@@ -1,0 +1,275 @@
+!> The audit of a beam on the ground: does what the user gets hold together?
+!>
+!> The solution is rounded from quadruple precision, and nothing of how it was found is used here. On every stretch the fields
+!> fulfil the equations of the beam, with the loads as given and the pressure that the laws make of the deflection, which adds up
+!> to the resultants (gapbeam_stretch_audit); at nodes forces, moments and supports balance, and so does every part between
+!> hinges; every layer is on the piece of its law on which it is said to be, and goes on to another one where it is said to.
+module gapbeam_ground_audit
+    use gapbeam_kinds, only: wp
+    use gapbeam_nodes, only: hinge, restrained
+    use gapbeam_element, only: field_type
+    use gapbeam_law, only: force_by_spring, margin_in_scheme, is_watched_in
+    use gapbeam_ground_laws, only: approach_kink
+    use gapbeam_ground, only: ground_type
+    use gapbeam_ground_solution, only: ground_solution_type
+    use gapbeam_ground_fields, only: field_at_end, push_of_layer, find_sizes, lost
+    use gapbeam_ledger, only: ledger_type, note, of_bending, of_equilibrium, of_parts, of_zone_ends, of_supports, &
+        of_restraints, of_places, deflections, rotations, moments, forces, beyond, pulls
+    use gapbeam_stretch_audit, only: sums_type, audit_stretch, kink_terms, pressure_terms
+    implicit none
+    private
+    public :: audit_ground
+
+contains
+
+    !> Audit a solved state
+    subroutine audit_ground(ground, factor, closed, solution, ledger, residuals)
+        !> The beam and its ground, and the load factor
+        type(ground_type), intent(in) :: ground
+        real(wp), intent(in) :: factor
+        !> States of the supports, and what was found
+        logical, intent(in) :: closed(:)
+        type(ground_solution_type), intent(in) :: solution
+        !> What is left over, and what is wrong
+        type(ledger_type), intent(out) :: ledger
+        !> The greatest that is left over of sums of compatibility (deflection, rotation), equilibrium (force, moment) and
+        !> complementarity (beam beyond the line at which a state ends, support that pulls), relative to the terms of the sum
+        real(wp), intent(out) :: residuals(3)
+        type(sums_type) :: part, sums
+        !> Sizes of the fields in every stretch, and what is nothing there; the same beside the place at hand
+        type(field_type) :: sizes_of(size(solution%piece)), least_of(size(solution%piece)), sizes, least
+        !> Rounding errors of the reactions
+        real(wp) :: errors(size(closed))
+        integer :: i, j, m
+
+        m = size(solution%piece)
+        residuals = 0.0_wp
+        call audit_places()
+        if (ledger%wrong /= 0) return
+        do i = 1, m
+            call find_sizes(solution, i, sizes_of(i), least_of(i))
+        end do
+        ! Rigid parts pass rounding on
+        associate (s => sizes_of, n => least_of)
+            n%deflection = n%deflection + lost*maxval(s%deflection)
+            n%rotation = n%rotation + lost*maxval(s%rotation)
+            n%moment = n%moment + lost*maxval(s%moment)
+            n%shear = n%shear + lost*maxval(s%shear)
+        end associate
+        i = 1
+        do j = 0, size(ground%pieces)
+            call audit_node()
+            if (j == size(ground%pieces)) exit
+            do
+                call audit_stretch(ground, factor, solution, i, sizes_of(i), least_of(i), ledger, sums)
+                associate (length => solution%stretches(i)%length)
+                    part%moment = part%moment + length*part%force + sums%moment
+                    part%moment_size = part%moment_size + length*part%force_size + sums%moment_size
+                end associate
+                part%force = part%force + sums%force
+                part%force_size = part%force_size + sums%force_size
+                i = i + 1
+                if (i > m) exit
+                if (solution%piece(i) /= j + 1) exit
+                call audit_border(i - 1)
+            end do
+        end do
+        associate (e => ledger%excesses)
+            residuals = epsilon(1.0_wp)*[maxval(e([deflections, rotations])), maxval(e([forces, moments])), &
+                                         maxval(e([beyond, pulls]))]
+        end associate
+
+    contains
+
+        !> Do the stretches cover the beam. Places are known to rounding of the length of their piece
+        subroutine audit_places()
+            real(wp) :: at
+            integer :: piece
+
+            at = 0.0_wp
+            piece = 1
+            do i = 1, m
+                if (solution%piece(i) /= piece) then
+                    if (i > 1) call ends_at(piece)
+                    piece = piece + 1
+                    at = 0.0_wp
+                end if
+                if (solution%piece(i) /= piece) then
+                    call note(ledger, of_places, 0, 1.0_wp, 0.0_wp, min(piece, size(ground%pieces)), 0.0_wp)
+                    return
+                end if
+                associate (length => ground%pieces(piece)%length)
+                    call note(ledger, of_places, 0, solution%from(i) - at, length, piece, at)
+                    at = solution%to(i)
+                    call note(ledger, of_places, 0, (at - solution%from(i)) - solution%stretches(i)%length, length, piece, at)
+                end associate
+                if (.not. solution%stretches(i)%length > 0.0_wp) call note(ledger, of_places, 0, 1.0_wp, 0.0_wp, piece, at)
+            end do
+            call ends_at(size(ground%pieces))
+        end subroutine audit_places
+
+        !> The last stretch of a piece ends where that does
+        subroutine ends_at(piece)
+            integer, intent(in) :: piece
+
+            associate (length => ground%pieces(piece)%length)
+                call note(ledger, of_places, 0, solution%to(i - 1) - length, length, piece, length)
+            end associate
+        end subroutine ends_at
+
+        !> Forces, moments, rotations, supports and restraint of node j, and of all that acts on its part of the beam left of it
+        subroutine audit_node()
+            type(field_type) :: a, b
+            real(wp) :: load, couple, turn, up, up_size, at, terms
+            integer :: piece, s
+            logical :: inside
+
+            piece = max(j, 1)
+            at = merge(ground%pieces(piece)%length, 0.0_wp, j > 0)
+            inside = j > 0 .and. i <= m
+            call look_beside(i)
+            a = field_type(solution%deflection(j), 0.0_wp, 0.0_wp, 0.0_wp)
+            b = a
+            if (j > 0) a = field_at_end(solution, i - 1, 2)
+            if (i <= m) b = field_at_end(solution, i, 1)
+            associate (w => solution%deflection(j), left => solution%moment_left(j), right => solution%moment_right(j), &
+                       beam => ground%beam)
+                call fits(of_bending, deflections, a%deflection - w, sizes%deflection)
+                call fits(of_bending, deflections, b%deflection - w, sizes%deflection)
+                call fits(of_equilibrium, moments, a%moment - left, sizes%moment)
+                call fits(of_equilibrium, moments, b%moment - right, sizes%moment)
+                load = beam%force(1, j) + factor*beam%force(2, j)
+                couple = beam%couple(1, j) + factor*beam%couple(2, j)
+                up = 0.0_wp
+                up_size = abs(beam%force(1, j)) + abs(factor*beam%force(2, j))
+                do s = beam%first(j), beam%first(j + 1) - 1
+                    associate (k => beam%order(s))
+                        up = up + solution%reaction(k)
+                        up_size = up_size + abs(solution%reaction(k))
+                        errors(k) = epsilon(1.0_wp)*(sizes%shear + abs(load) + abs(solution%reaction(k)))
+                    end associate
+                end do
+                do s = beam%first(j), beam%first(j + 1) - 1
+                    call audit_support(beam%order(s))
+                end do
+                call fits(of_equilibrium, forces, (b%shear - a%shear) - (up - load), sizes%shear + up_size)
+                terms = sizes%moment + abs(left) + abs(right) + abs(beam%couple(1, j)) + abs(factor*beam%couple(2, j))
+                select case (beam%kind(j))
+                case (hinge)
+                    call fits(of_equilibrium, moments, max(abs(left), abs(right)), sizes%moment)
+                case (restrained)
+                    turn = beam%compliance(j)*((left - right) + couple)
+                    terms = beam%compliance(j)*terms
+                    if (j > 0) call fits(of_restraints, rotations, a%rotation - turn, sizes%rotation + terms)
+                    if (i <= m) call fits(of_restraints, rotations, b%rotation - turn, sizes%rotation + terms)
+                case default
+                    call fits(of_equilibrium, moments, (right - left) - couple, terms)
+                    if (inside) call fits(of_bending, rotations, b%rotation - a%rotation, sizes%rotation)
+                end select
+                if (j > 0) then
+                    call fits(of_parts, forces, part%force - a%shear, part%force_size + sizes%shear)
+                    call fits(of_parts, moments, part%moment - left, part%moment_size + sizes%moment)
+                end if
+                if (beam%kind(j) == hinge) then
+                    part = sums_type(b%shear, 0.0_wp, abs(b%shear), 0.0_wp)
+                else
+                    part = sums_type(part%force + (up - load), part%moment + (right - left), part%force_size + up_size, &
+                                     part%moment_size + abs(left) + abs(right))
+                end if
+            end associate
+        end subroutine audit_node
+
+        !> Note what is left over at node j
+        subroutine fits(what, kind, left_over, sizes)
+            integer, intent(in) :: what, kind
+            real(wp), intent(in) :: left_over, sizes
+
+            call note(ledger, what, kind, left_over, sizes, max(j, 1), merge(ground%pieces(max(j, 1))%length, 0.0_wp, j > 0))
+        end subroutine fits
+
+        !> Is a support at node j on its law, in the right state
+        subroutine audit_support(k)
+            integer, intent(in) :: k
+            real(wp) :: force, rounding, margin
+            logical :: acts, rigid, by_force
+
+            associate (supports => ground%beam%supports, r => solution%reaction(k), w => solution%deflection(j))
+                call force_by_spring(supports, closed, k, w, abs(w), acts, rigid, force, rounding)
+                if (rigid) then
+                    call fits(of_supports, deflections, w - supports(k)%contact, abs(supports(k)%contact) + least%deflection)
+                else
+                    call fits(of_supports, forces, r - force, rounding/epsilon(1.0_wp) + abs(r) + least%shear)
+                end if
+                if (.not. is_watched_in(supports, closed, k)) return
+                errors(k) = errors(k) + rounding
+                call margin_in_scheme(supports, closed, k, w, abs(w), solution%reaction, errors, margin, rounding, by_force)
+                if (margin < 0.0_wp) call fits(of_supports, merge(pulls, beyond, by_force), margin, &
+                                             rounding/epsilon(1.0_wp) + merge(least%shear, least%deflection, by_force))
+            end associate
+        end subroutine audit_support
+
+        !> Between two stretches of a piece nothing jumps, and zones of ground end there, without a jump of their pressure
+        subroutine audit_border(i)
+            !> The stretch left of it
+            integer, intent(in) :: i
+            type(field_type) :: a, b
+            real(wp) :: past, change, push(2), length, terms, steepness, incline
+            integer :: k, kink
+
+            a = field_at_end(solution, i, 2)
+            b = field_at_end(solution, i + 1, 1)
+            call look_beside(i + 1)
+            associate (piece => solution%piece(i), at => solution%to(i), before => solution%acts(:, i), &
+                       after => solution%acts(:, i + 1))
+                length = ground%pieces(piece)%length
+                call note(ledger, of_bending, deflections, b%deflection - a%deflection, sizes%deflection, piece, at)
+                call note(ledger, of_bending, rotations, b%rotation - a%rotation, sizes%rotation, piece, at)
+                call note(ledger, of_equilibrium, moments, b%moment - a%moment, sizes%moment, piece, at)
+                call note(ledger, of_equilibrium, forces, b%shear - a%shear, sizes%shear, piece, at)
+                incline = a%rotation + ground%pieces(piece)%shear_flexibility*a%shear
+                do k = 1, ground%first(piece + 1) - ground%first(piece)
+                    if (before(k) == after(k)) cycle
+                    associate (layer => ground%layers(ground%first(piece) + k - 1))
+                        do kink = min(before(k), after(k)) + 1, max(before(k), after(k))
+                            call approach_kink(ground%laws, layer, kink, a%deflection, incline, at, length, past, change)
+                            call kink_terms(layer, ground%laws, kink, sizes%deflection, steepness, terms)
+                            terms = terms + length*abs(change)
+                            if (.not. steepness > 0.0_wp) steepness = 1.0_wp
+                            call note(ledger, of_zone_ends, beyond, past/steepness, terms/steepness, piece, at)
+                        end do
+                        push(1) = push_of_layer(layer, ground%laws, before(k), at, length, a%deflection)
+                        push(2) = push_of_layer(layer, ground%laws, after(k), at, length, a%deflection)
+                        terms = sizes%deflection + length*abs(incline) + abs(layer%contact_b - layer%contact_a)
+                        call note(ledger, of_zone_ends, 0, push(2) - push(1), &
+                                  max(pressure_terms(layer, ground%laws, before(k), terms), &
+                                      pressure_terms(layer, ground%laws, after(k), terms)), piece, at)
+                    end associate
+                end do
+            end associate
+        end subroutine audit_border
+
+        !> Sizes of the fields beside the left end of a stretch
+        subroutine look_beside(stretch)
+            integer, intent(in) :: stretch
+            integer :: left, right
+
+            left = max(stretch - 1, 1)
+            right = min(stretch, m)
+            least = larger(least_of(left), least_of(right))
+            sizes = larger(sizes_of(left), sizes_of(right))
+            sizes = field_type(sizes%deflection + least%deflection, sizes%rotation + least%rotation, &
+                               sizes%moment + least%moment, sizes%shear + least%shear)
+        end subroutine look_beside
+
+    end subroutine audit_ground
+
+    !> The larger one of each field
+    pure function larger(one, other) result(found)
+        type(field_type), intent(in) :: one, other
+        type(field_type) :: found
+
+        found = field_type(max(one%deflection, other%deflection), max(one%rotation, other%rotation), &
+                           max(one%moment, other%moment), max(one%shear, other%shear))
+    end function larger
+
+end module gapbeam_ground_audit

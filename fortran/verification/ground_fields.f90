@@ -1,0 +1,231 @@
+!> The fields of a solved beam on the ground inside its stretches, and what every layer presses there
+module gapbeam_ground_fields
+    use gapbeam_kinds, only: wp
+    use gapbeam_element, only: field_type
+    use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type, decay_lengths
+    use gapbeam_foundation_taylor, only: is_sloped
+    use gapbeam_foundation_fields, only: fields_at, sloped_start, sloped_fields_from
+    use gapbeam_layers, only: layer_type, law_piece_type, law_piece, is_curve
+    use gapbeam_law_series, only: curve_force
+    use gapbeam_curved, only: curved_type, curved_fields
+    use gapbeam_ground_laws, only: along, contact_line, slope_of_layer, offset_of_layer, parameters_at, take_curves
+    use gapbeam_ground_solution, only: ground_solution_type
+    implicit none
+    private
+    public :: inside_type, look_inside, field_at_end, field_inside, curved_stretch, push_of_layer, deflection_size, find_sizes, lost
+
+    !> Rounding of quadruple precision, some digits of it lost, in that of doubles
+    real(wp), parameter :: lost = 2.0_wp**(-90)/epsilon(1.0_wp)
+
+    !> A stretch of a solution, ready to be asked for its fields
+    type :: inside_type
+        private
+        type(stretch_type) :: stretch
+        type(stretch_load_type) :: load
+        !> Moments at its ends
+        type(stretch_ends_type) :: ends
+        !> Deflections at its ends, slope of the chord between
+        real(wp) :: chord(2) = 0.0_wp, slope = 0.0_wp
+        !> Fields at both ends where the modulus changes along the stretch (sloped_start)
+        logical :: sloped = .false.
+        real(wp) :: start(4, 2) = 0.0_wp
+        !> What rotation and shear at its ends lack when they are made of load and moments, shape (2, 2)
+        real(wp) :: off(2, 2) = 0.0_wp
+        !> Allocated if ground acts there by curves
+        type(curved_type), allocatable :: curved
+    end type inside_type
+
+contains
+
+    !> Make a stretch ready
+    pure subroutine look_inside(layers, length, solution, i, inside, roughly)
+        !> Layers of ground under the piece of the beam, and its length
+        type(layer_type), intent(in) :: layers(:)
+        real(wp), intent(in) :: length
+        !> The solution, and the number of the stretch
+        type(ground_solution_type), intent(in) :: solution
+        integer, intent(in) :: i
+        !> Ready for field_inside
+        type(inside_type), intent(out) :: inside
+        !> Is it enough if rotations and shears are made of load and moments, which costs less; default: no
+        logical, intent(in), optional :: roughly
+
+        call curved_stretch(layers, length, solution, i, inside%curved)
+        if (allocated(inside%curved)) return
+        inside%stretch = solution%stretches(i)
+        inside%load = solution%loads(i)
+        associate (ends => solution%ends(i))
+            ! Beside the chord
+            inside%ends = stretch_ends_type(0.0_wp, 0.0_wp, ends%moment_a, ends%moment_b)
+            inside%chord = [ends%w_a, ends%w_b]
+        end associate
+        inside%slope = solution%slope(i)
+        inside%sloped = is_sloped(inside%stretch)
+        if (inside%sloped) then
+            inside%start(:, 1) = sloped_start(inside%stretch, inside%load, inside%ends, 1)
+            inside%start(:, 2) = sloped_start(inside%stretch, inside%load, inside%ends, 2)
+        end if
+        if (present(roughly)) then
+            if (roughly) return
+        end if
+        if (decay_lengths(inside%stretch) > 1.0_wp) return
+        ! In a short stretch the shear is a small difference of moments by a small length, and where shear bends most the rotation
+        ! one of slopes: their errors are those at the ends, where they are known
+        inside%off(:, 1) = off_at(1)
+        inside%off(:, 2) = off_at(2)
+
+    contains
+
+        !> What rotation and shear at an end of the stretch lack when they are made of load and moments
+        pure function off_at(side) result(lacking)
+            !> 1 left, 2 right
+            integer, intent(in) :: side
+            real(wp) :: lacking(2)
+            type(field_type) :: field
+
+            field = beside_chord(inside, real(side - 1, wp))
+            lacking = [solution%rotation(side, i) - (solution%slope(i) + field%rotation), solution%shear(side, i) - field%shear]
+        end function off_at
+
+    end subroutine look_inside
+
+    !> Fields at an end of a stretch, as they were solved
+    pure function field_at_end(solution, i, side) result(field)
+        type(ground_solution_type), intent(in) :: solution
+        !> The stretch; 1 left, 2 right
+        integer, intent(in) :: i, side
+        type(field_type) :: field
+
+        associate (ends => solution%ends(i))
+            field = field_type(merge(ends%w_a, ends%w_b, side == 1), solution%rotation(side, i), &
+                               merge(ends%moment_a, ends%moment_b, side == 1), solution%shear(side, i))
+        end associate
+    end function field_at_end
+
+    !> Fields between the ends of a stretch
+    pure subroutine field_inside(inside, xi, field)
+        type(inside_type), intent(in) :: inside
+        !> The place, between 0 and 1
+        real(wp), intent(in) :: xi
+        type(field_type), intent(out) :: field
+
+        if (allocated(inside%curved)) then
+            call curved_fields(inside%curved, xi, field%deflection, field%rotation, field%moment, field%shear)
+            return
+        end if
+        field = beside_chord(inside, xi)
+        field%deflection = along(inside%chord(1), inside%chord(2), xi, 1.0_wp) + field%deflection
+        field%rotation = inside%slope + field%rotation + along(inside%off(1, 1), inside%off(1, 2), xi, 1.0_wp)
+        field%shear = field%shear + along(inside%off(2, 1), inside%off(2, 2), xi, 1.0_wp)
+    end subroutine field_inside
+
+    !> Fields beside the chord between the ends
+    pure function beside_chord(inside, xi) result(field)
+        type(inside_type), intent(in) :: inside
+        real(wp), intent(in) :: xi
+        type(field_type) :: field
+
+        if (inside%sloped) then
+            call sloped_fields_from(inside%stretch, inside%load, inside%start, xi, field%deflection, field%rotation, &
+                                    field%moment, field%shear)
+        else
+            call fields_at(inside%stretch, inside%load, inside%ends, xi, field%deflection, field%rotation, field%moment, &
+                           field%shear)
+        end if
+    end function beside_chord
+
+    !> A stretch on which ground acts by curves
+    pure subroutine curved_stretch(layers, length, solution, i, curved)
+        !> As for look_inside
+        type(layer_type), intent(in) :: layers(:)
+        real(wp), intent(in) :: length
+        type(ground_solution_type), intent(in) :: solution
+        integer, intent(in) :: i
+        !> Not allocated if the ground is linear there
+        type(curved_type), allocatable, intent(out) :: curved
+
+        associate (ends => solution%ends(i), s => solution%stretches(i))
+            if (.not. any(is_curve(layers, solution%acts(:size(layers), i)))) return
+            allocate (curved)
+            call take_curves(layers, solution%acts(:, i), solution%from(i), solution%to(i), length, curved%curves)
+            curved%stretch = s
+            curved%load = solution%loads(i)
+            curved%left = [ends%w_a - s%shear_flexibility*ends%moment_a, solution%rotation(1, i), ends%moment_a, &
+                           solution%shear(1, i)]
+            curved%right = [ends%w_b - s%shear_flexibility*ends%moment_b, solution%rotation(2, i), ends%moment_b, &
+                            solution%shear(2, i)]
+        end associate
+    end subroutine curved_stretch
+
+    !> Force per length of a layer on the beam, up
+    pure function push_of_layer(layer, laws, acts, place, length, deflection) result(push)
+        !> The layer, the pieces of all laws, and that on which it acts, 0: not in contact
+        type(layer_type), intent(in) :: layer
+        type(law_piece_type), intent(in) :: laws(:)
+        integer, intent(in) :: acts
+        !> Distance from the left end of its piece of the beam, length of that, deflection there
+        real(wp), intent(in) :: place, length, deflection
+        real(wp) :: push
+        type(law_piece_type) :: law
+
+        push = 0.0_wp
+        if (acts == 0) return
+        if (is_curve(layer, acts)) then
+            push = layer%side*curve_force(layer%law, parameters_at(layer, place, length), &
+                                          layer%side*(deflection - contact_line(layer, place, length)))
+        else
+            law = law_piece(layer, laws, acts)
+            push = layer%side*offset_of_layer(layer, law, acts, place, length) &
+                + slope_of_layer(layer, law, acts, place, length)*(deflection - contact_line(layer, place, length))
+        end if
+        ! At an end of a zone it is zero but for rounding
+        if (layer%side /= 0) push = layer%side*max(0.0_wp, layer%side*push)
+    end function push_of_layer
+
+    !> Size of what deflections inside a stretch are sums of, which times the rounding unit bounds their error (N. J. Higham,
+    !> Accuracy and Stability of Numerical Algorithms, 2002, section 3.1)
+    pure function deflection_size(solution, i) result(size_of)
+        type(ground_solution_type), intent(in) :: solution
+        !> Stretch
+        integer, intent(in) :: i
+        real(wp) :: size_of
+        type(field_type) :: sizes, least
+
+        call find_sizes(solution, i, sizes, least)
+        size_of = sizes%deflection
+    end function deflection_size
+
+    !> The same of all fields, and sizes below which there is nothing but what quadruple precision leaves where terms cancel
+    pure subroutine find_sizes(solution, i, sizes, least)
+        type(ground_solution_type), intent(in) :: solution
+        !> Stretch
+        integer, intent(in) :: i
+        type(field_type), intent(out) :: sizes, least
+        real(wp) :: moment, bent, q, modulus, square
+
+        associate (s => solution%stretches(i), ends => solution%ends(i), load => solution%loads(i))
+            moment = max(abs(ends%moment_a), abs(ends%moment_b))
+            q = max(abs(load%qa), abs(load%qb))
+            modulus = max(s%modulus_a, s%modulus_b)
+            ! What moment and load bend a simple beam by; on elastic ground what is farther away than 1/beta is not felt
+            square = s%length**2/8
+            if (s%modulus_a > 0.0_wp .and. s%flexibility > 0.0_wp) then
+                square = min(square, 1/sqrt(s%modulus_a)/sqrt(s%flexibility))
+            end if
+            sizes%deflection = max(abs(ends%w_a), abs(ends%w_b)) &
+                + square*(s%flexibility*(moment + square*q) + abs(load%kappa)) + s%shear_flexibility*(moment + square*q)
+            sizes%rotation = maxval(abs(solution%rotation(:, i)))
+            sizes%moment = moment + square*(q + modulus*sizes%deflection)
+            sizes%shear = maxval(abs(solution%shear(:, i)))
+            bent = sizes%moment
+            if (s%flexibility > 0.0_wp) then
+                bent = bent + ((sizes%rotation + sizes%deflection/s%length)/s%length + abs(load%kappa))/s%flexibility
+            end if
+            least%deflection = lost*s%length*sizes%rotation
+            least%rotation = lost*(sizes%deflection/s%length + s%shear_flexibility*sizes%shear)
+            least%moment = lost*bent
+            least%shear = lost*(bent/s%length + s%length*modulus*sizes%deflection)
+        end associate
+    end subroutine find_sizes
+
+end module gapbeam_ground_fields

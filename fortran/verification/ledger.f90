@@ -1,0 +1,87 @@
+!> What an audit notes: what is left over of sums that ought to be zero, measured in roundings of their terms
+module gapbeam_ledger
+    use gapbeam_kinds, only: wp
+    implicit none
+    private
+    public :: ledger_type, note, words_for, allowed
+    public :: of_bending, of_equilibrium, of_parts, of_resultants, of_zone_ends, of_contact, of_supports, of_restraints, of_places
+    public :: deflections, rotations, moments, forces, beyond, pulls, kinds
+
+    !> What may be wrong: deflections and rotations do not fit to moments; forces and moments do not balance, at a place, or those
+    !> of a part between hinges; pressure does not add up to the resultant; a zone does not end where it is said to; ground is not
+    !> in the state in which it is said to be; supports, restraints are off their laws; stretches do not cover the beam
+    integer, parameter :: of_bending = 1, of_equilibrium = 2, of_parts = 3, of_resultants = 4, of_zone_ends = 5, of_contact = 6, &
+                          of_supports = 7, of_restraints = 8, of_places = 9
+    !> Of what something can be left over: of each of them the most is kept; beyond: distance past the line at which a state
+    !> ends; pulls: force of a support that ought to push
+    integer, parameter :: deflections = 1, rotations = 2, moments = 3, forces = 4, beyond = 5, pulls = 6, kinds = 6
+
+    !> Roundings, of all terms of a sum together, that are taken for rounding
+    real(wp), parameter :: allowed = 64.0_wp
+
+    !> The notes
+    type :: ledger_type
+        !> What is wrong most, 0: nothing; in which piece of the beam, and how far from its left end
+        integer :: wrong = 0, piece = 0
+        real(wp) :: distance = 0.0_wp
+        !> The most that is left over, in roundings of the terms
+        real(wp) :: excess = 0.0_wp
+        !> The same of every kind
+        real(wp) :: excesses(kinds) = 0.0_wp
+    end type ledger_type
+
+contains
+
+    !> Note what is left over of a sum
+    pure subroutine note(ledger, what, kind, left, terms, piece, distance)
+        type(ledger_type), intent(inout) :: ledger
+        !> What is wrong if it is too much; deflections, rotations, ..., 0: of no kind
+        integer, intent(in) :: what, kind
+        !> What is left over, and the sizes of the terms together
+        real(wp), intent(in) :: left, terms
+        !> Where
+        integer, intent(in) :: piece
+        real(wp), intent(in) :: distance
+        real(wp) :: excess
+
+        if (abs(left) <= 0.0_wp) return
+        excess = huge(excess)
+        if (abs(left) < huge(left)*epsilon(left)*min(terms, 1.0_wp)) excess = abs(left)/(epsilon(left)*terms)
+        if (kind > 0) ledger%excesses(kind) = max(ledger%excesses(kind), excess)
+        if (excess <= ledger%excess) return
+        ledger%excess = excess
+        if (excess <= allowed) return
+        ledger%wrong = what
+        ledger%piece = piece
+        ledger%distance = distance
+    end subroutine note
+
+    !> What is wrong, in words that follow "at x = ..."
+    pure function words_for(wrong) result(words)
+        !> of_bending, of_equilibrium, ...
+        integer, intent(in) :: wrong
+        character(len=80) :: words
+
+        select case (wrong)
+        case (of_bending)
+            words = "deflection and rotation do not fit the moments"
+        case (of_equilibrium)
+            words = "forces or moments do not balance"
+        case (of_parts)
+            words = "forces or moments of the part of the beam left of it do not balance"
+        case (of_resultants)
+            words = "the pressure of the ground does not add up to its force"
+        case (of_zone_ends)
+            words = "a zone of the ground does not end where the beam leaves it"
+        case (of_contact)
+            words = "the ground is not in the state that the deflection asks for"
+        case (of_supports)
+            words = "a support is not on its law"
+        case (of_restraints)
+            words = "a rotational restraint is not on its law"
+        case default
+            words = "stretches do not cover the beam"
+        end select
+    end function words_for
+
+end module gapbeam_ledger
