@@ -251,7 +251,8 @@ contains
         real(wp), intent(out) :: next
         !> The kinks there
         logical, allocatable, intent(out) :: at_hand(:)
-        real(wp) :: zero, passed, slack
+        real(wp), allocatable :: zeros(:)
+        real(wp) :: passed, slack
         integer :: k, direction
 
         direction = branch%way%direction
@@ -259,21 +260,25 @@ contains
         passed = abs(branch%factor)
         if (abs(target) < huge(target)) passed = max(passed, abs(target))
         associate (supports => branch%beam%supports, closed => branch%way%closed, lines => branch%lines%line)
-            allocate (at_hand(size(closed)))
+            allocate (at_hand(size(closed)), zeros(size(closed)))
             at_hand(:) = .false.
             do k = 1, size(closed)
                 at_hand(k) = is_watched_in(supports, closed, k) .and. direction*lines(k)%v1 < -lines(k)%error_of_v1
                 if (.not. at_hand(k)) cycle
-                zero = zero_of(lines(k))
-                slack = max(64*epsilon(zero)*passed, width_at(lines(k), zero)/abs(lines(k)%v1))
-                if (abs(zero) <= slack) zero = 0.0_wp
-                if (abs(zero - target) <= slack) zero = target
-                ! What is behind by rounding is here
-                if (abs(zero - branch%factor) <= slack) zero = branch%factor
-                next = direction*min(direction*next, max(direction*zero, direction*branch%factor))
+                associate (zero => zeros(k))
+                    zero = zero_of(lines(k))
+                    slack = max(64*epsilon(zero)*passed, width_at(lines(k), zero)/abs(lines(k)%v1))
+                    if (abs(zero) <= slack) zero = 0.0_wp
+                    if (abs(zero - target) <= slack) zero = target
+                    ! What is behind by rounding is here
+                    if (abs(zero - branch%factor) <= slack) zero = branch%factor
+                    next = direction*min(direction*next, max(direction*zero, direction*branch%factor))
+                end associate
             end do
             do k = 1, size(closed)
-                if (at_hand(k)) at_hand(k) = value_at(lines(k), next) <= 2*width_at(lines(k), next)
+                if (.not. at_hand(k)) cycle
+                ! What ends the stretch is at hand, whatever rounding leaves of it there
+                at_hand(k) = direction*zeros(k) <= direction*next .or. value_at(lines(k), next) <= 2*width_at(lines(k), next)
             end do
         end associate
     end subroutine look_ahead

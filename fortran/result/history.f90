@@ -29,6 +29,8 @@ module gapbeam_history
     !> Kinds of limit. A path may also have ended without an end in sight: no further kink, whatever the load; or after so many
     !> stretches
     integer, parameter :: no_limit = 0, limit_point = 1, bifurcation = 2, mechanism = 3, ended = 4, cut_off = 5
+    !> Stretches without length in turn, beyond four for every kink, after which the path is given up
+    integer, parameter :: most_idle = 1000
 
     !> A stretch of the path on which all pieces of all laws stay the same
     type :: stretch_type
@@ -153,9 +155,9 @@ contains
             integer, intent(in) :: leg
             real(qp), intent(in) :: from, to
             type(segment_type) :: segment
-            integer :: way, outcome, index, direction, taken
+            integer :: way, outcome, index, direction, taken, idle
             type(way_type), allocatable :: ways(:)
-            logical :: stable
+            logical :: stable, moves
             real(qp) :: target
             logical :: acting(size(closed)), first(size(closed))
             integer :: first_direction
@@ -185,6 +187,7 @@ contains
             allocate (ways(0))
             first(:) = branch%way%closed
             first_direction = branch%way%direction
+            idle = 0
             do while (.not. allocated(error) .and. outcome == goes_on)
                 if (history%number >= most) then
                     history%ending = cut_off
@@ -205,9 +208,17 @@ contains
                 call step_branch(branch, target, way, segment, outcome, error)
                 call refuse_shared(outcome)
                 if (allocated(error)) exit
+                moves = direction == turn .or. abs(real(segment%to, wp) - real(segment%from, wp)) > 0.0_wp
+                idle = merge(0, idle + 1, moves)
+                if (idle > 4*size(closed) + most_idle) then
+                    call fatal_error(error, gapbeam_not_converged, "the path does not leave load factor "// &
+                                     trim(shown(real(branch%factor, wp)))//", where rounding hides which support gives way "// &
+                                     "first: bring the magnitudes of the beam nearer to each other")
+                    exit
+                end if
                 if (outcome == never_ends) then
                     if (direction == turn) history%motion = real(branch%way%motion, wp)
-                else if (abs(real(segment%to, wp) - real(segment%from, wp)) > 0.0_wp .or. direction == turn) then
+                else if (moves) then
                     if (outcome == goes_on .and. all(unloading == gapbeam_elastic)) then
                         ! No cell is crossed twice, but a path without end may come round to where it began
                         if (branch%way%direction == first_direction .and. all(branch%way%closed .eqv. first)) history%ending = ended
