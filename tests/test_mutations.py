@@ -14,7 +14,7 @@ from mutations import mutated_scene, mutated_text
 
 @pytest.mark.parametrize("block", range(10))
 def test_mutated_scenes(block):
-    solved = refused = 0
+    solved = refused = late = 0
     for seed in range(300 * block, 300 * block + 300):
         try:
             scene = gapbeam.read_scene(mutated_scene(seed))
@@ -29,11 +29,18 @@ def test_mutated_scenes(block):
             refused += 1
             continue
         assert result.status in WORST
-        with np.errstate(all="ignore"):
-            report_text(result).encode()
-            if result.steps:
-                to_csv(result).encode()
+        try:
+            with np.errstate(all="ignore"):
+                report_text(result).encode()
+                if result.steps:
+                    to_csv(result).encode()
+        except gapbeam.EngineError as error:
+            # States along a path are solved, and so audited, where they are looked at
+            assert "does not stand its own audit" in str(error), (seed, str(error))
+            late += 1
+            continue
         solved += 1
+    assert late <= 1
     assert refused > 100
     assert solved > 10
 

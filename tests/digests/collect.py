@@ -1,0 +1,127 @@
+"""Digests of what one gapbeam makes of scenes; it knows nothing of the package but what users call.
+
+    python tests/digests/collect.py SCENES [LIBRARY]
+
+Each line of SCENES is a name and a scene; each line printed is a name, what it is a digest of, and the digest.
+"""
+
+import hashlib
+import json
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+
+import gapbeam
+import numpy as np
+from clibrary import GROUND_LAWS, F77Beam, Library
+
+# Words may change, and clocks do
+NOT_NUMBERS = {"title", "reason", "message", "messages", "hints", "warnings", "words", "seconds", "version", "gapbeam", "schema"}
+MOST_NODES = 200  # in C and Fortran 77
+NO_EQUILIBRIUM = 1
+WHOLE_ONLY = {"sections", "trains", "combinations", "envelopes"}
+
+
+def spelled(value):
+    """A value such that two of them are equal if all their bits are."""
+    if isinstance(value, dict):
+        return {str(key): spelled(item) for key, item in value.items() if key not in NOT_NUMBERS}
+    if isinstance(value, np.ndarray):
+        return [str(value.dtype), value.shape, value.tobytes().hex()]
+    if isinstance(value, (list, tuple)):
+        return [spelled(item) for item in value]
+    if isinstance(value, (float, np.floating)):
+        return float(value).hex()
+    return value.item() if isinstance(value, np.generic) else value
+
+
+def digest(value):
+    """The sha256 of a value."""
+    return hashlib.sha256(json.dumps(spelled(value), sort_keys=True).encode()).hexdigest()
+
+
+def arrays_of(found):
+    """All arrays of an object."""
+    values = {name: getattr(found, name) for name in dir(found) if not name.startswith("_")}
+    return {name: value for name, value in values.items() if isinstance(value, np.ndarray)}
+
+
+def in_python(made):
+    """Everything of the JSON output."""
+    return gapbeam.solve(gapbeam.read_scene(made)).to_dict(points=5)
+
+
+def in_cases(made, cases):
+    """Cases in lanes, with what is asked of them."""
+    gaps = {int(k): values for k, values in cases["gaps"].items()}
+    return arrays_of(gapbeam.prepare(made).solve(cases["factors"], **({"gap": gaps} if gaps else {})))
+
+
+def in_c(made, library):
+    """A solve, a path by events, fields and the certificate."""
+    beam, message = library.prepare(made)
+    if message:
+        return beam
+    try:
+        ground = bool(made.get("foundation"))
+        found = {"solve": beam.solve(1.0)[0]}
+        if found["solve"] == NO_EQUILIBRIUM:
+            found["motion"] = beam.motion()
+        if found["solve"] == 0:
+            found["supports"] = beam.at_supports()
+            end = float(np.sum(made["beam"]["spans"]))
+            found["fields"] = beam.fields(np.linspace(0.0, end, 9))
+            found["extremes"] = beam.extremes()
+            found["contact"] = beam.contact() if ground else []
+        found["events"] = beam.follow_ground(1.0) if ground else beam.follow(1.0)[::2]
+        return found
+    finally:
+        beam.close()
+
+
+def in_fortran_77(made, library):
+    """A solve, and the state as it lies in the work arrays."""
+    beam = F77Beam(library, made)
+    if beam.info_:
+        return beam.info_
+    info = beam.solve(1.0)
+    return [info, beam.contact() if made.get("foundation") and info == 0 else []]
+
+
+def is_for_all(made):
+    """Can the columns of the other languages hold the scene."""
+    spans, supports, foundations = made["beam"]["spans"], made.get("supports", []), made.get("foundation", [])
+    plain = isinstance(spans, list) and len(spans) <= MOST_NODES and not set(made) & WHOLE_ONLY
+    plain = plain and not any(isinstance(support.get("law"), dict) for support in supports)
+    laws = [item["law"]["type"] for item in foundations if isinstance(item.get("law"), dict)]
+    return plain and all(law in GROUND_LAWS for law in laws)
+
+
+def attempt(call, *arguments):
+    """What a call gives, or which kind of refusal it ends with."""
+    try:
+        return call(*arguments)
+    except (gapbeam.SceneError, gapbeam.EngineError) as error:
+        return type(error).__name__
+
+
+def main(scenes, library=None):
+    """Print the digests of all scenes of a file."""
+    library = library and Library(library)
+    with open(scenes, encoding="utf-8") as lines:
+        for line in lines:
+            name, made = json.loads(line)
+            cases = made.pop("cases", None) if isinstance(made.get("cases"), dict) and "factors" in made["cases"] else None
+            calls = {"python": (in_python, made)}
+            if cases:
+                calls["cases"] = (in_cases, made, cases)
+            if library and is_for_all(made):
+                made = {"supports": [], "loads": [], **made}
+                calls |= {"C": (in_c, made, library), "Fortran 77": (in_fortran_77, made, library)}
+            for what, call in calls.items():
+                print(json.dumps([name, what, digest(attempt(*call))]), flush=True)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
