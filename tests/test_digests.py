@@ -1,9 +1,6 @@
 """The digests: they see the last bit and no words, and two processes give the same ones."""
 
 import json
-import subprocess
-import sys
-from pathlib import Path
 
 import numpy as np
 from digests import command
@@ -27,9 +24,8 @@ def test_two_processes_give_the_same_digests(tmp_path, installed):
     names = [json.loads(line)[0] for line in scenes.read_text().splitlines()]
     assert len(set(names)) == number >= COUNT
     assert {name.split()[0] for name in names} >= set(FAMILIES)
-    collector = [sys.executable, Path(command.COLLECTOR), scenes, installed.library]
-    both = [subprocess.Popen(collector, stdout=subprocess.PIPE, text=True) for _ in range(2)]
-    here, there = map(command.read_digests, both)
+    both = [command.collect(scenes, installed.library, tmp_path / str(number)) for number in range(2)]
+    here, there = (command.read_digests(*begun) for begun in both)
     assert not command.changed(here, there)
     assert {name for name, _ in here} == set(names)
     found = [sum(kind == what for _, kind in here) for what in ("python", "cases", "C", "Fortran 77")]

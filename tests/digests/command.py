@@ -61,22 +61,25 @@ class Side(Workshop):
             path.unlink()
 
     def collect(self, scenes):
-        """Begin to solve all scenes; the process."""
+        """Begin to solve all scenes; the process, and where it writes."""
         library = next((self.programs / "fortran").glob("libgapbeam.so"))
         keys = {"PYTHONPATH": str(self.site), "PYTHONDONTWRITEBYTECODE": "1"}
-        command = [sys.executable, str(COLLECTOR), str(scenes), str(library)]
-        return subprocess.Popen(command, env=dict(os.environ, **keys), stdout=subprocess.PIPE, text=True)
+        return collect(scenes, library, self.top.parent / "digests", **keys)
 
 
-def read_digests(process):
-    """Digests by scene and by what they are of, as a process prints them."""
-    found = {}
-    for line in process.stdout:
-        name, what, digest = json.loads(line)
-        found[name, what] = digest
+def collect(scenes, library, path, **environment):
+    """Begin to solve all scenes with the gapbeam of an environment; the process, and the file to which it writes."""
+    command = [sys.executable, str(COLLECTOR), str(scenes), str(library)]
+    with open(path, "wb") as output:
+        return subprocess.Popen(command, env=dict(os.environ, **environment), stdout=output), path
+
+
+def read_digests(process, path):
+    """Digests by scene and by what they are of, as a process has written them when it ends."""
     if process.wait():
         raise SystemExit(f"the collector ended with {process.returncode}")
-    return found
+    lines = [json.loads(line) for line in path.read_text().splitlines()]
+    return {(name, what): digest for name, what, digest in lines}
 
 
 def changed(ours, theirs):
@@ -102,7 +105,7 @@ def main(arguments=None):
     number = write_scenes(chosen.count, scenes)
     beside = chosen.beside or commit_beside()
     sides = [Side(chosen.folder / "here", ""), Side(chosen.folder / "beside", beside)]
-    here, there = map(read_digests, [side.collect(scenes) for side in sides])
+    here, there = (read_digests(*begun) for begun in [side.collect(scenes) for side in sides])
     return said(here, there, number, beside)
 
 

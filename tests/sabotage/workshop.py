@@ -9,7 +9,7 @@ from pathlib import Path
 from .change import TOP
 
 LIMIT = 300.0  # seconds for the tests of a change; what takes longer does not end
-ENDLESS = "the tests did not end"
+ENDLESS, CRASHED = "the tests did not end", "the process did not live to its end"
 BUILD = ("-Dbuildtype=plain", "-Doptimization=0", "-Dlanes=least")
 
 
@@ -117,6 +117,8 @@ class Workshop:
             return ENDLESS
         if done.returncode == 0:
             return ""
+        if done.returncode < 0:
+            return CRASHED
         failed = [line for line in done.stdout.splitlines() if line.startswith(("FAILED", "ERROR"))]
         return failed[0].split(" - ")[0].partition(" tests/")[2] if failed else f"pytest ended with {done.returncode}"
 
@@ -137,7 +139,7 @@ class Workshop:
                 return "broken", str(error)
             if not failed:
                 return "survived", ""
-            if failed == ENDLESS or failed in self.sound:
+            if failed in (ENDLESS, CRASHED) or failed in self.sound:
                 return "killed", failed
             self.make()
             if "::" not in failed:
