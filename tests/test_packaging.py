@@ -18,7 +18,7 @@ def installed_openblas(tmp_path_factory):
     """The library with PyPI's LAPACK, as it is built where the system has none; not optimized, which takes half the time."""
     if find_spec("scipy_openblas32") is None:
         pytest.skip("scipy-openblas32 is not in this environment")
-    return install_once(tmp_path_factory, "openblas", "-Dlapack=scipy-openblas32", "-Doptimization=0")
+    return install_once(tmp_path_factory, "openblas", "-Dlapack=scipy-openblas32", "-Doptimization=0", "-Dlanes=least")
 
 
 def search_path(installation, library):
@@ -70,7 +70,7 @@ def test_wheel_brings_openblas_along(installed_openblas, tmp_path, python_digits
     pytest.importorskip("mesonpy")
     pytest.importorskip("numpy", minversion="2.1")  # for building; in the environment of tests/lowest it is older
     options = ["--no-deps", "--no-build-isolation", "--quiet"]
-    options += ["-Csetup-args=-Dlapack=scipy-openblas32", "-Csetup-args=-Doptimization=0"]
+    options += [f"-Csetup-args=-D{option}" for option in ("lapack=scipy-openblas32", "optimization=0", "lanes=least")]
     installed_openblas.run(sys.executable, "-m", "pip", "wheel", *options, "-w", tmp_path, TOP)
     (wheel,) = tmp_path.glob("gapbeam-*.whl")
     unpacked = tmp_path / "unpacked"

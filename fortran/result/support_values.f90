@@ -31,6 +31,7 @@ contains
         !> of the piece, shape (nsupport)
         integer, intent(out) :: condition(:)
         integer :: j, k, last
+        logical :: has_law
 
         associate (units => lowered%units, beam => lowered%beam, axial => lowered%axial)
             do k = 1, size(reaction)
@@ -51,12 +52,14 @@ contains
                     deflection(k) = scale(state%deflection(node), units%deflection)
                     j = lowered%beam_support(k)
                     last = j
+                    has_law = .false.
                     if (j > 0) then
                         last = last_kink(beam%supports, j)
+                        has_law = beam%supports(j)%kink > 0
                         ! Of a law the kink whose piece acts has the force
                         reaction(k) = scale(sum(state%reaction(j:last)), units%force)
                     end if
-                    if (j > 0 .and. (last > j .or. beam%supports(max(j, 1))%kink > 0)) then
+                    if (has_law) then
                         if (allocated(state%laws)) then
                             call look_at_law(state%laws(j:last), s%side, state%closed(j:last), state%deflection(node), &
                                              condition(k), opening(k))

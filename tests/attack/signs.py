@@ -2,6 +2,7 @@
 
 import itertools
 import random
+from bisect import bisect
 from functools import partial
 
 import gapbeam
@@ -16,9 +17,10 @@ from .family import Family, Verdict
 PROMISE = (
     "Every state satisfies the contact conditions in rational numbers over nine decades to either side of ordinary magnitudes, "
     "or names the supports that do not as undecided; no bound is below the true error; status and state depend neither on the "
-    "start nor on the rule"
+    "start nor on the rule; refused are scenes in which loads are lost in a rounding of quadruple precision"
 )
 SIZES = {"ordinary": draw.ORDINARY, "round": draw.ROUND, "spread": draw.SPREAD, "wide": draw.WIDE, "outlier": draw.ORDINARY}
+QUADRUPLE, LEFT_OUT = Fraction(1, 2**113), Fraction(1, 2**27)  # a rounding; the share of loads that may be left out as one
 OUTLIERS = ("EI", "GA", "stiffness", "rotation", "gap", "settlement", "F", "M", "q")
 
 
@@ -68,10 +70,12 @@ def judge(made, seed=0):
         try:
             result = gapbeam.solve(made, rule=rule, start=start)
         except gapbeam.EngineError as error:
-            if error.status != Status.INDETERMINATE or not redundant(beam):
-                verdict.wrong.append(f"{where}refused: {error}")
-            else:
+            if error.status == Status.INDETERMINATE and redundant(beam):
                 verdict.outcome = "forces not unique"
+            elif error.status == Status.NOT_CONVERGED and loads_are_lost(beam, made):
+                verdict.outcome = "loads lost"
+            else:
+                verdict.wrong.append(f"{where}refused: {error}")
             continue
         if sharp and (result.status == "no-equilibrium") != falls:
             verdict.wrong.append(f"{where}{result.status}, not {verdict.outcome}")
@@ -107,6 +111,22 @@ def redundant(beam):
     except Redundant:
         return True
     return ambiguous(beam, solution) if solution.values else not any(map(partial(right, beam), schemes(beam)))
+
+
+def loads_are_lost(beam, made):
+    """Whether a rounding of deflections in quadruple precision is, at the stiffest stretch, too great a force beside the loads."""
+    ends = list(itertools.accumulate(made["beam"]["spans"], initial=0.0))
+    EI = made["beam"]["EI"] if isinstance(made["beam"]["EI"], list) else [made["beam"]["EI"]] * (len(ends) - 1)
+    at = [(min(bisect(ends, float((a + b) / 2)), len(EI)) - 1, b - a) for a, b in itertools.pairwise(beam.points)]
+    stiffest = max((Fraction(EI[k]) / length**3 for k, length in at if EI[k] != draw.INF), default=Fraction(0))
+    try:
+        solution = beam.solve()
+    except Redundant:
+        return False
+    moves = max((abs(Fraction(float(w))) for w in solution.deflection), default=Fraction(0))
+    values = [load[key] for load in made["loads"] for key in ("F", "q") if key in load]
+    load = max((abs(Fraction(part)) for value in values for part in (value if isinstance(value, list) else [value])), default=0)
+    return stiffest * moves * QUADRUPLE > LEFT_OUT * load
 
 
 def schemes(beam):

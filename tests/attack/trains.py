@@ -53,7 +53,8 @@ def judge(made, seed=0):
             compare(made, train, envelope, position, way.course.direction, verdict)
     rows = [(name, end, row) for name in ENOUGH for end, row in envelope.extremes[name].items() if row is not None]
     for name, end, row in rng.sample(rows, min(len(rows), 3)):
-        reached(made, name, end, row, verdict)
+        size = max(abs(end.value) for end in envelope.extremes[name].values() if end is not None)
+        reached(made, name, end, row, size, verdict)
     return verdict
 
 
@@ -105,18 +106,21 @@ def compare(made, train, envelope, position, direction, verdict):
                 verdict.wrong.append(f"{where}{name} of {exactly:.12g} at {x} is beyond the envelope")
 
 
-def reached(made, name, end, row, verdict):
+def reached(made, name, end, row, size, verdict):
     """An extreme value where it is said to be; where something jumps it may be reached only just beside that place or position."""
     values = []
     for position in (row.position, row.position - BESIDE, row.position + BESIDE):
         status, exact = exact_at(made, position, row.direction)
+        if status == "indifferent" and position == row.position:
+            return  # in balance, whatever the states beside it are: the weights of two overhangs
         if status != "solved":
             continue
         length = float(exact.oracle.length)
         for x in {row.x, max(row.x - BESIDE, 0.0), min(row.x + BESIDE, length)}:
             sides = ("right",) if x == 0.0 else ("left",) if x >= length else ("left", "right")
             values += [float(getattr(exact.at(x, side), name)) for side in sides]
-    slack = 1e-5 * max(map(abs, values), default=0.0)
+    # What is next to nothing beside the other extreme is as far off as that moves beside its place
+    slack = max(1e-5 * max(map(abs, values), default=0.0), BESIDE * size)
     if values and not min(values) - slack <= row.value <= max(values) + slack:
         verdict.wrong.append(f"{end} of {name} is {row.value:.12g} at {row.x}, train at {row.position!r}, exactly {values}")
 

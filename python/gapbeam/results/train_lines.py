@@ -146,6 +146,7 @@ class Lines:
             self._passed[position] = self._way.loads.state(position, like.acts)
         return self._passed[position]
 
+    @np.errstate(over="ignore")  # beside the greatest number a forecast may be beyond it
     def _climb_line(
         self, row: int, k: int, at: np.ndarray, values: np.ndarray, like: Placed, ruler: Unrolled | Straight
     ) -> None:

@@ -374,7 +374,7 @@ def vertex(best: float, heights: Mapping[float, float], left: float, right: floa
         return None, 0.0
     slope = slope_a - bend * da
     place = best - slope / (2.0 * bend)
-    return (place, f - slope**2 / (4.0 * bend)) if left < place < right else (None, 0.0)
+    return (place, f - slope / (4.0 * bend) * slope) if left < place < right else (None, 0.0)
 
 
 def _apart(ties: Sequence[Peak], way: SearchedWay) -> list[Peak]:
@@ -417,12 +417,14 @@ def highest(at: np.ndarray, heights: np.ndarray, left: float, right: float) -> t
     (2.0, 4.0)
     """
     middle, half = (left + right) / 2, (right - left) / 2
-    lowest = heights.min()
-    factors = np.linalg.solve(np.vander((at - middle) / half), heights - lowest)
+    # A power of two: products of great numbers would be beyond all numbers
+    size = 2.0 ** np.floor(np.log2(np.abs(heights).max(initial=1e-300)))
+    lowest = (heights / size).min()
+    factors = np.linalg.solve(np.vander((at - middle) / half), heights / size - lowest)
     roots = np.roots(np.polyder(factors))
     places = roots[(np.abs(roots.imag) <= 1e-9) & (np.abs(roots.real) <= 1.0)].real
     if not len(places):
         return None, None
     found = np.polyval(factors, places)
     best = int(found.argmax())
-    return float(middle + half * places[best]), float(found[best] + lowest)
+    return float(middle + half * places[best]), float((found[best] + lowest) * size)
