@@ -13,6 +13,7 @@ from .compare import Look, compare_state, motion_faults
 from .enumeration import ambiguous
 from .exact import Exact, Fraction, NoSolution, Redundant, falls_surely
 from .family import Family, Verdict
+from .proofs import proof_faults
 
 PROMISE = (
     "Every state satisfies the contact conditions in rational numbers over nine decades to either side of ordinary magnitudes, "
@@ -90,6 +91,7 @@ def judge(made, seed=0):
         verdict.wrong.append("whether the beam can move freely depends on start or rule")
     if len(states) > 1 and verdict.outcome == "solved" and not alike(states):
         verdict.wrong.append(f"the state depends on start or rule: {sorted(states)}")
+    verdict.wrong += proof_faults(made, seed)
     return verdict
 
 

@@ -225,9 +225,11 @@ def _parser() -> argparse.ArgumentParser:
     schema.set_defaults(command=_schema)
 
     from .batch import add_batch
+    from .proofs import add_proofs
     from .studies import add_studies
 
     add_batch(commands)
+    add_proofs(commands)
     add_studies(commands)
     return parser
 

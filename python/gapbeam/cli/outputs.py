@@ -13,7 +13,10 @@ from ..base.errors import SceneError
 from ..base.files import write_files
 
 PICTURES = (".png", ".pdf", ".svg")
-SUFFIXES = {"--json": (".json",), "--csv": (".csv",), "--markdown": (".md",), "--plot": PICTURES, "--path": PICTURES}
+SUFFIXES = {
+    "--json": (".json",), "--csv": (".csv",), "--markdown": (".md",), "--output": (".json",), "--plot": PICTURES,
+    "--path": PICTURES,
+}  # fmt: skip
 """Suffixes of the files that an option takes; only pictures need one."""
 
 

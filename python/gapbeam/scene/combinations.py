@@ -76,7 +76,7 @@ class Plan:
             Its loads and trains are those that act, times their factors; its supports have moved.
         """
         scene, title = self.scene, self.names[k]
-        loads = [_times(load, factor) for load, factor in zip(scene.loads, self.factors[k].tolist(), strict=True) if factor]
+        loads = [times(load, factor) for load, factor in zip(scene.loads, self.factors[k].tolist(), strict=True) if factor]
         supports: Sequence[Support] = scene.supports
         if self.settlements[k].any():
             supports = replace_settlements(scene, self.settlements[k]).supports
@@ -110,7 +110,20 @@ def replace_settlements(scene: Scene, moves: np.ndarray) -> Scene:
     )
 
 
-def _times(load: Any, factor: float) -> Any:
+def times(load: Any, factor: float) -> Any:
+    """Multiply a load.
+
+    Parameters
+    ----------
+    load : ForceLoad, MomentLoad, UniformLoad, LinearLoad, CurvatureLoad or AxialLoad
+        The load; left as it is.
+    factor : float
+        By what.
+
+    Returns
+    -------
+    ForceLoad, MomentLoad, UniformLoad, LinearLoad, CurvatureLoad or AxialLoad
+    """
     key = next(key for key in VALUES if hasattr(load, key))
     value = getattr(load, key)
     value = tuple(factor * one for one in value) if isinstance(value, tuple) else factor * value

@@ -1,0 +1,162 @@
+"""A state as a file that others can check: the scene, what every support does in it, and what is claimed.
+
+`tests/proof_checker.py` decides whether it is right, without anything of this package.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from math import isfinite
+from typing import Any
+
+import msgspec
+import numpy as np
+
+from ..base.errors import SceneError
+from ..engine.beam import Beam
+from ..scene.combinations import plan_combinations, times
+from ..scene.laws import is_smooth, law_points
+from ..scene.places import same_place
+from ..scene.reading import read_beam, read_scene
+from ..scene.structs import Scene
+from ..scene.wording import choice, shown
+from .result import Result
+from .step import Step
+from .stepping import solve
+
+FORMAT = "gapbeam-proof 1"
+"""What the form of the file is called."""
+
+
+def proof_data(
+    source: Scene | Mapping[str, Any] | str | os.PathLike, factor: float | None = None, combination: str | None = None
+) -> dict[str, Any]:
+    """Solve a scene and give one state of it as plain data that a checker takes.
+
+    Parameters
+    ----------
+    source : Scene, mapping, str or path
+        As for `gapbeam.solve`.
+    factor : float, optional
+        Load factor of the state; default the last one of the scene.
+    combination : str, optional
+        Name of the combination; default the last one.
+
+    Returns
+    -------
+    dict
+        The scene of this state alone (its loads times their factors, no combinations), ``solved`` with states and values, or
+        ``no-equilibrium`` with the motion. Values are hexadecimal doubles.
+
+    Raises
+    ------
+    SceneError
+        What is asked for is not there, or the load does not come so far.
+    EngineError
+        No unique answer exists.
+
+    Examples
+    --------
+    >>> data = proof_data({"beam": {"spans": [2.0], "EI": 1.0}, "supports": [{"node": 0}, {"node": 1, "side": "below"}],
+    ...                    "loads": [{"type": "force", "x": 1.0, "F": 3.0}]})
+    >>> data["states"], data["values"]["reaction"]
+    (['bilateral', 'closed'], ['0x1.8000000000000p+0', '0x1.8000000000000p+0'])
+    """
+    scene = _one_load(read_scene(source), combination)
+    at = scene.analysis.history[-1] if factor is None else factor
+    if not isfinite(at):
+        raise SceneError("--factor", f"expected a finite number, got {shown(at)}")
+    beam = read_beam(scene)[1]
+    if beam.depends_on_path:
+        result = solve(scene)
+        step = _on_path(result, at)
+        scene = _at_factor(scene, at)
+    else:
+        scene = _at_factor(scene, at)
+        result = solve(scene)
+        step = result.steps[-1] if result.status == "solved" else None
+    data = {"format": FORMAT, "scene": _plain(scene, beam), "status": result.status}
+    if step is None:
+        return data | {"states": [], "values": {}, "motion": _motion(scene, result, beam), "zones": []}
+    values = {"deflection": _hexadecimal(step.deflection), "reaction": _hexadecimal(step.reaction)}
+    zones = [[zone.foundation, *_hexadecimal((zone.from_, zone.to))] for zone in step.contact]
+    return data | {"states": list(step.state), "values": values, "motion": [], "zones": zones}
+
+
+def _one_load(scene: Scene, combination: str | None) -> Scene:
+    """One load of a scene: that of a combination, or the only one."""
+    if scene.trains:
+        raise SceneError("trains", "a proof is of loads that stay; leave the trains out, or put one in a place as forces")
+    if not scene.combinations:
+        if combination is not None:
+            raise SceneError("--combination", "the scene has no combinations; leave it out")
+        return scene
+    plan = plan_combinations(scene)
+    name = plan.names[-1] if combination is None else combination
+    if name not in plan.names:
+        raise SceneError("--combination", f"there is no {shown(name)}; there are {choice(map(shown, plan.names[:12]), 'and')}")
+    k = plan.names.index(name)
+    if plan.scheme_of[k] is not None:
+        raise SceneError("--combination", f"{shown(name)} takes the supports that act in another one, which is no state of its own")
+    return plan.scene_of(k)
+
+
+def _at_factor(scene: Scene, factor: float) -> Scene:
+    """The scene whose state in full is that of the load factor, reached in one step."""
+    loads = [load if load.case == "dead" or factor == 1.0 else times(load, factor) for load in scene.loads]
+    once = msgspec.structs.replace(scene.analysis, steps=1, follow="steps", history=[1.0], at_limit="stop")
+    return msgspec.structs.replace(scene, loads=loads, analysis=once)
+
+
+def _on_path(result: Result, factor: float) -> Step | None:
+    """The state at a factor, where it depends on the way of the load."""
+    if result.status == "no-equilibrium":
+        return None
+    try:
+        return result.state(factor)
+    except ValueError:
+        reason = f" ({result.reason})" if result.reason else ""
+        raise SceneError("--factor", f"the load does not come to {factor:g}{reason}; give a factor below its limit") from None
+
+
+def _motion(scene: Scene, result: Result, beam: Beam) -> list[str]:
+    """Displacements of span ends and hinges in the free motion; none where the beam slides along its axis."""
+    if result.motion is None:
+        return []
+    x, w = zip(*result.motion, strict=True)
+    knots = np.unique(np.concatenate((scene.span_ends(), _snapped(scene.beam.hinges, beam))))
+    return _hexadecimal(np.interp(knots, x, w))
+
+
+def _snapped(places: Sequence[float], beam: Beam) -> np.ndarray:
+    """Places as the engine takes them: what differs from one of its points by rounding only is there."""
+    x, points = np.asarray(places, dtype=float), beam.places.point_x
+    after = np.clip(np.searchsorted(points, x), 1, len(points) - 1)
+    nearest = np.where(x - points[after - 1] <= points[after] - x, points[after - 1], points[after])
+    inside = np.clip(x, points[0], points[-1])
+    return np.where(same_place(inside, nearest), nearest, inside)
+
+
+def _plain(scene: Scene, beam: Beam) -> dict[str, Any]:
+    """The scene with every key that says something, laws as points, and places that are one as one number."""
+    data = {"title": scene.title, **{key: msgspec.to_builtins(getattr(scene, key)) for key in ("units", "beam")}}
+    data["beam"]["hinges"] = _snapped(scene.beam.hinges, beam).tolist()
+    for key in ("sections", "supports", "foundation", "loads"):
+        items = map(msgspec.to_builtins, getattr(scene, key))
+        data[key] = [{name: value for name, value in table.items() if value is not None} for table in items]
+        for name in ("x", "from", "to"):
+            tables = [table for table in data[key] if name in table]
+            for table, x in zip(tables, _snapped([table[name] for table in tables], beam).tolist(), strict=True):
+                table[name] = x
+    for table, support in zip(data["supports"], scene.supports, strict=True):
+        if support.law is not None:
+            del table["stiffness"]
+            if not is_smooth(support.law):
+                table["law"] = law_points(support.law)
+    return json.loads(json.dumps(data))  # tuples are lists
+
+
+def _hexadecimal(values: Iterable[float]) -> list[str]:
+    return [float(value).hex() for value in values]
