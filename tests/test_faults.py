@@ -11,8 +11,9 @@ from pathlib import Path
 
 import gapbeam
 import numpy as np
+import oracle_energy
 import pytest
-from attack import events, hinges, signs
+from attack import events, ground, hinges, signs
 from attack.workers import Ended, judge_all
 from gapbeam.report import to_json
 from scenes import one_sided
@@ -451,3 +452,18 @@ def test_greatest_values_beside_changes_of_zones(seed, quantity):
             for position in (event.position - away, event.position + away):
                 if train.train.from_ <= position <= train.train.to:
                     assert train.at(position).extremes()[quantity]["max"][0] <= largest.value * (1 + 1e-9)
+
+
+@pytest.mark.parametrize(("name", "zones"), [("C2_rough_curves_7001", 45), ("C3_cubic_gap", 2)])
+def test_curves_on_bumps_and_with_gaps(name, zones):
+    """Judged by what the fields leave over of differential equations, contact and laws; the state is unique."""
+    made = read(HERE / "faults" / f"{name}.json")
+    assert judged(ground, made) == []
+    assert len(gapbeam.solve(made).steps[-1].contact) == zones
+
+
+def test_cubic_law_with_a_gap():
+    """Displacement elements with a line search on the energy, which come near with the square of their length."""
+    made = read(HERE / "faults" / "C3_cubic_gap.json")
+    x, w, _ = oracle_energy.solve(made, 1024)
+    assert np.abs(gapbeam.solve(made).at(x).deflection - w).max() <= 4e-6 * np.abs(w).max()

@@ -1,4 +1,4 @@
-!> Beams on the ground: the chain, the zones, the springs, the solution in quadruple precision, and what is asked of it
+!> Beams on the ground: the chain, the zones, the mesh, the solution in quadruple precision, and what is asked of it
 program test_ground
     use testing, only: check, finish
     use gapbeam_kinds, only: wp
@@ -13,7 +13,9 @@ program test_ground
     use gapbeam_layers, only: layer_type, law_piece_type, pieces_of_law, law_piece
     use gapbeam_ground, only: ground_type, zones_type, grounded_type, full_contact, steps_of_piece
     use gapbeam_zones, only: settle_zones
-    use gapbeam_springs, only: search_springs
+    use gapbeam_ground_mesh, only: mesh_type, begin_mesh, refine_mesh
+    use gapbeam_mesh_zones, only: zones_of_mesh
+    use gapbeam_ground_energy, only: find_least_energy
     use gapbeam_workspace, only: workspace_type
     use gapbeam_scheme, only: outcome_type
     use gapbeam_lowered, only: lowered_type
@@ -31,7 +33,7 @@ program test_ground
     call the_chain_finds_mechanisms()
     call layers_and_their_laws()
     call zones_converge_quadratically()
-    call springs_come_near()
+    call meshes_come_near()
     call a_force_on_a_long_beam()
     call a_beam_that_is_lifted()
     call soil_that_grows_with_depth()
@@ -217,26 +219,42 @@ contains
         call check(settled .and. work%solves == 1 .and. moved < 1e-10_wp, "and stay where they are")
     end subroutine zones_converge_quadratically
 
-    !> Springs show the zones, and that nothing holds a beam which is pulled up
-    subroutine springs_come_near()
+    !> The least energy on a mesh shows the zones, nearer and nearer, and that nothing holds a beam which is pulled up
+    subroutine meshes_come_near()
         type(lowered_type) :: lowered
+        type(ground_type) :: ground
+        type(mesh_type) :: mesh
         type(zones_type) :: zones
         type(outcome_type) :: outcome
         type(error_type), allocatable :: error
         type(state_type) :: state
-        logical :: closed(0)
-        integer :: solves
+        logical :: closed(0), refined
+        integer :: solves, pressed, try
+        real(wp) :: off(3)
 
         call lower(lifting(), lowered)
-        call search_springs(ground_of(lowered), 1.0_wp, 4096, closed, zones, solves, outcome, error)
-        call check(.not. allocated(error) .and. outcome%status == gapbeam_solved, "springs hold it")
-        call check(abs(zones%to(2) - 4.6335826_wp) < 0.02_wp .and. abs(zones%from(5) - 4.6732507_wp) < 0.02_wp, "zones of springs")
+        ground = ground_of(lowered)
+        call begin_mesh(ground, mesh)
+        do try = 1, 3
+            call find_least_energy(ground, 1.0_wp, mesh, closed, solves, pressed, outcome, error)
+            call check(.not. allocated(error) .and. outcome%status == gapbeam_solved, "the mesh holds it")
+            call check(solves <= 10 .and. pressed > 20, "in a few rounds")
+            call zones_of_mesh(ground, mesh, zones)
+            call check(size(zones%piece) == 5 .and. all(zones%acts(1, :) == [1, 1, 0, 0, 1]), "zones of the mesh")
+            off(try) = max(abs(zones%to(2) - 4.6335826_wp), abs(zones%from(5) - 4.6732507_wp))
+            call refine_mesh(ground, mesh, .false., refined)
+            call check(refined, "a finer mesh")
+        end do
+        call check(off(1) < 0.1_wp .and. off(3) < 0.02_wp .and. off(3) < off(1), "nearer and nearer")
+        call find_least_energy(ground, -1.0_wp, mesh, closed, solves, pressed, outcome, error)
+        call check(.not. allocated(error) .and. outcome%status == gapbeam_no_equilibrium, "nothing holds it down on a mesh")
+        call check(size(outcome%motion) == size(ground%pieces) + 1 .and. minval(outcome%motion) < -0.99_wp, "nor stops it")
         call lower([uniform_load(1.0_wp, 0.0_wp, 30.0_wp), point_force(-40.0_wp, x=25.0_wp)], lowered)
         call new_state(lowered, state, error)
         call solve_state(lowered, 1.0_wp, 0, state, error)
         call check(.not. allocated(error) .and. state%status == gapbeam_no_equilibrium, "nothing holds it down")
         call check(minval(state%motion) < -0.99_wp, "its motion goes up")
-    end subroutine springs_come_near
+    end subroutine meshes_come_near
 
     !> Reference problem P3: k w/(P beta) = coth(pi/2)/2, contact over pi/(2 beta) to both sides (beta = 1)
     subroutine a_force_on_a_long_beam()

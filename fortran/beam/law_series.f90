@@ -7,7 +7,8 @@ module gapbeam_law_series
     use gapbeam_layers, only: law_hardening, law_hyperbolic, law_tanh, law_cubic, parameters_of_law
     implicit none
     private
-    public :: curve_type, law_series_type, order, curve_force, begin_series, next_term, force_scale, slope_scale, longest_step
+    public :: curve_type, law_series_type, order, curve_force, curve_slope, begin_series, next_term, force_scale, &
+        slope_scale, longest_step
 
     !> Degree of all series: with as many terms as digits need that shrink by e**2 each, the fewest operations for a length
     integer, parameter :: order = ceiling(digits(1.0_wp)*0.35_wp) + 3
@@ -64,6 +65,28 @@ contains
             if (p(1) > 0.0_wp) force = force - p(3)*(p(2)/p(1))
         end select
     end function curve_force
+
+    !> Its slope there
+    pure function curve_slope(law, p, u) result(slope)
+        !> As for curve_force
+        integer, intent(in) :: law
+        real(wp), intent(in) :: p(:), u
+        real(wp) :: slope, exponential
+
+        slope = 0.0_wp
+        select case (law)
+        case (law_tanh)
+            if (.not. p(2) > 0.0_wp) return
+            exponential = exp(-2*abs(p(1)*u/p(2)))
+            slope = p(1)*(4*exponential/(1 + exponential)**2)
+        case (law_hyperbolic)
+            if (p(2) > 0.0_wp) slope = p(1)/(1 + p(1)*u/p(2))**2
+        case (law_cubic)
+            slope = p(1) + u*(2*p(2) + 3*p(3)*u)
+        case default
+            slope = p(3)
+        end select
+    end function curve_slope
 
     !> Begin the series at a place
     pure subroutine begin_series(curve, xi, way, negative, series)

@@ -1,12 +1,12 @@
 !> What a layer of ground does at a place along its piece of the beam: where it acts, by which piece of its law, and how
 module gapbeam_ground_laws
     use gapbeam_kinds, only: wp
-    use gapbeam_curved, only: curve_type
+    use gapbeam_law_series, only: curve_type, curve_force, curve_slope
     use gapbeam_layers, only: layer_type, law_piece_type, pieces_of_law, law_piece, is_curve, law_by_points, parameters_of_law
     implicit none
     private
     public :: between, along, contact_line, line_of_kink, approach_kink, parameters_at, piece_of_deflection, slope_of_layer, &
-              offset_of_layer, take_curves
+              offset_of_layer, push_of_layer, slope_at, take_curves
 
 contains
 
@@ -139,6 +139,50 @@ contains
             offset = along(layer%parameter_a(2), layer%parameter_b(2), distance, length)
         end if
     end function offset_of_layer
+
+    !> Force per length of a layer on the beam, up
+    pure function push_of_layer(layer, laws, acts, place, length, deflection) result(push)
+        !> The layer, the pieces of all laws, and that on which it acts, 0: not in contact
+        type(layer_type), intent(in) :: layer
+        type(law_piece_type), intent(in) :: laws(:)
+        integer, intent(in) :: acts
+        !> Distance from the left end of its piece of the beam, length of that, deflection there
+        real(wp), intent(in) :: place, length, deflection
+        real(wp) :: push
+        type(law_piece_type) :: law
+
+        push = 0.0_wp
+        if (acts == 0) return
+        if (is_curve(layer, acts)) then
+            push = layer%side*curve_force(layer%law, parameters_at(layer, place, length), &
+                                          layer%side*(deflection - contact_line(layer, place, length)))
+        else
+            law = law_piece(layer, laws, acts)
+            push = layer%side*offset_of_layer(layer, law, acts, place, length) &
+                + slope_of_layer(layer, law, acts, place, length)*(deflection - contact_line(layer, place, length))
+        end if
+        ! At an end of a zone it is zero but for rounding
+        if (layer%side /= 0) push = layer%side*max(0.0_wp, layer%side*push)
+    end function push_of_layer
+
+    !> Its slope over the deflection there
+    pure function slope_at(layer, laws, acts, place, length, deflection) result(slope)
+        !> As for push_of_layer
+        type(layer_type), intent(in) :: layer
+        type(law_piece_type), intent(in) :: laws(:)
+        integer, intent(in) :: acts
+        real(wp), intent(in) :: place, length, deflection
+        real(wp) :: slope
+
+        slope = 0.0_wp
+        if (acts == 0) return
+        if (is_curve(layer, acts)) then
+            slope = curve_slope(layer%law, parameters_at(layer, place, length), &
+                                layer%side*(deflection - contact_line(layer, place, length)))
+        else
+            slope = slope_of_layer(layer, law_piece(layer, laws, acts), acts, place, length)
+        end if
+    end function slope_at
 
     !> The layers under a stretch that act by curves
     pure subroutine take_curves(layers, acts, from, to, length, curves)

@@ -4,8 +4,7 @@ module gapbeam_ground_pressure
     use gapbeam_element, only: field_type
     use gapbeam_layers, only: law_piece, law_by_points
     use gapbeam_curved, only: curved_type
-    use gapbeam_ground_laws, only: contact_line, slope_of_layer, along
-    use gapbeam_ground_fields, only: push_of_layer
+    use gapbeam_ground_laws, only: contact_line, slope_of_layer, along, push_of_layer
     use gapbeam_ground_solver, only: ground_solution_type
     use gapbeam_lowered, only: lowered_type
     use gapbeam_ground_query, only: stretch_of, share_of, values_in, peaks_in

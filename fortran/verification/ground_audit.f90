@@ -9,10 +9,10 @@ module gapbeam_ground_audit
     use gapbeam_nodes, only: hinge, restrained
     use gapbeam_element, only: field_type
     use gapbeam_law, only: force_by_spring, margin_in_scheme, is_watched_in
-    use gapbeam_ground_laws, only: approach_kink
+    use gapbeam_ground_laws, only: approach_kink, push_of_layer
     use gapbeam_ground, only: ground_type
     use gapbeam_ground_solution, only: ground_solution_type
-    use gapbeam_ground_fields, only: field_at_end, push_of_layer, find_sizes, lost
+    use gapbeam_ground_fields, only: field_at_end, find_sizes, lost
     use gapbeam_ledger, only: ledger_type, note, of_bending, of_equilibrium, of_parts, of_zone_ends, of_supports, &
         of_restraints, of_places, deflections, rotations, moments, forces, beyond, pulls
     use gapbeam_stretch_audit, only: sums_type, audit_stretch, kink_terms, pressure_terms

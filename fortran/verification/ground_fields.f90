@@ -1,18 +1,17 @@
-!> The fields of a solved beam on the ground inside its stretches, and what every layer presses there
+!> The fields of a solved beam on the ground inside its stretches
 module gapbeam_ground_fields
     use gapbeam_kinds, only: wp
     use gapbeam_element, only: field_type
     use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type, decay_lengths
     use gapbeam_foundation_taylor, only: is_sloped
     use gapbeam_foundation_fields, only: fields_at, sloped_start, sloped_fields_from
-    use gapbeam_layers, only: layer_type, law_piece_type, law_piece, is_curve
-    use gapbeam_law_series, only: curve_force
+    use gapbeam_layers, only: layer_type, is_curve
     use gapbeam_curved, only: curved_type, curved_fields
-    use gapbeam_ground_laws, only: along, contact_line, slope_of_layer, offset_of_layer, parameters_at, take_curves
+    use gapbeam_ground_laws, only: along, take_curves
     use gapbeam_ground_solution, only: ground_solution_type
     implicit none
     private
-    public :: inside_type, look_inside, field_at_end, field_inside, curved_stretch, push_of_layer, deflection_size, find_sizes, lost
+    public :: inside_type, look_inside, field_at_end, field_inside, curved_stretch, deflection_size, find_sizes, lost
 
     !> Rounding of quadruple precision, some digits of it lost, in that of doubles
     real(wp), parameter :: lost = 2.0_wp**(-90)/epsilon(1.0_wp)
@@ -156,31 +155,6 @@ contains
                             solution%shear(2, i)]
         end associate
     end subroutine curved_stretch
-
-    !> Force per length of a layer on the beam, up
-    pure function push_of_layer(layer, laws, acts, place, length, deflection) result(push)
-        !> The layer, the pieces of all laws, and that on which it acts, 0: not in contact
-        type(layer_type), intent(in) :: layer
-        type(law_piece_type), intent(in) :: laws(:)
-        integer, intent(in) :: acts
-        !> Distance from the left end of its piece of the beam, length of that, deflection there
-        real(wp), intent(in) :: place, length, deflection
-        real(wp) :: push
-        type(law_piece_type) :: law
-
-        push = 0.0_wp
-        if (acts == 0) return
-        if (is_curve(layer, acts)) then
-            push = layer%side*curve_force(layer%law, parameters_at(layer, place, length), &
-                                          layer%side*(deflection - contact_line(layer, place, length)))
-        else
-            law = law_piece(layer, laws, acts)
-            push = layer%side*offset_of_layer(layer, law, acts, place, length) &
-                + slope_of_layer(layer, law, acts, place, length)*(deflection - contact_line(layer, place, length))
-        end if
-        ! At an end of a zone it is zero but for rounding
-        if (layer%side /= 0) push = layer%side*max(0.0_wp, layer%side*push)
-    end function push_of_layer
 
     !> Size of what deflections inside a stretch are sums of, which times the rounding unit bounds their error (N. J. Higham,
     !> Accuracy and Stability of Numerical Algorithms, 2002, section 3.1)

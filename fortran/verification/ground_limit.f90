@@ -37,7 +37,8 @@ contains
         !> Is there one; or is there one along which both are the same to rounding; or do the loads do less along all, so that there
         !> is an equilibrium. Never of a beam with hinges
         logical, intent(out) :: found, tied, stands
-        !> Downward displacements of the nodes of the beam without ground, largest 1, shape (0:n)
+        !> Downward displacements of the nodes of the beam without ground along it, largest 1, shape (0:n); if there is none, along
+        !> one on which neither loads nor ground do any work, not allocated if there is none either
         real(wp), allocatable, intent(out) :: motion(:)
         real(qp) :: share(0:size(ground%pieces)), work(2), parts(2), y(2), best(2), excess, most, resisted, least, low, high
         integer :: k
@@ -70,13 +71,14 @@ contains
             excess = dot_product(y, work) - resisted
             least = merge(least_excess, no_work, resisted > 0.0_qp)*(sum(parts) + resisted)
             tied = tied .or. abs(excess) <= least
+            if (abs(excess) <= least .and. .not. max(most, resisted) > 0.0_qp) best = y
             stands = stands .and. excess < -least
             if (excess <= max(most, least)) cycle
             most = excess
             best = y
         end do
         found = most > 0.0_qp
-        if (.not. found) return
+        if (.not. any(abs(best) > 0.0_qp)) return
         share = best(1) + share*(best(2) - best(1))
         where (abs(share) <= no_way) share = 0.0_qp
         allocate (motion(0:size(ground%pieces)))

@@ -1,8 +1,8 @@
 !> A beam on the ground solved: the zones found in double precision, and then all of it in quadruple precision, rounded once.
 !>
 !> So ends, fields and reactions have all digits that doubles hold, and what doubles found is nothing but a start. Whether there is
-!> an equilibrium at all, and where zones are if Newton's method does not find them, springs tell (gapbeam_springs); that loads
-!> are more than the ground can bear is proved by limit analysis (gapbeam_ground_limit).
+!> an equilibrium at all, and where zones are if Newton's method does not find them or laws are curves, the least energy on a mesh
+!> tells (gapbeam_ground_energy); that loads are more than the ground can bear is proved by limit analysis (gapbeam_ground_limit).
 module gapbeam_ground_solver
     use gapbeam_kinds, only: wp, qp
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_not_converged, &
@@ -12,7 +12,9 @@ module gapbeam_ground_solver
     use gapbeam_ground, only: ground_type, zones_type, grounded_type, full_contact
     use gapbeam_zones, only: settle_zones
     use gapbeam_zone_fields, only: rough_ends_of => ends_of, rough_fields_at_ends => fields_at_ends
-    use gapbeam_springs, only: search_springs
+    use gapbeam_ground_mesh, only: mesh_type, begin_mesh, refine_mesh
+    use gapbeam_mesh_zones, only: zones_of_mesh
+    use gapbeam_ground_energy, only: find_least_energy
     use gapbeam_workspace, only: workspace_type
     use gapbeam_scheme, only: outcome_type
     use gapbeam_law, only: both
@@ -40,10 +42,12 @@ module gapbeam_ground_solver
     !> The same of ends that are taken where laws are curves: the fields there are those at the ends of the round before. Elsewhere
     !> fields are moved with their ends, which leaves the square of the way
     real(qp), parameter :: finest = 1e-17_qp, movable = 1e-11_qp
-    !> Springs tried, none first; not all of them where no springs can tell
-    integer, parameter :: spring_numbers(0:4) = [0, 64, 512, 4096, 32768], last_if_tied = 3
-    !> Springs that are pressed at most where the beam stands on edges
-    integer, parameter :: edge_parts = 4
+    !> Zones are tried from full contact, then from meshes, each finer than the one before; not from all of them where no mesh can
+    !> tell
+    integer, parameter :: last_try = 5, last_if_tied = 4
+    !> Nodes of a mesh that are pressed at most where the beam stands on edges, and how often a mesh is refined at once where ground
+    !> has become stiffer
+    integer, parameter :: edge_nodes = 4, most_stiffer = 6
     !> Part of the largest displacement of a motion that is none
     real(wp), parameter :: no_way = 1e-6_wp
     !> Differences are taken so many times
@@ -73,10 +77,11 @@ contains
         type(workspace_type) :: work
         type(fine_ground_type) :: fine
         logical, allocatable :: start(:)
-        logical :: settled, known, on_edge, collapses, tied, stands, curves, carries
+        type(mesh_type) :: mesh
+        logical :: settled, known, on_edge, collapses, tied, stands, weighed, carries
         real(wp) :: moved
         real(wp), allocatable :: motion(:)
-        integer :: try, last, solves, edges
+        integer :: try, first, last, pressed, edges
 
         call reserve_memory(for_ground, size(ground%pieces), size(closed), 0, error)
         if (allocated(error)) return
@@ -86,43 +91,50 @@ contains
         call full_contact(ground, zones)
         on_edge = .false.
         edges = 0
-        ! Near what curves bear zones take many rounds, which limit analysis may spare
-        curves = any(has_curves(fine%layers))
-        last = ubound(spring_numbers, 1)
-        do try = 0, ubound(spring_numbers, 1)
+        collapses = .false.
+        weighed = .false.
+        stands = .false.
+        first = merge(1, 0, any(has_curves(fine%layers)))
+        last = last_try
+        do try = first, last_try
             if (try > last) exit
-            if (try == merge(0, 1, curves)) then
-                call find_collapse(fine, real(factor, qp), collapses, tied, stands, motion)
+            if (try > 0) then
+                closed(:) = start
+                if (allocated(error)) deallocate (error)
+                ! What Newton's method does not find from full contact may be too much to be borne
+                if (first == 0 .or. try > 1) call weigh()
+                if (.not. allocated(error)) call look_on_mesh()
+                if (allocated(error)) then
+                    if (any(error%code == [gapbeam_no_memory, gapbeam_stopped])) return
+                end if
+                if (allocated(error) .or. outcome%status /= gapbeam_solved) call weigh()
                 if (collapses) then
                     if (allocated(error)) deallocate (error)
                     outcome = outcome_type(status=gapbeam_no_equilibrium)
                     call move_alloc(motion, outcome%motion)
                     return
                 end if
-                ! What the last digits of the data decide no finer springs do
-                if (tied) last = last_if_tied
-            end if
-            if (try > 0) then
-                closed(:) = start
-                if (allocated(error)) deallocate (error)
-                call reserve_memory(for_solving, size(ground%pieces) + spring_numbers(try), &
-                                    size(closed) + spring_numbers(try), 0, error)
-                if (allocated(error)) return
-                call search_springs(ground, factor, spring_numbers(try), closed, zones, solves, outcome, error)
-                solution%solves = solution%solves + solves
                 if (allocated(error)) then
-                    ! Other springs may tell
-                    if (any(error%code == [gapbeam_no_memory, gapbeam_stopped]) .or. try == last) return
+                    ! A finer mesh may tell
+                    if (try == last) return
                     cycle
                 end if
                 if (outcome%status /= gapbeam_solved) then
-                    ! Springs are not the ground where next to no load more would be too much
+                    ! A mesh is not the ground where next to no load more would be too much
                     if (stands .and. try < last) cycle
                     if (.not. stands) return
                     exit
                 end if
-                on_edge = any(zones%acts > 0) .and. sum(zones%to - zones%from, any(zones%acts > 0, 1)) &
-                    <= edge_parts*sum(ground%pieces%length)/spring_numbers(try)
+                on_edge = pressed <= edge_nodes .and. pressed > 0
+                if (on_edge) call weigh()
+                if (on_edge .and. tips_over()) then
+                    ! Zones as short as that show on a finer mesh, or not at all
+                    if (try < last) cycle
+                    outcome = outcome_type(status=gapbeam_no_equilibrium)
+                    call move_alloc(motion, outcome%motion)
+                    return
+                end if
+                call zones_of_mesh(ground, mesh, zones)
             end if
             call settle_zones(ground, factor, rule, rough, zones, closed, grounded, work, outcome, known, moved, error)
             solution%solves = solution%solves + work%solves
@@ -136,7 +148,7 @@ contains
             if (.not. known .and. try == 0 .and. moved > nearly) cycle
             call settle_finely(fine, real(factor, qp), rule, zones, known, closed, solution, outcome, settled, carries, error)
             if (allocated(error)) then
-                ! Springs may tell that there is no equilibrium
+                ! A mesh may tell that there is no equilibrium
                 if (all(error%code /= [gapbeam_not_converged, gapbeam_not_finite])) return
             end if
             if (carries) edges = edges + 1
@@ -146,9 +158,9 @@ contains
         end do
         if (allocated(error)) return
         ! From whatever zones it began, a part of the beam came to stand on an edge; the others may lie on the ground
-        on_edge = on_edge .or. edges == last + 1
+        on_edge = on_edge .or. edges == last + 1 - first
         if (on_edge .and. outcome%status == gapbeam_no_equilibrium) then
-            ! The last spring alone holds what no zone can, however short: the beam tips over the edge of the ground
+            ! The last node alone holds what no zone can, however short: the beam tips over the edge of the ground
             if (size(outcome%motion) /= size(grounded%node)) then
                 allocate (motion(0:size(ground%pieces)))
                 motion(:) = outcome%motion(grounded%node)
@@ -160,6 +172,51 @@ contains
         end if
         call fatal_error(error, gapbeam_not_converged, "the zones in which the beam touches the ground could not be settled: "// &
                          "look for a load at the very end of the ground, or for ground that is far stiffer than the beam")
+
+    contains
+
+        !> Find out once whether the loads are more than the ground can bear
+        subroutine weigh()
+            if (weighed) return
+            weighed = .true.
+            call find_collapse(fine, real(factor, qp), collapses, tied, stands, motion)
+            ! What the last digits of the data decide no finer mesh does
+            if (tied) last = last_if_tied
+        end subroutine weigh
+
+        !> Is there a motion without work, off all ground but an edge that no mesh is fine enough for. Then along it neither the
+        !> loads nor anything else does work, so nothing but what is at its pivot may carry: the beam tips over that
+        function tips_over() result(tips)
+            logical :: tips
+
+            tips = .false.
+            if (.not. allocated(motion)) return
+            tips = .not. (is_blocked(ground%beam%supports, motion) &
+                          .or. any(abs(motion(ground%beam%supports%node)) <= no_way))
+        end function tips_over
+
+        !> Solve on the first mesh, or on one that is finer where zones end
+        subroutine look_on_mesh()
+            logical :: refined
+            integer :: again, solves
+
+            refined = .true.
+            if (try == 1) then
+                call begin_mesh(ground, mesh)
+            else
+                call refine_mesh(ground, mesh, .false., refined)
+            end if
+            do again = 1, most_stiffer
+                call reserve_memory(for_solving, size(mesh%piece), size(closed) + size(mesh%piece), 0, error)
+                if (allocated(error)) return
+                call find_least_energy(ground, factor, mesh, closed, solves, pressed, outcome, error)
+                solution%solves = solution%solves + solves
+                if (allocated(error) .or. outcome%status /= gapbeam_solved) return
+                call refine_mesh(ground, mesh, .true., refined)
+                if (.not. refined) return
+            end do
+        end subroutine look_on_mesh
+
     end subroutine solve_on_ground
 
     !> The limit load between two load factors, by limit analysis

@@ -6,12 +6,12 @@ module gapbeam_stretch_audit
     use gapbeam_element, only: field_type
     use gapbeam_layers, only: layer_type, law_piece_type, law_piece, pieces_of_law, is_curve, law_by_points, law_cubic, &
         parameters_of_law
-    use gapbeam_ground_laws, only: along, approach_kink
+    use gapbeam_ground_laws, only: along, approach_kink, push_of_layer
     use gapbeam_curved, only: curved_type, advance_curved
     use gapbeam_link, only: piece_load_type, combine_loads
     use gapbeam_ground, only: ground_type
     use gapbeam_ground_solution, only: ground_solution_type
-    use gapbeam_ground_fields, only: inside_type, look_inside, field_at_end, field_inside, curved_stretch, push_of_layer
+    use gapbeam_ground_fields, only: inside_type, look_inside, field_at_end, field_inside, curved_stretch
     use gapbeam_quadrature, only: panels_type, cut_into_panels, points_of, most_points
     use gapbeam_ledger, only: ledger_type, note, of_bending, of_equilibrium, of_resultants, of_contact, deflections, rotations, &
         moments, forces, beyond

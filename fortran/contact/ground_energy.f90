@@ -1,0 +1,416 @@
+!> The least energy of a beam on one-sided ground, on a mesh: Newton's method with a line search.
+!>
+!> At the nodes of the mesh (gapbeam_ground_mesh) the ground pushes by its laws on half of the parts beside them, so that the
+!> energy is convex and has a Lipschitz continuous gradient. A model of it with the forces and slopes of the ground at hand, and
+!> with the supports as they are, is solved by gapbeam_scheme; along the way to its solution the slope of the energy never falls,
+!> and costs no more than the forces of the ground. Going to where it vanishes, or nearly so, the energy falls by a share of what
+!> it can in every round: from any start this ends at the least one (semismooth Newton methods: Pang and Qi 1995, Facchinei 1995).
+!> Where the model runs away along a motion of the beam, the same search tells how far; if nothing stops it, there is no
+!> equilibrium.
+module gapbeam_ground_energy
+    use gapbeam_kinds, only: wp
+    use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_not_converged, gapbeam_no_memory, gapbeam_stopped
+    use gapbeam_link, only: piece_type, piece_load_type, condense_link
+    use gapbeam_band, only: plain
+    use gapbeam_law, only: both
+    use gapbeam_law_motions, only: find_level_forces
+    use gapbeam_model, only: beam_type, node_support_type, order_supports, softest
+    use gapbeam_kinematics, only: work_of_loads
+    use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
+    use gapbeam_search, only: rule_block
+    use gapbeam_scheme, only: find_scheme, outcome_type
+    use gapbeam_ground_laws, only: along, piece_of_deflection, push_of_layer, slope_at
+    use gapbeam_ground, only: ground_type
+    use gapbeam_ground_mesh, only: mesh_type
+    implicit none
+    private
+    public :: find_least_energy
+
+    !> Rounds at most, and steps of a line search
+    integer, parameter :: most_rounds = 200, most_steps = 60
+    !> Share of all forces that may be out of balance in the end
+    real(wp), parameter :: balanced = 1e-9_wp
+    !> A slope of the energy that has fallen to this share of what it was is enough
+    real(wp), parameter :: flat = 0.1_wp
+    !> Slopes of the law of a node beside the steepest that are none
+    real(wp), parameter :: no_slope = 2.0_wp**(-40)
+    !> Springs that ease the way where the model has no one solution, beside the softest stiffness
+    real(wp), parameter :: ease_ratio = 1e-5_wp
+    !> A motion goes so many times the length of the beam at first, and at last
+    real(wp), parameter :: first_way = 1e-6_wp, last_way = 1e14_wp
+
+    !> Where the ground acts: at a node, on a length of a piece of the beam
+    type :: point_type
+        integer :: node, piece
+        !> Distance from the left end of the piece, and the length that belongs to it
+        real(wp) :: place, width
+    end type point_type
+
+contains
+
+    !> Find the deflections of least energy
+    subroutine find_least_energy(ground, factor, mesh, closed, solves, pressed, outcome, error)
+        !> The beam and its ground, and the load factor
+        type(ground_type), intent(in) :: ground
+        real(wp), intent(in) :: factor
+        !> With a start where it is solved already; else that is full contact
+        type(mesh_type), intent(inout) :: mesh
+        !> States of the supports: start in, found out
+        logical, intent(inout) :: closed(:)
+        !> Linear solves, and nodes at which ground that acts one way is pressed
+        integer, intent(out) :: solves, pressed
+        !> Solved or no equilibrium, with the motion of the nodes of the beam without ground
+        type(outcome_type), intent(out) :: outcome
+        !> As for find_scheme, or not settled
+        type(error_type), allocatable, intent(out) :: error
+        type(beam_type) :: beam
+        type(workspace_type) :: work
+        type(point_type), allocatable :: points(:)
+        type(node_support_type), allocatable :: own(:)
+        !> Of the nodes: deflection, what the beam asks ground and supports for there, force and slope of the ground, force of the
+        !> model, a step, the change of what is asked for, loads
+        real(wp), allocatable, dimension(:) :: w, asked, push, slope, modelled, step, change, load
+        real(wp), allocatable :: ease
+        logical, allocatable :: acting(:)
+        real(wp) :: way, force
+        integer :: round, n
+        logical :: begun, stopped
+
+        n = size(mesh%piece)
+        solves = 0
+        pressed = 0
+        call make_beam(ground, mesh, beam)
+        call list_points(ground, mesh, points)
+        allocate (own(size(closed)), w(0:n), asked(0:n), push(0:n), slope(0:n), modelled(0:n), step(0:n), change(0:n), load(0:n))
+        own(:) = beam%supports
+        load(:) = beam%force(1, :)
+        w(:) = mesh%deflection
+        asked(:) = 0.0_wp
+        call press(ground, points, w, push, slope, pressed, full=.not. mesh%solved)
+        begun = .false.
+        do round = 1, most_rounds
+            call solve_model()
+            if (allocated(error)) then
+                if (any(error%code == [gapbeam_no_memory, gapbeam_stopped]) .or. allocated(ease)) return
+                deallocate (error)
+            end if
+            if (outcome%status /= gapbeam_solved .and. begun) then
+                call follow_motion(stopped)
+                if (.not. stopped) return
+                cycle
+            end if
+            if (.not. succeeded()) then
+                ! Held by so little that springs have to help, here or from the start
+                if (allocated(ease)) exit
+                ease = ease_ratio*softest(beam)
+                cycle
+            end if
+            call take_model()
+            way = 1.0_wp
+            if (begun) way = way_to_flat()
+            if (way < 1.0_wp) then
+                w = w + way*step
+                asked = asked + way*change
+            else
+                w(:) = work%answers%deflection
+                asked = asked + change
+            end if
+            call press(ground, points, w, push, slope, pressed)
+            force = sum(abs(push)) + sum(work%load_size)
+            if (begun .and. way >= 1.0_wp .and. sum(abs(push - modelled)) <= balanced*force) then
+                closed(:) = acting(:size(closed))
+                mesh%deflection(:) = w
+                mesh%moment_left(:) = work%answers%moment_left
+                mesh%moment_right(:) = work%answers%moment_right
+                mesh%solved = .true.
+                return
+            end if
+            ! Now motions tell how far to go
+            if (.not. begun .and. allocated(ease)) deallocate (ease)
+            begun = .true.
+        end do
+        call fatal_error(error, gapbeam_not_converged, "the ground could not be settled, or proved too weak for the loads: "// &
+                         "look for loads near what it can bear")
+
+    contains
+
+        !> Solve the beam on springs with the forces and slopes of the ground
+        subroutine solve_model()
+            type(node_support_type), allocatable :: supports(:)
+            real(wp) :: stiffness
+            integer :: i, m
+
+            allocate (supports(size(own) + n + 1))
+            m = size(own)
+            supports(:m) = own
+            do i = 0, n
+                stiffness = slope(i)
+                if (allocated(ease)) stiffness = stiffness + ease
+                beam%force(1, i) = load(i) - push(i)
+                if (.not. stiffness > 0.0_wp) cycle
+                m = m + 1
+                supports(m) = node_support_type(i, both, stiffness, w(i))
+            end do
+            call order_supports(supports(:m), beam)
+            if (allocated(acting)) deallocate (acting)
+            allocate (acting(m))
+            acting(:) = .true.
+            acting(:size(closed)) = closed
+            call new_workspace(beam, work)
+            call set_loads(beam, factor, work)
+            call find_scheme(beam, factor, rule_block, acting, work, outcome, error)
+            solves = solves + work%solves
+        end subroutine solve_model
+
+        !> Has the model a solution
+        pure function succeeded() result(has)
+            logical :: has
+
+            has = .not. allocated(error) .and. outcome%status == gapbeam_solved
+        end function succeeded
+
+        !> Its forces, the way to it, and what the beam asks for there
+        subroutine take_model()
+            integer :: k
+
+            closed(:) = acting(:size(closed))
+            step(:) = work%answers%deflection - w
+            modelled(:) = push + slope*step
+            if (allocated(ease)) modelled(:) = modelled + ease*step
+            change(:) = modelled - asked
+            do k = 1, size(own)
+                associate (i => own(k)%node)
+                    change(i) = change(i) + work%reaction(k)
+                end associate
+            end do
+        end subroutine take_model
+
+        !> How far to go to the solution of the model: all the way, or to where the energy no longer falls. Supports count by their
+        !> forces at the end of the way, which overrates their energy before
+        function way_to_flat() result(t)
+            real(wp) :: t, low, high, at_low, at_high, at, first, half
+            integer :: number, last
+
+            first = energy_slope(0.0_wp)
+            t = 1.0_wp
+            at = energy_slope(t)
+            if (at <= 0.0_wp .or. .not. first < 0.0_wp) return
+            low = 0.0_wp
+            at_low = first
+            high = t
+            at_high = at
+            last = 0
+            do number = 1, most_steps
+                if (at <= flat*abs(first) .and. at >= -flat*abs(first)) then
+                    if (at <= 0.0_wp) exit
+                    ! The slope never falls, so the energy falls by no less than this
+                    half = energy_slope(t/2)
+                    if (half + at <= -flat*abs(first)) exit
+                end if
+                t = (high*at_low - low*at_high)/(at_low - at_high)
+                if (.not. (t > low .and. t < high)) t = low + (high - low)/2
+                at = energy_slope(t)
+                if (at <= 0.0_wp) then
+                    low = t
+                    at_low = at
+                    if (last == 1) at_high = at_high/2
+                    last = 1
+                else
+                    high = t
+                    at_high = at
+                    if (last == 2) at_low = at_low/2
+                    last = 2
+                end if
+            end do
+        end function way_to_flat
+
+        !> Slope of the energy along the step
+        function energy_slope(t) result(at)
+            real(wp), intent(in) :: t
+            real(wp) :: at
+            real(wp) :: force(0:n), ignored(0:n)
+            integer :: nodes
+
+            call press(ground, points, w + t*step, force, ignored, nodes)
+            at = dot_product(step, force - modelled + (1 - t)*change)
+        end function energy_slope
+
+        !> Go along a motion that nothing of the model stops, as far as the energy falls
+        subroutine follow_motion(stopped)
+            !> Does it fall for a part of the way only
+            logical, intent(out) :: stopped
+            real(wp), allocatable :: motion(:)
+            real(wp) :: level(0:n), gain, parts, length, low, high, at_low, at_high, t, at, first
+            integer :: number, last
+
+            step(:) = outcome%motion
+            call find_level_forces(own, acting(:size(own)), level)
+            call work_of_loads(beam, factor, step, [0, n], gain, parts)
+            gain = gain - dot_product(step, level)
+            modelled(:) = push
+            change(:) = 0.0_wp
+            length = sum(ground%pieces%length)
+            low = 0.0_wp
+            at_low = -gain
+            first = gain
+            high = first_way*max(length, maxval(abs(w)))
+            do
+                at_high = energy_slope(high) - gain
+                stopped = at_high > 0.0_wp .or. .not. gain > 0.0_wp
+                if (stopped .or. high > last_way*max(length, maxval(abs(w)))) exit
+                low = high
+                at_low = at_high
+                high = 8*high
+            end do
+            if (.not. stopped) then
+                allocate (motion(0:size(ground%pieces)))
+                motion(:) = outcome%motion(mesh%node)
+                call move_alloc(motion, outcome%motion)
+                return
+            end if
+            last = 0
+            do number = 1, most_steps
+                if (at_low >= -flat*first) exit
+                t = (high*at_low - low*at_high)/(at_low - at_high)
+                if (.not. (t > low .and. t < high)) t = low + (high - low)/2
+                at = energy_slope(t) - gain
+                if (at <= 0.0_wp) then
+                    low = t
+                    at_low = at
+                    if (last == 1) at_high = at_high/2
+                    last = 1
+                else
+                    high = t
+                    at_high = at
+                    if (last == 2) at_low = at_low/2
+                    last = 2
+                end if
+            end do
+            w = w + low*step
+            call press(ground, points, w, push, slope, pressed)
+        end subroutine follow_motion
+
+    end subroutine find_least_energy
+
+    !> Force and slope of the ground at the nodes
+    pure subroutine press(ground, points, w, push, slope, pressed, full)
+        type(ground_type), intent(in) :: ground
+        type(point_type), intent(in) :: points(:)
+        !> Deflections
+        real(wp), intent(in) :: w(0:)
+        !> Up, and how it grows downwards
+        real(wp), intent(out) :: push(0:), slope(0:)
+        !> Nodes at which ground that acts one way is pressed
+        integer, intent(out) :: pressed
+        !> As if all layers acted, on the first piece of their law as it begins; default no
+        logical, intent(in), optional :: full
+        real(wp) :: steepest(0:ubound(w, 1)), contact
+        logical :: all_act, presses
+        integer :: i, k, acts
+
+        all_act = .false.
+        if (present(full)) all_act = full
+        push(:) = 0.0_wp
+        slope(:) = 0.0_wp
+        steepest(:) = 0.0_wp
+        pressed = 0
+        do i = 1, size(points)
+            presses = .false.
+            associate (p => points(i), length => ground%pieces(points(i)%piece)%length)
+                do k = ground%first(p%piece), ground%first(p%piece + 1) - 1
+                    associate (layer => ground%layers(k), at => w(p%node))
+                        contact = along(layer%contact_a, layer%contact_b, p%place, length)
+                        steepest(p%node) = max(steepest(p%node), &
+                                               p%width*slope_at(layer, ground%laws, 1, p%place, length, contact))
+                        if (all_act) then
+                            slope(p%node) = slope(p%node) + p%width*slope_at(layer, ground%laws, 1, p%place, length, contact)
+                            push(p%node) = push(p%node) &
+                                + p%width*slope_at(layer, ground%laws, 1, p%place, length, contact)*(at - contact)
+                            cycle
+                        end if
+                        acts = 1
+                        if (layer%side /= 0) acts = piece_of_deflection(ground%laws, layer, at, p%place, length)
+                        if (acts == 0) cycle
+                        presses = presses .or. layer%side /= 0
+                        push(p%node) = push(p%node) + p%width*push_of_layer(layer, ground%laws, acts, p%place, length, at)
+                        slope(p%node) = slope(p%node) + p%width*slope_at(layer, ground%laws, acts, p%place, length, at)
+                    end associate
+                end do
+            end associate
+            if (presses) pressed = pressed + 1
+        end do
+        where (slope <= no_slope*maxval(steepest)) slope = 0.0_wp
+    end subroutine press
+
+    !> Where the ground acts
+    pure subroutine list_points(ground, mesh, points)
+        type(ground_type), intent(in) :: ground
+        type(mesh_type), intent(in) :: mesh
+        type(point_type), allocatable, intent(out) :: points(:)
+        integer :: i, m
+
+        allocate (points(2*size(mesh%piece)))
+        m = 0
+        do i = 1, size(mesh%piece)
+            if (ground%first(mesh%piece(i) + 1) == ground%first(mesh%piece(i))) cycle
+            associate (width => (mesh%to(i) - mesh%from(i))/2)
+                if (mesh%from(i) > 0.0_wp .and. m > 0) then
+                    points(m)%width = points(m)%width + width
+                else
+                    m = m + 1
+                    points(m) = point_type(i - 1, mesh%piece(i), mesh%from(i), width)
+                end if
+                m = m + 1
+                points(m) = point_type(i, mesh%piece(i), mesh%to(i), width)
+            end associate
+        end do
+        points = points(:m)
+    end subroutine list_points
+
+    !> The beam cut into the parts of the mesh, with its supports
+    pure subroutine make_beam(ground, mesh, beam)
+        type(ground_type), intent(in) :: ground
+        type(mesh_type), intent(in) :: mesh
+        type(beam_type), intent(out) :: beam
+        type(node_support_type), allocatable :: supports(:)
+        type(piece_type) :: p(1)
+        real(wp) :: work(1)
+        integer :: i, n
+
+        n = size(mesh%piece)
+        allocate (beam%links(n), beam%kind(0:n), beam%compliance(0:n), beam%force(2, 0:n), beam%couple(2, 0:n))
+        beam%kind(:) = plain
+        beam%compliance(:) = 0.0_wp
+        beam%force(:, :) = 0.0_wp
+        beam%couple(:, :) = 0.0_wp
+        beam%kind(mesh%node) = ground%beam%kind
+        beam%compliance(mesh%node) = ground%beam%compliance
+        beam%force(:, mesh%node) = ground%beam%force
+        beam%couple(:, mesh%node) = ground%beam%couple
+        allocate (supports(size(ground%beam%supports)))
+        supports(:) = ground%beam%supports
+        supports(:)%node = mesh%node(supports(:)%node)
+        call order_supports(supports, beam)
+        do i = 1, n
+            p = ground%pieces(mesh%piece(i))
+            p%length = mesh%to(i) - mesh%from(i)
+            call condense_link(p, [share(ground%dead(mesh%piece(i)))], [share(ground%live(mesh%piece(i)))], work, beam%links(i))
+        end do
+        beam%watch = ground%beam%watch
+
+    contains
+
+        !> The load on a part
+        pure function share(load) result(found)
+            type(piece_load_type), intent(in) :: load
+            type(piece_load_type) :: found
+
+            associate (length => ground%pieces(mesh%piece(i))%length)
+                found = piece_load_type(along(load%qa, load%qb, mesh%from(i), length), &
+                                        along(load%qa, load%qb, mesh%to(i), length), load%kappa, 0.0_wp, 0.0_wp)
+            end associate
+        end function share
+
+    end subroutine make_beam
+
+end module gapbeam_ground_energy
