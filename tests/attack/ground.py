@@ -14,7 +14,8 @@ from .family import Family, Verdict
 
 PROMISE = (
     "On one-sided ground with gaps, profiles and laws of all kinds the fields satisfy the differential equations with the pressure "
-    "that the law gives for the deflection, jump by what acts at a place, and every support carries what its law says"
+    "that the law gives for the deflection, jump by what acts at a place, and every support carries what its law says; refused are "
+    "beams whose loads all stand over a spring at an end of the ground"
 )
 SIDES = {"below": (1,), "above": (-1,), "both": (1, -1)}
 NEAR = 1e-8  # of the largest of a kind
@@ -52,6 +53,8 @@ def judge(made, seed=0):
     except gapbeam.EngineError as error:
         if error.status == Status.INDETERMINATE:
             return Verdict("forces not unique")
+        if stands_at_an_edge(made):
+            return Verdict("on an edge")
         return Verdict("refused", [str(error)])
     verdict = Verdict(result.status)
     if result.status == "solved":
@@ -60,6 +63,14 @@ def judge(made, seed=0):
     elif result.status == "no-equilibrium" and not result.motion:
         verdict.wrong.append("no motion is given")
     return verdict
+
+
+def stands_at_an_edge(made):
+    """Whether all loads stand over a spring at an end of beam and ground: any pressure beside it turns the beam, ever farther."""
+    ends = (0.0, sum(made["beam"]["spans"]))
+    over = {support.get("x") for support in made["supports"]} & {item.get("from", 0.0) for item in made["foundation"]}
+    over |= {support.get("x") for support in made["supports"]} & {item.get("to", ends[1]) for item in made["foundation"]}
+    return all(load["type"] == "force" and load["x"] in over and load["x"] in ends for load in made["loads"])
 
 
 def cuts(made, result):
