@@ -36,7 +36,8 @@ def test_mutated_scenes(block):
                     to_csv(result).encode()
         except gapbeam.EngineError as error:
             # States along a path are solved, and so audited, where they are looked at
-            assert "does not stand its own audit" in str(error), (seed, str(error))
+            if "does not stand its own audit" not in str(error):
+                raise
             late += 1
             continue
         solved += 1

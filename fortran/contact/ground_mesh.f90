@@ -9,9 +9,10 @@ module gapbeam_ground_mesh
     private
     public :: mesh_type, begin_mesh, refine_mesh, acts_at
 
-    !> Parts of a decay length, of the whole beam at least, and of all
+    !> Parts of a decay length, of the whole beam at least and at most, and of all. Where zones turn out to be short they are cut
+    !> again: from full contact on a fine mesh of stiff ground they would shrink by a few parts a round
     real(wp), parameter :: parts_of_decay = 4.0_wp
-    integer, parameter :: least_parts = 64, most_parts = 2**15
+    integer, parameter :: least_parts = 64, most_first = 2**8, most_parts = 2**15
     !> Into so many parts those are cut in which zones end
     integer, parameter :: finer = 8
 
@@ -37,7 +38,7 @@ contains
         integer :: parts(size(ground%pieces)), i, j
         real(wp) :: shortest
 
-        shortest = sum(ground%pieces%length)/most_parts
+        shortest = sum(ground%pieces%length)/most_first
         do j = 1, size(parts)
             parts(j) = 1
             if (ground%first(j + 1) == ground%first(j)) cycle

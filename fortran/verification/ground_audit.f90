@@ -167,7 +167,9 @@ contains
                     if (inside) call fits(of_bending, rotations, b%rotation - a%rotation, sizes%rotation)
                 end select
                 if (j > 0) then
-                    call fits(of_parts, forces, part%force - a%shear, part%force_size + sizes%shear)
+                    ! Under couples alone there is no force but what moments leave by rounding
+                    call fits(of_parts, forces, part%force - a%shear, part%force_size + sizes%shear &
+                              + part%moment_size/sum(ground%pieces%length))
                     call fits(of_parts, moments, part%moment - left, part%moment_size + sizes%moment)
                 end if
                 if (beam%kind(j) == hinge) then

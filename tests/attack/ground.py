@@ -68,8 +68,8 @@ def judge(made, seed=0):
 def stands_at_an_edge(made):
     """Whether all loads stand over a spring at an end of beam and ground: any pressure beside it turns the beam, ever farther."""
     ends = (0.0, sum(made["beam"]["spans"]))
-    over = {support.get("x") for support in made["supports"]} & {item.get("from", 0.0) for item in made["foundation"]}
-    over |= {support.get("x") for support in made["supports"]} & {item.get("to", ends[1]) for item in made["foundation"]}
+    over = {support.get("x") for support in made.get("supports", [])} & {item.get("from", 0.0) for item in made["foundation"]}
+    over |= {support.get("x") for support in made.get("supports", [])} & {item.get("to", ends[1]) for item in made["foundation"]}
     return all(load["type"] == "force" and load["x"] in over and load["x"] in ends for load in made["loads"])
 
 
