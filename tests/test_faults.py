@@ -458,7 +458,7 @@ def test_greatest_values_beside_changes_of_zones(seed, quantity):
 def test_curves_on_bumps_and_with_gaps(name, zones):
     """Judged by what the fields leave over of differential equations, contact and laws; the state is unique."""
     made = read(HERE / "faults" / f"{name}.json")
-    assert judged(ground, made) == []
+    assert ground.judge(made).wrong == []  # without a limit: these take seconds, and machines are busy
     assert len(gapbeam.solve(made).steps[-1].contact) == zones
 
 

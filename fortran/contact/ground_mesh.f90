@@ -3,14 +3,15 @@
 module gapbeam_ground_mesh
     use gapbeam_kinds, only: wp
     use gapbeam_foundation, only: stretch_type, decay_lengths
+    use gapbeam_layers, only: has_curves
     use gapbeam_ground_laws, only: between, piece_of_deflection, slope_at
     use gapbeam_ground, only: ground_type
     implicit none
     private
     public :: mesh_type, begin_mesh, refine_mesh, acts_at
 
-    !> Parts of a decay length, of the whole beam at least and at most, and of all. Where zones turn out to be short they are cut
-    !> again: from full contact on a fine mesh of stiff ground they would shrink by a few parts a round
+    !> Parts of a decay length, of the whole beam at least and at most, and of all. On ground without curves zones that turn out to
+    !> be short are cut again: from full contact on a fine mesh of stiff ground they would shrink by a few parts a round
     real(wp), parameter :: parts_of_decay = 4.0_wp
     integer, parameter :: least_parts = 64, most_first = 2**8, most_parts = 2**15
     !> Into so many parts those are cut in which zones end
@@ -38,7 +39,7 @@ contains
         integer :: parts(size(ground%pieces)), i, j
         real(wp) :: shortest
 
-        shortest = sum(ground%pieces%length)/most_first
+        shortest = sum(ground%pieces%length)/merge(most_parts, most_first, any(has_curves(ground%layers)))
         do j = 1, size(parts)
             parts(j) = 1
             if (ground%first(j + 1) == ground%first(j)) cycle
