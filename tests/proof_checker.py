@@ -33,10 +33,10 @@ class Beam:  # springs (place, form, rest, compliance) and loads; a form has the
         self.x = sorted({*self.ends, *(self.where(t[k]) for t in tables for k in ("x", "from", "to") if t.get(k) is not None)})
         self.number, span = {x: i for i, x in enumerate(self.x)}, [bisect_right(self.ends, x) - 1 for x in self.x[:-1]]
         self.hinges, self.springs, self.load = {self.place({"x": x}) for x in beam.get("hinges", [])}, [], defaultdict(fmpq)
-        stiff = {key: [v[k] if isinstance(v := beam.get(key, INF), list) else v for k in span] for key in ("EI", "GA")}
+        self.stiff = stiff = {key: [v[k] if isinstance(v := beam.get(key, INF), list) else v for k in span] for key in ("EI", "GA")}
         for section, key in ((s, key) for s in sections for key in stiff if s.get(key) is not None):
             for i in self.stretch(section): stiff[key][i] = section[key]
-        spread = {key: [[ZERO, ZERO] for _ in span] for key in ("q", "kappa")}
+        self.spread = spread = {key: [[ZERO, ZERO] for _ in span] for key in ("q", "kappa")}
         for load in loads:
             if load["type"] == "force": self.load[self.place(load), W] += exact(load["F"])
             elif load["type"] == "moment": self.load[self.place(load), LEFT] += exact(load["M"])
@@ -140,7 +140,7 @@ def decide(file, bits=64, number=arb):
             if answer.args[0] < 3 or bits > 2**16: raise
             number = fmpq if bits >= 1024 and len(file["states"]) <= 300 else arb  # a tie, perhaps
         else: return f"{bits} bits{' and rationals' * (number is fmpq)}, largest error {max(off):.1e}"
-def main(name):
+def main(name, decide=decide):
     try:
         with open(name, encoding="utf-8") as stream: status, words = 0, decide(json.load(stream))
     except Answer as answer: status, words = min(answer.args[0], 2), answer.args[1]

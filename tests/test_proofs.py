@@ -7,6 +7,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import foundation_scenes
 import gapbeam
 import pytest
 from gapbeam.cli import main
@@ -17,12 +18,14 @@ from scenes import at, force, random_scene, scene, uniform
 TOP = Path(__file__).resolve().parent.parent
 PROVED, REFUTED, NOT_DECIDED = range(3)
 KNOWN = ["crane_runway", "lift_off_events", "paper_beam", "paper_beam_printed_load", "pipe_rack", "pipe_rack_states",
-         "shaft_clearance", "shaft_jack_up", "snap_through", "three_spans"]  # fmt: skip
-NOT_KNOWN = ["pile_head", "rubber_stops"]  # laws that are curves
+         "shaft_clearance", "shaft_jack_up", "snap_through", "three_spans",
+         "rail_lift_off", "seabed_pipe", "slab_on_mound", "strip_footing"]  # fmt: skip
+NOT_KNOWN = ["pile_head", "rubber_stops", "laterally_loaded_pile", "pile_in_sand"]  # laws that are curves
 FREE = "moves freely"
 
 pytest.importorskip("flint", reason="the checkers need python-flint")
 import proof_checker  # noqa: E402
+import proof_checker_ground  # noqa: E402
 import proof_times  # noqa: E402
 from attack import proofs  # noqa: E402
 
@@ -34,7 +37,8 @@ def check(tmp_path, capsys):
     def run(data):
         path = tmp_path / "proof.json"
         path.write_text(json.dumps(data))
-        status = proof_checker.main(path)
+        on_ground = data["scene"].get("foundation")
+        status = proof_checker.main(path, proof_checker_ground.decide_on_ground if on_ground else proof_checker.decide)
         return status, capsys.readouterr().out.strip()
 
     return run
@@ -165,7 +169,8 @@ def test_what_the_checker_does_not_know(check):
     data = proof_data(three_spans())
     for change in (
         lambda d: d["scene"]["supports"][0].update(friction=0.3),
-        lambda d: d["scene"].update(foundation=[{"k": 5.0}]),
+        lambda d: d["scene"].update(foundation=[{"k": [5.0, 6.0]}]),
+        lambda d: d["scene"].update(foundation=[{"k": 5.0, "shear": 1.0}]),
         lambda d: d["scene"]["loads"].append({"type": "axial", "node": 0, "F": 1.0}),
         lambda d: d["scene"]["supports"].append({"node": 0, "direction": "axial"}),
         lambda d: d["scene"]["supports"][0].update(law={"type": "tanh", "stiffness": 5.0, "limit": 1.0}),
@@ -209,6 +214,82 @@ def test_examples(name, tmp_path):
     assert main(["check-proof", out]) == (PROVED if name in KNOWN else NOT_DECIDED)
 
 
+def moved(x, by):
+    return (float.fromhex(x) + by).hex()
+
+
+def test_zones_on_the_ground(check):
+    data = proof_data(TOP / "examples" / "rail_lift_off.toml")
+    assert len(data["zones"]) == 3
+    status, line = check(data)
+    assert status == PROVED
+    assert error_of(line) < 1e-15
+    for by in (1e-6, -1e-6):
+        for i, j in ((0, 2), (1, 1), (1, 2), (2, 1), (0, 1), (2, 2)):
+            new = copy.deepcopy(data)
+            new["zones"][i][j] = moved(new["zones"][i][j], by)
+            before_the_beam = (i, j, by) == (0, 1, -1e-6)
+            assert check(new)[0] in ((REFUTED, NOT_DECIDED) if before_the_beam else (REFUTED,)), (i, j, by)
+    for i in range(3):
+        new = copy.deepcopy(data)
+        del new["zones"][i]
+        assert check(new)[0] == REFUTED
+    new = copy.deepcopy(data)
+    new["zones"][0][2] = new["zones"][1][1]  # two zones are one
+    assert check(new)[0] == REFUTED
+    for zone in ([1, *data["zones"][0][1:]], data["zones"][0]):
+        assert check(data | {"zones": [*data["zones"], zone]})[0] == REFUTED
+    assert check(data | {"zones": [*data["zones"], [0, "0x1.4p+3", "0x1.4p+3"]]})[0] == NOT_DECIDED  # touches
+    new = copy.deepcopy(data)
+    new["scene"]["loads"][1]["F"] *= 1 + 1e-6
+    assert check(new)[0] == REFUTED
+
+
+def test_values_and_supports_on_the_ground(check):
+    """A clamped end, a spring above the ground, shear, a profile: deflections and reactions of supports."""
+    supports = [at(0, rotation="fixed"), at(1, side="below", stiffness=900.0), at(2)]
+    made = scene([3.0, 4.0], supports, [uniform(2.0), force(1.5, 40.0)], EI=800.0)
+    made["beam"]["GA"] = 5e3
+    made["foundation"] = [{"k": 300.0, "side": "below", "from": 0.5, "profile": [[0.5, 0.002], [4.0, 0.01], [6.5, -0.001]]}]
+    data = proof_data(made)
+    status, line = check(data)
+    assert status == PROVED
+    assert error_of(line) < 1e-14
+    for kind in ("deflection", "reaction"):
+        new = copy.deepcopy(data)
+        new["values"][kind][1] = (float.fromhex(new["values"][kind][1]) * (1 + 1e-6)).hex()
+        assert check(new)[0] == REFUTED
+    new = copy.deepcopy(data)
+    new["states"][1] = "open" if new["states"][1] == "closed" else "closed"
+    assert check(new)[0] == REFUTED
+
+
+def test_random_beams_on_the_ground_are_proved_and_refuted_with_an_end_moved(check):
+    counts, seed = {}, -1
+    while sum(n for (kind, _), n in counts.items() if kind == "right") < 60:
+        seed += 1
+        made = foundation_scenes.random_scene(seed)
+        if any("law" in ground for ground in made["foundation"]):
+            continue
+        data = proof_data(made)
+        status, line = check(data)
+        assert status in (PROVED, NOT_DECIDED), (seed, line)
+        counts["right", status] = counts.get(("right", status), 0) + 1
+        if status != PROVED:
+            continue
+        assert error_of(line) < 1e-14, (seed, line)
+        ends = {x for ground in data["scene"]["foundation"] for x in (ground["from"], ground.get("to", sum(made["beam"]["spans"])))}
+        zones = data["zones"]
+        for i, j in ((i, j) for i in range(len(zones)) for j in (1, 2) if float.fromhex(zones[i][j]) not in ends):
+            new = copy.deepcopy(data)
+            new["zones"][i][j] = moved(zones[i][j], 1e-6)
+            status, line = check(new)
+            assert status == REFUTED, (seed, line)
+            counts["moved", status] = counts.get(("moved", status), 0) + 1
+    assert counts["right", PROVED] >= 20
+    assert counts["moved", REFUTED] >= 20
+
+
 def test_where_the_load_ends(tmp_path, capsys):
     law = [[0.1, 1.0], [0.2, 0.5], [0.3, 0.0], [0.4, 0.0]]
     made = scene([2.0], [at(0), at(1, side="below", law=law)], [force(1.0, 9.0)])
@@ -231,10 +312,11 @@ def test_commands_say_what_is_missing(tmp_path, monkeypatch, capsys):
     assert "pip install python-flint" in capsys.readouterr().err
 
 
-def test_the_checker_is_short_and_stands_alone(tmp_path):
-    text = Path(proof_checker.__file__).read_text()
-    assert text.count("\n") <= 150
-    assert "import gapbeam" not in text
+def test_the_checkers_are_short_and_stand_alone(tmp_path):
+    for checker, lines in ((proof_checker, 150), (proof_checker_ground, 200)):
+        text = Path(checker.__file__).read_text()
+        assert text.count("\n") <= lines
+        assert "import gapbeam" not in text
     (tmp_path / "p.json").write_text(json.dumps(proof_data(three_spans())))
     command = [sys.executable, "-P", proof_checker.__file__, tmp_path / "p.json"]
     told = subprocess.run(command, capture_output=True, text=True, check=True)
