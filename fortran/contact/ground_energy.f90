@@ -46,6 +46,12 @@ module gapbeam_ground_energy
         real(wp) :: place, width
     end type point_type
 
+    !> Where a slope that never falls goes through zero: places, the slopes there, and which end was replaced last
+    type :: bracket_type
+        real(wp) :: low, high, at_low, at_high
+        integer :: last = 0
+    end type bracket_type
+
 contains
 
     !> Find the deflections of least energy
@@ -190,18 +196,15 @@ contains
         !> How far to go to the solution of the model: all the way, or to where the energy no longer falls. Supports count by their
         !> forces at the end of the way, which overrates their energy before
         function way_to_flat() result(t)
-            real(wp) :: t, low, high, at_low, at_high, at, first, half
-            integer :: number, last
+            real(wp) :: t, at, first, half
+            type(bracket_type) :: bracket
+            integer :: number
 
             first = energy_slope(0.0_wp)
             t = 1.0_wp
             at = energy_slope(t)
             if (at <= 0.0_wp .or. .not. first < 0.0_wp) return
-            low = 0.0_wp
-            at_low = first
-            high = t
-            at_high = at
-            last = 0
+            bracket = bracket_type(0.0_wp, t, first, at)
             do number = 1, most_steps
                 if (at <= flat*abs(first) .and. at >= -flat*abs(first)) then
                     if (at <= 0.0_wp) exit
@@ -209,20 +212,9 @@ contains
                     half = energy_slope(t/2)
                     if (half + at <= -flat*abs(first)) exit
                 end if
-                t = (high*at_low - low*at_high)/(at_low - at_high)
-                if (.not. (t > low .and. t < high)) t = low + (high - low)/2
+                t = place_inside(bracket)
                 at = energy_slope(t)
-                if (at <= 0.0_wp) then
-                    low = t
-                    at_low = at
-                    if (last == 1) at_high = at_high/2
-                    last = 1
-                else
-                    high = t
-                    at_high = at
-                    if (last == 2) at_low = at_low/2
-                    last = 2
-                end if
+                call narrow(bracket, t, at)
             end do
         end function way_to_flat
 
@@ -242,8 +234,9 @@ contains
             !> Does it fall for a part of the way only
             logical, intent(out) :: stopped
             real(wp), allocatable :: motion(:)
-            real(wp) :: level(0:n), gain, parts, length, low, high, at_low, at_high, t, at, first
-            integer :: number, last
+            real(wp) :: level(0:n), gain, parts, length, t
+            type(bracket_type) :: bracket
+            integer :: number
 
             step(:) = outcome%motion
             call find_level_forces(own, acting(:size(own)), level)
@@ -251,18 +244,13 @@ contains
             gain = gain - dot_product(step, level)
             modelled(:) = push
             change(:) = 0.0_wp
-            length = sum(ground%pieces%length)
-            low = 0.0_wp
-            at_low = -gain
-            first = gain
-            high = first_way*max(length, maxval(abs(w)))
+            length = max(sum(ground%pieces%length), maxval(abs(w)))
+            bracket = bracket_type(0.0_wp, first_way*length, -gain, 0.0_wp)
             do
-                at_high = energy_slope(high) - gain
-                stopped = at_high > 0.0_wp .or. .not. gain > 0.0_wp
-                if (stopped .or. high > last_way*max(length, maxval(abs(w)))) exit
-                low = high
-                at_low = at_high
-                high = 8*high
+                bracket%at_high = energy_slope(bracket%high) - gain
+                stopped = bracket%at_high > 0.0_wp .or. .not. gain > 0.0_wp
+                if (stopped .or. bracket%high > last_way*length) exit
+                bracket = bracket_type(bracket%high, 8*bracket%high, bracket%at_high, 0.0_wp)
             end do
             if (.not. stopped) then
                 allocate (motion(0:size(ground%pieces)))
@@ -270,29 +258,46 @@ contains
                 call move_alloc(motion, outcome%motion)
                 return
             end if
-            last = 0
             do number = 1, most_steps
-                if (at_low >= -flat*first) exit
-                t = (high*at_low - low*at_high)/(at_low - at_high)
-                if (.not. (t > low .and. t < high)) t = low + (high - low)/2
-                at = energy_slope(t) - gain
-                if (at <= 0.0_wp) then
-                    low = t
-                    at_low = at
-                    if (last == 1) at_high = at_high/2
-                    last = 1
-                else
-                    high = t
-                    at_high = at
-                    if (last == 2) at_low = at_low/2
-                    last = 2
-                end if
+                if (bracket%at_low >= -flat*gain) exit
+                t = place_inside(bracket)
+                call narrow(bracket, t, energy_slope(t) - gain)
             end do
-            w = w + low*step
+            w = w + bracket%low*step
             call press(ground, points, w, push, slope, pressed)
         end subroutine follow_motion
 
     end subroutine find_least_energy
+
+    !> Where a straight line between the ends of a bracket is zero, or its middle
+    pure function place_inside(bracket) result(t)
+        type(bracket_type), intent(in) :: bracket
+        real(wp) :: t
+
+        associate (b => bracket)
+            t = (b%high*b%at_low - b%low*b%at_high)/(b%at_low - b%at_high)
+            if (.not. (t > b%low .and. t < b%high)) t = b%low + (b%high - b%low)/2
+        end associate
+    end function place_inside
+
+    !> Take a value inside a bracket for one of its ends; the other counts half if it stays twice (Illinois method, Dowell and
+    !> Jarratt 1971)
+    pure subroutine narrow(bracket, t, at)
+        type(bracket_type), intent(inout) :: bracket
+        real(wp), intent(in) :: t, at
+
+        if (at <= 0.0_wp) then
+            bracket%low = t
+            bracket%at_low = at
+            if (bracket%last == 1) bracket%at_high = bracket%at_high/2
+            bracket%last = 1
+        else
+            bracket%high = t
+            bracket%at_high = at
+            if (bracket%last == 2) bracket%at_low = bracket%at_low/2
+            bracket%last = 2
+        end if
+    end subroutine narrow
 
     !> Force and slope of the ground at the nodes
     pure subroutine press(ground, points, w, push, slope, pressed, full)

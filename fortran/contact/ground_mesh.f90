@@ -196,23 +196,7 @@ contains
         end do
         found%moment_left(:) = 0.0_wp
         found%moment_right(:) = 0.0_wp
-        call move(found, mesh)
-
-    contains
-
-        pure subroutine move(from, to)
-            type(mesh_type), intent(inout) :: from
-            type(mesh_type), intent(inout) :: to
-
-            call move_alloc(from%piece, to%piece)
-            call move_alloc(from%from, to%from)
-            call move_alloc(from%to, to%to)
-            call move_alloc(from%node, to%node)
-            call move_alloc(from%deflection, to%deflection)
-            call move_alloc(from%moment_left, to%moment_left)
-            call move_alloc(from%moment_right, to%moment_right)
-        end subroutine move
-
+        mesh = found
     end subroutine split
 
 end module gapbeam_ground_mesh
