@@ -462,6 +462,20 @@ def test_curves_on_bumps_and_with_gaps(name, zones):
     assert len(gapbeam.solve(made).steps[-1].contact) == zones
 
 
+def test_beam_that_touches_the_ground_to_a_rounding():
+    """The deflection at midspan is the gap to 1e-14, as it would be exactly: 5 q L^4/(384 EI)."""
+    (zone,) = gapbeam.solve(HERE / "faults" / "C4_touching_tie.json").steps[-1].contact
+    assert (zone.from_, zone.to, zone.state, zone.resultant) == (5.0, 5.0, "touching", 0.0)
+
+
+@pytest.mark.parametrize("seed", [5575, 7769])
+def test_curves_that_begin_at_nothing(seed):
+    """Hyperbolic: pressed far beyond a short stretch in which the force grows; or approached from one side."""
+    kind, made = ground.draw_scene(seed)
+    assert kind == "curved"
+    assert ground.judge(made).wrong == []
+
+
 def test_cubic_law_with_a_gap():
     """Displacement elements with a line search on the energy, which come near with the square of their length."""
     made = read(HERE / "faults" / "C3_cubic_gap.json")

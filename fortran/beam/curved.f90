@@ -29,6 +29,8 @@ module gapbeam_curved
     real(wp), parameter :: largest = sqrt(sqrt(huge(1.0_wp)))
     !> Slopes of a law, relative to its steepest, that are none: elimination would lose its range to them
     real(wp), parameter :: no_slope = 2.0_wp**(-100)
+    !> Part of a way at which it is seen on which side of the contact it begins: beyond rounding, before it can turn
+    real(wp), parameter :: beginning = 2.0_wp**(-8)
     !> Part of the length that the last terms allow
     real(wp), parameter :: cautious = 0.9_wp
 
@@ -108,16 +110,18 @@ contains
             term = c(1, degree) + curved%stretch%shear_flexibility*c(3, degree)
         end function deflection
 
-        !> Is the beam before the contact in the middle of the way, as the rotation tells
+        !> Is the beam before the contact at the beginning of the way: where a zone begins rotation and curvature tell
         pure function is_negative(curve) result(negative)
             type(curve_type), intent(in) :: curve
             logical :: negative
-            real(wp) :: middle
+            real(wp) :: there, ahead
 
-            middle = xi + way/2
-            associate (g => curved%stretch%shear_flexibility, length => curved%stretch%length)
-                negative = curve%side*(w + (y(2) + g*y(4))*h/2 + (curved%load%kappa - curved%stretch%flexibility*y(3))*h**2/8 &
-                                       - (curve%contact_a*(1 - middle) + curve%contact_b*middle)) < 0.0_wp
+            there = xi + beginning*way
+            ahead = beginning*h
+            associate (g => curved%stretch%shear_flexibility)
+                negative = curve%side*(w + (y(2) + g*y(4))*ahead &
+                                       + (curved%load%kappa - curved%stretch%flexibility*y(3))*ahead**2/2 &
+                                       - (curve%contact_a*(1 - there) + curve%contact_b*there)) < 0.0_wp
             end associate
         end function is_negative
 

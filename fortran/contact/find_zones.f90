@@ -7,7 +7,7 @@ module gapbeam_find_zones
     use gapbeam_foundation_fields, only: fields_at
     use gapbeam_foundation_roots, only: find_crossings, find_limits
     use gapbeam_curved, only: curved_type, curved_fields
-    use gapbeam_layers, only: pieces_of_law, has_curves, law_by_points, law_cubic, parameters_of_law
+    use gapbeam_layers, only: layer_type, pieces_of_law, has_curves, law_by_points, law_cubic, parameters_of_law
     use gapbeam_ground_laws, only: between, contact_line, line_of_kink, approach_kink, piece_of_deflection, parameters_at
     use gapbeam_workspace, only: workspace_type
     use gapbeam_ground, only: ground_type, zones_type, grounded_type, new_zones, resize, steps_of_piece, combined_load
@@ -20,6 +20,10 @@ module gapbeam_find_zones
     real(wp), parameter :: one_place = 16*epsilon(1.0_wp)
     !> The same share where laws are curves: in a shorter zone the fields at its ends are known too badly to go on from
     real(wp), parameter :: one_place_on_curves = epsilon(1.0_wp)**0.75_wp
+    !> Shares of a stretch without crossings at which it is looked on which side it is, the next one where a place only touches
+    real(wp), parameter :: looks(2) = [0.5_wp, 0.375_wp]
+    !> Distance from a line that is rounding, beside deflection and line
+    real(wp), parameter :: nothing = 64*epsilon(1.0_wp)
 
 contains
 
@@ -202,7 +206,7 @@ contains
                 end do
                 acts(:) = 0
                 do k = ground%first(piece), ground%first(piece + 1) - 1
-                    acts(k - ground%first(piece) + 1) = piece_at(k, i, middle)
+                    acts(k - ground%first(piece) + 1) = piece_at(k, i, from, cuts(c))
                 end do
                 joins = .false.
                 if (from > 0.0_wp) joins = all(acts == next%acts(:, m))
@@ -240,32 +244,51 @@ contains
             end if
         end subroutine find_fields
 
-        !> The piece of its law on which a layer is at a place
-        pure function piece_at(k, i, distance) result(acts)
-            !> Layer, stretch, and distance from the left end of the piece
+        !> The piece of its law on which a layer is between two places without crossings in between
+        pure function piece_at(k, i, from, to) result(acts)
+            !> Layer, stretch, and distances from the left end of the piece
             integer, intent(in) :: k, i
-            real(wp), intent(in) :: distance
-            integer :: acts, before, law
-            real(wp) :: w, psi, moment, shear, length, share, past, change
+            real(wp), intent(in) :: from, to
+            integer :: acts, before, law, look
+            real(wp) :: w, psi, moment, shear, length, place, past, change
 
             associate (layer => ground%layers(k))
                 acts = 1
                 if (layer%side == 0) return
                 length = ground%pieces(zones%piece(i))%length
-                share = (distance - zones%from(i))/(zones%to(i) - zones%from(i))
-                call find_fields(i, share, w, psi, moment, shear)
-                acts = piece_of_deflection(ground%laws, layer, w, distance, length)
+                do look = 1, size(looks)
+                    place = from + (to - from)*looks(look)
+                    call find_fields(i, (place - zones%from(i))/(zones%to(i) - zones%from(i)), w, psi, moment, shear)
+                    acts = piece_of_deflection(ground%laws, layer, w, place, length)
+                    if (.not. touches(layer, acts, w, place, length)) exit
+                end do
                 before = zones%acts(k - ground%first(zones%piece(i)) + 1, i)
                 if (before <= acts) return
                 ! A beam that lies on it without any load stays as it is
                 do law = before, acts + 1, -1
-                    call approach_kink(ground%laws, layer, law, w, 0.0_wp, distance, length, past, change)
+                    call approach_kink(ground%laws, layer, law, w, 0.0_wp, place, length, past, change)
                     if (abs(past) > 0.0_wp) cycle
                     acts = law
                     return
                 end do
             end associate
         end function piece_at
+
+        !> Is a layer at a place on a line between pieces of its law but for rounding, so that it tells nothing of the places beside
+        pure function touches(layer, acts, w, place, length)
+            type(layer_type), intent(in) :: layer
+            integer, intent(in) :: acts
+            real(wp), intent(in) :: w, place, length
+            logical :: touches
+            real(wp) :: line
+            integer :: law
+
+            touches = .false.
+            do law = max(1, acts), min(acts + 1, pieces_of_law(layer))
+                line = line_of_kink(ground%laws, layer, law, place, length)
+                touches = touches .or. abs(w - line) <= nothing*max(abs(w), abs(line))
+            end do
+        end function touches
 
         !> Load of a stretch at the factor
         pure function load_of(i) result(load)

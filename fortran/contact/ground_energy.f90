@@ -26,8 +26,9 @@ module gapbeam_ground_energy
     private
     public :: find_least_energy
 
-    !> Rounds at most, and steps of a line search
-    integer, parameter :: most_rounds = 200, most_steps = 60
+    !> Rounds at most, and one more for every node up to so many, since on stiff ground zones may shrink by a node at each end in
+    !> two rounds; steps of a line search
+    integer, parameter :: most_rounds = 200, most_for_nodes = 512, most_steps = 60
     !> Share of all forces that may be out of balance in the end
     real(wp), parameter :: balanced = 1e-9_wp
     !> A slope of the energy that has fallen to this share of what it was is enough
@@ -94,7 +95,7 @@ contains
         asked(:) = 0.0_wp
         call press(ground, points, w, push, slope, pressed, full=.not. mesh%solved)
         begun = .false.
-        do round = 1, most_rounds
+        do round = 1, most_rounds + min(n, most_for_nodes)
             call solve_model()
             if (allocated(error)) then
                 if (any(error%code == [gapbeam_no_memory, gapbeam_stopped]) .or. allocated(ease)) return

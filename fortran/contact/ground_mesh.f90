@@ -4,7 +4,7 @@ module gapbeam_ground_mesh
     use gapbeam_kinds, only: wp
     use gapbeam_foundation, only: stretch_type, decay_lengths
     use gapbeam_layers, only: has_curves
-    use gapbeam_ground_laws, only: between, piece_of_deflection, slope_at
+    use gapbeam_ground_laws, only: between, piece_of_deflection, push_of_layer, slope_at
     use gapbeam_ground, only: ground_type
     implicit none
     private
@@ -14,8 +14,10 @@ module gapbeam_ground_mesh
     !> be short are cut again: from full contact on a fine mesh of stiff ground they would shrink by a few parts a round
     real(wp), parameter :: parts_of_decay = 4.0_wp
     integer, parameter :: least_parts = 64, most_first = 2**8, most_parts = 2**15
-    !> Into so many parts those are cut in which zones end
+    !> Into so many parts those are cut in which zones end, or the force of a curve bends
     integer, parameter :: finer = 8
+    !> Share of a force that is beside the straight line between those at the ends of a part, where more nodes are needed
+    real(wp), parameter :: straight = 0.02_wp
 
     !> Parts of a beam, and its deflections
     type :: mesh_type
@@ -94,7 +96,8 @@ contains
         end associate
     end function decays
 
-    !> Shorter parts where zones end, and where the ground has become stiffer; everywhere where the mesh could not be solved
+    !> Shorter parts where zones end or curves bend, and where the ground has become stiffer; everywhere where the mesh could not be
+    !> solved
     pure subroutine refine_mesh(ground, mesh, only_stiffer, refined)
         type(ground_type), intent(in) :: ground
         !> With deflections in between as they were
@@ -114,7 +117,7 @@ contains
         do i = 1, m
             into(i) = max(1, min(finer, ceiling(parts_of_decay/2*decays(ground, mesh%piece(i), mesh%to(i) - mesh%from(i), &
                                                                        stiffness_in(i)))))
-            if (any(changes(i - 1:i + 1)) .and. .not. only_stiffer) into(i) = finer
+            if ((any(changes(i - 1:i + 1)) .or. bends(i)) .and. .not. only_stiffer) into(i) = finer
             ! Where nothing is known, everywhere
             if (.not. mesh%solved) into(i) = finer
             if (ground%first(mesh%piece(i) + 1) == ground%first(mesh%piece(i))) into(i) = 1
@@ -135,6 +138,30 @@ contains
                 ends = ends .or. acts_at(ground, mesh, k, part, 1) /= acts_at(ground, mesh, k, part, 2)
             end do
         end function zone_ends
+
+        !> Is the force of a curve along a part other than straight between its ends, as where the beam goes far beyond a short
+        !> stretch in which its force grows
+        pure function bends(part)
+            integer, intent(in) :: part
+            logical :: bends
+            real(wp) :: force(0:2), place, w
+            integer :: k, t
+
+            bends = .false.
+            associate (from => mesh%from(part), to => mesh%to(part), j => mesh%piece(part))
+                do k = ground%first(j), ground%first(j + 1) - 1
+                    if (.not. has_curves(ground%layers(k))) cycle
+                    do t = 0, 2
+                        place = between(from, to, t, 2)
+                        w = between(mesh%deflection(part - 1), mesh%deflection(part), t, 2)
+                        associate (acts => piece_of_deflection(ground%laws, ground%layers(k), w, place, ground%pieces(j)%length))
+                            force(t) = push_of_layer(ground%layers(k), ground%laws, acts, place, ground%pieces(j)%length, w)
+                        end associate
+                    end do
+                    bends = bends .or. abs(force(1) - (force(0) + force(2))/2) > straight*maxval(abs(force))
+                end do
+            end associate
+        end function bends
 
         !> Stiffness of all ground at the ends of a part, the greater one
         pure function stiffness_in(part) result(stiffness)
