@@ -138,6 +138,8 @@ contains
                 rest = everywhere*sum(bent) + size_left_out(sum(bent))
             case (moments)
                 rest = everywhere*sum(bent)*beam%links(max(i, 1))%length
+            case (rotations)
+                rest = everywhere*turned()
             case default
                 rest = 0.0_wp
             end select
@@ -176,6 +178,17 @@ contains
                 if (acts) found = left_out/epsilon(1.0_wp)*most_load + bent
             end do
         end function size_left_out
+
+        !> By how much the moments at node i would turn the links beside it: what a bar without moment passes by is known to a
+        !> rounding of them only
+        pure function turned() result(turn)
+            real(wp) :: turn
+
+            turn = 0.0_wp
+            if (i > 0) turn = beam%links(i)%fbb
+            if (i < n) turn = turn + beam%links(i + 1)%faa
+            turn = turn*(abs(answers(i)%moment_left) + abs(answers(i)%moment_right) + abs(work%loads(i)%couple))
+        end function turned
 
         !> Force that it would take to hold a link straight against its deflections and imposed curvatures; of a rigid one, which
         !> passes on what others make, the most of all
