@@ -13,7 +13,7 @@ module gapbeam_curved
         slope_scale, longest_step
     implicit none
     private
-    public :: curved_type, curve_type, order, expand_curved, advance_curved, condense_curved, curved_fields, steps_inside
+    public :: curved_type, curve_type, order, expand_curved, advance_curved, condense_curved, curved_fields, cut_into_steps
 
     !> A stretch, its load, the layers of ground that act by curves, and the fields (v, psi, M, V) at its ends
     type :: curved_type
@@ -140,7 +140,7 @@ contains
     end function step_of
 
     !> Fields at one place from those at another
-    pure subroutine advance_curved(curved, xi, y, way, values, lost, transfer, forces, shortest)
+    pure subroutine advance_curved(curved, xi, y, way, values, lost, transfer, forces)
         !> As for expand_curved, but way as far as to the other place
         type(curved_type), intent(in) :: curved
         real(wp), intent(in) :: xi, y(4), way
@@ -152,8 +152,6 @@ contains
         real(wp), intent(out), optional :: transfer(4, 4)
         !> Force of every layer that acts by a curve in between, up where the layer pushes up
         real(wp), intent(out), optional :: forces(:)
-        !> The shortest step taken, in parts of the length
-        real(wp), intent(out), optional :: shortest
         real(wp) :: c(4, 0:order), modulus(0:order), r(0:order, size(curved%curves)), step, at, left
         integer :: number, i
 
@@ -167,7 +165,6 @@ contains
             end do
         end if
         if (present(forces)) forces = 0.0_wp
-        if (present(shortest)) shortest = abs(way)
         do number = 1, most_steps
             lost = .not. all(abs(values) <= largest)
             if (lost) return
@@ -180,7 +177,6 @@ contains
                     forces(i) = forces(i) + curved%stretch%length*left*integral(r(:, i), step)
                 end do
             end if
-            if (present(shortest)) shortest = min(shortest, abs(step*left))
             do i = 1, 4
                 values(i) = value_of(c(i, :), step)
             end do
@@ -198,12 +194,15 @@ contains
         real(wp), intent(in) :: way, modulus(0:), step
         real(wp) :: transfer(4, 4)
         real(wp) :: c(0:order, 4), w(0:order), part
-        integer :: j, n, i
+        integer :: j, n, i, terms
 
+        ! Where the force of the ground does not change with the deflection, nothing is left beyond cubes
+        terms = order
+        if (.not. any(abs(modulus) > 0.0_wp)) terms = 3
         do j = 1, 4
             c(0, :) = 0.0_wp
             c(0, j) = 1.0_wp
-            do n = 0, order - 1
+            do n = 0, terms - 1
                 part = stretch%length*way/(n + 1)
                 w(n) = c(n, 1) + stretch%shear_flexibility*c(n, 3)
                 c(n + 1, 1) = part*c(n, 2)
@@ -212,7 +211,7 @@ contains
                 c(n + 1, 4) = part*dot_product(modulus(0:n), w(n:0:-1))
             end do
             do i = 1, 4
-                transfer(i, j) = value_of(c(:, i), step)
+                transfer(i, j) = value_of(c(0:terms, i), step)
             end do
         end do
     end function transfer_of
@@ -223,8 +222,8 @@ contains
         real(wp) :: value
         integer :: n
 
-        value = c(order)
-        do n = order - 1, 0, -1
+        value = c(ubound(c, 1))
+        do n = ubound(c, 1) - 1, 0, -1
             value = c(n) + t*value
         end do
     end function value_of
@@ -252,31 +251,32 @@ contains
         !> As for advance_curved; then nothing else is set
         logical, intent(out) :: lost
         type(half_type) :: a, b
-        real(wp) :: transfer(4, 5), mirrored(4, 5), values(4), back(4, 4), turn(2), shear(2)
+        real(wp) :: transfer(4, 4), mirrored(4, 4), values(4), none(0)
         integer :: i
 
         turn_a = 0.0_wp
         turn_b = 0.0_wp
         shear_a = 0.0_wp
         shear_b = 0.0_wp
-        call advance_curved(curved, 0.0_wp, curved%left, 1.0_wp, values, lost, transfer(:, 1:4))
+        call advance_curved(curved, 0.0_wp, curved%left, 1.0_wp, values, lost, transfer)
         if (lost) return
-        transfer(:, 5) = values - matmul(transfer(:, 1:4), curved%left)
         ! Seen from the other side x, psi and V change their signs
-        back = inverse(transfer(:, 1:4), curved%stretch%shear_flexibility)
-        mirrored(:, 1:4) = back
-        mirrored(:, 5) = -matmul(back, transfer(:, 5))
+        mirrored = inverse(transfer, curved%stretch%shear_flexibility)
         do i = 2, 4, 2
             mirrored(i, :) = -mirrored(i, :)
             mirrored(:, i) = -mirrored(:, i)
         end do
-        call half_of_transfer(transfer, a, turn(1:1), shear(1:1))
-        call half_of_transfer(mirrored, b, turn(2:2), shear(2:2))
+        call half_of_transfer(transfer, a, none, none)
+        call half_of_transfer(mirrored, b, none, none)
         call link_of_halves(curved%stretch%shear_flexibility, a, b, link)
-        turn_a = turn(1)
-        turn_b = turn(2)
-        shear_a = shear(1)
-        shear_b = shear(2)
+        ! What the link leaves over of the fields given, which so are met to all digits
+        associate (w_a => curved%left(1) + curved%stretch%shear_flexibility*curved%left(3), m_a => curved%left(3), &
+                   w_b => values(1) + curved%stretch%shear_flexibility*values(3), m_b => values(3))
+            turn_a = curved%left(2) + link%pa*w_a - link%p1*w_b - link%faa*m_a - link%fab*m_b
+            turn_b = link%pb*w_b - link%p2*w_a - link%fab*m_a - link%fbb*m_b - values(2)
+            shear_a = curved%left(4) + link%pa*m_a - link%p2*m_b + link%gaa*w_a + link%gab*w_b
+            shear_b = link%pb*m_b - link%p1*m_a + link%gbb*w_b + link%gab*w_a - values(4)
+        end associate
     end subroutine condense_curved
 
     !> The inverse of a transfer: by Betti's theorem w V' - V w' - psi M' + M psi' of two changes is the same everywhere
@@ -322,15 +322,51 @@ contains
         shear = y(4)
     end subroutine curved_fields
 
-    !> Into how many equal parts a stretch is cut so that series hold in each
-    pure function steps_inside(curved) result(number)
+    !> Cut a stretch so that series around the middle of every part hold in it: the steps from its ends to where they meet
+    pure subroutine cut_into_steps(curved, places, middles)
         type(curved_type), intent(in) :: curved
-        integer :: number
-        real(wp) :: y(4), shortest
-        logical :: lost
+        !> Where the parts begin and end, from 0 to 1, shape (0:number)
+        real(wp), allocatable, intent(out) :: places(:)
+        !> v, psi, M, V in their middles, shape (4, number)
+        real(wp), allocatable, intent(out) :: middles(:, :)
+        real(wp) :: ends(0:most_steps, 2), inside(4, most_steps, 2)
+        integer :: number(2)
 
-        call advance_curved(curved, 0.0_wp, curved%left, 1.0_wp, y, lost, shortest=shortest)
-        number = min(ceiling(1/shortest), most_steps)
-    end function steps_inside
+        call step_to_middle(0.0_wp, curved%left, number(1), ends(:, 1), inside(:, :, 1))
+        call step_to_middle(1.0_wp, curved%right, number(2), ends(:, 2), inside(:, :, 2))
+        allocate (places(0:sum(number)), middles(4, sum(number)))
+        places(0:number(1)) = ends(0:number(1), 1)
+        places(number(1):) = ends(number(2):0:-1, 2)
+        middles(:, :number(1)) = inside(:, :number(1), 1)
+        middles(:, number(1) + 1:) = inside(:, number(2):1:-1, 2)
+
+    contains
+
+        !> The steps from an end to the middle of the stretch
+        pure subroutine step_to_middle(from, start, number, ends, inside)
+            !> 0 or 1, and the fields there
+            real(wp), intent(in) :: from, start(4)
+            integer, intent(out) :: number
+            real(wp), intent(out) :: ends(0:), inside(:, :)
+            real(wp) :: y(4), c(4, 0:order), modulus(0:order), forces(0:order, size(curved%curves)), step, way
+            integer :: i
+
+            y = start
+            ends(0) = from
+            do number = 1, most_steps
+                way = 0.5_wp - ends(number - 1)
+                call expand_curved(curved, ends(number - 1), y, way, c, modulus, forces, step)
+                ! Fields that run away are nobody's: the rest is one part
+                if (number == most_steps .or. .not. (all(abs(y) <= largest) .and. step > 1/real(most_steps, wp)**2)) step = 1.0_wp
+                do i = 1, 4
+                    inside(i, number) = value_of(c(i, :), step/2)
+                    y(i) = value_of(c(i, :), step)
+                end do
+                ends(number) = merge(ends(number - 1) + step*way, 0.5_wp, step < 1.0_wp)
+                if (.not. step < 1.0_wp) return
+            end do
+        end subroutine step_to_middle
+
+    end subroutine cut_into_steps
 
 end module gapbeam_curved

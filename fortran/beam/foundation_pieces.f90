@@ -55,11 +55,13 @@ contains
     end function has_middle
 
     !> The function on a piece, from the fields in its middle
-    pure subroutine piece_between(question, left, right, piece)
+    pure subroutine piece_between(question, left, right, piece, in_middle)
         type(question_type), intent(in) :: question
         !> Its ends, 0..1
         real(wp), intent(in) :: left, right
         type(piece_type), intent(out) :: piece
+        !> v, psi, M, V in its middle, where they are known
+        real(wp), intent(in), optional :: in_middle(:)
         real(wp) :: c(1, 4, 0:most_terms), y(1, 4), w, scale(4), tail, pressed
         integer :: n, j
 
@@ -69,7 +71,7 @@ contains
             piece%half = (right - left)/2
             pressed = 0.0_wp
             if (allocated(question%curved)) then
-                call curved_piece(question%curved, xi, piece%half, c(1, :, :), pressed)
+                call curved_piece(question%curved, xi, piece%half, c(1, :, :), pressed, in_middle)
                 n = order
             else
                 call fields_at(s, p, e, xi, w, y(1, 2), y(1, 3), y(1, 4))
@@ -143,7 +145,7 @@ contains
     end subroutine take_limit
 
     !> The fields of a stretch on curves around a place
-    pure subroutine curved_piece(curved, xi, half, c, pressed)
+    pure subroutine curved_piece(curved, xi, half, c, pressed, in_middle)
         type(curved_type), intent(in) :: curved
         !> Middle and half of the piece
         real(wp), intent(in) :: xi, half
@@ -151,10 +153,16 @@ contains
         real(wp), intent(out) :: c(:, 0:)
         !> Size of the force of the curves per length
         real(wp), intent(out) :: pressed
+        !> As for piece_between
+        real(wp), intent(in), optional :: in_middle(:)
         real(wp) :: y(4), w, step, modulus(0:order), forces(0:order, size(curved%curves))
 
-        call curved_fields(curved, xi, w, y(2), y(3), y(4))
-        y(1) = w - curved%stretch%shear_flexibility*y(3)
+        if (present(in_middle)) then
+            y = in_middle
+        else
+            call curved_fields(curved, xi, w, y(2), y(3), y(4))
+            y(1) = w - curved%stretch%shear_flexibility*y(3)
+        end if
         call expand_curved(curved, xi, y, half, c, modulus, forces, step)
         pressed = sum(abs(forces))
     end subroutine curved_piece

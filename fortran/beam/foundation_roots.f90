@@ -6,7 +6,7 @@
 module gapbeam_foundation_roots
     use gapbeam_kinds, only: wp
     use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type, decay_lengths
-    use gapbeam_curved, only: curved_type, steps_inside
+    use gapbeam_curved, only: curved_type, cut_into_steps
     use gapbeam_foundation_pieces, only: question_type, piece_type, over_line, has_middle, fading, &
         piece_between, middle_piece, evaluate
     implicit none
@@ -120,13 +120,19 @@ contains
         integer, intent(out) :: number
         type(zeros_type) :: zeros
         type(piece_type) :: piece
+        real(wp), allocatable :: places(:), middles(:, :)
         real(wp) :: length, left, right, part
         integer :: n, i
 
         length = decay_lengths(question%stretch)
         n = max(1, ceiling(min(length/piece_length, most_pieces)))
-        if (allocated(question%curved)) n = steps_inside(question%curved)
-        if (length > 2*layer + 4*piece_length .and. decays(question)) then
+        if (allocated(question%curved)) then
+            call cut_into_steps(question%curved, places, middles)
+            do i = 1, size(middles, 2)
+                call piece_between(question, places(i - 1), places(i), piece, middles(:, i))
+                call add_zeros(question, piece, zeros)
+            end do
+        else if (length > 2*layer + 4*piece_length .and. decays(question)) then
             part = layer/length
             n = ceiling(layer/piece_length)
             do i = 1, n

@@ -145,7 +145,9 @@ contains
                 s%a(0) = tanh(s%z(0))
                 exponential = exp(-2*abs(s%z(0)))
                 s%b(0) = 4*exponential/(1 + exponential)**2
-            else
+                ! As far as longest_step goes
+                if (abs(s%z(0)) > level + 1) s%b(0) = 0.0_wp
+            else if (s%b(0) > 0.0_wp) then
                 s%a(n) = derivative_product(s%z, s%b, n)/n
                 s%b(n) = -product_term(s%a, s%a, n)
             end if

@@ -12,7 +12,7 @@ module gapbeam_zone_fields
     public :: ends_of, fields_at_ends, take_curved, take_fields, way_of_fields
 
     !> Fields near which curves are taken for straight need no more digits than these
-    real(wp), parameter :: near_enough = 1e-11_wp
+    real(wp), parameter :: near_enough = 2e-14_wp
 
 contains
 

@@ -13,6 +13,7 @@ module gapbeam_ground_solution
         fine_grounded_type => grounded_type, combined_load
     use gapbeam_zone_fields_quad, only: ends_of, fields_at_ends, take_curved
     use gapbeam_curved_quad, only: curved_type, advance_curved, curved_fields
+    use gapbeam_law_series_quad, only: curve_force
     use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type
     use gapbeam_law_quad, only: find_margins, is_watched_in
     implicit none
@@ -73,10 +74,8 @@ contains
         type(curved_type), allocatable :: curved
         real(qp) :: field(2, 2), forces(size(zones%acts, 1)), from
         integer :: i, k, m
-        logical :: curves
 
         m = size(zones%piece)
-        curves = any(has_curves(fine%layers))
         from = 0.0_qp
         call make_room(solution, m, size(zones%acts, 1), size(fine%pieces), size(closed))
         solution%piece(:) = zones%piece
@@ -95,15 +94,15 @@ contains
                 from = from + grounded%stretches(i - 1)%length
                 if (zones%piece(i) /= zones%piece(i - 1)) from = 0.0_qp
             end if
-            if (.not. curves) call go_with_ends(zones%from(i) - from, zones%to(i) - zones%from(i), stretch, load, ends, field)
+            call take_curved(fine, grounded, zones, factor, work, i, curved)
+            call go_with_ends(zones%from(i) - from, zones%to(i) - zones%from(i), stretch, load, ends, field, curved)
             solution%stretches(i) = stretch_type(real(stretch%length, wp), real(stretch%flexibility, wp), &
                                                  real(stretch%shear_flexibility, wp), real(stretch%modulus_a, wp), &
                                                  real(stretch%modulus_b, wp))
             solution%slope(i) = real((ends%w_b - ends%w_a)/stretch%length, wp)
             solution%ends(i) = stretch_ends_type(real(ends%w_a, wp), real(ends%w_b, wp), real(ends%moment_a, wp), &
                                                  real(ends%moment_b, wp))
-            call take_curved(fine, grounded, zones, factor, work, i, curved)
-            call sum_layers(fine, zones, i, merge(from, zones%from(i), curves), stretch, load, ends, field, curved, forces)
+            call sum_layers(fine, zones, i, zones%from(i), stretch, load, ends, field, curved, forces)
             beside = beside_line(stretch, load, [ends%w_a, ends%w_b])
             if (allocated(curved)) beside = load
             solution%loads(i) = stretch_load_type(real(beside%qa, wp), real(beside%qb, wp), real(beside%qc, wp), &
@@ -130,7 +129,7 @@ contains
     end subroutine take_rounded
 
     !> Move the ends of a stretch a little, and all that stands there with them: the rest is of the order of the square of the way
-    pure subroutine go_with_ends(way, length, stretch, load, ends, field)
+    pure subroutine go_with_ends(way, length, stretch, load, ends, field, curved)
         !> Way of the left end, and the new length
         real(qp), intent(in) :: way, length
         !> The stretch and its load, and what is at its ends
@@ -139,6 +138,8 @@ contains
         type(fine_ends_type), intent(inout) :: ends
         !> Left and right, rotation and shear
         real(qp), intent(inout) :: field(2, 2)
+        !> Allocated if some ground acts by curves
+        type(curved_type), allocatable, intent(inout) :: curved
         type(fine_stretch_type) :: s
         type(fine_stretch_load_type) :: q
         real(qp) :: ways(2), share(2)
@@ -147,8 +148,8 @@ contains
         q = load
         ways = [way, way + (length - s%length)]
         if (.not. any(abs(ways) > 0.0_qp)) return
-        call go(ways(1), s%modulus_a, q%qa, ends%w_a, ends%moment_a, field(1, :))
-        call go(ways(2), s%modulus_b, q%qb, ends%w_b, ends%moment_b, field(2, :))
+        call go(ways(1), s%modulus_a, q%qa - by_curves(.true.), ends%w_a, ends%moment_a, field(1, :))
+        call go(ways(2), s%modulus_b, q%qb - by_curves(.false.), ends%w_b, ends%moment_b, field(2, :))
         share = [ways(1), s%length + ways(2)]/s%length
         stretch%length = length
         stretch%modulus_a = s%modulus_a + share(1)*(s%modulus_b - s%modulus_a)
@@ -156,8 +157,34 @@ contains
         load%qa = q%qa + share(1)*(q%qb - q%qa + q%qc*(1 - share(1)))
         load%qb = q%qa + share(2)*(q%qb - q%qa + q%qc*(1 - share(2)))
         load%qc = q%qc*(length/s%length)**2
+        if (.not. allocated(curved)) return
+        curved%stretch = stretch
+        curved%load = load
+        associate (g => s%shear_flexibility)
+            curved%left = [ends%w_a - g*ends%moment_a, field(1, 1), ends%moment_a, field(1, 2)]
+            curved%right = [ends%w_b - g*ends%moment_b, field(2, 1), ends%moment_b, field(2, 2)]
+        end associate
 
     contains
+
+        !> Pressure of the ground that acts by curves, at the left or right end
+        pure function by_curves(at_left) result(pressure)
+            logical, intent(in) :: at_left
+            real(qp) :: pressure
+            integer :: k
+
+            pressure = 0.0_qp
+            if (.not. allocated(curved)) return
+            do k = 1, size(curved%curves)
+                associate (c => curved%curves(k))
+                    if (at_left) then
+                        pressure = pressure + c%side*curve_force(c%law, c%parameter_a, c%side*(ends%w_a - c%contact_a))
+                    else
+                        pressure = pressure + c%side*curve_force(c%law, c%parameter_b, c%side*(ends%w_b - c%contact_b))
+                    end if
+                end associate
+            end do
+        end function by_curves
 
         !> The fields a little farther on
         pure subroutine go(way, modulus, pressure, w, moment, turn_and_shear)

@@ -37,11 +37,8 @@ module gapbeam_ground_solver
     !> Shares of the stretches beside them by which ends may still move in the round that is taken for the last one
     real(wp), parameter :: rough = 1e-10_wp, nearly = 1e-2_wp
     real(qp), parameter :: fine_enough = 1e-15_qp
-    !> Ends that still move by no more are taken where they do not come to rest
-    real(qp), parameter :: good_enough = 1e-11_qp
-    !> The same of ends that are taken where laws are curves: the fields there are those at the ends of the round before. Elsewhere
-    !> fields are moved with their ends, which leaves the square of the way
-    real(qp), parameter :: finest = 1e-17_qp, movable = 1e-11_qp
+    !> Ends that still move by no more are taken, with the fields there: what is left is the square of the way
+    real(qp), parameter :: movable = 1e-11_qp
     !> Zones are tried from full contact, then from meshes, each finer than the one before; not from all of them where no mesh can
     !> tell
     integer, parameter :: last_try = 5, last_if_tied = 4
@@ -289,12 +286,8 @@ contains
         type(fine_zones_type) :: zones
         type(fine_grounded_type) :: grounded
         type(fine_workspace_type) :: work
-        type(fine_outcome_type) :: found, polished_outcome
-        type(fine_zones_type) :: polished
-        type(fine_grounded_type) :: polished_beam
-        type(fine_workspace_type) :: polished_work
-        logical, allocatable :: polished_closed(:)
-        real(qp) :: moved, tolerance
+        type(fine_outcome_type) :: found
+        real(qp) :: moved
 
         call new_zones(size(rough_zones%piece), size(rough_zones%acts, 1), rough_zones%steps, zones)
         zones%piece(:) = rough_zones%piece
@@ -302,11 +295,10 @@ contains
         zones%to(:) = exact_ends(rough_zones, fine)
         zones%acts(:, :) = rough_zones%acts
         zones%start(:, :) = rough_zones%start
-        tolerance = merge(finest, movable, any(has_curves(fine%layers)))
         settled = .false.
         carries = .false.
         if (known) then
-            call polish_zones(fine, factor, rule, tolerance, zones, closed, grounded, work, found, settled, error)
+            call polish_zones(fine, factor, rule, movable, zones, closed, grounded, work, found, settled, error)
             solution%solves = solution%solves + work%solves
             if (allocated(error)) return
         end if
@@ -314,26 +306,8 @@ contains
             call settle_fine_zones(fine, factor, rule, fine_enough, zones, closed, grounded, work, found, settled, moved, error)
             solution%solves = solution%solves + work%solves
             if (allocated(error)) return
-            settled = settled .or. moved <= good_enough
+            settled = settled .or. moved <= movable
             if (.not. settled) return
-            if (moved > tolerance) then
-                polished = zones
-                allocate (polished_closed(size(closed)))
-                polished_closed(:) = closed
-                call polish_zones(fine, factor, rule, fine_enough, polished, polished_closed, polished_beam, polished_work, &
-                                  polished_outcome, settled, error)
-                solution%solves = solution%solves + polished_work%solves
-                if (allocated(error)) return
-                ! Where ends all but touch each other the last digits may not be had
-                if (settled) then
-                    zones = polished
-                    closed(:) = polished_closed
-                    grounded = polished_beam
-                    work = polished_work
-                    found = polished_outcome
-                end if
-                settled = .true.
-            end if
         end if
         call take_rounded(fine, factor, zones, grounded, closed, work, solution)
         outcome = outcome_type(status=found%status)
