@@ -39,7 +39,9 @@ contains
         type(zones_type), intent(out) :: found
         real(wp), allocatable :: cuts(:)
         type(zones_type) :: next
-        integer :: j, first, last, m, number, room
+        integer :: j, first, last, m, number, room, looked
+        !> At the places of a new stretch where it is looked, so many of which are known
+        real(wp) :: deflection(size(looks))
         logical :: curves
 
         curves = any(has_curves(ground%layers))
@@ -145,13 +147,13 @@ contains
                     cuts(old + i) = between(0.0_wp, length, i, next%steps(piece))
                 end do
             end associate
-            do k = ground%first(piece), ground%first(piece + 1) - 1
-                associate (layer => ground%layers(k))
-                    if (layer%side == 0) cycle
-                    do i = first, last
-                        if (is_stopped(ground%beam%watch)) exit
-                        call take_curved(ground, grounded, zones, factor, work, i, curved)
-                        associate (from => zones%from(i), to => zones%to(i))
+            do i = first, last
+                if (is_stopped(ground%beam%watch)) exit
+                call take_curved(ground, grounded, zones, factor, work, i, curved)
+                associate (from => zones%from(i), to => zones%to(i))
+                    do k = ground%first(piece), ground%first(piece + 1) - 1
+                        associate (layer => ground%layers(k))
+                            if (layer%side == 0) cycle
                             do law = 1, pieces_of_law(layer)
                                 if (law > 1 .and. layer%law /= law_by_points) then
                                     limits = reshape([parameters_at(layer, from, length), parameters_at(layer, to, length)], &
@@ -205,6 +207,7 @@ contains
                     i = i + 1
                 end do
                 acts(:) = 0
+                looked = 0
                 do k = ground%first(piece), ground%first(piece + 1) - 1
                     acts(k - ground%first(piece) + 1) = piece_at(k, i, from, cuts(c))
                 end do
@@ -245,12 +248,12 @@ contains
         end subroutine find_fields
 
         !> The piece of its law on which a layer is between two places without crossings in between
-        pure function piece_at(k, i, from, to) result(acts)
+        function piece_at(k, i, from, to) result(acts)
             !> Layer, stretch, and distances from the left end of the piece
             integer, intent(in) :: k, i
             real(wp), intent(in) :: from, to
             integer :: acts, before, law, look
-            real(wp) :: w, psi, moment, shear, length, place, past, change
+            real(wp) :: psi, moment, shear, length, place, past, change
 
             associate (layer => ground%layers(k))
                 acts = 1
@@ -258,15 +261,20 @@ contains
                 length = ground%pieces(zones%piece(i))%length
                 do look = 1, size(looks)
                     place = from + (to - from)*looks(look)
-                    call find_fields(i, (place - zones%from(i))/(zones%to(i) - zones%from(i)), w, psi, moment, shear)
-                    acts = piece_of_deflection(ground%laws, layer, w, place, length)
-                    if (.not. touches(layer, acts, w, place, length)) exit
+                    if (look > looked) then
+                        call find_fields(i, (place - zones%from(i))/(zones%to(i) - zones%from(i)), deflection(look), psi, moment, &
+                                         shear)
+                        looked = look
+                    end if
+                    acts = piece_of_deflection(ground%laws, layer, deflection(look), place, length)
+                    if (.not. touches(layer, acts, deflection(look), place, length)) exit
                 end do
+                look = min(look, size(looks))
                 before = zones%acts(k - ground%first(zones%piece(i)) + 1, i)
                 if (before <= acts) return
                 ! A beam that lies on it without any load stays as it is
                 do law = before, acts + 1, -1
-                    call approach_kink(ground%laws, layer, law, w, 0.0_wp, place, length, past, change)
+                    call approach_kink(ground%laws, layer, law, deflection(look), 0.0_wp, place, length, past, change)
                     if (abs(past) > 0.0_wp) cycle
                     acts = law
                     return

@@ -55,6 +55,7 @@ contains
         type(field_type) :: left, right
         real(wp) :: force(size(solution%acts, 1)), terms(size(solution%acts, 1)), bent(2), pressed(2), wsize, msize, qsize
         integer :: n
+        logical :: curves
 
         associate (j => solution%piece(i), s => solution%stretches(i))
             associate (layers => ground%layers(ground%first(j):ground%first(j + 1) - 1), l => s%length, f => s%flexibility, &
@@ -67,8 +68,9 @@ contains
                 wsize = sizes%deflection
                 msize = sizes%moment
                 call take_sizes()
+                curves = any(is_curve(layers, solution%acts(:n, i)))
                 call look_at(0.0_wp, left, .true.)
-                if (any(is_curve(layers, solution%acts(:n, i)))) then
+                if (curves) then
                     call go_along_curves()
                 else
                     call look_inside(layers, ground%pieces(j)%length, solution, i, inside, roughly=.true.)
@@ -241,8 +243,7 @@ contains
             do k = 1, n
                 if (ground%layers(ground%first(solution%piece(i)) + k - 1)%side == 0) cycle
                 call look_layer(k, xi, field, at_end, now)
-                if (xi > 0.0_wp .and. .not. any(is_curve(ground%layers(ground%first(solution%piece(i)): &
-                                                        ground%first(solution%piece(i) + 1) - 1), solution%acts(:n, i)))) then
+                if (xi > 0.0_wp .and. .not. curves) then
                     do side = 1, 2
                         if (.not. (last(k)%change(side) < 0.0_wp .and. now%change(side) > 0.0_wp)) cycle
                         t = lowest(last(k)%away(side), now%away(side), last(k)%change(side)*(xi - last(k)%xi), &
