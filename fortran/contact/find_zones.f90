@@ -22,8 +22,8 @@ module gapbeam_find_zones
     real(wp), parameter :: one_place_on_curves = epsilon(1.0_wp)**0.75_wp
     !> Shares of a stretch without crossings at which it is looked on which side it is, the next one where a place only touches
     real(wp), parameter :: looks(2) = [0.5_wp, 0.375_wp]
-    !> Distance from a line that is rounding, beside deflection and line
-    real(wp), parameter :: nothing = 64*epsilon(1.0_wp)
+    !> Distance from a line, beside deflection and line, below which crossings may have been taken for rounding
+    real(wp), parameter :: nothing = 2**12*epsilon(1.0_wp)
 
 contains
 
