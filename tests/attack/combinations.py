@@ -113,7 +113,7 @@ def compare(result, name, written, leader):
     off = np.abs(step.reaction - reaction).max(initial=0.0)
     if not off <= NEAR * size + 2 * step.bounds[1]:
         faults.append(f"reactions off by {off:.3g} of {size:.3g}")
-    places = [float(x) for x in np.linspace(0.0, float(exact.oracle.length), 7)[1:-1]]
+    places = [x * float(exact.oracle.length) for x in (0.1337, 0.3141, 0.4823, 0.6517, 0.8779)]  # where no couple acts
     for kind in ("deflection", "moment") if not step.indifferent else ("moment",):
         right = np.array([float(getattr(exact.at(x), kind)) for x in places])
         off = np.abs(getattr(found.at(places), kind) - right).max()
