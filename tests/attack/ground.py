@@ -12,6 +12,7 @@ from scenes import nodes_of, place
 from touching_scenes import touching_scene
 
 from .family import Family, Verdict
+from .proofs import proof_faults
 
 PROMISE = (
     "On one-sided ground with gaps, profiles and laws of all kinds the fields satisfy the differential equations with the pressure "
@@ -62,7 +63,7 @@ def judge(made, seed=0):
     verdict = Verdict(result.status)
     if result.status == "solved":
         verdict.wrong = along(made, result, PANELS[0]) and along(made, result, PANELS[1])
-        verdict.wrong = [*verdict.wrong, *at_places(made, result), *supports(made, result)]
+        verdict.wrong = [*verdict.wrong, *at_places(made, result), *supports(made, result), *proof_faults(made, seed)]
     elif result.status == "no-equilibrium" and not result.motion:
         verdict.wrong.append("no motion is given")
     return verdict

@@ -7,6 +7,7 @@ from gapbeam.results.proof import proof_data
 
 try:
     import proof_checker
+    import proof_checker_ground
 except ImportError:
     proof_checker = None
 
@@ -26,7 +27,8 @@ def proof_faults(made, seed):
         step = gapbeam.solve(data["scene"]).steps[-1] if data["status"] == "solved" else None
         if step and step.undecided:
             return []
-        proof_checker.decide(data)
+        decide = proof_checker_ground.decide_on_ground if made.get("foundation") else proof_checker.decide
+        decide(data)
     except (gapbeam.SceneError, gapbeam.EngineError):
         return []
     except proof_checker.Answer as answer:
