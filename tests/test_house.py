@@ -63,6 +63,42 @@ def test_python_folders_use_only_those_above():
     assert wrong == []
 
 
+def modules_of(path):
+    """Files of the package that a file imports at run time, at its top or inside a function."""
+    package = TOP / "python" / "gapbeam"
+    tree = ast.parse(path.read_text())
+    for_types = {id(node) for one in ast.walk(tree) if isinstance(one, ast.If) and ast.unparse(one.test) == "TYPE_CHECKING"
+                 for node in ast.walk(one)}  # fmt: skip
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.ImportFrom) or not node.level or id(node) in for_types:
+            continue
+        folder = path.parents[node.level - 1].joinpath(*(node.module or "").split("."))
+        for found in (folder.with_suffix(".py"), *(folder / f"{name.name}.py" for name in node.names)):
+            if found.exists() and found.is_relative_to(package):
+                yield found, node in tree.body
+
+
+def test_python_files_import_each_other_in_no_circle():
+    files = set((TOP / "python" / "gapbeam").rglob("*.py"))
+    left = dict.fromkeys(files)
+    while left:
+        free = [path for path in left if not any(used in left for used, _ in modules_of(path))]
+        assert free, f"these import each other: {sorted(str(path) for path in left)}"
+        for path in free:
+            del left[path]
+
+
+def test_imports_inside_functions_are_of_what_a_command_may_not_need():
+    """The command loads what it needs when it needs it; elsewhere only files that load rich or pyarrow come late."""
+    late = {
+        path.relative_to(TOP / "python" / "gapbeam").as_posix()
+        for path in (TOP / "python" / "gapbeam").rglob("*.py")
+        if any(not at_top for _, at_top in modules_of(path))
+    }
+    elsewhere = {path for path in late if not path.startswith(("cli/", "studies/"))}
+    assert elsewhere == {"report/text.py", "batches/sample.py", "batches/tables.py"}
+
+
 @pytest.mark.parametrize("language", ["fortran", "python/gapbeam"])
 def test_there_are_no_other_folders(language):
     folders = {path.name for path in (TOP / language).iterdir() if path.is_dir()} - {"__pycache__"}

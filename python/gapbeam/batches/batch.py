@@ -6,7 +6,7 @@ import os
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from difflib import get_close_matches
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -18,9 +18,7 @@ from ..scene.wording import shown
 from .chunks import TEXTS, count_statuses, read_columns
 from .folder import from_json, open_folder
 from .paths import find_paths, with_values
-
-if TYPE_CHECKING:
-    from .summary import Summary
+from .summary import Summary, summarize
 
 FAILED = {"refused", "no-answer", "failed"}
 """Outcomes that are no outcome of the structure."""
@@ -197,8 +195,6 @@ class Batch:
         SceneError, ValueError
             As there.
         """
-        from .summary import summarize
-
         return summarize(self, names, **options)
 
     def scene_of(self, case: int) -> Scene:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -17,7 +17,9 @@ from ..base.errors import SceneError
 from ..base.records import Record
 from ..results.arguments import finite, numbers, whole
 from ..scene.wording import shown
-from .batch import Batch
+
+if TYPE_CHECKING:
+    from .batch import Batch
 
 SHARES = (0.01, 0.5, 0.99)
 DIGIT = 16

@@ -11,7 +11,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING
 
 from ..base.errors import SceneError
-from .command import FAILED, NO_SOLUTION, SOLVED, say
+from .exits import FAILED, NO_SOLUTION, SOLVED, say
 from .outputs import Outputs, source, until_closed
 
 if TYPE_CHECKING:

@@ -5,7 +5,6 @@ What a command does not need is not imported: checking a scene loads neither ric
 
 import argparse
 import os
-import sys
 import warnings
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
@@ -16,13 +15,14 @@ from typing import TYPE_CHECKING, NoReturn
 from ..base.characters import visible
 from ..base.errors import GapbeamError, SceneError, Status
 from ..base.memory import reserve
+from .batch import add_batch
+from .exits import FAILED, INTERRUPTED, NO_SOLUTION, REFUSED, SOLVED, say
 from .outputs import Outputs, source, until_closed
+from .proofs import add_proofs
+from .studies import add_studies
 
 if TYPE_CHECKING:
     from ..scene.structs import Scene
-
-#: Exit statuses
-SOLVED, NO_SOLUTION, REFUSED, FAILED, INTERRUPTED = 0, 1, 2, 3, 130
 
 #: Bytes of the address space that loading numpy and the engine takes, every further thread of OpenBLAS, their buffers, and
 #: loading matplotlib
@@ -140,25 +140,6 @@ def _threads() -> int:
     return max(int(told), 1) if told.isdecimal() else os.cpu_count() or 1
 
 
-def say(status: int, message: str) -> int:
-    """Write one line on standard error; where that is closed, the status has to do.
-
-    Parameters
-    ----------
-    status : int
-        Given back.
-    message : str
-        The line.
-
-    Returns
-    -------
-    int
-    """
-    with suppress(AttributeError, OSError):
-        sys.stderr.write(f"gapbeam: {visible(' '.join(message.split()))}\n")
-    return status
-
-
 def _report(error: Exception) -> int:
     """Say what went wrong, and whose fault it is."""
     lost = isinstance(error, RuntimeError) and "can't start new thread" in str(error)
@@ -223,10 +204,6 @@ def _parser() -> argparse.ArgumentParser:
         f"line of a scene\n\n  #:schema ./gapbeam.schema.json\n\n{SCENE}\n{SIGNS}\n{STATUSES}",
     )  # fmt: skip
     schema.set_defaults(command=_schema)
-
-    from .batch import add_batch
-    from .proofs import add_proofs
-    from .studies import add_studies
 
     add_batch(commands)
     add_proofs(commands)

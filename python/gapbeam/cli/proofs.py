@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 
 from ..base.errors import SceneError
-from .command import REFUSED, SOLVED, say
+from .exits import REFUSED, SOLVED, say
 from .outputs import Outputs, source
 
 CHECKERS = ("proof_checker.py", "proof_checker_ground.py")

@@ -10,7 +10,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING
 
 from ..base.errors import SceneError
-from .command import SOLVED
+from .exits import SOLVED
 from .outputs import Outputs, source, until_closed
 
 if TYPE_CHECKING:

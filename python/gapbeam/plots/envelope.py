@@ -15,7 +15,7 @@ from ..results import formatting as fmt
 from .beam import SupportLanes, draw_beam
 from .ground import GroundLanes, draw_ground, points_a_span
 from .labels import text_width
-from .result import (
+from .panels import (
     LEFT,
     MOST_POINTS,
     PANEL,

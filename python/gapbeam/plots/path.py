@@ -16,7 +16,7 @@ from ..results.branches import BranchPath
 from ..scene.names import label
 from .branches import KINK, MARKERS, Trace, draw_trace, name_limits
 from .ground_path import draw_extremes, draw_zones, note_on_ground, states_on_ground
-from .result import LEFT, WIDTH, outcome
+from .panels import LEFT, WIDTH, outcome
 from .save import literal, save
 
 if TYPE_CHECKING:

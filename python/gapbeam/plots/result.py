@@ -5,7 +5,6 @@ is used through its objects, without pyplot and its state, so that pictures can 
 """
 
 import os
-import textwrap
 from collections import Counter
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
@@ -17,33 +16,32 @@ from matplotlib.figure import Figure
 from ..results import formatting as fmt
 from ..results.ground import joined
 from .beam import SupportLanes, draw_beam, draw_contacts, known_states, legend_handles
+from .envelope import envelope_figure
 from .ground import GroundLanes, draw_ground, draw_surface, points_a_span, zone_handles
 from .loads import LoadLanes, draw_loads
+from .panels import (
+    LEFT,
+    MOST_POINTS,
+    PANEL,
+    PANELS,
+    RIGHT,
+    SPACE,
+    WIDTH,
+    Point,
+    annotate,
+    counts,
+    cut_text,
+    frame_panel,
+    outcome,
+    panel_axes,
+)
 from .save import literal, save
 from .thin import outline
+from .train_envelope import train_envelope_figure
 
 if TYPE_CHECKING:
     from ..results.ground import Contact
     from ..results.result import Result
-    from ..scene.structs import Scene
-
-#: Inches. The width is that of an A4 page between its margins.
-WIDTH, LEFT, RIGHT, PANEL, SPACE = 7.4, 0.95, 0.15, 1.5, 0.14
-
-#: Points of a curve at most, about: a span gets fewer points where there are many spans
-MOST_POINTS = 100_000
-
-Point = tuple[float, float]
-
-#: Quantity, words on the axis, whether positive values are drawn downward
-PANELS = (
-    ("deflection", "deflection", True),
-    ("moment", "moment", True),
-    ("shear", "shear", False),
-    ("axial_force", "axial force", False),
-    ("pressure", "pressure", False),
-)
-
 
 def plot(result: "Result", path: str | os.PathLike, step: int = -1) -> None:
     """Draw a result into a file.
@@ -78,12 +76,8 @@ def figure(result: "Result", step: int = -1) -> Figure:
         free motion, else the panels are those of the fields. Of combinations and trains their envelope.
     """
     if result.scene.trains:
-        from .train_envelope import train_envelope_figure
-
         return train_envelope_figure(result)
     if result.combinations:
-        from .envelope import envelope_figure
-
         return envelope_figure(result)
     scene = result.scene
     stands = result.status != "no-equilibrium" and len(result.steps) > 0
@@ -137,31 +131,6 @@ def figure(result: "Result", step: int = -1) -> Figure:
     return literal(picture)
 
 
-def panel_axes(picture: Figure, scene: "Scene", bottom: float, height: float) -> Axes:
-    """Add a panel at a height in inches; all have the same x.
-
-    Parameters
-    ----------
-    picture : matplotlib.figure.Figure
-        Where to.
-    scene : Scene
-        The scene.
-    bottom, height : float
-        Inches.
-
-    Returns
-    -------
-    matplotlib.axes.Axes
-    """
-    total = picture.get_figheight()
-    inside = WIDTH - LEFT - RIGHT
-    axes = picture.add_axes((LEFT / WIDTH, bottom / total, inside / WIDTH, height / total))
-    end = float(scene.span_ends()[-1])
-    margin = end * 30 / (inside * 72 - 60)  # 30 points at either end, for symbols and horizontal arrows
-    axes.set_xlim(-margin, end + margin)
-    return axes
-
-
 def _headings(
     picture: Figure, result: "Result", step: int | None, states: tuple[str, ...], contact: "tuple[Contact, ...]", symbols: bool
 ) -> None:
@@ -190,66 +159,6 @@ def _headings(
         )  # fmt: skip
 
 
-def outcome(result: "Result") -> str:
-    """Say on two lines at most why there is no equilibrium, or which limit the load has.
-
-    Parameters
-    ----------
-    result : Result
-        That is not solved to the end.
-
-    Returns
-    -------
-    str
-    """
-    begin = "No equilibrium. " if result.status == "no-equilibrium" else ""
-    return "\n".join(textwrap.wrap(begin + fmt.sentence(result.reason), 85, max_lines=2))
-
-
-def cut_text(text: str, most: int) -> str:
-    """Cut a text after so many characters.
-
-    Examples
-    --------
-    >>> cut_text("a long text", 8)
-    'a lon...'
-    """
-    return text if len(text) <= most else text[: most - 3] + "..."
-
-
-def frame_panel(axes: Axes, scene: "Scene", quantity: str, words: str, downward: bool) -> None:
-    """Write on the axes, and mark the supports with faint lines.
-
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes
-        The panel.
-    scene : Scene
-        The scene.
-    quantity, words : str
-        What it shows, and what is written.
-    downward : bool
-        Whether positive values are drawn downward.
-    """
-    if downward:
-        axes.invert_yaxis()
-    label = "scale arbitrary" if quantity == "motion" else fmt.with_unit(scene, quantity, words)
-    if quantity == "moment":
-        label += "\ndrawn on the tension side"
-    elif quantity == "pressure":
-        label += "\npositive upward"
-    elif quantity in ("deflection", "motion"):
-        label = f"{words}\n{label}" if quantity == "motion" else label + "\npositive downward"
-    axes.set_ylabel(label, fontsize=8, linespacing=1.3)
-    axes.yaxis.set_label_coords(-0.58 / (WIDTH - LEFT - RIGHT), 0.5)
-    axes.tick_params(labelsize=7, labelbottom=False, direction="in", length=3)
-    axes.spines[["top", "right"]].set_visible(False)
-    axes.axhline(0.0, color="black", linewidth=0.7)
-    if len(scene.supports) <= 60:
-        for x in np.unique(scene.positions(scene.supports)):
-            axes.axvline(x, color="0.75", linewidth=0.5, linestyle=(0, (1, 2)), zorder=0)
-
-
 def _curve(
     axes: Axes, x: np.ndarray, values: np.ndarray, extreme: dict[str, tuple[float, float]], avoid: Sequence[Point]
 ) -> None:
@@ -266,38 +175,6 @@ def _curve(
     axes.set_ylim(bounds[::-1] if axes.yaxis_inverted() else bounds)
     for value, place in shown.values():
         annotate(axes, value, place, avoid)
-
-
-def counts(value: float, extreme: dict[str, tuple[float, float]]) -> bool:
-    """Decide whether an extreme is worth words: zero at an end of the beam is not."""
-    return abs(value) > 1e-6 * max(abs(pair[0]) for pair in extreme.values())
-
-
-def annotate(axes: Axes, value: float, x: float, avoid: Sequence[Point], more: str = "") -> None:
-    """Write an extreme beside its place, on the side away from the axis, where it covers no point to avoid."""
-    text = f"{fmt.number(value, 4)} at {fmt.number(x, 4)}".replace("-", "\N{MINUS SIGN}") + more
-    upward = (value > 0.0) != axes.yaxis_inverted()
-    (left, right), (low, high) = axes.get_xlim(), sorted(axes.get_ylim())
-    share, width = (x - left) / (right - left), (4.4 * len(text) + 8.0) / (WIDTH - LEFT - RIGHT) / 72
-    shifts = {"center": -0.5, "left": 0.0, "right": -1.0}  # start of the text in its widths
-    if not width / 2 < share < 1.0 - width / 2:
-        shifts = {"left": 0.0} if share < 0.5 else {"right": -1.0}
-
-    def covered(start: float) -> int:
-        away = 1.0 if value > 0.0 else -1.0
-        return sum(
-            start < (place - left) / (right - left) < start + width
-            and -0.05 < away * (height - value) / (high - low) < 18.0 / (72 * PANEL)
-            for place, height in avoid
-        )
-
-    best = min(shifts, key=lambda name: covered(share + shifts[name] * width))
-    axes.plot([x], [value], "o", color="black", markersize=2.6, zorder=4)
-    axes.annotate(
-        text, (x, value), (0, 4 if upward else -4), textcoords="offset points", fontsize=7.5, zorder=5,
-        ha=best, va="bottom" if upward else "top",
-        bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.8},
-    )  # fmt: skip
 
 
 def _motion(axes: Axes, result: "Result") -> None:

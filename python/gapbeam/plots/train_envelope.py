@@ -10,7 +10,7 @@ from ..base.characters import visible
 from ..results import formatting as fmt
 from .beam import SupportLanes, draw_beam
 from .ground import GroundLanes, draw_ground, points_a_span
-from .result import LEFT, PANEL, PANELS, RIGHT, SPACE, WIDTH, cut_text, frame_panel, panel_axes
+from .panels import LEFT, PANEL, PANELS, RIGHT, SPACE, WIDTH, cut_text, frame_panel, panel_axes
 from .save import literal
 
 if TYPE_CHECKING:

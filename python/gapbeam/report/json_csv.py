@@ -13,7 +13,7 @@ from ..base.characters import cell
 from ..base.memory import refuse_beyond
 from ..engine.calls import parts
 from ..results import formatting as fmt
-from ..results.data import result_data, step_data
+from ..results.data import step_data
 from ..results.fields import Fields
 
 if TYPE_CHECKING:
@@ -61,7 +61,7 @@ def json_parts(result: "Result", points: int = 20) -> Iterator[str]:
     ------
     str
     """
-    yield from _layout(result_data(result, points, steps=iter, fields=Fields.columns), "")
+    yield from _layout(result.to_data(points, steps=iter, fields=Fields.columns), "")
     yield "\n"
 
 

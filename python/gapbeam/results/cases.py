@@ -29,8 +29,9 @@ from ..scene.structs import Scene
 from ..scene.wording import key_of
 from .arguments import numbers, scheme
 from .compression import compression_of, pieces_in_sections, refused_cases
-from .following import choose_rule, starting_scheme
-from .result import Result, find_places
+from .fields import find_places
+from .result import Result
+from .schemes import choose_rule, starting_scheme
 from .solved_cases import Asked, Cases, case_in_block, cases_of, wanted_names
 from .steps import LoadSteps
 from .varied import Given, SupportArrays, base_values, cases_in, replace_numbers, vary

@@ -18,9 +18,10 @@ from ..scene.combinations import Plan
 from ..scene.names import labels, names_in_errors
 from ..scene.refusals import refusal
 from ..scene.wording import shown
-from .following import follow_load, starting_scheme
+from .following import follow_load
 from .full_load import at_full_load
 from .result import Result
+from .schemes import starting_scheme
 from .tables import KINDS, extremes_while_trains_pass
 
 KEPT = 64
@@ -177,7 +178,8 @@ class Combinations(Pickled, Mapping[str, Result]):
                 with names_in_errors(plan.scene):
                     if plan.scheme_of[k] is not None:
                         return self._in_scheme(k, plan.scheme_of[k])
-                    result = follow_load(scene, beam, self._rule, self._start)
+                    result = Result(scene, beam, self._rule)
+                    follow_load(result, self._start)
                     if k in self.failed:
                         at_full_load(result)  # what is wrong may be with its fields
                         check_status(self.failed[k], b"it has no unique answer")
@@ -203,7 +205,8 @@ class Combinations(Pickled, Mapping[str, Result]):
         scene = plan.scene_of(k, acts)
         taken = columns(scene)
         beam = Beam(taken, curves(scene, taken))
-        result = follow_load(scene, beam, self._rule, starting_scheme(beam))
+        result = Result(scene, beam, self._rule)
+        follow_load(result, starting_scheme(beam))
         if result.reason:
             result.reason += f" (in the working scheme of {shown(plan.names[other])})"
         return result

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
@@ -19,15 +19,17 @@ from ..scene.names import label
 from ..scene.structs import Scene
 from ..scene.wording import shown
 from .combinations import Combinations
+from .combined_data import combined_data
 from .compression import WARNED, euler, larger
 from .envelope import Envelope, Source
+from .fields import Fields
 from .full_load import at_full_load, fields_on_sides
+from .hints import Hint, find_hints
 from .result import Result
 from .train_envelope import TrainEnvelope, places_given
 from .train_members import Member, Standing
 
 if TYPE_CHECKING:
-    from .hints import Hint
     from .step import Step
     from .trains import Trains
 
@@ -308,10 +310,24 @@ class CombinedResult(Result):
         -------
         list of Hint
         """
-        from .hints import find_hints
-
         own = [k for k, other in enumerate(self._plan.scheme_of) if other is None]
         return [hint for k in own for hint in find_hints(self.combinations[k], self.names[k])]
+
+    def to_data(
+        self, points: int = 20, steps: Callable[[Iterator], Any] = list, fields: Callable[[Fields], dict] = Fields.to_dict
+    ) -> dict[str, Any]:
+        """Everything as plain data, as `Result.to_data`, with the combinations in place of the steps.
+
+        Parameters
+        ----------
+        points, steps, fields
+            As there.
+
+        Returns
+        -------
+        dict
+        """
+        return combined_data(self, points, steps)
 
     @property
     def has_envelope(self) -> bool:

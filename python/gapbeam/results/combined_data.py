@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from .combined import CombinedResult
 from .data import SCHEMA, event_data, ground_data, limit_data, step_data
 from .over_path import is_followed
-from .result import Result
 from .train_data import trains_data
+
+if TYPE_CHECKING:
+    from .combined import CombinedResult
+    from .result import Result
 
 
 def combined_data(result: CombinedResult, points: int = 20, combinations: Callable[[Iterator], Any] = list) -> dict[str, Any]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..scene.structs import Scene
 from .branches import BranchPath
@@ -11,9 +11,11 @@ from .fields import Fields
 from .ground_path import GroundEvent
 from .over_path import is_followed
 from .path import Event
-from .result import Result
 from .step import Step
 from .train_data import trains_data
+
+if TYPE_CHECKING:
+    from .result import Result
 
 SCHEMA = "gapbeam-result 1"
 """What the form of the JSON output is called; the number grows when a program that reads it has to change."""
@@ -27,7 +29,7 @@ def result_data(
     Parameters
     ----------
     result : Result
-        What `gapbeam.solve` returned.
+        Of one load.
     points : int
         Divisions of each span in the table of fields.
     steps : callable
@@ -45,10 +47,6 @@ def result_data(
     ValueError
         `points` is no whole number, or too large.
     """
-    if result.combinations:
-        from .combined_data import combined_data
-
-        return combined_data(result, points, steps)
     scene = result.scene
     columns = fields(result.fields(points=points)) if result.steps else {}
     data: dict[str, Any] = {

@@ -12,10 +12,10 @@ import numpy as np
 from ..base.records import Record
 from ..scene.names import names_of
 from ..scene.structs import Scene
+from .ground_envelope import GroundExtreme, find_ground_extremes, ground_extremes_data
 from .tables import curves_with_sources, support_places
 
 if TYPE_CHECKING:
-    from .ground_envelope import GroundExtreme
     from .result import Result
     from .step import Step
 
@@ -310,8 +310,6 @@ class Envelope:
         ``resultant`` by ``max`` and ``min``, ``free_span`` by ``longest`` and ``deepest`` (None where the beam lies on the
         foundation everywhere and always). Every combination is looked at, so each is solved once more.
         """
-        from .ground_envelope import find_ground_extremes
-
         solved = np.flatnonzero(np.isfinite(self._values[:, 2, 0])).tolist()
         return find_ground_extremes(self, solved) if self.scene.foundation else []
 
@@ -355,8 +353,6 @@ class Envelope:
         dict
             Only numbers, strings, lists and dicts.
         """
-        from .ground_envelope import ground_extremes_data
-
         names = names_of(self.scene.supports)
         curves = self.fields
         return {

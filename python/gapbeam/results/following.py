@@ -2,44 +2,36 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from contextlib import suppress
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..base.errors import WITHOUT_ANSWER, EngineError, SceneError, Status
 from ..engine.arrays import Solution
-from ..engine.beam import RULES, Beam
+from ..engine.beam import Beam
 from ..scene.structs import Scene
-from ..scene.wording import shown
-from .arguments import scheme
 from .branches import follow_branches
 from .compression import check_compression
 from .ground_path import follow_on_ground
 from .path import follow
-from .result import Result
+from .schemes import starting_scheme
 from .step import solve_step
 from .steps import LoadSteps, PathSteps
-from .trains import refuse_trains
+
+if TYPE_CHECKING:
+    from .result import Result
 
 
-def follow_load(scene: Scene, beam: Beam, rule: str, closed: np.ndarray) -> Result:
+def follow_load(result: Result, closed: np.ndarray) -> None:
     """Solve a beam as its scene says: by load steps, or from event to event.
 
     Parameters
     ----------
-    scene : Scene
-        Checked.
-    beam : Beam
-        Made of it.
-    rule : {"block", "single"}
-        How the working scheme is found.
+    result : Result
+        Of its scene, without states yet.
     closed : numpy.ndarray of int
         From `starting_scheme`.
-
-    Returns
-    -------
-    Result
 
     Raises
     ------
@@ -48,14 +40,16 @@ def follow_load(scene: Scene, beam: Beam, rule: str, closed: np.ndarray) -> Resu
     EngineError
         No unique answer exists.
     """
-    result = Result(scene, beam, rule)
+    scene, beam = result.scene, result.beam
     if beam.ground_layers:
         _refuse_on_ground(scene, beam)
-    refuse_trains(scene, beam)
     if not scene.trains:
         _follow(result, closed)
         check_compression(result)
-        return result
+        return
+    if beam.depends_on_path:
+        what = "laws whose state depends on the way of the load cannot stand beside trains"
+        raise SceneError("supports", f"{what} in this version; use polylines that rise")
     result.trains.pass_all()
     try:
         _follow(result, closed)
@@ -67,27 +61,26 @@ def follow_load(scene: Scene, beam: Beam, rule: str, closed: np.ndarray) -> Resu
         more = advice if error.status == Status.NOT_CONVERGED else ""
         raise EngineError(f"without its trains {error}{more}", error.status) from None
     result.take_trains()
-    return result
 
 
-def _follow(result: Result, closed: np.ndarray) -> Result:
+def _follow(result: Result, closed: np.ndarray) -> None:
     """Follow the load of a beam without its trains."""
     scene, beam, rule = result.scene, result.beam, result.rule
     if beam.depends_on_path or scene.analysis.history != [1.0]:
-        return _on_path(result)
+        _on_path(result)
+        return
     if scene.analysis.follow == "events":
         result.path = follow_on_ground(result, rule, closed) if beam.ground_layers else follow(result, rule, closed)
         if result.segments:
             result.steps = PathSteps(beam, rule, result.path)
         if beam.curves and result.segments and result.status == "solved":
             _refuse_beyond_bounds(result)
-        return result
+        return
     result.steps = LoadSteps(beam, rule, closed, scene.analysis.steps)
     fallen = result.steps.solve_all()
     if fallen is not None:
         factor, motion = fallen
         result.refuse(f"at load factor {factor:g}", motion)
-    return result
 
 
 def _refuse_beyond_bounds(result: Result) -> None:
@@ -112,7 +105,7 @@ def _refuse_on_ground(scene: Scene, beam: Beam) -> None:
         raise SceneError("analysis.history", "a beam on a foundation goes back along its path; leave it out")
 
 
-def _on_path(result: Result) -> Result:
+def _on_path(result: Result) -> None:
     """Solve a scene whose state depends on the way of the load."""
     analysis = result.scene.analysis
     by_steps = analysis.follow == "steps"
@@ -124,58 +117,6 @@ def _on_path(result: Result) -> Result:
     if result.beam.curves and not result.beam.depends_on_path and result.status == "solved":
         _refuse_beyond_bounds(result)
         if result.path is None:
-            return result
+            return
     factors = [(k + 1) / analysis.steps for k in range(analysis.steps)] if by_steps else None
     result.steps = PathSteps(result.beam, result.rule, result.path, factors)
-    return result
-
-
-def choose_rule(scene: Scene, rule: str | None) -> str:
-    """Take the rule that the caller gives, or else that of the scene.
-
-    Parameters
-    ----------
-    scene : Scene
-        The scene.
-    rule : str or None
-        What the caller gives.
-
-    Returns
-    -------
-    str
-        ``block`` or ``single``.
-
-    Raises
-    ------
-    SceneError
-        There is no such rule.
-    """
-    rule = scene.analysis.rule if rule is None else rule
-    if not isinstance(rule, str) or rule not in RULES:
-        raise SceneError("rule", f"expected one of {', '.join(RULES)}, got {shown(rule)}")
-    return rule
-
-
-def starting_scheme(beam: Beam, start: Sequence[bool] | None = None) -> np.ndarray:
-    """Give the scheme from which the first search starts.
-
-    Parameters
-    ----------
-    beam : Beam
-        The beam.
-    start : sequence of bool, optional
-        As for `solve`; default all closed, laws on their first piece.
-
-    Returns
-    -------
-    numpy.ndarray of int
-    """
-    closed = np.ones(beam.supports, dtype=np.int32)
-    if start is None:
-        for kinks, middle, _ in beam.laws.values() if beam.has_laws else ():
-            closed[kinks.start + max(middle, 1) : kinks.stop] = 0  # on its first piece
-        return closed
-    one_sided = np.flatnonzero(beam.sides)
-    of_all = np.ones(beam.scene_supports, dtype=np.int32)
-    of_all[one_sided] = scheme(start, len(one_sided), "one-sided support")
-    return of_all[beam.numbers]

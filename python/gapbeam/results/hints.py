@@ -10,11 +10,11 @@ import numpy as np
 
 from ..base.errors import EngineError
 from ..engine.beam import FIELDS
-from .following import starting_scheme
 from .path import follow
-from .result import Result
+from .schemes import starting_scheme
 
 if TYPE_CHECKING:
+    from .result import Result
     from .step import Step
 
 CLOSE = 1e-9
@@ -112,7 +112,7 @@ def _states(result: Result) -> list[Step]:
         return []
     path = result.path
     if path is None:
-        trial = Result(scene, beam, result.rule)
+        trial = result.another(scene, beam, result.rule)
         try:
             path = follow(trial, result.rule, starting_scheme(beam))
         except EngineError:

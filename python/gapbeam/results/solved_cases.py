@@ -17,7 +17,7 @@ from ..engine.case_extremes import HERE, case_extremes, case_fields
 from ..engine.cases import ALWAYS, WANTED, OneCase, solve_cases, split_loads
 from ..engine.combinations import Combined, Varied, all_combinations
 from .arguments import numbers
-from .result import Fields, find_places
+from .fields import Fields, find_places
 
 NAMES = ("status", "closed", "reaction", "deflection", "moment_left", "moment_right", "solves")
 """The arrays of cases."""

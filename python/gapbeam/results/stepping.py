@@ -10,8 +10,9 @@ from ..scene.names import names_in_errors
 from ..scene.reading import read_beam
 from ..scene.structs import Scene
 from .combined import solve_combined
-from .following import choose_rule, follow_load, starting_scheme
+from .following import follow_load
 from .result import Result
+from .schemes import choose_rule, starting_scheme
 
 
 def solve(
@@ -61,4 +62,6 @@ def solve(
     with names_in_errors(scene):
         if scene.combinations:
             return solve_combined(scene, beam, rule, closed)
-        return follow_load(scene, beam, rule, closed)
+        result = Result(scene, beam, rule)
+        follow_load(result, closed)
+        return result

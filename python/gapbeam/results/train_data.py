@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from .result import Result
 from .train_ways import TrainEvent
-from .trains import TrainResult, Trains
+
+if TYPE_CHECKING:
+    from .result import Result
+    from .trains import TrainResult, Trains
 
 
 def passing_trains(result: Result) -> Iterator[tuple[str | None, TrainResult]]:

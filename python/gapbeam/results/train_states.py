@@ -13,10 +13,10 @@ from ..engine.beam import NO_EQUILIBRIUM, SOLVED, Beam
 from ..engine.ground import zone_changes
 from ..engine.trains import NOT_UNIQUE
 from ..scene.columns import BY_X, DISTRIBUTED, FORCE
-from .following import starting_scheme
 from .ground import FreeSpan, size_of
 from .kinks import Piece, piece_of
 from .motion import SLIDES, describe_motion
+from .schemes import starting_scheme
 from .smooth import SmoothLaws
 from .step import Step
 from .train_tangents import NearTangents

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..base.errors import EngineError
 from ..engine.beam import SOLVED, Beam
-from .following import starting_scheme
+from .schemes import starting_scheme
 from .smooth import SmoothLaws, solve_on_curves, with_openings
 
 if TYPE_CHECKING:

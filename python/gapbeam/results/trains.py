@@ -24,26 +24,27 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..base.errors import EngineError, SceneError
+from ..base.errors import EngineError
 from ..base.records import Record
 from ..engine.beam import GIVEN, Beam
 from ..scene.columns import columns, curves
 from ..scene.places import POSITION_TOLERANCE
-from ..scene.structs import Scene
 from ..scene.trains import LEFT, RIGHT, at_ends, courses, fitted, joined, nearest, train_name
 from ..scene.wording import choice, shown
 from .arguments import finite
+from .schemes import starting_scheme
 from .step import Step
 from .steps import LoadSteps
 from .train_envelope import TrainEnvelope, places_along, places_given
+from .train_influence import influence_line
 from .train_members import Member, fields_of
 from .train_neutral import loaded
+from .train_search import SearchedWay
 from .train_ways import Gap, TrainEvent, TrainWay
 
 if TYPE_CHECKING:
     from .fields import Fields
     from .result import Result
-    from .train_search import SearchedWay
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -129,8 +130,6 @@ class TrainResult:
         near = nearest(self._joined, end)
         try:
             if is_searched(result.beam):
-                from .train_search import SearchedWay
-
                 return [SearchedWay(result, course, near, self.name) for course in courses(self._joined, end)]
             return [TrainWay(result.beam, result.scene, course, near) for course in courses(self._joined, end)]
         except EngineError as error:
@@ -211,11 +210,8 @@ class TrainResult:
         # Extremes beside the end, where an axle has just left, are farther off
         position = at_ends(position, self._joined, direction, self._result.beam.places.end, POSITION_TOLERANCE)
         scene = loaded(self._result.scene, way.course, way.near, position)
-        from .following import starting_scheme
-        from .result import Result
-
         taken = columns(scene)
-        result = Result(scene, Beam(taken, curves(scene, taken)), self._result.rule if scheme is None else GIVEN)
+        result = self._result.another(scene, Beam(taken, curves(scene, taken)), self._result.rule if scheme is None else GIVEN)
         result.steps = LoadSteps(result.beam, result.rule, starting_scheme(result.beam) if scheme is None else scheme, 1)
         fallen = result.steps.solve_all()
         if fallen is not None:
@@ -262,8 +258,6 @@ class TrainResult:
         if what == "reaction" and not chosen.any():
             raise ValueError(f"x: there is no support at x = {x:g}")
         if is_searched(beam):
-            from .train_influence import influence_line
-
             return Influence(places, influence_line(state, what, x, chosen, places, side))
         piece, distance = beam.find(np.array([x]), side == "left")
         values = way.passage.influence(state.solution.closed, chosen, int(piece[0]), float(distance[0]), places)
@@ -314,26 +308,6 @@ class Trains(Mapping[str, TrainResult]):
         list of Member
         """
         return [member for train in self.values() for member in train.members(combination)]
-
-
-def refuse_trains(scene: Scene, beam: Beam) -> None:
-    """Refuse what trains cannot be followed over.
-
-    Parameters
-    ----------
-    scene : Scene
-        The scene.
-    beam : Beam
-        Its beam.
-
-    Raises
-    ------
-    SceneError
-        A law whose state depends on the way of the load.
-    """
-    if scene.trains and beam.depends_on_path:
-        what = "laws whose state depends on the way of the load cannot stand beside trains"
-        raise SceneError("supports", f"{what} in this version; use polylines that rise")
 
 
 def is_searched(beam: Beam) -> bool:
