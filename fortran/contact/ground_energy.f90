@@ -9,7 +9,8 @@
 !> equilibrium.
 module gapbeam_ground_energy
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_not_converged, gapbeam_no_memory, gapbeam_stopped
+    use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_not_converged, gapbeam_not_finite, &
+        gapbeam_no_memory, gapbeam_stopped
     use gapbeam_link, only: piece_type, piece_load_type, condense_link
     use gapbeam_band, only: plain
     use gapbeam_law, only: both
@@ -126,6 +127,11 @@ contains
             force = sum(abs(push)) + sum(work%load_size)
             ! A rounding of deflections is a force on stiff ground
             force = balanced*force + 8*epsilon(force)*sum(slope)*maxval(abs(w))
+            if (.not. (force <= huge(force) .and. maxval(abs(w)) <= huge(force))) then
+                call fatal_error(error, gapbeam_not_finite, "numbers left the range of double precision: choose units "// &
+                                 "in which lengths, stiffnesses and loads are nearer to 1")
+                return
+            end if
             if (begun .and. way >= 1.0_wp .and. sum(abs(push - modelled)) <= force) then
                 closed(:) = acting(:size(closed))
                 mesh%deflection(:) = w
@@ -250,7 +256,7 @@ contains
             do
                 bracket%at_high = energy_slope(bracket%high) - gain
                 stopped = bracket%at_high > 0.0_wp .or. .not. gain > 0.0_wp
-                if (stopped .or. bracket%high > last_way*length) exit
+                if (stopped .or. .not. bracket%high <= last_way*length .or. .not. length <= huge(length)) exit
                 bracket = bracket_type(bracket%high, 8*bracket%high, bracket%at_high, 0.0_wp)
             end do
             if (.not. stopped) then
