@@ -8,6 +8,7 @@
 !> Where the model runs away along a motion of the beam, the same search tells how far; if nothing stops it, there is no
 !> equilibrium.
 module gapbeam_ground_energy
+    use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_not_converged, gapbeam_not_finite, &
         gapbeam_no_memory, gapbeam_stopped
@@ -30,6 +31,8 @@ module gapbeam_ground_energy
     !> Rounds at most, and one more for every node up to so many, since on stiff ground zones may shrink by a node at each end in
     !> two rounds; steps of a line search
     integer, parameter :: most_rounds = 200, most_for_nodes = 512, most_steps = 60
+    !> Forces and slopes of nodes that are asked for at most: where stiffnesses lie hundreds of powers of ten apart no mesh settles
+    integer(int64), parameter :: most_asked = 2_int64**23
     !> Share of all forces that may be out of balance in the end
     real(wp), parameter :: balanced = 1e-9_wp
     !> A slope of the energy that has fallen to this share of what it was is enough
@@ -81,6 +84,7 @@ contains
         real(wp), allocatable :: ease
         logical, allocatable :: acting(:)
         real(wp) :: way, force
+        integer(int64) :: asked_for
         integer :: round, n
         logical :: begun, stopped
 
@@ -96,7 +100,9 @@ contains
         asked(:) = 0.0_wp
         call press(ground, points, w, push, slope, pressed, full=.not. mesh%solved)
         begun = .false.
+        asked_for = 0
         do round = 1, most_rounds + min(n, most_for_nodes)
+            if (asked_for > most_asked) exit
             call solve_model()
             if (allocated(error)) then
                 if (any(error%code == [gapbeam_no_memory, gapbeam_stopped]) .or. allocated(ease)) return
@@ -232,6 +238,7 @@ contains
             real(wp) :: force(0:n), ignored(0:n)
             integer :: nodes
 
+            asked_for = asked_for + n
             call press(ground, points, w + t*step, force, ignored, nodes)
             at = dot_product(step, force - modelled + (1 - t)*change)
         end function energy_slope
@@ -256,7 +263,7 @@ contains
             do
                 bracket%at_high = energy_slope(bracket%high) - gain
                 stopped = bracket%at_high > 0.0_wp .or. .not. gain > 0.0_wp
-                if (stopped .or. .not. bracket%high <= last_way*length .or. .not. length <= huge(length)) exit
+                if (stopped .or. .not. bracket%high <= min(last_way*length, huge(length))) exit
                 bracket = bracket_type(bracket%high, 8*bracket%high, bracket%at_high, 0.0_wp)
             end do
             if (.not. stopped) then
