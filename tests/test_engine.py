@@ -8,7 +8,8 @@ import gapbeam
 import numpy as np
 import pytest
 from gapbeam import _engine
-from gapbeam.studies.schemes import gapped_spans, lifted_end
+from gapbeam.studies.meshes import gapped_spans
+from studies.schemes import lifted_end
 
 ROUTINES = [name for name in dir(_engine) if name.startswith("gb")]
 

@@ -1,4 +1,4 @@
-"""The corners of `gapbeam study extremes`: every one to 1e-12, against exact solutions."""
+"""The corners of the study extremes: every one to 1e-12, against exact solutions."""
 
 import csv
 import io
@@ -8,11 +8,11 @@ from pathlib import Path
 import gapbeam
 import oracle
 import pytest
-from gapbeam.cli import main
-from gapbeam.studies import corners as study
 from gapbeam.studies import exact
-from gapbeam.studies.extremes import cases, in_units
 from scenes import INF, at, force, random_scene, scene, uniform
+from studies import corners as study
+from studies.command import main
+from studies.extremes import cases, in_units
 
 TOLERANCE = 1e-12
 DOCS = Path(__file__).parent.parent / "docs" / "extremes.md"
@@ -93,15 +93,15 @@ def test_units_are_exact():
 
 def test_command(capsys, monkeypatch, tmp_path):
     chosen = [case for case in CASES if case.corner in ("nearly a mechanism", "load beside load")]
-    monkeypatch.setattr("gapbeam.studies.extremes.cases", lambda largest: iter(chosen))
-    assert main(["study", "extremes", "--csv", str(tmp_path / "t.csv")]) == 0
+    monkeypatch.setattr("studies.extremes.cases", lambda largest: iter(chosen))
+    assert main(["extremes", "--csv", str(tmp_path / "t.csv")]) == 0
     printed = capsys.readouterr().out
     assert "nearly a mechanism" in printed
     assert "Worst of all:" in printed
     rows = list(csv.DictReader(io.StringIO((tmp_path / "t.csv").read_text())))
     assert [(row["corner"], row["value"]) for row in rows] == [(case.corner, case.value) for case in chosen]
     assert all(float(row["true error"]) < TOLERANCE for row in rows)
-    assert main(["study", "extremes", "--markdown", "-"]) == 0
+    assert main(["extremes", "--markdown", "-"]) == 0
     assert capsys.readouterr().out.count("| load beside load |") == 3
 
 

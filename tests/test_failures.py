@@ -42,8 +42,7 @@ PLACES = [
     ("gapbeam.plots.result.figure", ["run", "scene.json", "--plot", "a.png"]),
     ("gapbeam.report.text.print_report", ["run", "scene.json"]),
     ("gapbeam.scene.schema.scene_schema", ["schema"]),
-    ("gapbeam.studies.schemes.schemes", ["study", "schemes"]),
-    ("gapbeam.studies.kernel.kernels", ["study", "kernel"]),
+    ("gapbeam.studies.accuracy.families", ["study", "accuracy"]),
 ]
 
 
@@ -99,7 +98,7 @@ def test_what_is_refused_is_2(raising, error, line):
     assert raising(error) == (2, line)
 
 
-@pytest.mark.parametrize("command", [["run", "scene.json"], ["check", "scene.json"], ["schema"], ["study", "schemes"]])
+@pytest.mark.parametrize("command", [["run", "scene.json"], ["check", "scene.json"], ["schema"], ["study", "accuracy"]])
 @pytest.mark.parametrize(
     ("content", "status", "line"),
     [

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import gapbeam
 import pytest
+import studies.command
 from gapbeam.base.files import write_files
 from gapbeam.cli import main
 from gapbeam.plots import plot
@@ -43,8 +44,8 @@ def command(*arguments, limit=None, **keywords):
     return subprocess.run(words, preexec_fn=prepare, stderr=subprocess.PIPE, text=True, **keywords)
 
 
-def refused(capsys, *arguments):
-    assert main([str(argument) for argument in arguments]) == 2
+def refused(capsys, *arguments, command=main):
+    assert command([str(argument) for argument in arguments]) == 2
     out, err = capsys.readouterr()
     assert out == ""
     assert err.count("\n") == 1
@@ -261,7 +262,7 @@ def test_no_output_is_where_the_report_goes(folder):
         (None, "--csv", "a.png", ".csv"),
         (None, "--plot", "a.json", ".png, .pdf or .svg"),
         (None, "--path", "a.toml", ".png, .pdf or .svg"),
-        ("accuracy", "--plot", "a.csv", ".png, .pdf or .svg"),
+        ("foundation", "--plot", "a.csv", ".png, .pdf or .svg"),
         ("extremes", "--csv", "a.md", ".csv"),
         ("schemes", "--markdown", "a.csv", ".md"),
         ("contact", "--markdown", "a.png", ".md"),
@@ -269,8 +270,9 @@ def test_no_output_is_where_the_report_goes(folder):
     ],
 )
 def test_a_file_of_another_format_is_refused(folder, capsys, study, option, name, suffixes):
-    words = ["study", study] if study else ["run", "scene.json"]
-    assert refused(capsys, *words, option, name) == f'{option}: expected a file that ends in {suffixes}, got "{name}"'
+    words = [study] if study else ["run", "scene.json"]
+    message = refused(capsys, *words, option, name, command=studies.command.main if study else main)
+    assert message == f'{option}: expected a file that ends in {suffixes}, got "{name}"'
     assert os.listdir() == ["scene.json"]
 
 

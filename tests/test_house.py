@@ -113,6 +113,18 @@ def test_the_map_names_every_file():
                 continue
             if path.suffix in (".f90", ".F90", ".py") and not path.stem.startswith("__"):
                 assert re.search(rf"\b{path.stem}\b", house), path
+    studies = house.partition("`tests/studies`, run")[2].partition("\n\n")[0]
+    for path in (TOP / "tests" / "studies").glob("*.py"):
+        assert path.stem.startswith("__") or f"`{path.stem}`" in studies, path
+
+
+def test_the_package_needs_nothing_of_the_tests():
+    tests = {path.stem for path in (TOP / "tests").iterdir() if path.suffix == ".py" or (path / "__init__.py").exists()}
+    for path in (TOP / "python").rglob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text())):
+            names = [name.name for name in node.names] if isinstance(node, ast.Import) else []
+            names += [node.module] if isinstance(node, ast.ImportFrom) and not node.level else []
+            assert not {name.split(".")[0] for name in names} & {*tests, "tests"}, path
 
 
 def test_dir_shows_what_users_use():

@@ -14,7 +14,7 @@ from foundation_scenes import random_scene as ground_scene
 from gapbeam.base.errors import EngineError, SceneError
 from gapbeam.results.branches import BranchPath
 from gapbeam.results.kinks import EVENTS
-from gapbeam.studies.schemes import gapped_spans
+from gapbeam.studies.meshes import gapped_spans
 from ground_scenes import touching
 from law_scenes import FAMILIES, law_scene
 from scenes import nodes_of, random_scene

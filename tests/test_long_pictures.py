@@ -6,7 +6,7 @@ import pytest
 from gapbeam.plots import figure
 from gapbeam.plots.save import picture
 from gapbeam.plots.thin import APART, MOST_POINTS, MOST_SHAPES, outline, thin
-from gapbeam.studies.schemes import gapped_spans
+from gapbeam.studies.meshes import gapped_spans
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 

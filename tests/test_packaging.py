@@ -75,6 +75,7 @@ def test_wheel_brings_openblas_along(installed_openblas, tmp_path, python_digits
     (wheel,) = tmp_path.glob("gapbeam-*.whl")
     unpacked = tmp_path / "unpacked"
     zipfile.ZipFile(wheel).extractall(unpacked)
+    assert {path.name for path in unpacked.iterdir()} == {"gapbeam", f"gapbeam-{gapbeam.__version__}.dist-info"}
     extensions = sorted((unpacked / "gapbeam").glob("_*.so"))
     assert len(extensions) == 2
     assert [search_path(installed_openblas, extension) for extension in extensions] == 2 * [["$ORIGIN"]]

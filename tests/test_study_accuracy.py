@@ -19,7 +19,7 @@ from gapbeam.studies.accuracy import (
 )
 from gapbeam.studies.diagram import STYLES, plot_accuracy
 from gapbeam.studies.methods import Measured, front, methods
-from gapbeam.studies.schemes import paper_beam
+from studies.schemes import paper_beam
 
 
 @pytest.fixture(scope="module")

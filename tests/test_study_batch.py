@@ -5,11 +5,11 @@ import io
 
 import numpy as np
 import pytest
-from gapbeam.cli import main
-from gapbeam.studies import batch as study
-from gapbeam.studies import batch_limits
-from gapbeam.studies import batch_programs as programs
-from gapbeam.studies.batch_cases import SUPPORTS
+from studies import batch as study
+from studies import batch_limits
+from studies import batch_programs as programs
+from studies.batch_cases import SUPPORTS
+from studies.command import main
 
 CASES = {"3 spans": 300, "10 spans": 100, "100 spans": 5, "1,000 spans": 3, SUPPORTS: 100}
 
@@ -80,8 +80,8 @@ def test_table(monkeypatch, tmp_path, capsys):
     assert table[-1][2] == "gives up"
     monkeypatch.setattr(study, "batch", lambda largest: iter(rows[:-1]))
     page = tmp_path / "batch-study.md"
-    assert main(["study", "batch", "--largest", "30", "--markdown", str(page), "--csv", str(tmp_path / "a.csv")]) == 0
+    assert main(["batch", "--largest", "30", "--markdown", str(page), "--csv", str(tmp_path / "a.csv")]) == 0
     assert "3 spans: gapbeam solves" in page.read_text()
     assert "--markdown docs/batch-study.md`" in page.read_text()
     assert "Many cases" in capsys.readouterr().out
-    assert main(["study", "batch", "--largest", "0"]) == 2
+    assert main(["batch", "--largest", "0"]) == 2

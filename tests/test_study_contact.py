@@ -7,14 +7,14 @@ import sys
 import gapbeam
 import numpy as np
 import pytest
-from gapbeam.cli import main
-from gapbeam.studies import contact as study_contact
-from gapbeam.studies import kernel as study_kernel
-from gapbeam.studies.active_set import active_set
-from gapbeam.studies.meshes import one_span
+from gapbeam.studies.meshes import gapped_spans, one_span
 from gapbeam.studies.methods import kernel, yardstick
-from gapbeam.studies.schemes import gapped_spans, sprung_base
 from gapbeam.studies.truth import error, solve_exactly, solve_one_span
+from studies import contact as study_contact
+from studies import kernel as study_kernel
+from studies.active_set import active_set
+from studies.command import main
+from studies.schemes import sprung_base
 
 WORKS = {"A": (gapped_spans, 4), "B": (sprung_base, 1)}
 
@@ -63,7 +63,7 @@ def test_contact_table(capsys):
 
 def test_without_scipy(monkeypatch, capsys):
     monkeypatch.setitem(sys.modules, "scipy.linalg", None)
-    assert main(["study", "contact", "--largest", "10"]) == 2
+    assert main(["contact", "--largest", "10"]) == 2
     assert "pip install scipy" in capsys.readouterr().err
 
 
@@ -112,5 +112,5 @@ def test_bandwidth_is_measured():
 
 
 def test_command(capsys):
-    assert main(["study", "kernel", "--largest", "5"]) == 2
+    assert main(["kernel", "--largest", "5"]) == 2
     assert "--largest" in capsys.readouterr().err

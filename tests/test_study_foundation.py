@@ -7,13 +7,13 @@ from decimal import Decimal
 
 import numpy as np
 import pytest
-from gapbeam.cli import main
 from gapbeam.plots.save import picture
-from gapbeam.studies import foundation as study
-from gapbeam.studies import springs
-from gapbeam.studies.diagram import GROUND_STYLES, foundation_figure
-from gapbeam.studies.ground_truth import solve_ground
-from gapbeam.studies.programs import has
+from studies import foundation as study
+from studies import springs
+from studies.command import main
+from studies.diagram import GROUND_STYLES, foundation_figure
+from studies.ground_truth import solve_ground
+from studies.programs import has
 
 DIGITS_OF_F2 = ("0.21969841001", "11.8336398098", "5.3139178437", "-1.70843006517")
 
@@ -106,7 +106,7 @@ def test_picture(rows):
 
 def test_what_gives_up_is_told(monkeypatch):
     monkeypatch.setattr(study, "PROCESSES", 1)
-    monkeypatch.setattr("gapbeam.studies.active_set.MOST_SOLVES", 2)
+    monkeypatch.setattr("studies.active_set.MOST_SOLVES", 2)
     monkeypatch.setattr(study, "BESIDE", (study.SPRINGS, 10))
     monkeypatch.setattr(study, "PROBLEMS", {"work B": study.PROBLEMS["work B"]})
     row = next(row for row in study.foundation(largest=10) if row.program == study.PLAIN)
@@ -114,8 +114,8 @@ def test_what_gives_up_is_told(monkeypatch):
 
 
 def test_refused(monkeypatch, capsys):
-    assert main(["study", "foundation", "--largest", "9"]) == 2
+    assert main(["foundation", "--largest", "9"]) == 2
     assert "--largest" in capsys.readouterr().err
     monkeypatch.setitem(sys.modules, "scipy.linalg", None)
-    assert main(["study", "foundation", "--largest", "10"]) == 2
+    assert main(["foundation", "--largest", "10"]) == 2
     assert "pip install scipy" in capsys.readouterr().err

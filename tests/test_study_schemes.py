@@ -2,8 +2,9 @@
 
 import pytest
 from gapbeam import solve
-from gapbeam.studies.fronts import random_front, scaled
-from gapbeam.studies.schemes import PAGE, gapped_spans, lifted_end, schemes, sprung_base, table
+from gapbeam.studies.meshes import gapped_spans
+from studies.fronts import random_front, scaled
+from studies.schemes import PAGE, lifted_end, schemes, sprung_base, table
 
 
 @pytest.fixture(scope="module")

@@ -7,14 +7,14 @@ from decimal import Decimal
 import gapbeam
 import numpy as np
 import pytest
-from gapbeam.cli import main
 from gapbeam.plots.save import picture
-from gapbeam.studies import train_positions as positions
-from gapbeam.studies import train_programs as programs
-from gapbeam.studies import trains as study
-from gapbeam.studies.diagram import TRAIN_STYLES, trains_figure
-from gapbeam.studies.programs import has
-from gapbeam.studies.train_truth import solve_train
+from studies import train_positions as positions
+from studies import train_programs as programs
+from studies import trains as study
+from studies.command import main
+from studies.diagram import TRAIN_STYLES, trains_figure
+from studies.programs import has
+from studies.train_truth import solve_train
 
 
 @pytest.fixture(scope="module")
@@ -111,7 +111,7 @@ def test_picture(rows):
 def test_command(rows, monkeypatch, tmp_path, capsys):
     monkeypatch.setattr(study, "trains", lambda largest: iter(rows))
     page, drawn, table = (str(tmp_path / f"trains-study.{suffix}") for suffix in ("md", "svg", "csv"))
-    assert main(["study", "trains", "--largest", "100", "--markdown", page, "--plot", drawn, "--csv", table]) == 0
+    assert main(["trains", "--largest", "100", "--markdown", page, "--plot", drawn, "--csv", table]) == 0
     assert "for two beams](trains-study.svg)" in (tmp_path / "trains-study.md").read_text()
     assert "Exact envelopes or positions" in capsys.readouterr().out
     assert len((tmp_path / "trains-study.csv").read_text().splitlines()) == len(rows) + 1
@@ -126,5 +126,5 @@ def test_what_gives_up_is_told(monkeypatch):
 
 
 def test_refused(capsys):
-    assert main(["study", "trains", "--largest", "99"]) == 2
+    assert main(["trains", "--largest", "99"]) == 2
     assert "--largest" in capsys.readouterr().err

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from gapbeam.scene import read_scene
 from gapbeam.studies.exact import Reference
-from gapbeam.studies.meshes import MeshedBeam, Unfit, mesh, one_span
-from gapbeam.studies.schemes import gapped_spans, paper_beam, sprung_base
+from gapbeam.studies.meshes import MeshedBeam, Unfit, gapped_spans, mesh, one_span
 from gapbeam.studies.truth import error, solve_exactly, solve_one_span
+from studies.schemes import paper_beam, sprung_base
 
 CLAMPED = {
     "beam": {"spans": [2.0, 3.0], "EI": [4.0, 7.0]},

@@ -2,10 +2,18 @@
 
 import numpy as np
 import pytest
-from gapbeam.studies.meshes import MeshedBeam, many_spans, mesh, one_span, soft_and_stiff, stiffness_jumps
+from gapbeam.studies.meshes import (
+    MeshedBeam,
+    gapped_spans,
+    many_spans,
+    mesh,
+    one_span,
+    soft_and_stiff,
+    stiffness_jumps,
+)
 from gapbeam.studies.methods import methods, yardstick
-from gapbeam.studies.schemes import gapped_spans, paper_beam, sprung_base
 from gapbeam.studies.truth import error, solve_exactly
+from studies.schemes import paper_beam, sprung_base
 
 METHODS = {method.name: method for method in methods() if "solve" not in method.name}
 MIXED = [name for name in METHODS if "displacement" not in name]

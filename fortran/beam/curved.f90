@@ -251,7 +251,7 @@ contains
         !> As for advance_curved; then nothing else is set
         logical, intent(out) :: lost
         type(half_type) :: a, b
-        real(wp) :: transfer(4, 4), mirrored(4, 4), values(4), none(0)
+        real(wp) :: transfer(4, 4), mirrored(4, 4), values(4), turn(0), shear(0)
         integer :: i
 
         turn_a = 0.0_wp
@@ -266,8 +266,8 @@ contains
             mirrored(i, :) = -mirrored(i, :)
             mirrored(:, i) = -mirrored(:, i)
         end do
-        call half_of_transfer(transfer, a, none, none)
-        call half_of_transfer(mirrored, b, none, none)
+        call half_of_transfer(transfer, a, turn, shear)
+        call half_of_transfer(mirrored, b, turn, shear)
         call link_of_halves(curved%stretch%shear_flexibility, a, b, link)
         ! What the link leaves over of the fields given, which so are met to all digits
         associate (w_a => curved%left(1) + curved%stretch%shear_flexibility*curved%left(3), m_a => curved%left(3), &

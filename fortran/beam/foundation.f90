@@ -62,14 +62,9 @@ contains
         type(stretch_type), intent(in) :: stretch
         !> Its link
         type(stretch_link_type), intent(out) :: link
+        real(wp) :: turn_a(0), turn_b(0), shear_a(0), shear_b(0)
 
-        real(wp) :: none(0)
-
-        if (is_sloped(stretch)) then
-            call condense_sloped(stretch, [stretch_load_type ::], link, none, none, none, none)
-        else
-            call condense_even(stretch, end_functions(stretch), link)
-        end if
+        call condense_loaded(stretch, [stretch_load_type ::], link, turn_a, turn_b, shear_a, shear_b)
     end subroutine condense_stretch
 
     !> The same, and what loads make at its ends, for which the functions of the ends, or the series, are found once

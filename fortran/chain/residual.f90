@@ -73,12 +73,11 @@ contains
         largest_turn = tiny(largest_turn)
         largest_shear = tiny(largest_shear)
         left = end_type()
-        if (begin > 0) call ends_of_link(links(begin), nodes(begin - 1:begin), answers(begin - 1), answers(begin), &
-                                          right, left)
+        if (begin > 0) call ends_of_link(links(begin), answers(begin - 1), answers(begin), right, left)
         do i = begin, finish
             right = end_type()
             left_of_next = end_type()
-            if (i < n) call ends_of_link(links(i + 1), nodes(i:i + 1), answers(i), answers(i + 1), right, left_of_next)
+            if (i < n) call ends_of_link(links(i + 1), answers(i), answers(i + 1), right, left_of_next)
             residual(i) = rhs_type()
             sizes(i) = size_type()
             associate (node => nodes(i), a => answers(i), b => rhs(i), r => residual(i), s => sizes(i))
@@ -193,10 +192,8 @@ contains
     end subroutine residual_of_block
 
     !> Rotations and shear at the two ends of a link
-    pure subroutine ends_of_link(link, nodes, a, b, end_a, end_b)
+    pure subroutine ends_of_link(link, a, b, end_a, end_b)
         type(link_type), intent(in) :: link
-        !> The nodes to its left and right
-        type(node_type), intent(in) :: nodes(2)
         type(answer_type), intent(in) :: a, b
         type(end_type), intent(out) :: end_a, end_b
         type(double_double) :: turn

@@ -195,7 +195,7 @@ contains
         logical :: regular
 
         if (allocated(beam%ground)) then
-            call refine_on_ground(beam, acting, work)
+            call refine_on_ground(beam, work)
             if (.not. work%complete) call complete_scheme(beam, acting, work)
             return
         end if
@@ -226,10 +226,9 @@ contains
     end subroutine refine_scheme
 
     !> The same on elastic ground where digits are lost; elsewhere quadruple precision refines (gapbeam_ground_solver)
-    pure subroutine refine_on_ground(beam, acting, work)
+    pure subroutine refine_on_ground(beam, work)
         !> As for refine_scheme
         type(beam_type), intent(in) :: beam
-        logical, intent(in) :: acting(:)
         type(workspace_type), intent(inout) :: work
         type(rhs_type), allocatable :: residual(:)
         real(wp) :: share, before

@@ -56,6 +56,8 @@ contains
         least(:) = -1.0_wp
         before = 0.0_wp
         before_size = 0.0_wp
+        slope = 0.0_wp
+        slope_size = 0.0_wp
         passed = 0.0_wp
         passed_size = 0.0_wp
         do i = 0, n

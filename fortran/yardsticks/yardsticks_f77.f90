@@ -1,4 +1,4 @@
-! The yardsticks of `gapbeam study` for Python: plain arrays only, as f2py reads this very file.
+! The yardsticks of the studies for Python: plain arrays only, as f2py reads this very file.
 
 ! Solve one beam of N elements by one method
 subroutine ysbeam(method, refine, precis, react, n, length, ei, q, side, stiff, level, force, clampl, clampr, &

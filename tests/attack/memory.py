@@ -21,7 +21,8 @@ import numpy as np
 from gapbeam.base.errors import Status
 from gapbeam.cli import main
 from gapbeam.report import to_json
-from gapbeam.studies.schemes import gapped_spans, lifted_end, sprung_base
+from gapbeam.studies.meshes import gapped_spans
+from studies.schemes import lifted_end, sprung_base
 
 from .family import Family, Verdict, write_scene
 

@@ -38,7 +38,7 @@ class Change:
     @property
     def is_python(self):
         """Whether nothing has to be compiled."""
-        return self.file.endswith(".py") and self.file.startswith("python/")
+        return self.file.endswith(".py")
 
     def applied(self, text):
         """The text of the file with the change; an error if it does not apply to exactly one place."""

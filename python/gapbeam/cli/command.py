@@ -6,7 +6,7 @@ What a command does not need is not imported: checking a scene loads neither ric
 import argparse
 import os
 import warnings
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from textwrap import shorten
 from traceback import extract_tb
@@ -85,24 +85,40 @@ Exit status:
 DESCRIPTION = "Beams of many spans on supports that act on one side only, with gaps: a scene file in, a report out."
 
 
-class _Parser(argparse.ArgumentParser):
+class Parser(argparse.ArgumentParser):
     """Refuses in one line, and says so when the help cannot be written."""
 
     def error(self, message: str) -> NoReturn:
+        """Refuse.
+
+        Parameters
+        ----------
+        message : str
+            What is wrong.
+        """
         raise SceneError(f"{message} (see {self.prog} --help)")
 
     def print_help(self, file: None = None) -> None:
+        """Print the help.
+
+        Parameters
+        ----------
+        file : None
+            Standard output.
+        """
         with until_closed():
             print(self.format_help(), end="", file=file)
 
 
-def run(argv: Sequence[str] | None = None) -> int:
+def run(argv: Sequence[str] | None = None, make_parser: Callable[[], argparse.ArgumentParser] | None = None) -> int:
     """Run the command, whatever signals are to do.
 
     Parameters
     ----------
     argv : sequence of str, optional
         As for `gapbeam.cli.main`.
+    make_parser : callable, optional
+        Makes the parser of another command, whose defaults hold its function as ``command``; it ends as this one does.
 
     Returns
     -------
@@ -112,7 +128,11 @@ def run(argv: Sequence[str] | None = None) -> int:
     if argv is None:
         warnings.formatwarning = lambda message, *_: f"gapbeam: warning: {message}\n"
     try:
-        arguments = _parser().parse_args(argv)
+        if make_parser is None:
+            from .studies import refuse_moved
+
+            refuse_moved(sys.argv[1:] if argv is None else argv)
+        arguments = (make_parser or _parser)().parse_args(argv)
         if reserve(FOR_NUMPY + FOR_A_THREAD * (_threads() - 1)):
             _take_buffers()
         return arguments.command(arguments)
@@ -168,7 +188,7 @@ def _reason(error: Exception) -> str:
 
 def _parser() -> argparse.ArgumentParser:
     plain = argparse.RawDescriptionHelpFormatter
-    parser = _Parser("gapbeam", description=DESCRIPTION, formatter_class=plain, epilog=f"{SCENE}\n{STATUSES}")
+    parser = Parser("gapbeam", description=DESCRIPTION, formatter_class=plain, epilog=f"{SCENE}\n{STATUSES}")
     parser.add_argument("--version", action=_Version, nargs=0, help="print the version and stop")
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
 

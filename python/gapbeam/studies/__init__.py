@@ -1,1 +1,1 @@
-"""Studies of the program itself: error against run time, solves, corners."""
+"""The study that is for users: error against run time, on families of beams or on their own."""

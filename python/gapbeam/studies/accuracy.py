@@ -17,7 +17,16 @@ from ..results.stepping import solve
 from ..scene.reading import read_scene
 from ..scene.structs import Analysis, Scene
 from .exact import Reference
-from .meshes import MeshedBeam, Unfit, many_spans, mesh, one_span, soft_and_stiff, stiffness_jumps
+from .meshes import (
+    MeshedBeam,
+    Unfit,
+    gapped_spans,
+    many_spans,
+    mesh,
+    one_span,
+    soft_and_stiff,
+    stiffness_jumps,
+)
 from .methods import (
     CONDENSED,
     DISPLACEMENT,
@@ -32,7 +41,6 @@ from .methods import (
 )
 from .page import literal_markdown, markdown_table
 from .page import to_csv as csv_text
-from .schemes import gapped_spans
 from .truth import solve_exactly, solve_one_span
 
 if TYPE_CHECKING:

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
-from math import isfinite
+from collections.abc import Sequence
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator
 
 from ..plots.save import literal, save
-from . import foundation as ground
-from . import trains as moving
 from .accuracy import Comparison
 from .methods import front
 
@@ -35,22 +32,6 @@ STYLES = {
     "gapbeam.solve, events": ("#cc79a7", "-", "x"),
 }
 """Colour (Okabe and Ito 2008), line and marker of every method."""
-GROUND_STYLES = {
-    ground.OWN: ("black", "none", "*"),
-    ground.SPRINGS: ("#0072b2", "-", "o"),
-    ground.PLAIN: ("#d55e00", "-", "v"),
-    ground.INCREMENTAL: ("#d55e00", "--", "v"),
-    ground.OPENSEES: ("#009e73", "-", "s"),
-}
-"""The same for foundations and springs."""
-TRAIN_STYLES = {
-    moving.OWN: ("black", "none", "*"),
-    moving.NUMPY: ("#0072b2", "-", "o"),
-    moving.REFINED: ("#0072b2", "--", "D"),
-    moving.PYCBA: ("#d55e00", "-", "v"),
-    moving.OPENSEES: ("#009e73", "-", "s"),
-}
-"""The same for trains."""
 LOWEST, HIGHEST = 3e-17, 4.0
 """Errors shown; those beyond stand on the edge."""
 
@@ -61,7 +42,7 @@ def plot_accuracy(comparisons: Sequence[Comparison], path: str | os.PathLike) ->
     Parameters
     ----------
     comparisons : sequence of Comparison
-        From `study_accuracy.families` or `scene_comparisons`.
+        From `accuracy.families` or `scene_comparisons`.
     path : str or os.PathLike
         The suffix decides on the format: .png, .pdf or .svg.
     """
@@ -74,7 +55,7 @@ def accuracy_figure(comparisons: Sequence[Comparison]) -> Figure:
     Parameters
     ----------
     comparisons : sequence of Comparison
-        From `study_accuracy.families` or `scene_comparisons`.
+        From `accuracy.families` or `scene_comparisons`.
 
     Returns
     -------
@@ -116,11 +97,21 @@ def _panel(axes: Axes, name: str, members: Sequence[Comparison]) -> None:
         axes.plot(*zip(*points, strict=True), line, marker=marker, color=color, linewidth=1.2, markersize=4, label=method)
     sizes = [member.elements for member in members]
     span = f"{sizes[0]:,} to {sizes[-1]:,} elements" if len(sizes) > 1 else f"{sizes[0]:,} elements"
-    _decorate(axes, f"{name}: {span}", "largest relative error")
+    decorate(axes, f"{name}: {span}", "largest relative error")
 
 
-def _decorate(axes: Axes, title: str, error: str, time: str = "time of one solve") -> None:
-    """Axes of error over run time."""
+def decorate(axes: Axes, title: str, error: str, time: str = "time of one solve") -> None:
+    """Make axes those of error over run time.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+        The panel.
+    title : str
+        Its heading.
+    error, time : str
+        What stands beside its axes.
+    """
     axes.set_title(title, fontsize=9, loc="left")
     axes.set_xscale("log")
     axes.set_yscale("log")
@@ -136,64 +127,6 @@ def _decorate(axes: Axes, title: str, error: str, time: str = "time of one solve
     axes.grid(True, color="0.92", linewidth=0.6)
     for spine in ("top", "right"):
         axes.spines[spine].set_visible(False)
-
-
-def foundation_figure(rows: Sequence[ground.Row]) -> Figure:
-    """Draw error against run time of a foundation and of springs, a row of panels for every problem.
-
-    Parameters
-    ----------
-    rows : sequence of Row
-        From `studies.foundation.foundation`.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The points of a line are meshes of more and more springs; what has other zones stands on the upper edge.
-    """
-    kinds = (("ends", "contact ends"), ("deflection", "deflection"), ("moment", "moment"))
-    return _side_by_side(rows, kinds, GROUND_STYLES)
-
-
-def trains_figure(rows: Sequence[moving.Row]) -> Figure:
-    """Draw error against run time of envelopes of trains, a row of panels for every problem.
-
-    Parameters
-    ----------
-    rows : sequence of Row
-        From `studies.trains.trains`.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The points of a line are more and more positions.
-    """
-    kinds = (("moment", "moment"), ("shear", "shear"), ("most", "largest reaction"), ("least", "smallest reaction"))
-    return _side_by_side(rows, kinds, TRAIN_STYLES, "time of one envelope")
-
-
-def _side_by_side(
-    rows: Sequence, kinds: Sequence[tuple[str, str]], styles: Mapping[str, tuple[str, str, str]], time: str = "time of one solve"
-) -> Figure:
-    """Draw a row of panels for every problem, a panel for every kind of error, a line for every program."""
-    problems = list(dict.fromkeys(row.problem for row in rows))
-    picture = Figure(figsize=(9.6, 2.9 * len(problems) + 0.5), dpi=150, layout="constrained")
-    panels = picture.subplots(len(problems), len(kinds), squeeze=False, sharex=True, sharey=True)
-    for line, problem in zip(panels, problems, strict=True):
-        for axes, (kind, name) in zip(line, kinds, strict=True):
-            for program, (color, style, marker) in styles.items():
-                found = [row for row in rows if (row.problem, row.program) == (problem, program) and isfinite(row.seconds)]
-                points = [(row.seconds, min(max(getattr(row, kind), LOWEST), HIGHEST)) for row in found]
-                if points:
-                    size = 11 if marker == "*" else 4
-                    look = {"marker": marker, "color": color, "markersize": size, "linewidth": 1.2, "label": program}
-                    axes.plot(*zip(*points, strict=True), linestyle=style, clip_on=False, **look)
-            _decorate(axes, f"{problem}: {name}", "relative error", time)
-    for axes in panels.flat:
-        axes.label_outer()
-    lines = panels[0, 0].get_legend_handles_labels()
-    picture.legend(*lines, loc="outside lower center", ncols=3, frameon=False, fontsize=8)
-    return literal(picture)
 
 
 def _time(seconds: float) -> str:

@@ -160,6 +160,28 @@ def soft_and_stiff(elements: int) -> MeshedBeam:
     )
 
 
+def gapped_spans(count: int) -> dict[str, Any]:
+    """Reference problem P6, work A: many equal spans on springs with gaps under random loads.
+
+    Parameters
+    ----------
+    count : int
+        Spans.
+
+    Returns
+    -------
+    dict
+        The scene.
+    """
+    q = np.random.default_rng(7).uniform(-10, 25, count).tolist()
+    inner = [{"node": i, "side": "below", "stiffness": 1e5, "gap": 0.002 * (i % 3)} for i in range(1, count)]
+    return {
+        "beam": {"spans": [6.0] * count, "EI": 1e4},
+        "supports": [{"node": 0}, *inner, {"node": count}],
+        "loads": [{"type": "uniform", "from": 6.0 * j, "to": 6.0 * (j + 1), "q": q[j]} for j in range(count)],
+    }
+
+
 def mesh(source: Mapping[str, Any] | Scene | str, parts: int, name: str = "") -> MeshedBeam:
     """Cut a scene into elements.
 

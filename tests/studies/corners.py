@@ -9,12 +9,12 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from gapbeam.base.errors import GapbeamError
+from gapbeam.results import formatting as fmt
+from gapbeam.results.stepping import solve
+from gapbeam.scene.reading import read_scene
+from gapbeam.studies.exact import Reference
 
-from ..base.errors import GapbeamError
-from ..results import formatting as fmt
-from ..results.stepping import solve
-from ..scene.reading import read_scene
-from .exact import Reference
 from .extremes import Case, cases
 from .ground_corners import ground_errors
 from .page import Page
@@ -96,7 +96,7 @@ def extremes(chosen: Iterable[Case] | None = None) -> Iterator[Row]:
 
     Examples
     --------
-    >>> from gapbeam.studies.extremes import cases
+    >>> from studies.extremes import cases
     >>> row = next(extremes(cases()))
     >>> row.corner, row.value, row.error < 1e-12
     ('EI beside EI', '1e-12', True)

@@ -9,17 +9,17 @@ from time import perf_counter
 from typing import Any
 
 import numpy as np
+from gapbeam.results import formatting as fmt
+from gapbeam.results.cases import Prepared, prepare
+from gapbeam.results.stepping import solve
+from gapbeam.studies.meshes import MeshedBeam, gapped_spans, mesh
+from gapbeam.studies.methods import CONDENSED, yardstick
+from gapbeam.studies.truth import error, solve_exactly
 
-from ..results import formatting as fmt
-from ..results.cases import Prepared, prepare
-from ..results.stepping import solve
 from .active_set import active_set
-from .meshes import MeshedBeam, mesh
-from .methods import CONDENSED, yardstick
 from .page import Page
 from .programs import number_printed
-from .schemes import gapped_spans, sprung_base
-from .truth import error, solve_exactly
+from .schemes import sprung_base
 
 COLUMNS = ("problem", "program", "cold", "faster cold", "hot", "faster hot", "solves", "deflection", "reaction", "states")
 """Headings of the table."""

@@ -9,15 +9,16 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from gapbeam.results import formatting as fmt
+from gapbeam.results.stepping import solve
+from gapbeam.studies.meshes import gapped_spans
 
-from ..results import formatting as fmt
-from ..results.stepping import solve
 from .fronts import random_front, scaled
 from .page import Page
 
 if TYPE_CHECKING:
 
-    from ..results.result import Result
+    from gapbeam.results.result import Result
 
 COLUMNS = ("problem", "one-sided", "block", "single", "events", "closed", "time")
 """Headings of the table."""
@@ -106,28 +107,6 @@ def lifted_end(count: int, share: float = 1.0) -> dict[str, Any]:
         "beam": {"spans": [20.0 / (count - 1)] * (count - 1), "EI": 1.0},
         "supports": [{"node": i, "side": "below"} for i in range(count)],
         "loads": [{"type": "uniform", "q": 1.0, "case": "dead"}, {"type": "force", "x": 0.0, "F": -1.5 * share}],
-    }
-
-
-def gapped_spans(count: int) -> dict[str, Any]:
-    """Reference problem P6, work A: many equal spans on springs with gaps under random loads.
-
-    Parameters
-    ----------
-    count : int
-        Spans.
-
-    Returns
-    -------
-    dict
-        The scene.
-    """
-    q = np.random.default_rng(7).uniform(-10, 25, count).tolist()
-    inner = [{"node": i, "side": "below", "stiffness": 1e5, "gap": 0.002 * (i % 3)} for i in range(1, count)]
-    return {
-        "beam": {"spans": [6.0] * count, "EI": 1e4},
-        "supports": [{"node": 0}, *inner, {"node": count}],
-        "loads": [{"type": "uniform", "from": 6.0 * j, "to": 6.0 * (j + 1), "q": q[j]} for j in range(count)],
     }
 
 

@@ -8,11 +8,11 @@ from math import nan
 from time import perf_counter
 
 import numpy as np
+from gapbeam import _yardsticks
+from gapbeam.engine.calls import interruptible
+from gapbeam.studies.meshes import SEED, MeshedBeam, one_span
+from gapbeam.studies.methods import Method, kernel, yardstick
 
-from .. import _yardsticks
-from ..engine.calls import interruptible
-from .meshes import SEED, MeshedBeam, one_span
-from .methods import Method, kernel, yardstick
 from .page import Page
 
 COLUMNS = ("beam", "method", "nodes", "ns a node", "faster", "state", "GB/s", "of stream", "difference")

@@ -12,11 +12,11 @@ from time import perf_counter
 from typing import Any
 
 import numpy as np
+from gapbeam.results import formatting as fmt
+from gapbeam.results.cases import Prepared, prepare
+from gapbeam.results.result import Result
+from gapbeam.results.stepping import solve
 
-from ..results import formatting as fmt
-from ..results.cases import Prepared, prepare
-from ..results.result import Result
-from ..results.stepping import solve
 from .active_set import NoScheme
 from .ground_truth import GroundTruth, solve_ground
 from .page import Page
@@ -30,7 +30,7 @@ WORDS = (
     "m; free beam: EI = 1, k = 4, own weight 1, 4 long, 20 down in the middle, so that both ends lift; lifted end: EI = 1, k = 4,",
     "own weight 1, 20 long, one end lifted by 1.5. foundation is gapbeam's, without a mesh; prepared is what a further load case",
     "takes once gapbeam.prepare has read the scene. All others have springs at nodes: springs are solved by gapbeam itself",
-    "(supports as columns); scipy is the active set of gapbeam study contact, plain or incremental; OpenSees, where it is",
+    "(supports as columns); scipy is the active set of the study contact, plain or incremental; OpenSees, where it is",
     "installed, has springs without tension and Newton's method (up to 1,001 nodes: what it takes to make its model grows with",
     "their square). Contact ends of springs are the zeros of the straight lines between the deflections of the nodes. All start",
     "from Python's numbers and end with contact ends, and deflection and moment at eleven places, which are nodes of every mesh.",

@@ -7,8 +7,8 @@ from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
+from gapbeam.results.stepping import solve
 
-from ..results.stepping import solve
 from .active_set import NoScheme, active_set
 
 

@@ -8,16 +8,16 @@ from math import inf, isnan, nan
 from time import perf_counter
 
 import numpy as np
+from gapbeam.results import formatting as fmt
+from gapbeam.studies.meshes import mesh
+from gapbeam.studies.truth import Truth, solve_exactly
 
-from ..results import formatting as fmt
 from .active_set import NoScheme
 from .batch_cases import SIZES, Batch, Found, make
 from .batch_limits import ARITHMETIC, MEMORY, bandwidth, limits, peak
 from .batch_programs import OWN, PROGRAMS, first_call, given, installed
-from .meshes import mesh
 from .page import Page
 from .programs import number_printed
-from .truth import Truth, solve_exactly
 
 COLUMNS = (
     "problem", "program", "cases", "first call", "time a case", "cases a second", "gapbeam is faster", "deflection", "moment",

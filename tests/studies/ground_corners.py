@@ -1,4 +1,4 @@
-"""Beams on foundations in the corners of what numbers can do to them, for `gapbeam study extremes`, and their true errors."""
+"""Beams on foundations in the corners of what numbers can do to them, for the study extremes, and their true errors."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy as np
 from .ground_truth import solve_zones
 
 if TYPE_CHECKING:
-    from ..results.result import Result
+    from gapbeam.results.result import Result
 
 STIFF = "ground, EI to GA"
 """A beam that nearly only shears: its rotations are a hundred millionth of the slope dw/dx, from which they come."""

@@ -5,6 +5,10 @@ from __future__ import annotations
 import subprocess
 import sys
 from importlib.util import find_spec
+from pathlib import Path
+
+TESTS = Path(__file__).resolve().parent.parent
+"""Where the package `studies` is."""
 
 
 def has(package: str) -> bool:
@@ -23,7 +27,7 @@ def has(package: str) -> bool:
 
 
 def number_printed(code: str) -> float:
-    """Run Python code in a process of its own, and take the number that it prints.
+    """Run Python code, which may import `studies`, in a process of its own, and take the number that it prints.
 
     Parameters
     ----------
@@ -44,6 +48,7 @@ def number_printed(code: str) -> float:
     >>> number_printed("print(0.5)")
     0.5
     """
+    code = f"import sys; sys.path.insert(0, {str(TESTS)!r}); {code}"
     words = [sys.executable, "-c", code]  # what it says when it is interrupted is nobody's concern
     run = subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, check=True)
     return float(run.stdout)

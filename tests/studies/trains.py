@@ -11,9 +11,9 @@ from time import perf_counter, process_time
 from typing import Any
 
 import numpy as np
+from gapbeam.results import formatting as fmt
+from gapbeam.results.stepping import solve
 
-from ..results import formatting as fmt
-from ..results.stepping import solve
 from .active_set import NoScheme
 from .page import Page
 from .programs import has

@@ -1,4 +1,4 @@
-"""Scenes in the corners of what numbers can do to a beam, for `gapbeam study extremes`.
+"""Scenes in the corners of what numbers can do to a beam, for the study extremes.
 
 Every corner is a family of scenes that differ in one extreme number. Scenes are dicts with the names of the file format.
 """
@@ -34,7 +34,7 @@ class Case:
         The scenes.
     closed_form : callable, optional
         Gives the true (reaction, deflection) of all supports of a scene that is too long to be solved exactly; on foundations
-        what `gapbeam.studies.ground_corners.ground_errors` takes.
+        what `ground_corners.ground_errors` takes.
     ill_conditioned : bool
         Whether the answer moves much more than the numbers of the scene: the error bound has to say so.
     """

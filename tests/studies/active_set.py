@@ -12,8 +12,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-
-from ..base.errors import GapbeamError
+from gapbeam.base.errors import GapbeamError
 
 MOST_SOLVES = 200
 """Linear solves before giving up."""
@@ -71,7 +70,7 @@ def active_set(scene: Mapping[str, Any], parts: int, incremental: bool = False) 
     try:
         from scipy.linalg import cho_solve_banded, cholesky_banded
     except ModuleNotFoundError:
-        raise GapbeamError("this study compares with scipy: pip install scipy, or gapbeam[study]") from None
+        raise GapbeamError("this study compares with scipy: pip install scipy") from None
     spans, EI = np.array(scene["beam"]["spans"]), scene["beam"]["EI"]
     ends = np.concatenate(([0.0], np.cumsum(spans)))
     h = np.repeat(spans / parts, parts)

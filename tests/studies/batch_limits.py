@@ -5,8 +5,9 @@ from __future__ import annotations
 from functools import cache
 from time import perf_counter
 
-from .. import _yardsticks
-from ..engine.calls import interruptible
+from gapbeam import _yardsticks
+from gapbeam.engine.calls import interruptible
+
 from .batch_cases import Batch
 from .kernel import stream_bandwidth
 
