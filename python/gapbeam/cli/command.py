@@ -5,6 +5,7 @@ What a command does not need is not imported: checking a scene loads neither ric
 
 import argparse
 import os
+import sys
 import warnings
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
