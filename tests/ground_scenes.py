@@ -1,5 +1,7 @@
 """Small scenes on the ground for the tests of report and pictures."""
 
+import random
+
 import scenes
 
 UNITS = {"units": {"force": "kN", "length": "m"}}
@@ -51,3 +53,22 @@ def footing(steps=1):
     """A short beam that tips off its ground the more the load grows."""
     loads = [scenes.force(1.0, 300.0), scenes.uniform(12.0, case="dead")]
     return on_ground([6.0], [{"k": 2e4, "side": "below"}], loads, EI=5e4, analysis={"steps": steps})
+
+
+def rough_pipe(seed, points=201):
+    """A pipe over the survey of a rough seabed, a random walk that is drawn back to its level; laid empty, and then filled."""
+    rng, gap, profile = random.Random(seed), 0.0, []
+    for i in range(points):
+        gap = 0.85 * gap + rng.gauss(0.0, 0.06)
+        profile.append([1000.0 * i / (points - 1), round(gap, 3)])
+    loads = [scenes.uniform(0.55, case="dead"), scenes.uniform(1.05)]
+    ground = [{"k": 500.0, "side": "below", "profile": profile}]
+    return on_ground([1000.0], ground, loads, EI=9.04e4, analysis={"follow": "events"})
+
+
+def over_peaks(peaks, **keys):
+    """A beam on two supports that a force in its middle bends onto peaks (x, gap), each a foundation of its own: it is down by
+    4 times the load factor there, and by 2.75 times at the quarters."""
+    ground = [{"from": x - 0.125, "to": x + 0.125, "k": 50.0, "side": "below",
+               "profile": [[x - 0.125, gap + 1.0], [x, gap], [x + 0.125, gap + 1.0]]} for x, gap in peaks]  # fmt: skip
+    return on_ground([2.0], ground, [scenes.force(1.0, 24.0)], [scenes.at(0), scenes.at(1)], analysis={"follow": "events"}, **keys)

@@ -10,7 +10,8 @@ module gapbeam_api_ground
     use gapbeam_query, only: find_pieces
     use gapbeam_ground_zones, only: contact_type, free_span_type, find_contact, find_free_spans
     use gapbeam_pressure, only: pressure_in_pieces, extremes_of_pressure
-    use gapbeam_ground_path, only: ground_event_type, ground_path_type, follow_on_ground
+    use gapbeam_ground_events, only: ground_event_type, ground_path_type
+    use gapbeam_ground_path, only: follow_on_ground
     use gapbeam_api_objects, only: prepared_type, result_type, options_type, require_result, require_size, require_beam, &
         require_no_path, check_call, make_state, summarise
     use gapbeam_solution, only: close_all

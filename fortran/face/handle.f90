@@ -12,7 +12,7 @@ module gapbeam_handle
     use gapbeam_cases, only: case_loads_type
     use gapbeam_many_cases, only: case_room_type
     use gapbeam_history, only: history_type
-    use gapbeam_ground_path, only: ground_path_type
+    use gapbeam_ground_events, only: ground_path_type
     use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type
     use gapbeam_ground_solver, only: ground_solution_type
     implicit none

@@ -27,11 +27,11 @@ module gapbeam_ground_changes
 
     !> A change of the zones
     type :: zone_change_type
-        integer :: foundation, branch
+        integer :: foundation, side, branch
         !> gapbeam_appears, gapbeam_vanishes, gapbeam_merges, gapbeam_splits; of an end gapbeam_reaches, gapbeam_leaves
         integer :: change
-        !> Its place
-        real(wp) :: x
+        !> Its place, and between which places it comes about
+        real(wp) :: x, from, to
     end type zone_change_type
 
 contains
@@ -50,7 +50,7 @@ contains
         logical, allocatable :: holds_both_ways(:)
         integer :: first, last, branch, most, number, stat
 
-        call ground_runs(lowered, solution, runs, error)
+        call ground_runs(lowered, solution, runs, error, only_acts=.true.)
         if (allocated(error)) return
         call join_thin(thinnest*point_x(lowered, size(lowered%pieces)), runs)
         holds_both_ways = find_two_sided(lowered)
@@ -238,42 +238,51 @@ contains
             last = 0
             do k = 1, size(before)
                 if (.not. meet(before(k), after(i))) cycle
-                if (last > 0) call note(after(i), gapbeam_merges, between(before(last)%to, before(k)%from))
+                if (last > 0) call note(after(i), gapbeam_merges, before(last)%to, before(k)%from)
                 last = k
             end do
-            if (last == 0) call note(after(i), gapbeam_appears, between(after(i)%from, after(i)%to))
+            if (last == 0) call note(after(i), gapbeam_appears, after(i)%from, after(i)%to)
         end do
         do i = 1, size(before)
             last = 0
             do k = 1, size(after)
                 if (.not. meet(after(k), before(i))) cycle
-                if (last > 0) call note(before(i), gapbeam_splits, between(after(last)%to, after(k)%from))
+                if (last > 0) call note(before(i), gapbeam_splits, after(last)%to, after(k)%from)
                 last = k
             end do
-            if (last == 0) call note(before(i), gapbeam_vanishes, between(before(i)%from, before(i)%to))
+            if (last == 0) call note(before(i), gapbeam_vanishes, before(i)%from, before(i)%to)
             if (last == 0 .or. count(meet(after, before(i))) /= 1) cycle
             other = last
             if (count(meet(before, after(other))) /= 1) cycle
             associate (was => before(i), is => after(other))
                 if (was%at_left .neqv. is%at_left) then
-                    call note(was, merge(gapbeam_reaches, gapbeam_leaves, is%at_left), merge(is%from, was%from, is%at_left))
+                    call note_end(was, is%at_left, merge(is%from, was%from, is%at_left))
                 end if
                 if (was%at_right .neqv. is%at_right) then
-                    call note(was, merge(gapbeam_reaches, gapbeam_leaves, is%at_right), merge(is%to, was%to, is%at_right))
+                    call note_end(was, is%at_right, merge(is%to, was%to, is%at_right))
                 end if
             end associate
         end do
 
     contains
 
-        !> One change more
-        subroutine note(zone, change, x)
+        !> An end comes to an end of the layer, or leaves it
+        subroutine note_end(zone, reaches, x)
             type(zone_type), intent(in) :: zone
-            integer, intent(in) :: change
+            logical, intent(in) :: reaches
             real(wp), intent(in) :: x
 
+            call note(zone, merge(gapbeam_reaches, gapbeam_leaves, reaches), x, x)
+        end subroutine note_end
+
+        !> One change more
+        subroutine note(zone, change, from, to)
+            type(zone_type), intent(in) :: zone
+            integer, intent(in) :: change
+            real(wp), intent(in) :: from, to
+
             number = number + 1
-            changes(number) = zone_change_type(zone%foundation, zone%branch, change, x)
+            changes(number) = zone_change_type(zone%foundation, zone%side, zone%branch, change, from + (to - from)/2, from, to)
         end subroutine note
 
     end subroutine compare_layer
@@ -285,13 +294,5 @@ contains
 
         overlap = max(zone%from, other%from) < min(zone%to, other%to)
     end function meet
-
-    !> Place between two others
-    pure function between(from, to) result(middle)
-        real(wp), intent(in) :: from, to
-        real(wp) :: middle
-
-        middle = from + (to - from)/2
-    end function between
 
 end module gapbeam_ground_changes

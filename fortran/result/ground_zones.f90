@@ -151,7 +151,7 @@ contains
     end subroutine find_free_spans
 
     !> All layers, stretches in which one does the same joined
-    subroutine ground_runs(lowered, solution, runs, error)
+    subroutine ground_runs(lowered, solution, runs, error, only_acts)
         !> As for find_contact
         type(lowered_type), intent(in) :: lowered
         type(ground_solution_type), intent(in) :: solution
@@ -160,16 +160,21 @@ contains
         type(run_type), allocatable, intent(out) :: runs(:)
         !> No memory
         type(error_type), allocatable, intent(out) :: error
+        !> Is nothing asked but where layers act: no forces, no distances, no places that only touch; default .false.
+        logical, intent(in), optional :: only_acts
         type(run_type), allocatable :: found(:)
         type(run_type) :: run
         ! Of every layer of a foundation (a key each) its last run, the stretch in which that ends, and where it was touched last
         integer, allocatable :: last_run(:), last_stretch(:), key(:)
         real(wp), allocatable :: way(:, :), touch(:, :, :), last_touch(:)
         logical, allocatable :: supported(:)
+        logical :: bare
         integer(int64) :: total
         real(wp) :: length
         integer :: i, k, m, n, stat
 
+        bare = .false.
+        if (present(only_acts)) bare = only_acts
         m = size(solution%piece)
         length = point_x(lowered, size(lowered%pieces))
         total = 0
@@ -178,8 +183,8 @@ contains
         end do
         allocate (way(size(solution%acts, 1), m), touch(2, size(solution%acts, 1), m), supported(0:size(lowered%pieces)), stat=stat)
         if (stat == 0) then
-            call largest_ways(lowered, solution, way, touch)
-            total = total + count(touch >= 0.0_wp, kind=int64)
+            if (.not. bare) call largest_ways(lowered, solution, way, touch)
+            if (.not. bare) total = total + count(touch >= 0.0_wp, kind=int64)
         end if
         if (stat == 0) stat = merge(1, 0, total > huge(n))
         associate (keys => 2*size(lowered%model%foundations))
@@ -210,7 +215,7 @@ contains
                         else
                             call lengthen(found(last_run(of_layer)), run)
                         end if
-                        if (run%acts == 0) call add_touches(k, k - first + 1, of_layer)
+                        if (run%acts == 0 .and. .not. bare) call add_touches(k, k - first + 1, of_layer)
                         last_stretch(of_layer) = i
                     end associate
                 end do
@@ -241,6 +246,7 @@ contains
                 if (i < m) then
                     if (solution%piece(i + 1) == j) made%to = point_x(lowered, j - 1) + scale(solution%to(i), units%length)
                 end if
+                if (bare) return
                 made%resultant = scale(solution%resultant(row, i), units%force)
                 made%way = max(0.0_wp, scale(way(row, i), units%deflection))
                 if (made%acts == 1 .and. made%side /= gapbeam_both .and. made%to - made%from <= one_place*length) then

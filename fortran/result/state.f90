@@ -15,6 +15,7 @@ module gapbeam_state
     use gapbeam_search, only: rule_block
     use gapbeam_ground, only: ground_type
     use gapbeam_ground_solver, only: solve_on_ground
+    use gapbeam_ground_start, only: ground_start_type
     use gapbeam_ledger, only: ledger_type, words_for
     use gapbeam_audit, only: audit_axial
     use gapbeam_ground_audit, only: audit_ground
@@ -54,7 +55,7 @@ module gapbeam_state
 contains
 
     !> Solve at one load factor; the search starts from the scheme the state holds
-    subroutine solve_state(lowered, factor, rule, state, error)
+    subroutine solve_state(lowered, factor, rule, state, error, near)
         !> The beam
         type(lowered_type), intent(in), target :: lowered
         !> Factor of the live loads
@@ -65,6 +66,8 @@ contains
         type(state_type), intent(inout) :: state
         !> No unique solution, not settled, not finite, or no memory
         type(error_type), allocatable, intent(out) :: error
+        !> On the ground: where to begin, before the search starts as ever
+        type(ground_start_type), intent(in), optional :: near
         type(workspace_type) :: work
         type(outcome_type) :: outcome
         type(beam_type) :: changed
@@ -141,7 +144,7 @@ contains
 
             allocate (state%ground)
             call solve_on_ground(ground, detail_of(lowered), factor, merge(rule_block, rule, rule >= rule_given), acting, &
-                                 state%ground, outcome, error)
+                                 state%ground, outcome, error, near)
             if (.not. allocated(error) .and. outcome%status == gapbeam_solved) then
                 call refuse_redundancy(ground%beam, acting, state%ground%undecided, error)
             end if

@@ -32,6 +32,8 @@ module gapbeam_ground_solution
         real(wp), allocatable :: from(:), to(:)
         !> Piece of the law on which every layer acts, 0: not in contact, shape (most layers of a piece, m)
         integer, allocatable :: acts(:, :)
+        !> Into how many steps every piece of the beam was cut in any case, shape (n)
+        integer, allocatable :: steps(:)
         !> The stretches and what is at their ends, and their loads, with those of the layers, less what the ground takes of the
         !> chord between the ends: so the deflection beside the chord has its digits however deep the ground lies, shape (m)
         type(stretch_type), allocatable :: stretches(:)
@@ -78,6 +80,7 @@ contains
         m = size(zones%piece)
         from = 0.0_qp
         call make_room(solution, m, size(zones%acts, 1), size(fine%pieces), size(closed))
+        solution%steps(:) = zones%steps
         solution%piece(:) = zones%piece
         solution%from(:) = real(zones%from, wp)
         solution%to(:) = real(zones%to, wp)
@@ -217,7 +220,7 @@ contains
         allocate (solution%piece(stretches), solution%from(stretches), solution%to(stretches), solution%acts(layers, stretches), &
                   solution%stretches(stretches), solution%loads(stretches), solution%ends(stretches), &
                   solution%slope(stretches), solution%rotation(2, stretches), solution%shear(2, stretches), &
-                  solution%resultant(layers, stretches))
+                  solution%resultant(layers, stretches), solution%steps(pieces))
         allocate (solution%deflection(0:pieces), solution%moment_left(0:pieces), solution%moment_right(0:pieces), &
                   solution%reaction(supports), solution%undecided(supports))
     end subroutine make_room

@@ -19,15 +19,16 @@ module gapbeam_ground_solver
     use gapbeam_scheme, only: outcome_type
     use gapbeam_law, only: both
     use gapbeam_law_motions, only: is_blocked
-    use gapbeam_refined, only: detail_type, refine_beam, fine_piece, fine_load
-    use gapbeam_layers, only: layer_type, law_piece_type
-    use gapbeam_layers_quad, only: fine_layer_type => layer_type, fine_law_piece_type => law_piece_type, has_curves
+    use gapbeam_refined, only: detail_type
+    use gapbeam_refined_ground, only: refine_ground, refine_zones
+    use gapbeam_layers_quad, only: has_curves
     use gapbeam_ground_quad, only: fine_ground_type => ground_type, fine_zones_type => zones_type, &
-        fine_grounded_type => grounded_type, new_zones
+        fine_grounded_type => grounded_type
     use gapbeam_zones_quad, only: settle_fine_zones => settle_zones, polish_zones
     use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type
     use gapbeam_scheme_quad, only: fine_outcome_type => outcome_type
     use gapbeam_ground_solution, only: ground_solution_type, take_rounded
+    use gapbeam_ground_start, only: ground_start_type
     use gapbeam_ground_ties, only: stands_on_edge, may_move
     use gapbeam_ground_limit, only: find_collapse, find_limit
     implicit none
@@ -53,7 +54,7 @@ module gapbeam_ground_solver
 contains
 
     !> Solve at a load factor
-    subroutine solve_on_ground(ground, detail, factor, rule, closed, solution, outcome, error)
+    subroutine solve_on_ground(ground, detail, factor, rule, closed, solution, outcome, error, near)
         !> The beam and its ground
         type(ground_type), intent(in) :: ground
         !> What its links are made of
@@ -69,14 +70,15 @@ contains
         type(outcome_type), intent(out) :: outcome
         !> Not settled, not finite, no memory
         type(error_type), allocatable, intent(out) :: error
+        !> Where to begin, if something is known of it
+        type(ground_start_type), intent(in), optional :: near
         type(zones_type) :: zones
         type(grounded_type) :: grounded
         type(workspace_type) :: work
         type(fine_ground_type) :: fine
         logical, allocatable :: start(:)
         type(mesh_type) :: mesh
-        logical :: settled, known, on_edge, collapses, tied, stands, weighed, carries
-        real(wp) :: moved
+        logical :: ends, on_edge, collapses, tied, stands, weighed
         real(wp), allocatable :: motion(:)
         integer :: try, first, last, pressed, edges
 
@@ -85,9 +87,22 @@ contains
         allocate (start(size(closed)))
         start(:) = closed
         call refine_ground(ground, detail, fine)
+        edges = 0
+        if (present(near)) then
+            closed(:) = near%closed
+            zones = near%zones
+            call settle(.true., ends)
+            if (allocated(error)) then
+                if (any(error%code == [gapbeam_no_memory, gapbeam_stopped])) return
+                deallocate (error)
+            else if (ends) then
+                return
+            end if
+            closed(:) = start
+            edges = 0
+        end if
         call full_contact(ground, zones)
         on_edge = .false.
-        edges = 0
         collapses = .false.
         weighed = .false.
         stands = .false.
@@ -133,25 +148,8 @@ contains
                 end if
                 call zones_of_mesh(ground, mesh, zones)
             end if
-            call settle_zones(ground, factor, rule, rough, zones, closed, grounded, work, outcome, known, moved, error)
-            solution%solves = solution%solves + work%solves
-            if (allocated(error)) then
-                if (any(error%code == [gapbeam_no_memory, gapbeam_stopped])) return
-                ! Supports that hold both ways are as many on any zones
-                if (error%code == gapbeam_indeterminate .and. all(ground%beam%supports%side == both)) return
-            end if
-            if (allocated(error) .or. outcome%status /= gapbeam_solved) cycle
-            ! Where it all but touches, only quadruple precision tells where; from full contact that is not worth while
-            if (.not. known .and. try == 0 .and. moved > nearly) cycle
-            call settle_finely(fine, real(factor, qp), rule, zones, known, closed, solution, outcome, settled, carries, error)
-            if (allocated(error)) then
-                ! A mesh may tell that there is no equilibrium
-                if (all(error%code /= [gapbeam_not_converged, gapbeam_not_finite])) return
-            end if
-            if (carries) edges = edges + 1
-            if (allocated(error) .or. .not. settled) cycle
-            call bound_errors(ground, grounded, work, factor, solution)
-            return
+            call settle(try == 0, ends)
+            if (ends) return
         end do
         if (allocated(error)) return
         ! From whatever zones it began, a part of the beam came to stand on an edge; the others may lie on the ground
@@ -171,6 +169,39 @@ contains
                          "look for a load at the very end of the ground, or for ground that is far stiffer than the beam")
 
     contains
+
+        !> Settle the zones at hand in double and then in quadruple precision
+        subroutine settle(only_near_by, ends)
+            !> Are zones that double precision has not come near to not worth while in quadruple precision
+            logical, intent(in) :: only_near_by
+            !> Is that all: a solution, or an error with which other zones would end too
+            logical, intent(out) :: ends
+            logical :: settled, known, carries
+            real(wp) :: moved
+
+            ends = .false.
+            call settle_zones(ground, factor, rule, rough, zones, closed, grounded, work, outcome, known, moved, error)
+            solution%solves = solution%solves + work%solves
+            if (allocated(error)) then
+                ! Supports that hold both ways are as many on any zones
+                ends = any(error%code == [gapbeam_no_memory, gapbeam_stopped]) &
+                    .or. error%code == gapbeam_indeterminate .and. all(ground%beam%supports%side == both)
+                return
+            end if
+            if (outcome%status /= gapbeam_solved) return
+            ! Where it all but touches, only quadruple precision tells where
+            if (.not. known .and. only_near_by .and. moved > nearly) return
+            call settle_finely(fine, real(factor, qp), rule, zones, known, closed, solution, outcome, settled, carries, error)
+            if (carries) edges = edges + 1
+            if (allocated(error)) then
+                ! A mesh may tell that there is no equilibrium
+                ends = all(error%code /= [gapbeam_not_converged, gapbeam_not_finite])
+                return
+            end if
+            if (.not. settled) return
+            call bound_errors(ground, grounded, work, factor, solution)
+            ends = .true.
+        end subroutine settle
 
         !> Find out once whether the loads are more than the ground can bear
         subroutine weigh()
@@ -230,43 +261,6 @@ contains
         call find_limit(fine, low, high, found)
     end subroutine limit_on_ground
 
-    !> The beam and its ground in quadruple precision
-    subroutine refine_ground(ground, detail, fine)
-        type(ground_type), intent(in) :: ground
-        type(detail_type), intent(in) :: detail
-        type(fine_ground_type), intent(out) :: fine
-
-        call refine_beam(ground%beam, detail, fine%beam)
-        associate (n => size(ground%pieces))
-            allocate (fine%pieces(n), fine%dead(n), fine%live(n), fine%layers(size(ground%layers)), fine%first(n + 1), &
-                      fine%laws(size(ground%laws)))
-        end associate
-        fine%pieces(:) = fine_piece(ground%pieces)
-        fine%dead(:) = fine_load(ground%dead)
-        fine%live(:) = fine_load(ground%live)
-        fine%layers(:) = fine_layer(ground%layers)
-        fine%first(:) = ground%first
-        fine%laws(:) = fine_law(ground%laws)
-    end subroutine refine_ground
-
-    !> A layer in quadruple precision
-    elemental function fine_layer(layer) result(fine)
-        type(layer_type), intent(in) :: layer
-        type(fine_layer_type) :: fine
-
-        fine = fine_layer_type(layer%foundation, layer%side, real(layer%modulus_a, qp), real(layer%modulus_b, qp), &
-                               real(layer%contact_a, qp), real(layer%contact_b, qp), layer%law_first, layer%law_last, &
-                               layer%law, real(layer%parameter_a, qp), real(layer%parameter_b, qp))
-    end function fine_layer
-
-    !> A piece of a law in quadruple precision
-    elemental function fine_law(law) result(fine)
-        type(law_piece_type), intent(in) :: law
-        type(fine_law_piece_type) :: fine
-
-        fine = fine_law_piece_type(real(law%displacement, qp), real(law%force, qp), real(law%slope, qp))
-    end function fine_law
-
     !> Go on in quadruple precision, and round what is found
     subroutine settle_finely(fine, factor, rule, rough_zones, known, closed, solution, outcome, settled, carries, error)
         type(fine_ground_type), intent(in) :: fine
@@ -289,12 +283,7 @@ contains
         type(fine_outcome_type) :: found
         real(qp) :: moved
 
-        call new_zones(size(rough_zones%piece), size(rough_zones%acts, 1), rough_zones%steps, zones)
-        zones%piece(:) = rough_zones%piece
-        zones%from(:) = rough_zones%from
-        zones%to(:) = exact_ends(rough_zones, fine)
-        zones%acts(:, :) = rough_zones%acts
-        zones%start(:, :) = rough_zones%start
+        call refine_zones(fine, rough_zones, zones)
         settled = .false.
         carries = .false.
         if (known) then
@@ -386,22 +375,5 @@ contains
         end subroutine compare
 
     end subroutine bound_errors
-
-    !> Right ends of the stretches: the last one of a piece ends where the piece does
-    pure function exact_ends(zones, fine) result(ends)
-        type(zones_type), intent(in) :: zones
-        type(fine_ground_type), intent(in) :: fine
-        real(qp), allocatable :: ends(:)
-        integer :: i
-
-        allocate (ends(size(zones%to)))
-        ends(:) = zones%to
-        do i = 1, size(ends)
-            if (i < size(ends)) then
-                if (zones%piece(i + 1) == zones%piece(i)) cycle
-            end if
-            ends(i) = fine%pieces(zones%piece(i))%length
-        end do
-    end function exact_ends
 
 end module gapbeam_ground_solver

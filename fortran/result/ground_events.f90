@@ -1,0 +1,222 @@
+!> The load path of a beam on the ground, event by event and segment by segment
+module gapbeam_ground_events
+    use gapbeam_kinds, only: wp
+    use gapbeam_error, only: error_type, no_memory
+    use gapbeam_polyline, only: last_kink
+    use gapbeam_lowered, only: lowered_type, point_x
+    use gapbeam_pieces, only: acting_type, acting_piece, what_happens, nothing, gapbeam_merges, gapbeam_splits
+    use gapbeam_zone_margin, only: change_type
+    use gapbeam_ground_start, only: ground_start_type
+    use gapbeam_ground_changes, only: zone_type, zone_change_type, same_zones, compare_zones
+    implicit none
+    private
+    public :: ground_path_type, ground_event_type, ground_segment_type, held_type, new_path, &
+              note_changes, list_changes, add_segment, alike
+
+    !> A change of what holds the beam
+    type :: ground_event_type
+        !> Load factor at which it happens, and its place
+        real(wp) :: factor, x
+        !> Number of the support in the model, or else 0 and that of the foundation
+        integer :: support = 0, foundation = 0
+        !> Of a foundation with a law the first of its branches that make up the zone; 1 is the zone of contact
+        integer :: branch = 1
+        !> Of a support: gapbeam_opens, gapbeam_closes, with a law also gapbeam_yields, gapbeam_hardens, gapbeam_unloads; of a zone:
+        !> gapbeam_appears, gapbeam_vanishes, gapbeam_merges, gapbeam_splits; of its ends: gapbeam_reaches, gapbeam_leaves
+        integer :: change = nothing
+    end type ground_event_type
+
+    !> Between two load factors the same acts
+    type :: ground_segment_type
+        !> Where it begins
+        real(wp) :: from = 0.0_wp
+        !> Scheme of the supports
+        logical, allocatable :: closed(:)
+    end type ground_segment_type
+
+    !> The path; the first entries of the arrays
+    type :: ground_path_type
+        integer :: number = 0, segments = 0
+        type(ground_event_type), allocatable :: events(:)
+        type(ground_segment_type), allocatable :: segment(:)
+        !> Load factor that it goes to; a factor not below it above which there is no equilibrium for sure
+        real(wp) :: last = 0.0_wp, beyond = 0.0_wp
+        !> Does it end where ground that yields carries no more
+        logical :: at_limit = .false.
+        !> Linear solves
+        integer :: solves = 0
+    end type ground_path_type
+
+    !> What holds the beam at a load factor
+    type :: held_type
+        logical, allocatable :: closed(:)
+        type(zone_type), allocatable :: zones(:)
+        !> Where the search for other states may begin
+        type(ground_start_type) :: start
+        !> Is there equilibrium; was it solved in quadruple precision and audited, and not only looked at in double precision
+        logical :: stands = .false., sure = .false.
+        !> Where there is none, how the beam moves: displacements of its nodes
+        real(wp), allocatable :: motion(:)
+    end type held_type
+
+contains
+
+    !> A path without events
+    pure subroutine new_path(path)
+        type(ground_path_type), intent(out) :: path
+
+        allocate (path%events(8), path%segment(8))
+    end subroutine new_path
+
+    !> The events between two factors in the order of their factors; at the same one of supports, then of zones
+    subroutine note_changes(lowered, before, after, factor, place, path, error)
+        type(lowered_type), intent(in) :: lowered
+        type(held_type), intent(in) :: before, after
+        !> Of the changes as listed by list_changes: load factor, and place in the user's units; that of a zone below zero: where it
+        !> is between the zones before and after
+        real(wp), intent(in) :: factor(:), place(:)
+        type(ground_path_type), intent(inout) :: path
+        !> No memory
+        type(error_type), allocatable, intent(out) :: error
+        type(zone_change_type), allocatable :: changes(:)
+        integer :: begin, k, n, last, number, what
+
+        begin = path%number
+        n = 0
+        associate (supports => lowered%beam%supports, changed => before%closed .neqv. after%closed)
+            k = 1
+            do while (k <= size(supports))
+                last = k
+                if (supports(k)%kink > 0) last = last_kink(supports, k)
+                what = change_of(lowered, k, last, before, after)
+                if (what /= nothing) then
+                    associate (s => lowered%normal(k), point => lowered%support_point(lowered%normal(k)))
+                        call add_event(ground_event_type(factor(n + 1), point_x(lowered, point), support=s, change=what), begin, &
+                                       path, error)
+                    end associate
+                    if (allocated(error)) return
+                end if
+                n = n + count(changed(k:last))
+                k = last + 1
+            end do
+        end associate
+        call compare_zones(before%zones, after%zones, changes, number)
+        do k = 1, number
+            associate (c => changes(k))
+                call add_event(ground_event_type(factor(n + k), merge(place(n + k), c%x, place(n + k) >= 0.0_wp), &
+                                                 foundation=c%foundation, branch=c%branch, change=c%change), begin, path, error)
+            end associate
+            if (allocated(error)) return
+        end do
+    end subroutine note_changes
+
+    !> The changes between two factors as the engine looks for them
+    subroutine list_changes(lowered, before, after, list)
+        type(lowered_type), intent(in) :: lowered
+        type(held_type), intent(in) :: before, after
+        !> Of supports, then of zones
+        type(change_type), allocatable, intent(out) :: list(:)
+        type(zone_change_type), allocatable :: changes(:)
+        integer :: k, n, number
+
+        call compare_zones(before%zones, after%zones, changes, number)
+        allocate (list(count(before%closed .neqv. after%closed) + number))
+        n = 0
+        do k = 1, size(before%closed)
+            if (before%closed(k) .eqv. after%closed(k)) cycle
+            n = n + 1
+            list(n) = change_type(support=k, closed=before%closed(k))
+        end do
+        do k = 1, number
+            associate (c => changes(k), power => -lowered%units%length)
+                list(n + k) = change_type(foundation=c%foundation, side=c%side, branch=c%branch, from=scale(c%from, power), &
+                                          to=scale(c%to, power), &
+                                          greatest=c%change /= gapbeam_merges .and. c%change /= gapbeam_splits)
+            end associate
+        end do
+    end subroutine list_changes
+
+    !> What happens to a support, one entry of the engine or the kinks of a law
+    function change_of(lowered, first, last, before, after) result(change)
+        type(lowered_type), intent(in) :: lowered
+        integer, intent(in) :: first, last
+        type(held_type), intent(in) :: before, after
+        integer :: change
+        type(acting_type) :: was, is
+
+        associate (kinks => lowered%beam%supports(first:last), side => lowered%model%supports(lowered%normal(first))%side)
+            was = acting_piece(kinks, side, before%closed(first:last))
+            is = acting_piece(kinks, side, after%closed(first:last))
+        end associate
+        change = what_happens(was, is)
+    end function change_of
+
+    !> One event more
+    pure subroutine add_event(event, first, path, error)
+        type(ground_event_type), intent(in) :: event
+        !> Among events after so many the factor tells where
+        integer, intent(in) :: first
+        type(ground_path_type), intent(inout) :: path
+        !> No memory
+        type(error_type), allocatable, intent(out) :: error
+        type(ground_event_type), allocatable :: longer(:)
+        integer :: at, stat
+
+        if (path%number == size(path%events)) then
+            allocate (longer(2*path%number), stat=stat)
+            if (stat /= 0) then
+                call no_memory(error)
+                return
+            end if
+            longer(:path%number) = path%events
+            call move_alloc(longer, path%events)
+        end if
+        path%number = path%number + 1
+        at = path%number
+        do while (at > first + 1)
+            if (path%events(at - 1)%factor <= event%factor) exit
+            path%events(at) = path%events(at - 1)
+            at = at - 1
+        end do
+        path%events(at) = event
+    end subroutine add_event
+
+    !> One segment more
+    subroutine add_segment(from, held, path, error)
+        real(wp), intent(in) :: from
+        type(held_type), intent(in) :: held
+        type(ground_path_type), intent(inout) :: path
+        !> No memory
+        type(error_type), allocatable, intent(out) :: error
+        type(ground_segment_type), allocatable :: longer(:)
+        integer :: k, stat
+
+        if (path%segments == size(path%segment)) then
+            allocate (longer(2*path%segments), stat=stat)
+            if (stat /= 0) then
+                call no_memory(error)
+                return
+            end if
+            do k = 1, path%segments
+                longer(k)%from = path%segment(k)%from
+                call move_alloc(path%segment(k)%closed, longer(k)%closed)
+            end do
+            call move_alloc(longer, path%segment)
+        end if
+        path%segments = path%segments + 1
+        path%segment(path%segments)%from = from
+        allocate (path%segment(path%segments)%closed(size(held%closed)))
+        path%segment(path%segments)%closed(:) = held%closed
+    end subroutine add_segment
+
+    !> Does the same hold the beam: the same supports, and as many zones with ends of the same kind
+    pure function alike(held, other) result(same)
+        type(held_type), intent(in) :: held, other
+        logical :: same
+
+        same = held%stands .and. other%stands
+        if (same) same = all(held%closed .eqv. other%closed)
+        if (same) same = same_zones(held%zones, other%zones)
+    end function alike
+
+end module gapbeam_ground_events

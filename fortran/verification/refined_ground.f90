@@ -1,0 +1,84 @@
+!> The ground under a beam and its zones in quadruple precision
+module gapbeam_refined_ground
+    use gapbeam_kinds, only: wp, qp
+    use gapbeam_layers, only: layer_type, law_piece_type
+    use gapbeam_layers_quad, only: fine_layer_type => layer_type, fine_law_piece_type => law_piece_type
+    use gapbeam_ground, only: ground_type, zones_type
+    use gapbeam_ground_quad, only: fine_ground_type => ground_type, fine_zones_type => zones_type, new_zones
+    use gapbeam_refined, only: detail_type, refine_beam, fine_piece, fine_load
+    implicit none
+    private
+    public :: refine_ground, refine_zones
+
+contains
+
+    !> The beam and its ground in quadruple precision
+    subroutine refine_ground(ground, detail, fine)
+        type(ground_type), intent(in) :: ground
+        type(detail_type), intent(in) :: detail
+        type(fine_ground_type), intent(out) :: fine
+
+        call refine_beam(ground%beam, detail, fine%beam)
+        associate (n => size(ground%pieces))
+            allocate (fine%pieces(n), fine%dead(n), fine%live(n), fine%layers(size(ground%layers)), fine%first(n + 1), &
+                      fine%laws(size(ground%laws)))
+        end associate
+        fine%pieces(:) = fine_piece(ground%pieces)
+        fine%dead(:) = fine_load(ground%dead)
+        fine%live(:) = fine_load(ground%live)
+        fine%layers(:) = fine_layer(ground%layers)
+        fine%first(:) = ground%first
+        fine%laws(:) = fine_law(ground%laws)
+    end subroutine refine_ground
+
+    !> A layer in quadruple precision
+    elemental function fine_layer(layer) result(fine)
+        type(layer_type), intent(in) :: layer
+        type(fine_layer_type) :: fine
+
+        fine = fine_layer_type(layer%foundation, layer%side, real(layer%modulus_a, qp), real(layer%modulus_b, qp), &
+                               real(layer%contact_a, qp), real(layer%contact_b, qp), layer%law_first, layer%law_last, &
+                               layer%law, real(layer%parameter_a, qp), real(layer%parameter_b, qp))
+    end function fine_layer
+
+    !> A piece of a law in quadruple precision
+    elemental function fine_law(law) result(fine)
+        type(law_piece_type), intent(in) :: law
+        type(fine_law_piece_type) :: fine
+
+        fine = fine_law_piece_type(real(law%displacement, qp), real(law%force, qp), real(law%slope, qp))
+    end function fine_law
+
+    !> Zones in quadruple precision
+    pure subroutine refine_zones(fine, zones, refined)
+        !> The beam and its ground
+        type(fine_ground_type), intent(in) :: fine
+        type(zones_type), intent(in) :: zones
+        type(fine_zones_type), intent(out) :: refined
+
+        call new_zones(size(zones%piece), size(zones%acts, 1), zones%steps, refined)
+        refined%piece(:) = zones%piece
+        refined%from(:) = zones%from
+        refined%to(:) = exact_ends(zones, fine)
+        refined%acts(:, :) = zones%acts
+        refined%start(:, :) = zones%start
+    end subroutine refine_zones
+
+    !> Right ends of the stretches: the last one of a piece ends where the piece does
+    pure function exact_ends(zones, fine) result(ends)
+        type(zones_type), intent(in) :: zones
+        type(fine_ground_type), intent(in) :: fine
+        real(qp), allocatable :: ends(:)
+        integer :: i
+
+        allocate (ends(size(zones%to)))
+        ends(:) = zones%to
+        do i = 1, size(ends)
+            if (i < size(ends)) then
+                if (zones%piece(i + 1) == zones%piece(i)) cycle
+            end if
+            ends(i) = fine%pieces(zones%piece(i))%length
+        end do
+    end function exact_ends
+
+end module gapbeam_refined_ground
