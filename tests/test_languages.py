@@ -323,6 +323,28 @@ def test_foundations_agree(library, first):
     assert min(zones, spans) > 50
 
 
+def test_tables_of_foundations_agree(library):
+    """Of moduli and of parameters of laws, in C."""
+    solved = 0
+    for seed in range(40):
+        scene = {"supports": [], **random_tabled_scene(seed), "analysis": {"rule": "block", "steps": 1}}
+        scene.pop("sections", None)
+        beam, message = library.prepare(scene)
+        try:
+            result = python_result(scene)
+        except gapbeam.SceneError:
+            assert message
+            continue
+        assert not message
+        status = {"solved": 0, "no-equilibrium": 1}[result.status]
+        assert beam.solve(1.0)[0] == status
+        if status == 0:
+            solved += 1
+            assert beam.contact() == [(z.foundation, z.from_, z.to, CONDITIONS[z.state], z.resultant) for z in result.steps[-1].contact]
+        beam.close()
+    assert solved > 20
+
+
 def test_laws_of_foundations_by_parameters_agree(library):
     """Curves too, with numbers and with pairs."""
     for seed in (1, 3, 5, 7, 9, 11, 12, 18, 21, 26, 28, 35):

@@ -93,7 +93,7 @@ beam = {spans = [6.0, 6.0, 6.0], EI = 1e4, hinges = 3} -> beam.hinges: expected 
 sections = [{EI = 1.0, from_ = 2}] -> sections[0].from_: unknown key; did you mean "from"?
 sections = [{EI = [1.0]}] -> sections[0].EI: expected a number, got [1.0]
 foundation = [{}] -> foundation[0].k: this key is missing; give a number
-foundation = [{k = "soft"}] -> foundation[0].k: expected a number or a pair of numbers, got "soft"
+foundation = [{k = "soft"}] -> foundation[0].k: expected a number, a pair of numbers or a list of pairs of numbers, got "soft"
 analysis = {steps = 2.5} -> analysis.steps: expected a whole number, got 2.5
 analysis = {rule = "fast"} -> analysis.rule: expected "block" or "single", got "fast"
 analysis = {follow = "load"} -> analysis.follow: expected "events" or "steps", got "load"
@@ -366,8 +366,8 @@ def test_moment_at_a_hinge(place):
 # Foundations
 
 IN_A_FOUNDATION = """
-k = [1.0] -> foundation[1].k: expected a number or a pair of numbers, got [1.0]
-k = [1.0, "a"] -> foundation[1].k[1]: expected a number, got "a"
+k = [1.0] -> foundation[1].k: expected a number, a pair of numbers or a list of pairs of numbers, got [1.0]
+k = [1.0, "a"] -> foundation[1].k[1]: expected a number or a pair of numbers, got "a"
 k = 0 -> foundation[1].k: with a modulus of 0 it never carries; remove it
 k = [0.0, 0.0] -> foundation[1].k: with a modulus of 0 it never carries; remove it
 k = -2.0 -> foundation[1].k: expected a finite number, 0 or more, got -2.0

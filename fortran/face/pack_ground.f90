@@ -25,7 +25,7 @@ module gapbeam_pack_ground
 
 contains
 
-    !> Foundations, profiles and laws of the user's model
+    !> Foundations, tables and laws of the user's model
     subroutine exchange_foundations(tape, model)
         !> Measures, writes or reads
         type(tape_type), intent(inout) :: tape
@@ -67,7 +67,8 @@ contains
             associate (point => model%ground(i))
                 call exchange(tape, point%foundation)
                 call exchange(tape, point%x)
-                call exchange(tape, point%gap)
+                call exchange(tape, point%value)
+                call exchange(tape, point%quantity)
             end associate
         end do
         number = 0

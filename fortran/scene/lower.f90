@@ -1,7 +1,7 @@
 !> From what a user describes to the engine's arrays.
 !>
 !> The beam is cut into pieces wherever anything changes: at span ends, supports, hinges, point loads, the ends of distributed
-!> loads and of foundations, and the points of their profiles. Only beam ends, supports across the beam and hinges become nodes of
+!> loads and of foundations, and the points of their tables. Only beam ends, supports across the beam and hinges become nodes of
 !> the system, with foundations all points; the pieces between two nodes are condensed into one link.
 module gapbeam_lower
     use, intrinsic :: iso_fortran_env, only: int64

@@ -9,6 +9,7 @@ from curved_scenes import random_curved_scene
 from foundation_scenes import random_scene
 from gapbeam.base.errors import Status
 from scenes import nodes_of, place
+from tabled_scenes import is_table, tables_of, with_tables
 from touching_scenes import touching_scene
 
 from .family import Family, Verdict
@@ -33,6 +34,8 @@ def draw_scene(seed):
     while True:
         kind = rng.choice(("straight", "straight", "curved"))
         made = (random_scene if kind == "straight" else random_curved_scene)(rng.randrange(10**9))
+        if rng.random() < 0.3:
+            kind, made = "tables", with_tables(rng, made)
         try:
             gapbeam.read_scene(made)
         except gapbeam.SceneError:
@@ -83,14 +86,16 @@ def cuts(made, result):
     found = {0.0, length, *nodes_of(made), *made["beam"].get("hinges", ())}
     for item in (*made.get("sections", ()), *made["loads"], *made["foundation"]):
         found |= {item[key] for key in ("from", "to", "x") if key in item}
-        found |= {x for x, _ in item.get("profile", ())}
+        found |= {x for points in (item.get("profile", ()), *tables_of(item)) for x, _ in points}
     found |= {place(made, item) for item in made.get("supports", ())}
     found |= {x for zone in result.steps[-1].contact for x in (zone.from_, zone.to)}
     return np.array(sorted(x for x in found if 0.0 <= x <= length))
 
 
 def between(values, x, item, length):
-    """A number, or a line from one end of an item to the other."""
+    """A number, a line from one end of an item to the other, or a table."""
+    if is_table(values):
+        return np.interp(x, *zip(*values, strict=True))
     if not isinstance(values, list | tuple):
         return np.full_like(x, values)
     a, b = item.get("from", 0.0), item.get("to", length)

@@ -6,7 +6,7 @@ The ends of zones of contact move with a small force, but what they change is of
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from msgspec.structs import replace as replace_struct
@@ -15,6 +15,7 @@ from ..engine.beam import FIELDS, SOLVED, Beam
 from ..engine.units import scaled
 from ..scene.columns import columns
 from ..scene.ground_laws import CubicGround, HardeningGround, HyperbolicGround, TanhGround, ground_points
+from ..scene.ground_tables import is_table
 from ..scene.names import label
 from ..scene.structs import ForceLoad, Foundation, Scene, Support
 from .ground import TOUCHING, Contact
@@ -113,13 +114,15 @@ def _foundation(scene: Scene, zone: Contact) -> Foundation | None:
     to = scene.span_ends()[-1] if item.to is None else item.to
     shares = [(at - item.from_) / (to - item.from_) for at in (zone.from_, zone.to)]
     slope = _slope_of(scene, zone)
+    if is_table(slope):
+        return Foundation(from_=zone.from_, to=zone.to, k=slope, side="both")
     ends = slope if isinstance(slope, tuple) else (slope, slope)
     k = tuple(max(ends[0] + share * (ends[1] - ends[0]), 0.0) for share in shares)
     return Foundation(from_=zone.from_, to=zone.to, k=k, side="both") if max(k) > 0.0 else None
 
 
-def _slope_of(scene: Scene, zone: Contact) -> float | tuple[float, float]:
-    """Stiffness of a foundation in a zone, one number or those at the ends of the foundation."""
+def _slope_of(scene: Scene, zone: Contact) -> Any:
+    """Stiffness of a foundation in a zone, one number, those at the ends of the foundation, or a table."""
     item = scene.foundation[zone.foundation]
     if item.law is None:
         return item.k

@@ -1,20 +1,19 @@
-"""Laws of the ground by name: every parameter a number or a pair, linear in between."""
+"""Laws of the ground by name: every parameter a number, a pair or a table, linear in between."""
 
 from __future__ import annotations
 
-from typing import ClassVar
+from typing import Any, ClassVar
 
+from .ground_tables import PARAMETER, Along, AlongSigned, at_both_ends, is_table
 from .laws import BrittleLaw, HardeningLaw, PlasticLaw, PowerLaw
-from .table import NotNegative, Table
-
-Linear = NotNegative | tuple[NotNegative, NotNegative]
+from .table import Table
 
 PARAMETERS = 3
 """Of any law, for the engine."""
 
 
 class _GroundLaw(Table, forbid_unknown_fields=True, kw_only=True, gc=False, tag_field="type"):
-    """A law by its parameters, each a number or (at from, at to), linear in between."""
+    """A law by its parameters, each a number, (at from, at to) or points (x, value), linear in between."""
 
     code: ClassVar[int]
 
@@ -24,9 +23,13 @@ class _GroundLaw(Table, forbid_unknown_fields=True, kw_only=True, gc=False, tag_
 
     def parameters(self) -> list[tuple[float, float]]:
         """Give the parameters at both ends in the engine's order."""
-        return [value if isinstance(value, tuple) else (value, value) for value in self.values()]
+        return list(map(at_both_ends, self.values()))
 
-    def values(self) -> tuple[Linear, ...]:
+    def tables(self) -> list[tuple[int, Any]]:
+        """Give the parameters that are tables, each with what it is for the engine."""
+        return [(PARAMETER + k, value) for k, value in enumerate(self.values()) if is_table(value)]
+
+    def values(self) -> tuple[Along | AlongSigned, ...]:
         """Give the parameters in the engine's order."""
         return tuple(getattr(self, key) for key in self.__struct_fields__)
 
@@ -36,14 +39,15 @@ class _Limited(_GroundLaw):
 
     Parameters
     ----------
-    stiffness : float or (float, float)
-        Stiffness at first (force/length^2); or (at from, at to), linear in between.
-    limit : float or (float, float)
-        The force per length up to which it is elastic, or to which it tends; or (at from, at to), linear in between.
+    stiffness : float, (float, float) or list of (float, float)
+        Stiffness at first (force/length^2); or (at from, at to), or points (x, value), linear in between.
+    limit : float, (float, float) or list of (float, float)
+        The force per length up to which it is elastic, or to which it tends; or (at from, at to), or points (x, value), linear
+        in between.
     """
 
-    stiffness: Linear
-    limit: Linear
+    stiffness: Along
+    limit: Along
 
 
 class PlasticGround(_Limited, tag="plastic"):
@@ -61,12 +65,13 @@ class HardeningGround(_Limited, tag="hardening"):
 
     Parameters
     ----------
-    slope : float or (float, float)
-        Stiffness beyond (force/length^2), greater or less than the first one; or (at from, at to), linear in between.
+    slope : float, (float, float) or list of (float, float)
+        Stiffness beyond (force/length^2), greater or less than the first one; or (at from, at to), or points (x, value), linear
+        in between.
     """
 
     code = 2
-    slope: Linear
+    slope: Along
 
     def points(self) -> list[tuple[float, float]] | None:
         """Give the polyline where the parameters are numbers above 0."""
@@ -90,28 +95,28 @@ class CubicGround(_GroundLaw, tag="cubic"):
 
     Parameters
     ----------
-    k1 : float or (float, float)
-        Stiffness at first (force/length^2); or (at from, at to), linear in between.
-    k3 : float or (float, float)
-        Hardening (force/length^4); or (at from, at to), linear in between.
-    k2 : float or (float, float)
-        Below 0 softening (force/length^3), down to -sqrt(3*k1*k3), where the force would fall; or (at from, at to), linear in
-        between.
+    k1 : float, (float, float) or list of (float, float)
+        Stiffness at first (force/length^2); or (at from, at to), or points (x, value), linear in between.
+    k3 : float, (float, float) or list of (float, float)
+        Hardening (force/length^4); or (at from, at to), or points (x, value), linear in between.
+    k2 : float, (float, float) or list of (float, float)
+        Below 0 softening (force/length^3), down to -sqrt(3*k1*k3), where the force would fall; or (at from, at to), or points
+        (x, value), linear in between.
     """
 
     code = 5
-    k1: Linear
-    k3: Linear
-    k2: float | tuple[float, float] = 0.0
+    k1: Along
+    k3: Along
+    k2: AlongSigned = 0.0
 
-    def values(self) -> tuple[float | tuple[float, float], ...]:
+    def values(self) -> tuple[Along | AlongSigned, ...]:
         """Give the parameters in the engine's order."""
         return self.k1, self.k2, self.k3
 
 
-def _points(kind: type[PlasticLaw | HardeningLaw], **parameters: Linear) -> list[tuple[float, float]] | None:
-    """Give the polyline of a law of supports with these parameters; None with pairs, and where a number is not above 0."""
-    if any(isinstance(value, tuple) for value in parameters.values()):
+def _points(kind: type[PlasticLaw | HardeningLaw], **parameters: Along) -> list[tuple[float, float]] | None:
+    """Give the polyline of a law of supports with these parameters; None unless all are numbers, those that matter above 0."""
+    if any(isinstance(value, tuple) or is_table(value) for value in parameters.values()):
         return None
     if not (parameters["stiffness"] > 0.0 and parameters["limit"] > 0.0):
         return None
@@ -162,7 +167,7 @@ def ground_parameters(law: GroundLaw | None) -> list[float]:
     Returns
     -------
     list of float
-        Code of the law, 0 for none and for polylines; its parameters at the left end, and at the right end.
+        Code of the law, 0 for none and for polylines; its parameters at the left end, and at the right end, 0 of tables.
 
     Examples
     --------
@@ -174,3 +179,39 @@ def ground_parameters(law: GroundLaw | None) -> list[float]:
     given = law.parameters()
     given += [(0.0, 0.0)] * (PARAMETERS - len(given))
     return [float(law.code), *(float(left) for left, _ in given), *(float(right) for _, right in given)]
+
+
+def tables_of(foundation: Any) -> list[Any]:
+    """Give the tables that say how stiff a foundation is, of its modulus and of the parameters of its law.
+
+    Parameters
+    ----------
+    foundation : Foundation
+        Of a scene that has been read.
+
+    Returns
+    -------
+    list of table
+    """
+    return [foundation.k] if is_table(foundation.k) else [table for _, table in parameter_tables(foundation.law)]
+
+
+def parameter_tables(law: GroundLaw | None) -> list[tuple[int, Any]]:
+    """Give the tables of the parameters of a law.
+
+    Parameters
+    ----------
+    law : list, law table or None
+        Of a foundation.
+
+    Returns
+    -------
+    list of (int, list)
+        Of what it is, for the engine, and its points.
+
+    Examples
+    --------
+    >>> parameter_tables(TanhGround(stiffness=9e3, limit=[(0.0, 100.0), (8.0, 400.0)]))
+    [(4, [(0.0, 100.0), (8.0, 400.0)])]
+    """
+    return [] if law is None or isinstance(law, list) else law.tables()

@@ -16,11 +16,12 @@ from .columns import columns, curves
 from .combinations import plan_combinations
 from .files import read_file
 from .ground_laws import NOT_FOR_GROUND
+from .ground_tables import is_table, settled
 from .laws import is_smooth, wrong_parameter
 from .names import check_names, names_in_errors
 from .refusals import refusal
 from .structs import Scene
-from .tables import Table, take_profiles, take_tables
+from .tables import Table, take_arrays, take_tables
 from .trains import check_trains
 from .typed import typed
 from .wording import number, shown
@@ -105,15 +106,16 @@ def _structured(source: Scene | Mapping[str, Any] | str | os.PathLike) -> Scene:
     if not isinstance(source, Scene | Mapping):
         raise SceneError(f"expected a Scene, a mapping or the path of a file, got {shown(source)}")
     source, tables = take_tables(source)
-    source, profiles = take_profiles(source)
+    source, arrays = take_arrays(source)
     scene = typed(source, Scene)
     for key, table in tables.items():
         setattr(scene, key, table)
-    for i, profile in profiles.items():
-        scene.foundation[i].profile = profile
+    for (i, key), array in arrays.items():
+        setattr(scene.foundation[i], key, array)
     check_names(scene)
     with names_in_errors(scene):
         _check_laws(scene)
+        _settle_foundations(scene)
         _check_foundations(scene)
     check_trains(scene)
     if scene.analysis.steps < 1:
@@ -148,6 +150,17 @@ def _check_laws(scene: Scene) -> None:
             raise SceneError(f"supports[{i}].law", "has no point; give (displacement past the gap, force)")
 
 
+def _settle_foundations(scene: Scene) -> None:
+    """Tell pairs from tables."""
+    if isinstance(scene.foundation, Table):
+        return
+    for i, foundation in enumerate(scene.foundation):
+        foundation.k = settled(foundation.k, f"foundation[{i}].k")
+        law = foundation.law
+        for key in () if law is None or isinstance(law, list) or type(law) in NOT_FOR_GROUND else law.__struct_fields__:
+            setattr(law, key, settled(getattr(law, key), f"foundation[{i}].law.{key}"))
+
+
 def _check_foundations(scene: Scene) -> None:
     """Refuse what the columns of a foundation would not show any more, and laws that are not available."""
     if isinstance(scene.foundation, Table):
@@ -167,6 +180,7 @@ def _check_foundations(scene: Scene) -> None:
             raise SceneError(f"{place}.law", problem)
         elif law is not None:
             for key in law.__struct_fields__:
-                for value in pair if isinstance(pair := getattr(law, key), tuple) else (pair,):
+                given = getattr(law, key)
+                for value in () if is_table(given) else given if isinstance(given, tuple) else (given,):
                     if not isfinite(value):
                         raise SceneError(f"{place}.law.{key}", f"expected finite numbers, got {number(value)}")

@@ -89,7 +89,7 @@ def _bad_law(item: Any, path: str, key: str, point: int, message: str) -> SceneE
     problem = message.partition(": ")[2].removeprefix(f"{key}: ").removeprefix(f"point {point}: ")
     if key:
         path += f".{key}"
-    if point and not isinstance(getattr(item, key), Struct):
+    if point and not (key == "law" and isinstance(item.law, Struct)):
         path += f"[{point - 1}]"
     return SceneError(path, problem)
 
