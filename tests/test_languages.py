@@ -18,6 +18,7 @@ from gapbeam.studies.schemes import gapped_spans
 from ground_scenes import touching
 from law_scenes import FAMILIES, law_scene
 from scenes import nodes_of, random_scene
+from tabled_scenes import random_tabled_scene
 
 FIELDS = ("deflection", "rotation", "moment", "shear", "axial_force", "axial_displacement")
 CONDITIONS = {"open": 0, "closed": 1, "bilateral": 2, "touching": 4} | {f"branch {k}": 10 + k for k in range(1, 10)}
@@ -340,7 +341,8 @@ def test_tables_of_foundations_agree(library):
         assert beam.solve(1.0)[0] == status
         if status == 0:
             solved += 1
-            assert beam.contact() == [(z.foundation, z.from_, z.to, CONDITIONS[z.state], z.resultant) for z in result.steps[-1].contact]
+            zones = result.steps[-1].contact
+            assert beam.contact() == [(z.foundation, z.from_, z.to, CONDITIONS[z.state], z.resultant) for z in zones]
         beam.close()
     assert solved > 20
 

@@ -255,6 +255,9 @@ def test_values_and_supports_on_the_ground(check):
     status, line = check(data)
     assert status == PROVED
     assert error_of(line) < 1e-14
+    new = copy.deepcopy(data)
+    new["scene"]["foundation"][0]["k"] = [[0.0, 300.0]]
+    assert check(new)[0] == NOT_DECIDED  # a table
     for kind in ("deflection", "reaction"):
         new = copy.deepcopy(data)
         new["values"][kind][1] = (float.fromhex(new["values"][kind][1]) * (1 + 1e-6)).hex()
