@@ -38,7 +38,18 @@ def with_tables(rng, made):
             for key in LAWS:
                 if key in item["law"] and rng.random() < 0.6:
                     item["law"][key] = table(rng, item["law"][key], *ends, zeros=key not in ("limit", "k1", "k3"))
+        elif "law" in item and rng.random() < 0.8:
+            item["law"] = polylines(rng, item["law"], *ends)
     return made
+
+
+def polylines(rng, law, start, end):
+    """The points of a law at some places, forces times a number there, and often displacements too."""
+    found, bends = [], rng.random() < 0.6
+    for x in sorted({eighths(rng, max(start - 1.0, 0.0), end + 1.0) for _ in range(rng.randint(1, 4))}):
+        stiffer, farther = rng.uniform(0.2, 2.0), rng.uniform(0.3, 3.0) if bends else 1.0
+        found.append({"x": x, "points": [[digits(farther * d), digits(stiffer * r)] for d, r in law]})
+    return found
 
 
 def table(rng, value, start, end, zeros=True):

@@ -6,6 +6,7 @@ import gapbeam
 import msgspec
 import numpy as np
 import pytest
+from attack.ground import judge
 from gapbeam.plots import figure
 from gapbeam.report import report_text, to_csv, to_json
 from gapbeam.scene.reading import read_beam
@@ -81,6 +82,7 @@ def test_random_scenes_agree_with_the_reference():
     for seed in range(40):
         made = random_tabled_scene(seed)
         straight = all("k" in item or isinstance(item["law"], list) for item in made["foundation"])
+        straight &= not any("law" in item and isinstance(item["law"][0], dict) for item in made["foundation"] if straight)
         if not straight or not any(map(tables_of, made["foundation"])):
             continue
         parts, origin = in_parts(made)
@@ -256,3 +258,104 @@ def test_what_is_refused(given, expected):
     with pytest.raises(gapbeam.SceneError) as error:
         gapbeam.solve(on(given))
     assert str(error.value) == ("foundation[0]" + ("." if expected[:3] != "has" else ": ") + expected)
+
+
+# Laws by points that vary
+
+KNEE = [[0.01, 20.0], [0.05, 30.0]]
+
+
+def law_at(*places):
+    """A polyline at several places."""
+    return [{"x": x, "points": points} for x, points in places]
+
+
+@pytest.mark.parametrize("side", ["below", "both"])
+def test_a_polyline_that_is_the_same_everywhere(side):
+    x, results = np.linspace(0.0, 12.0, 41), []
+    for law in (KNEE, law_at((3.0, KNEE)), law_at((0.0, KNEE), (7.0, KNEE), (30.0, KNEE))):
+        results.append(gapbeam.solve(on({"side": side, "law": law})))
+        np.testing.assert_allclose(fields_of(results[-1], x), fields_of(results[0], x), rtol=0.0, atol=1e-14)
+        zones, expected = (zones_of(result.steps[-1], range(9)) for result in (results[-1], results[0]))
+        assert [zone[0] for zone in zones] == [zone[0] for zone in expected]
+        assert [zone[1:] for zone in zones] == [pytest.approx(zone[1:], rel=1e-12) for zone in expected]
+
+
+def test_polylines_in_proportion_are_a_law_with_pairs():
+    law = law_at((0.0, [[0.01, 10.0], [0.02, 10.0]]), (12.0, [[0.01, 40.0], [0.02, 40.0]]))
+    pairs = {"type": "plastic", "stiffness": [1e3, 4e3], "limit": [10.0, 40.0]}
+    results = [gapbeam.solve(on({"side": "below", "law": one})) for one in (law, pairs)]
+    x = np.linspace(0.0, 12.0, 41)
+    np.testing.assert_allclose(fields_of(results[0], x), fields_of(results[1], x), rtol=0.0, atol=1e-14)
+    assert [zone.state for zone in results[0].steps[-1].contact] == ["branch 1", "branch 2", "branch 1"]
+
+
+def test_random_polylines_fulfil_the_equations():
+    """The force of the ground is that of points which are straight between the places, be displacements the same or not."""
+    kinds = set()
+    for seed in range(300):
+        made = random_tabled_scene(seed)
+        laws = [item["law"] for item in made["foundation"] if isinstance(item.get("law"), list)]
+        laws = [law for law in laws if isinstance(law[0], dict)]
+        if not laws or any(map(tables_of, made["foundation"])):
+            continue
+        verdict = judge(made)
+        assert not verdict.wrong, seed
+        kinds |= {(verdict.outcome, len({tuple(d for d, _ in at["points"]) for at in law}) == 1) for law in laws}
+    assert kinds >= {("solved", True), ("solved", False), ("no-equilibrium", False)}
+
+
+def test_polylines_along_the_load_and_under_trains():
+    """Events, an envelope of positions and influence lines."""
+    law = law_at((0.0, [[0.01, 10.0], [0.03, 15.0]]), (12.0, [[0.01, 40.0], [0.03, 60.0]]))
+    followed = gapbeam.solve(on({"side": "below", "law": law}, analysis={"follow": "events"}))
+    assert {event.event for event in followed.events} >= {"zone appears"}
+    for factor in (0.4, 1.0):
+        loads = [{**LOADS[0], "F": factor * LOADS[0]["F"]}, LOADS[1]]
+        alone, state = gapbeam.solve({**on({"side": "below", "law": law}), "loads": loads}).steps[-1], followed.state(factor)
+        assert [zone.state for zone in state.contact] == [zone.state for zone in alone.contact]
+        np.testing.assert_allclose(*([z.to for z in one.contact] for one in (state, alone)), rtol=1e-11)
+    straight = law_at((0.0, KNEE), (12.0, [[0.01, 40.0], [0.05, 60.0]]))
+    man = {"name": "man", "axles": [[0.0, 30.0]], "from": 5.5, "to": 7.0}
+    train = on({"side": "below", "law": straight}, loads=LOADS[1:], trains=[man])
+    passing = gapbeam.solve(train).trains["man"]
+    largest = passing.envelope().extremes["moment"]["max"]
+    there = {**train, "trains": [], "loads": [*LOADS[1:], {"type": "force", "x": largest.position, "F": 30.0}]}
+    assert gapbeam.solve(there).extremes()["moment"]["max"][0] == pytest.approx(largest.value, rel=1e-9)
+    assert passing.influence("moment", x=4.0, position=6.0, places=[2.0]).values.shape == (1,)
+
+
+def test_the_least_slope_of_polylines_beside_compression():
+    law = law_at((0.0, KNEE), (6.0, [[0.02, 20.0], [0.05, 60.0]]), (12.0, [[0.01, 30.0], [0.05, 60.0]]))
+    made = on({"law": law}, supports=[{"node": 0, "direction": "axial"}])
+    made["loads"] = [{"type": "force", "x": 6.0, "F": 1.0}, {"type": "axial", "node": 2, "F": -900.0}]
+    compressed = gapbeam.solve(made).compression
+    made["foundation"] = [{"k": 1e3}]
+    assert compressed.ratio == pytest.approx(gapbeam.solve(made).compression.ratio, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("law", "expected"),
+    [
+        (law_at((0.0, [])), "law[0].points: has no point; give (displacement past the gap, force per length)"),
+        (law_at((0.0, KNEE), (0.0, KNEE)), "law[1].x: there is a law at x = 0 already; leave one out, or give a step two places"),
+        (law_at((1.0, KNEE), (0.0, KNEE)), "law[1].x: the places go back to x = 0, after 1; give them in ascending order"),
+        (law_at((np.inf, KNEE)), "law[0].x: expected a finite number, got inf"),
+        (
+            law_at((0.0, KNEE), (2.0, KNEE[:1]), (4.0, KNEE)),
+            "law[1].points: the law at x = 2 has 1 points, that at x = 0 has 2; give as many at every place",
+        ),
+        (
+            law_at((0.0, KNEE), (2.0, KNEE[::-1])),
+            "law[1].points[1]: the displacements go back at [0.01, 20], after 0.05; give them in ascending order",
+        ),
+        ([*law_at((0.0, KNEE)), [1.0, 2.0]], "law: expected pairs of numbers, or tables with x and points, got some of both"),
+        (law_at((0.0, [[1.0, 0.0]]), (9.0, [[1.0, 0.0]])), "law: its force stays 0, so it never carries; remove the foundation"),
+        (law_at((12.0, [[1.0, 0.0]]), (15.0, [[1.0, 2.0]])), "law: carries nowhere from x = 0 to x = 12; remove the foundation"),
+        ([{"x": 0.0, "points": KNEE, "y": 1.0}], "law[0].y: unknown key; the keys are x and points"),
+    ],
+)
+def test_what_is_refused_of_polylines(law, expected):
+    with pytest.raises(gapbeam.SceneError) as error:
+        gapbeam.solve(on({"law": law}))
+    assert str(error.value) == f"foundation[0].{expected}"

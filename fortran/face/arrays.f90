@@ -84,7 +84,7 @@ contains
         !> Points of tables: foundation, from 1; x, value, and of what, if there is a third row: of the gap otherwise
         integer, intent(in) :: iprof(:)
         real(wp), intent(in) :: aprof(:, :)
-        !> Points of laws: foundation, from 1; displacement, force per length
+        !> Points of laws: foundation, from 1; displacement, force per length, and place, if there is a third row
         integer, intent(in) :: ilaw(:)
         real(wp), intent(in) :: alaw(:, :)
         !> Their places in it are filled
@@ -120,6 +120,7 @@ contains
         end do
         do i = 1, size(model%ground_law)
             model%ground_law(i) = ground_law_point_type(ilaw(i), alaw(1, i), alaw(2, i))
+            if (size(alaw, 1) > 2) model%ground_law(i)%x = alaw(3, i)
         end do
     end subroutine foundations_from_arrays
 

@@ -84,6 +84,7 @@ contains
                 call exchange(tape, point%foundation)
                 call exchange(tape, point%displacement)
                 call exchange(tape, point%force)
+                call exchange(tape, point%x)
             end associate
         end do
     end subroutine exchange_foundations
@@ -133,9 +134,14 @@ contains
         end if
         do i = 1, number
             associate (piece => lowered%law_pieces(i))
-                call exchange(tape, piece%displacement)
-                call exchange(tape, piece%force)
-                call exchange(tape, piece%slope)
+                call exchange(tape, piece%displacement_a)
+                call exchange(tape, piece%displacement_b)
+                call exchange(tape, piece%force_a)
+                call exchange(tape, piece%force_b)
+                call exchange(tape, piece%slope_a)
+                call exchange(tape, piece%slope_b)
+                call exchange(tape, piece%way_a)
+                call exchange(tape, piece%way_b)
             end associate
         end do
     end subroutine exchange_layers

@@ -14,7 +14,7 @@ module gapbeam_check_foundations
     use gapbeam_check, only: entry_type, check_stretch, refuse_entry, refuse_number
     implicit none
     private
-    public :: check_foundations, find_runs, find_tables, at_right, quantities
+    public :: check_foundations, find_runs, find_tables, points_of_law, at_right, quantities
 
     !> Of which a foundation may have tables: modulus, gap, parameters of its law
     integer, parameter :: quantities = gapbeam_table_of_parameter - 1 + parameters_of_law
@@ -242,18 +242,36 @@ contains
         is_near = x - before <= position_tolerance*max(abs(x), abs(before))
     end function is_near
 
-    !> The points of a law
+    !> How many points a law has at a place
+    pure function points_of_law(points) result(number)
+        !> Of one foundation
+        type(ground_law_point_type), intent(in) :: points(:)
+        integer :: number
+
+        number = 0
+        if (size(points) == 0) return
+        number = findloc([abs(points%x - points(1)%x) > 0.0_wp, .true.], .true., 1) - 1
+    end function points_of_law
+
+    !> The points of a law, at one place after the other
     pure subroutine check_law(points, here, error)
         type(ground_law_point_type), intent(in) :: points(:)
         type(entry_type), intent(in) :: here
         type(error_type), allocatable, intent(out) :: error
         real(wp) :: before(2)
-        integer :: i
+        integer :: i, begins
 
         before(:) = 0.0_wp
+        begins = 1
         do i = 1, size(points)
-            associate (d => points(i)%displacement, f => points(i)%force)
-                if (.not. (abs(d) <= huge(d) .and. abs(f) <= huge(f))) then
+            associate (d => points(i)%displacement, f => points(i)%force, x => points(i)%x, last => points(max(1, i - 1))%x)
+                if (abs(x - last) > 0.0_wp) then
+                    call check_place(points, begins, i, here, error)
+                    if (allocated(error)) return
+                    begins = i
+                    before(:) = 0.0_wp
+                end if
+                if (.not. (abs(d) <= huge(d) .and. abs(f) <= huge(f) .and. abs(x) <= huge(x))) then
                     call say(error, "expected finite numbers, got "//trim(pair(d, f)))
                 else if (d < before(1)) then
                     call say(error, "the displacements go back at "//trim(pair(d, f))//", after "//trim(shown(before(1)))// &
@@ -271,9 +289,10 @@ contains
                 before(:) = [d, f]
             end associate
         end do
-        if (size(points) > 0 .and. .not. before(2) > 0.0_wp) then
-            call refuse_entry(error, here, "law", bad_law, "its force stays 0, so it never carries; remove the foundation")
-        end if
+        if (size(points) == 0) return
+        if (begins > 1) call check_place(points, begins, size(points) + 1, here, error)
+        if (allocated(error) .or. any(points%force > 0.0_wp)) return
+        call refuse_entry(error, here, "law", bad_law, "its force stays 0, so it never carries; remove the foundation")
 
     contains
 
@@ -286,6 +305,34 @@ contains
         end subroutine say
 
     end subroutine check_law
+
+    !> The laws at two places beside each other, at the end of the points of the first
+    pure subroutine check_place(points, begins, next, here, error)
+        type(ground_law_point_type), intent(in) :: points(:)
+        !> Its first point, and that of the next place
+        integer, intent(in) :: begins, next
+        type(entry_type), intent(in) :: here
+        type(error_type), allocatable, intent(out) :: error
+
+        associate (number => points_of_law(points), x => points(begins)%x)
+            if (next - begins /= number) then
+                call refuse_point(error, here, "law.points", begins, "the law at x = "//trim(shown(x))//" has "// &
+                                  trim(whole(next - begins))//" points, that at x = "//trim(shown(points(1)%x))//" has "// &
+                                  trim(whole(number))//"; give as many at every place")
+                return
+            end if
+        end associate
+        if (next > size(points)) return
+        associate (x => points(next)%x, before => points(begins)%x)
+            if (x < before) then
+                call refuse_point(error, here, "law.x", next, "the places go back to x = "//trim(shown(x))//", after "// &
+                                  trim(shown(before))//"; give them in ascending order")
+            else if (is_near(x, before)) then
+                call refuse_point(error, here, "law.x", next, "there is a law at x = "//trim(shown(before))// &
+                                  " already; leave one out, or give a step two places")
+            end if
+        end associate
+    end subroutine check_place
 
     !> Refuse a point of a table or a law
     pure subroutine refuse_point(error, here, key, number, problem)

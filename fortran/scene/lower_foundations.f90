@@ -3,26 +3,22 @@ module gapbeam_lower_foundations
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
-    use gapbeam_layers, only: layer_type, parameters_of_law, law_cubic
+    use gapbeam_layers, only: layer_type, parameters_of_law, law_cubic, law_polyline
     use gapbeam_range, only: is_lost
     use gapbeam_scene, only: model_type, foundation_type, gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_unchanged, &
         gapbeam_law_by_points, gapbeam_law_plastic, gapbeam_table_of_k, gapbeam_table_of_gap, gapbeam_table_of_parameter
     use gapbeam_units, only: units_type, exponents_type, stiffness_unit
     use gapbeam_lowered, only: lowered_type, point_x
+    use gapbeam_lower_tables, only: place_in_table, place_of, distance, between, follow_table
+    use gapbeam_lower_ground_laws, only: law_of_foundation_type, find_laws, make_laws, is_straight
     use gapbeam_check, only: entry_type, refuse_entry
-    use gapbeam_check_foundations, only: find_runs, find_tables, at_right, quantities
+    use gapbeam_check_foundations, only: find_tables, at_right, quantities
     use gapbeam_check_ground_laws, only: check_parameters
     use gapbeam_words, only: shown
     use gapbeam_refusal, only: refuse_range, named, of_foundations, bad_law
     implicit none
     private
     public :: lower_foundations, note_foundations, scale_foundations, greatest_values
-
-    !> Where something is: the span and the distance from its left end
-    type :: place_type
-        integer :: span
-        real(wp) :: offset
-    end type place_type
 
 contains
 
@@ -32,7 +28,8 @@ contains
         type(lowered_type), intent(inout) :: lowered
         !> Laws that are impossible between the points of their tables, or no memory
         type(error_type), allocatable, intent(out) :: error
-        integer, allocatable :: first(:, :), last(:, :), law_first(:), law_last(:), next(:), here(:)
+        integer, allocatable :: first(:, :), last(:, :), next(:), here(:)
+        type(law_of_foundation_type), allocatable :: laws(:)
         ! Modulus, gap and parameters at both ends of every piece
         real(wp), allocatable :: values(:, :, :)
         integer(int64) :: total
@@ -43,22 +40,23 @@ contains
         if (m == 0) return
         pieces = size(lowered%pieces)
         if (.not. allocated(lowered%layers)) then
-            allocate (lowered%layer_first(pieces + 1), lowered%law_pieces(size(lowered%model%ground_law)), stat=stat)
+            allocate (lowered%layer_first(pieces + 1), stat=stat)
             if (stat /= 0) then
                 call no_memory(error)
                 return
             end if
         end if
-        allocate (first(quantities, m), last(quantities, m), law_first(m), law_last(m), next(pieces), here(pieces), &
-                  values(quantities, 2, pieces), stat=stat)
+        allocate (first(quantities, m), last(quantities, m), laws(m), next(pieces), here(pieces), values(quantities, 2, pieces), &
+                  stat=stat)
         if (stat /= 0) then
             call no_memory(error)
             return
         end if
         associate (model => lowered%model, layers => lowered%layers, from => lowered%foundation_from, to => lowered%foundation_to)
             call find_tables(model%ground, first, last)
-            call find_runs(model%ground_law%foundation, law_first, law_last)
-            call make_laws(lowered)
+            call find_laws(lowered, laws)
+            call make_laws(lowered, laws, error)
+            if (allocated(error)) return
             next(:) = 0
             total = 0
             do i = 1, m
@@ -96,35 +94,58 @@ contains
         !> Values of a foundation at the ends of its pieces, and how many layers it has there: none where it never carries
         subroutine find_layers(foundation)
             integer, intent(in) :: foundation
-            integer :: number, piece
+            integer :: number, piece, range(2)
             logical :: with_points
 
             call find_values(lowered, foundation, first(:, foundation), last(:, foundation), values)
-            with_points = law_last(foundation) >= law_first(foundation)
+            with_points = laws(foundation)%points > 0
             associate (f => lowered%model%foundations(foundation), a => lowered%foundation_from(foundation) + 1, &
                        b => lowered%foundation_to(foundation), q => gapbeam_table_of_gap)
                 number = layers_of(f, with_points .or. f%law /= gapbeam_law_by_points, last(q, foundation) >= first(q, foundation))
                 here(a:b) = number
-                if (.not. any(last(:, foundation) >= first(:, foundation))) return
+                if (.not. (any(last(:, foundation) >= first(:, foundation)) .or. laws(foundation)%varies)) return
                 do piece = a, b
-                    if (.not. (with_points .or. carries(f%law, values(:, :, piece)))) here(piece) = 0
+                    range = range_under(foundation, piece)
+                    if (with_points) then
+                        if (.not. any(max(lowered%law_pieces(range(1):range(2))%slope_a, &
+                                          lowered%law_pieces(range(1):range(2))%slope_b) > 0.0_wp)) here(piece) = 0
+                    else if (.not. carries(f%law, values(:, :, piece))) then
+                        here(piece) = 0
+                    end if
                 end do
-                if (.not. allocated(error)) call check_values(lowered, foundation, here, values, error)
+                if (.not. allocated(error)) call check_values(lowered, foundation, with_points, here, values, error)
             end associate
         end subroutine find_layers
+
+        !> First and last piece of the law of a foundation under a piece of the beam
+        pure function range_under(foundation, piece) result(range)
+            integer, intent(in) :: foundation, piece
+            integer :: range(2)
+
+            range = [1, 0]
+            associate (law => laws(foundation))
+                if (law%points == 0) return
+                range(1) = law%first
+                if (law%varies) range(1) = law%first + (piece - lowered%foundation_from(foundation) - 1)*law%points
+                range(2) = range(1) + law%points - 1
+            end associate
+        end function range_under
 
         !> The layer of a foundation under a piece
         pure function layer_at(foundation, piece, side) result(layer)
             integer, intent(in) :: foundation, piece, side
             type(layer_type) :: layer
+            integer :: range(2)
 
+            range = range_under(foundation, piece)
             associate (a => values(:, 1, piece), b => values(:, 2, piece), gap => gapbeam_table_of_gap)
                 layer = layer_type(foundation=foundation, side=side, modulus_a=a(gapbeam_table_of_k), &
                                    modulus_b=b(gapbeam_table_of_k), contact_a=side*a(gap), contact_b=side*b(gap), &
-                                   law_first=law_first(foundation), law_last=law_last(foundation), &
+                                   law_first=range(1), law_last=range(2), &
                                    law=lowered%model%foundations(foundation)%law, &
                                    parameter_a=a(gapbeam_table_of_parameter:), parameter_b=b(gapbeam_table_of_parameter:))
             end associate
+            if (.not. is_straight(lowered%law_pieces(range(1):range(2)))) layer%law = law_polyline
         end function layer_at
 
     end subroutine lower_foundations
@@ -149,9 +170,11 @@ contains
     end function carries
 
     !> Is a foundation with tables possible on all its pieces
-    pure subroutine check_values(lowered, foundation, layers, values, error)
+    pure subroutine check_values(lowered, foundation, with_points, layers, values, error)
         type(lowered_type), intent(in) :: lowered
         integer, intent(in) :: foundation
+        !> Has it a law by points
+        logical, intent(in) :: with_points
         !> How many layers it has on every piece; modulus, gap and parameters at both ends
         integer, intent(in) :: layers(:)
         real(wp), intent(in) :: values(:, :, :)
@@ -162,8 +185,8 @@ contains
                    b => lowered%foundation_to(foundation), &
                    here => entry_type(of_foundations, foundation, size(lowered%model%foundations)))
             if (.not. any(layers(a:b) > 0)) then
-                call refuse_entry(error, here, trim(merge("k  ", "law", f%law == gapbeam_law_by_points)), bad_law, &
-                                  "carries nowhere from "//stretch(a, b)//"; remove the foundation")
+                call refuse_entry(error, here, trim(merge("law", "k  ", with_points .or. f%law /= gapbeam_law_by_points)), &
+                                  bad_law, "carries nowhere from "//stretch(a, b)//"; remove the foundation")
                 return
             end if
             if (f%law == gapbeam_law_by_points) return
@@ -200,26 +223,6 @@ contains
         number = merge(2, 1, (has_law .or. has_gap) .and. foundation%side == gapbeam_both)
     end function layers_of
 
-    !> Pieces of all laws, one for every point: the one that ends there, the last one going on
-    pure subroutine make_laws(lowered)
-        type(lowered_type), intent(inout) :: lowered
-        integer :: i
-
-        associate (points => lowered%model%ground_law, pieces => lowered%law_pieces)
-            do i = 1, size(points)
-                pieces(i)%displacement = 0.0_wp
-                pieces(i)%force = 0.0_wp
-                if (i > 1) then
-                    if (points(i)%foundation == points(i - 1)%foundation) then
-                        pieces(i)%displacement = points(i - 1)%displacement
-                        pieces(i)%force = points(i - 1)%force
-                    end if
-                end if
-                pieces(i)%slope = (points(i)%force - pieces(i)%force)/(points(i)%displacement - pieces(i)%displacement)
-            end do
-        end associate
-    end subroutine make_laws
-
     !> Modulus, gap and parameters of its law of a foundation at both ends of its pieces
     pure subroutine find_values(lowered, foundation, first, last, values)
         type(lowered_type), intent(in) :: lowered
@@ -244,86 +247,12 @@ contains
             end do
         end associate
         do q = 1, quantities
-            if (first(q) <= last(q)) call follow_table(lowered, left, right, first(q), last(q), values(q, :, :))
+            if (first(q) > last(q)) cycle
+            call follow_table(lowered, left, right, place_in_table(lowered, [(p, p=first(q), last(q))], &
+                                                                   lowered%model%ground(first(q):last(q))%x), &
+                              lowered%model%ground(first(q):last(q))%value, values(q, :, left + 1:right))
         end do
     end subroutine find_values
-
-    !> The values of a table at the ends of pieces: straight between its points, beyond its ends the last value. The beam is cut at
-    !> its points, so every piece lies between two of them
-    pure subroutine follow_table(lowered, left, right, first, last, values)
-        type(lowered_type), intent(in) :: lowered
-        !> First and last point of the beam, and of the table
-        integer, intent(in) :: left, right, first, last
-        !> Shape (2, npiece)
-        real(wp), intent(inout) :: values(:, :)
-        type(place_type) :: ends(2), before, after
-        integer :: i, j, k
-
-        associate (points => lowered%model%ground)
-            i = first
-            before = place_in_table(lowered, first)
-            after = before
-            do j = left + 1, right
-                ends = [place_of(lowered, j - 1), place_of(lowered, j)]
-                ! The first point of the table that is right of the middle of the piece: its ends may differ from points by rounding
-                do while (i <= last)
-                    if (distance(lowered, ends(1), after) > distance(lowered, ends(1), ends(2))/2) exit
-                    before = after
-                    i = i + 1
-                    if (i <= last) after = place_in_table(lowered, i)
-                end do
-                if (i == first .or. i > last) then
-                    values(:, j) = points(min(i, last))%value
-                    cycle
-                end if
-                do k = 1, 2
-                    values(k, j) = between(points(i - 1)%value, points(i)%value, &
-                                           min(1.0_wp, max(0.0_wp, distance(lowered, before, ends(k)) &
-                                                           /distance(lowered, before, after))))
-                end do
-            end do
-        end associate
-    end subroutine follow_table
-
-    !> Where a point of a table is: on its foundation exactly at the beam's own point, which may differ by rounding
-    pure function place_in_table(lowered, number) result(place)
-        type(lowered_type), intent(in) :: lowered
-        integer, intent(in) :: number
-        type(place_type) :: place
-
-        if (lowered%ground_point(number) >= 0) then
-            place = place_of(lowered, lowered%ground_point(number))
-        else
-            place = place_type(0, lowered%model%ground(number)%x)
-        end if
-    end function place_in_table
-
-    !> Where a point of the beam is
-    pure function place_of(lowered, point) result(place)
-        type(lowered_type), intent(in) :: lowered
-        integer, intent(in) :: point
-        type(place_type) :: place
-
-        place = place_type(lowered%point_span(point), lowered%point_offset(point))
-    end function place_of
-
-    !> Distance from one place to another, positive to the right
-    pure function distance(lowered, from, to) result(length)
-        type(lowered_type), intent(in) :: lowered
-        type(place_type), intent(in) :: from, to
-        real(wp) :: length
-
-        length = (lowered%ends(to%span) - lowered%ends(from%span)) + (to%offset - from%offset)
-    end function distance
-
-    !> A value at a share of the way from one to another
-    elemental function between(a, b, share) result(value)
-        real(wp), intent(in) :: a, b, share
-        real(wp) :: value
-
-        value = a
-        if (abs(a - b) > 0.0_wp) value = a*(1 - share) + b*share
-    end function between
 
     !> Meet the moduli and levels of all foundations
     pure subroutine note_foundations(lowered, length, stiffness, forces, ways)
@@ -349,9 +278,9 @@ contains
         end do
         do i = 1, size(lowered%law_pieces)
             associate (piece => lowered%law_pieces(i))
-                call stiffness%note(piece%slope, length)
-                call forces%note(piece%force, length)
-                call ways%note(piece%displacement, 0)
+                call stiffness%note(max(piece%slope_a, piece%slope_b), length)
+                call forces%note(max(piece%force_a, piece%force_b), length)
+                call ways%note(max(piece%displacement_a, piece%displacement_b), 0)
             end associate
         end do
         do i = 1, size(lowered%layers)
@@ -386,7 +315,8 @@ contains
         type(units_type), intent(in) :: units
         !> Numbers out of range
         type(error_type), allocatable, intent(out) :: error
-        real(wp) :: slope, given(parameters_of_law, 2), scaled(parameters_of_law, 2)
+        logical, allocatable :: lost(:)
+        real(wp) :: slopes(2), given(parameters_of_law, 2), scaled(parameters_of_law, 2)
         real(wp) :: most(quantities, size(lowered%model%foundations))
         integer :: i, m, per_length, powers(parameters_of_law)
 
@@ -402,18 +332,21 @@ contains
             end associate
             return
         end do
+        allocate (lost(size(lowered%law_pieces)))
         do i = 1, size(lowered%law_pieces)
             associate (piece => lowered%law_pieces(i))
-                piece%displacement = scale(piece%displacement, -units%deflection)
-                piece%force = scale(piece%force, units%length - units%force)
-                slope = piece%slope
-                piece%slope = scale(slope, per_length)
-                if (max(piece%displacement, piece%force) <= huge(1.0_wp) &
-                    .and. .not. (slope > 0.0_wp .and. is_lost(piece%slope))) cycle
-                call refuse_range(error, "the law of "//trim(named(of_foundations, lowered%model%ground_law(i)%foundation, m))// &
-                                  " is too far from the other numbers", "bring them nearer together")
+                slopes = [piece%slope_a, piece%slope_b]
+                piece%displacement_a = scale(piece%displacement_a, -units%deflection)
+                piece%displacement_b = scale(piece%displacement_b, -units%deflection)
+                piece%way_a = scale(piece%way_a, -units%deflection)
+                piece%way_b = scale(piece%way_b, -units%deflection)
+                piece%force_a = scale(piece%force_a, units%length - units%force)
+                piece%force_b = scale(piece%force_b, units%length - units%force)
+                piece%slope_a = scale(slopes(1), per_length)
+                piece%slope_b = scale(slopes(2), per_length)
+                lost(i) = max(piece%displacement_a, piece%displacement_b, piece%force_a, piece%force_b) > huge(1.0_wp) &
+                    .or. any(slopes > 0.0_wp .and. is_lost([piece%slope_a, piece%slope_b]))
             end associate
-            return
         end do
         do i = 1, size(lowered%layers)
             associate (layer => lowered%layers(i))
@@ -428,7 +361,7 @@ contains
                 given(:, 2) = layer%parameter_b
                 scaled(:, 1) = scale(layer%parameter_a, powers)
                 scaled(:, 2) = scale(layer%parameter_b, powers)
-                if (any(is_lost(abs(scaled)) .and. abs(given) > 0.0_wp)) then
+                if (any(is_lost(abs(scaled)) .and. abs(given) > 0.0_wp) .or. any(lost(layer%law_first:layer%law_last))) then
                     call refuse_range(error, "the law of "//trim(named(of_foundations, layer%foundation, m))// &
                                       " is too far from the other numbers", "bring them nearer together")
                     return

@@ -134,6 +134,9 @@ module gapbeam_scene
         integer :: foundation
         !> Displacement past the gap, above that of the point before; force per length, not below that of the point before
         real(wp) :: displacement, force
+        !> Place at which the law is that, also outside the foundation; gapbeam_unchanged: everywhere. The laws at several places
+        !> follow each other in ascending order of x, each with as many points, which are linear in between
+        real(wp) :: x = gapbeam_unchanged
     end type ground_law_point_type
 
     !> A load; the functions below make one of each kind

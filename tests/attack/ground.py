@@ -87,6 +87,7 @@ def cuts(made, result):
     for item in (*made.get("sections", ()), *made["loads"], *made["foundation"]):
         found |= {item[key] for key in ("from", "to", "x") if key in item}
         found |= {x for points in (item.get("profile", ()), *tables_of(item)) for x, _ in points}
+        found |= {at["x"] for at in item.get("law", ()) if isinstance(at, dict)}
     found |= {place(made, item) for item in made.get("supports", ())}
     found |= {x for zone in result.steps[-1].contact for x in (zone.from_, zone.to)}
     return np.array(sorted(x for x in found if 0.0 <= x <= length))
@@ -122,6 +123,8 @@ def by_law(item, x, u, length):
     law = item.get("law")
     if law is None:
         return between(item["k"], x, item, length) * u
+    if isinstance(law, list) and isinstance(law[0], dict):
+        return by_polylines(law, x, u)
     if isinstance(law, list):
         d, r = (np.array([0.0, *column]) for column in zip(*law, strict=True))
         beyond = (r[-1] - r[-2]) / (d[-1] - d[-2]) * np.maximum(u - d[-1], 0.0)
@@ -134,6 +137,17 @@ def by_law(item, x, u, length):
         return np.where(k * u <= limit, k * u, limit + parameters.get("slope", 0.0) * (u - limit / np.where(k > 0.0, k, 1.0)))
     share = np.divide(k * u, limit, out=np.zeros_like(u), where=limit > 0.0)
     return k * u / (1.0 + share) if law["type"] == "hyperbolic" else limit * np.tanh(share)
+
+
+def by_polylines(law, x, u):
+    """Force of a law whose points are straight between places."""
+    places = [at["x"] for at in law]
+    points = np.array([[(0.0, 0.0), *at["points"]] for at in law])  # places by points by 2
+    d, r = (np.array([np.interp(x, places, column) for column in points[:, :, k].T]) for k in (0, 1))
+    slopes = np.diff(r, axis=0) / np.diff(d, axis=0)
+    piece = np.clip((u >= d).sum(axis=0) - 1, 0, len(slopes) - 1)
+    at = np.arange(len(x))
+    return r[piece, at] + slopes[piece, at] * (u - d[piece, at])
 
 
 def beam_of(made, x):

@@ -38,7 +38,7 @@ class Columns(Record):
     table_foundations, table : numpy.ndarray
         Points of the tables of foundations: number of the foundation, from 1; x, value, and of what, as in gapbeam_scene, 3 rows.
     ground_law_foundations, ground_law : numpy.ndarray
-        Points of the laws of foundations: number of the foundation, from 1; displacement and force per length, 2 rows.
+        Points of the laws of foundations: number of the foundation, from 1; displacement, force per length, and place, 3 rows.
     """
 
     span: np.ndarray
@@ -72,6 +72,27 @@ class Columns(Record):
         """
         which = np.flatnonzero(self.table[2, :-1] == quantity)
         return self.table_foundations[which] - 1, self.table[1, which]
+
+    def has_varying_laws(self) -> bool:
+        """Whether a law of a foundation by points is not the same everywhere.
+
+        Returns
+        -------
+        bool
+        """
+        return bool((self.ground_law[2, :-1] > -np.finfo(float).max).any())
+
+    def slopes_of_laws(self) -> np.ndarray:
+        """Give the slopes of all pieces of the laws of foundations by points.
+
+        Returns
+        -------
+        numpy.ndarray
+        """
+        which, (way, force, place) = self.ground_law_foundations[:-1], self.ground_law[:, :-1]
+        first = np.append(True, (np.diff(which) != 0) | (np.diff(place) != 0.0))[: len(which)]
+        ways, forces = (np.where(first, values, np.diff(values, prepend=0.0)) for values in (way, force))
+        return np.divide(forces, ways, out=np.zeros(len(ways)), where=ways > 0.0)
 
     def greatest_of_ground(self) -> np.ndarray:
         """Give the greatest modulus, and the greatest of every parameter of its law, of every foundation.

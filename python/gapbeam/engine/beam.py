@@ -116,7 +116,8 @@ class Beam:
             bool, has
         )
         self.units = Units(*units.tolist())
-        self.handle.has_curves = bool((self.columns.foundation[LAW_ROW] >= FIRST_CURVE).any())
+        c = self.columns
+        self.handle.has_curves = bool((c.foundation[LAW_ROW] >= FIRST_CURVE).any() or c.has_varying_laws())
 
     def with_factors(self, factors: np.ndarray) -> Beam:
         """Make another beam: each load times its factor, all of them live.

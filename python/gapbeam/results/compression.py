@@ -7,7 +7,7 @@ compression of the stretch, EI its smallest stiffness.
 
 from __future__ import annotations
 
-from bisect import bisect_right
+from bisect import bisect_left, bisect_right
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import chain, pairwise
@@ -24,7 +24,9 @@ from ..scene.ground_laws import (
     HyperbolicGround,
     PlasticGround,
     TanhGround,
+    slopes_of_branch,
     tables_of,
+    varies,
 )
 from ..scene.ground_tables import least_between
 from .branches import BranchPath
@@ -306,6 +308,10 @@ def modulus(foundation: Foundation, state: str, pressure: float, between: tuple[
     if k is not None:
         return least(k)
     branch = int(state.removeprefix("branch ")) if state.startswith("branch ") else 1
+    if varies(law):  # between two places the slope is one between those there
+        slopes = slopes_of_branch(law, branch)
+        first, last = bisect_right(slopes, (between[0], np.inf)), bisect_left(slopes, (between[1],))
+        return min(slope for _, slope in slopes[max(first - 1, 0) : last + 1])
     if isinstance(law, list):
         points = [(0.0, 0.0), *law]
         (d, p), (e, q) = points[min(branch, len(points) - 1) - 1 :][:2]

@@ -406,10 +406,7 @@ def grid_step(scene: Scene, beam: Beam, deflection: float) -> float:
     modulus = greatest[:2].max(initial=0.0)
     k1, _, k3 = greatest[1:, beam.columns.foundation[6, :-1] == CubicGround.code]
     modulus = max(modulus, (k1 + 3.0 * k3 * deflection**2).max(initial=0.0))
-    which, (way, force) = beam.columns.ground_law_foundations[:-1], beam.columns.ground_law[:, :-1]
-    first = np.append(True, np.diff(which) != 0)[: len(which)]
-    ways, forces = (np.where(first, values, np.diff(values, prepend=0.0)) for values in (way, force))
-    modulus = max(modulus, np.divide(forces, ways, out=np.zeros(len(ways)), where=ways > 0.0).max(initial=0.0))
+    modulus = max(modulus, beam.columns.slopes_of_laws().max(initial=0.0))
     stiffness = float(beam.places.pieces[:, 1].min())
     bends = (4.0 * stiffness / modulus) ** 0.25 if modulus > 0.0 and np.isfinite(stiffness) else end
     return min(end / spans, bends) / PER_LENGTH

@@ -11,7 +11,7 @@ import numpy as np
 from ..base.errors import SceneError
 from ..engine.arrays import Columns
 from ..engine.beam import Curve
-from .ground_laws import PARAMETERS, ground_parameters, ground_points, parameter_tables
+from .ground_laws import PARAMETERS, ground_parameters, parameter_tables, points_with_places
 from .ground_tables import GAP, MODULUS, at_both_ends, is_table, points_of
 from .laws import is_smooth, law_points
 from .structs import AxialLoad, CurvatureLoad, ForceLoad, LinearLoad, MomentLoad, Scene, UniformLoad
@@ -73,7 +73,7 @@ def columns(scene: Scene) -> Columns:
     load_codes, load_values = _loads(scene.loads)
     return Columns(
         span, hinge, _sections(scene.sections), codes, values, law_supports, law, load_codes, load_values,
-        *_foundations(scene.foundation), *_tables(scene.foundation), *_laws(scene.foundation, ground_points),
+        *_foundations(scene.foundation), *_tables(scene.foundation), *_laws(scene.foundation, points_with_places, rows=3),
     )  # fmt: skip
 
 
@@ -158,15 +158,15 @@ def _tables(items: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _laws(
-    items: Sequence[Any], points_of: Callable[[Any], list[tuple[float, float]] | None] = law_points
+    items: Sequence[Any], points_of: Callable[[Any], Sequence[tuple[float, ...]] | None] = law_points, rows: int = 2
 ) -> tuple[np.ndarray, np.ndarray]:
     """Points of laws, and the numbers of their supports or foundations, from 1; none of them can be given as columns."""
     laws = [] if isinstance(items, Table) else list(map(attrgetter("law"), items))
     which = [i for i, law in enumerate(laws) if law is not None] if laws.count(None) < len(laws) else []
     points = [(i + 1, *point) for i in which for point in points_of(laws[i]) or ()]
-    supports, found = _empty(1, len(points), np.int32)[0], _empty(2, len(points))
-    for k, (support, displacement, force) in enumerate(points):
-        supports[k], found[:, k] = support, (displacement, force)
+    supports, found = _empty(1, len(points), np.int32)[0], _empty(rows, len(points))
+    for k, (support, *point) in enumerate(points):
+        supports[k], found[:, k] = support, point
     return supports, found
 
 

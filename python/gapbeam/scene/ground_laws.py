@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from typing import Any, ClassVar
 
 from .ground_tables import PARAMETER, Along, AlongSigned, at_both_ends, is_table
@@ -10,6 +11,8 @@ from .table import Table
 
 PARAMETERS = 3
 """Of any law, for the engine."""
+EVERYWHERE = -sys.float_info.max
+"""Instead of the place of a law."""
 
 
 class _GroundLaw(Table, forbid_unknown_fields=True, kw_only=True, gc=False, tag_field="type"):
@@ -123,8 +126,23 @@ def _points(kind: type[PlasticLaw | HardeningLaw], **parameters: Along) -> list[
     return kind(**parameters).points()
 
 
+class LawAt(Table, forbid_unknown_fields=True, kw_only=True, gc=False):
+    """The polyline of a law at one place; between two places it is linear point by point.
+
+    Parameters
+    ----------
+    x : float
+        The place, from the left end of the beam.
+    points : list of (float, float)
+        Displacement past the gap and force per length, from (0, 0) on, which is left out; as many at every place.
+    """
+
+    x: float
+    points: list[tuple[float, float]]
+
+
 GroundLawTable = PlasticGround | HardeningGround | HyperbolicGround | TanhGround | CubicGround | BrittleLaw | PowerLaw
-GroundLaw = list[tuple[float, float]] | GroundLawTable
+GroundLaw = list[tuple[float, float] | LawAt] | GroundLawTable
 
 NOT_FOR_GROUND = {
     BrittleLaw: "a law whose force falls is not available for foundations in this version; give a polyline that never falls",
@@ -145,7 +163,8 @@ def ground_points(law: GroundLaw) -> list[tuple[float, float]] | None:
     Returns
     -------
     list of (float, float) or None
-        Displacement past the gap and force per length, from (0, 0) on, which is left out; None where it is no polyline.
+        Displacement past the gap and force per length, from (0, 0) on, which is left out; None where it is no polyline, or one
+        that varies.
 
     Examples
     --------
@@ -153,7 +172,89 @@ def ground_points(law: GroundLaw) -> list[tuple[float, float]] | None:
     [(0.05, 5.0), (0.1, 5.0)]
     >>> ground_points(PlasticGround(stiffness=100.0, limit=(0.0, 5.0)))
     """
-    return law if isinstance(law, list) else law.points()
+    if isinstance(law, list):
+        return None if varies(law) else law
+    return law.points()
+
+
+def varies(law: GroundLaw | None) -> bool:
+    """Whether a law is a polyline that is not the same everywhere.
+
+    Parameters
+    ----------
+    law : list, law table or None
+        Of a foundation.
+
+    Returns
+    -------
+    bool
+    """
+    return isinstance(law, list) and len(law) > 0 and isinstance(law[0], LawAt)
+
+
+def slopes_of_branch(law: list[LawAt], branch: int) -> list[tuple[float, float]]:
+    """Give the slope of a piece of a polyline that varies, at its places.
+
+    Parameters
+    ----------
+    law : list of LawAt
+        Of a foundation.
+    branch : int
+        The piece, from 1; the last one goes on.
+
+    Returns
+    -------
+    list of (float, float)
+        Place, and slope there.
+
+    Examples
+    --------
+    >>> slopes_of_branch([LawAt(x=0.0, points=[(0.1, 5.0)]), LawAt(x=3.0, points=[(0.1, 7.0)])], 1)
+    [(0.0, 50.0), (3.0, 70.0)]
+    """
+    found = []
+    for place in law:
+        (d, p), (e, q) = [(0.0, 0.0), *place.points][min(branch, len(place.points)) - 1 :][:2]
+        found.append((place.x, (q - p) / (e - d)))
+    return found
+
+
+def is_straight(law: list[LawAt]) -> bool:
+    """Whether a polyline that varies has the same displacements everywhere, so that its slopes are straight between its places.
+
+    Parameters
+    ----------
+    law : list of LawAt
+        Of a foundation.
+
+    Returns
+    -------
+    bool
+    """
+    return all([d for d, _ in place.points] == [d for d, _ in law[0].points] for place in law)
+
+
+def points_with_places(law: GroundLaw) -> list[tuple[float, float, float]]:
+    """Give the points of a law for the engine.
+
+    Parameters
+    ----------
+    law : list or law table
+        Of a foundation.
+
+    Returns
+    -------
+    list of (float, float, float)
+        Displacement past the gap, force per length, and place, `EVERYWHERE` of a law that is the same everywhere.
+
+    Examples
+    --------
+    >>> points_with_places([LawAt(x=0.0, points=[(0.1, 5.0)]), LawAt(x=3.0, points=[(0.1, 7.0)])])
+    [(0.1, 5.0, 0.0), (0.1, 7.0, 3.0)]
+    """
+    if varies(law):
+        return [(*point, place.x) for place in law for point in place.points]
+    return [(*point, EVERYWHERE) for point in ground_points(law) or ()]
 
 
 def ground_parameters(law: GroundLaw | None) -> list[float]:
@@ -174,7 +275,7 @@ def ground_parameters(law: GroundLaw | None) -> list[float]:
     >>> ground_parameters(TanhGround(stiffness=(0.0, 9e3), limit=400.0))
     [4.0, 0.0, 400.0, 0.0, 9000.0, 400.0, 0.0]
     """
-    if law is None or ground_points(law) is not None:
+    if law is None or isinstance(law, list) or ground_points(law) is not None:
         return [0.0] * (1 + 2 * PARAMETERS)
     given = law.parameters()
     given += [(0.0, 0.0)] * (PARAMETERS - len(given))
@@ -182,7 +283,7 @@ def ground_parameters(law: GroundLaw | None) -> list[float]:
 
 
 def tables_of(foundation: Any) -> list[Any]:
-    """Give the tables that say how stiff a foundation is, of its modulus and of the parameters of its law.
+    """Give the tables that say how stiff a foundation is, of its modulus and of the parameters or the first slope of its law.
 
     Parameters
     ----------
@@ -193,6 +294,8 @@ def tables_of(foundation: Any) -> list[Any]:
     -------
     list of table
     """
+    if varies(foundation.law):
+        return [slopes_of_branch(foundation.law, 1)]
     return [foundation.k] if is_table(foundation.k) else [table for _, table in parameter_tables(foundation.law)]
 
 

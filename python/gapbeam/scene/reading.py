@@ -15,7 +15,7 @@ from ..engine.beam import Beam, RefusalError
 from .columns import columns, curves
 from .combinations import plan_combinations
 from .files import read_file
-from .ground_laws import NOT_FOR_GROUND
+from .ground_laws import NOT_FOR_GROUND, LawAt
 from .ground_tables import is_table, settled
 from .laws import is_smooth, wrong_parameter
 from .names import check_names, names_in_errors
@@ -150,6 +150,22 @@ def _check_laws(scene: Scene) -> None:
             raise SceneError(f"supports[{i}].law", "has no point; give (displacement past the gap, force)")
 
 
+def _polylines(law: list[Any], place: str) -> list[tuple[str, list[Any]]]:
+    """The polylines of a law, one or one for every place, and where they stand."""
+    with_places = [isinstance(one, LawAt) for one in law]
+    if not any(with_places):
+        return [(place, law)]
+    if not all(with_places):
+        raise SceneError(place, "expected pairs of numbers, or tables with x and points, got some of both")
+    for k, one in enumerate(law):
+        if not isfinite(one.x):
+            raise SceneError(f"{place}[{k}].x", f"expected a finite number, got {number(one.x)}")
+        if k and one.x == law[k - 1].x:
+            problem = f"there is a law at x = {number(one.x)} already; leave one out, or give a step two places"
+            raise SceneError(f"{place}[{k}].x", problem)
+    return [(f"{place}[{k}].points", one.points) for k, one in enumerate(law)]
+
+
 def _settle_foundations(scene: Scene) -> None:
     """Tell pairs from tables."""
     if isinstance(scene.foundation, Table):
@@ -174,8 +190,9 @@ def _check_foundations(scene: Scene) -> None:
         if foundation.profile is not None and not len(foundation.profile):
             raise SceneError(f"{place}.profile", "has no point; give (x, gap)")
         if isinstance(law, list):
-            if not law:
-                raise SceneError(f"{place}.law", "has no point; give (displacement past the gap, force per length)")
+            for key, points in _polylines(law, f"{place}.law"):
+                if not points:
+                    raise SceneError(key, "has no point; give (displacement past the gap, force per length)")
         elif problem := NOT_FOR_GROUND.get(type(law)):
             raise SceneError(f"{place}.law", problem)
         elif law is not None:

@@ -190,7 +190,8 @@ class Foundation(_Stretch, kw_only=True, gc=False):
         two columns.
     law : list of (float, float) or table, optional
         Instead of k: points (displacement past the gap, force per length) from (0, 0) on, which is left out. The force never
-        falls, and no displacement stands there twice; the last slope goes on; with side both the law is mirrored. Or a table
+        falls, and no displacement stands there twice; the last slope goes on; with side both the law is mirrored. Or tables
+        with x and points, as many at every place, straight point by point between the places. Or a table
         with a type, plastic, hardening, hyperbolic, tanh or cubic, whose parameters are numbers per length, (at from, at to), or
         points (x, value), linear in between: curves are solved to all digits.
     name : str, optional

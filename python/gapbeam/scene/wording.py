@@ -340,8 +340,9 @@ def _described(kind: inspect.Type, plural: bool = False) -> str:
             values = [shown(value) for member in types for value in getattr(member, "values", ())]
             members = [one for member in types if not hasattr(member, "values") for one in _alternatives(member)]
             return choice([*values, *dict.fromkeys(members)])
-        case inspect.UnionType():
-            return "tables"
+        case inspect.UnionType(types=types):
+            others = [_described(member, plural=True) for member in types if not isinstance(member, inspect.StructType)]
+            return choice([*others, "tables"])
     return "something else"
 
 
