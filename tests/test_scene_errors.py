@@ -416,9 +416,13 @@ law = { type = "brittle", stiffness = 1.0, limit = 2.0 } ->
     foundation[1].law: a law whose force falls is not available for foundations in this version; give a polyline
     that never falls
 law = { type = "power", d0 = 1.0, limit = 2.0, n = 0.5 } ->
-    foundation[1].law: a power of the displacement is not available for foundations: with n below 1 the ground is
-    infinitely stiff at first, so that a pile would change its side infinitely often; give a polyline, as codes do,
-    or cubic
+    foundation[1].law.n: expected 1, 2 or 3, got 0.5: with n below 1 the ground is infinitely stiff at first, so that a pile
+    would change its side infinitely often, with others no series holds where contact begins; give a polyline, as codes do
+law = { type = "power", d0 = 0.0, limit = 2.0, n = 2 } -> foundation[1].law.d0: expected a number above 0, got 0
+law = { type = "power", d0 = 1.0, limit = [-2.0, 1.0], n = 2 } ->
+    foundation[1].law.limit: expected numbers of 0 or more, got -2
+law = { type = "power", d0 = 1.0, limit = 0, n = 2 } ->
+    foundation[1].law.limit: is 0 everywhere, so it never carries; remove the foundation
 law = { type = "tanh", stiffness = [0.0, 4.0], limit = [nan, 400.0] } ->
     foundation[1].law.limit: expected finite numbers, got nan
 law = { type = "plastic", stiffness = inf, limit = 2.0 } ->

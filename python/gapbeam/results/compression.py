@@ -23,6 +23,7 @@ from ..scene.ground_laws import (
     HardeningGround,
     HyperbolicGround,
     PlasticGround,
+    PowerGround,
     TanhGround,
     slopes_of_branch,
     tables_of,
@@ -324,8 +325,8 @@ def modulus(foundation: Foundation, state: str, pressure: float, between: tuple[
         limit = least(law.limit)
         left = max(1.0 - pressure / limit, 0.0) if limit > 0.0 else 0.0
         return least(law.stiffness) * (left * (2.0 - left) if isinstance(law, TanhGround) else left**2)
-    if isinstance(law, CubicGround):
-        a, b, c = least(law.k1), least(law.k2), least(law.k3)
+    if isinstance(law, CubicGround | PowerGround):
+        a, b, c = map(least, law.values())
         return max(a - (b * b / (3.0 * c) if b < 0.0 and c > 0.0 else 0.0), 0.0)
     return 0.0
 

@@ -18,6 +18,7 @@ from ..scene.ground_laws import (
     CubicGround,
     HardeningGround,
     HyperbolicGround,
+    PowerGround,
     TanhGround,
     ground_points,
     is_straight,
@@ -137,7 +138,7 @@ def _slope_of(scene: Scene, zone: Contact) -> Any:
     if item.law is None:
         return item.k
     bent = varies(item.law) and not is_straight(item.law)
-    if bent or isinstance(item.law, (HyperbolicGround, TanhGround, CubicGround)):
+    if bent or isinstance(item.law, (HyperbolicGround, TanhGround, CubicGround, PowerGround)):
         name = label(scene.foundation, zone.foundation)
         problem = f"foundation {name} acts by a curve there"
         raise ValueError(f"position: {problem}; influence lines need straight laws, so give a polyline")

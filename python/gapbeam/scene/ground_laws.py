@@ -5,9 +5,11 @@ from __future__ import annotations
 import sys
 from typing import Any, ClassVar
 
+import numpy as np
+
 from .ground_tables import PARAMETER, Along, AlongSigned, at_both_ends, is_table
-from .laws import BrittleLaw, HardeningLaw, PlasticLaw, PowerLaw
-from .table import Table
+from .laws import BrittleLaw, HardeningLaw, PlasticLaw
+from .table import Positive, Table
 
 PARAMETERS = 3
 """Of any law, for the engine."""
@@ -117,6 +119,34 @@ class CubicGround(_GroundLaw, tag="cubic"):
         return self.k1, self.k2, self.k3
 
 
+class PowerGround(_GroundLaw, tag="power"):
+    """Force = limit*(d/d0)^n, with n = 1, 2 or 3: a cubic.
+
+    Parameters
+    ----------
+    d0 : float
+        Displacement (length) at which the force is limit.
+    limit : float, (float, float) or list of (float, float)
+        The force per length there; or (at from, at to), or points (x, value), linear in between.
+    n : float
+        Exponent.
+    """
+
+    code = 5
+    d0: Positive
+    limit: Along
+    n: Positive
+
+    def values(self) -> tuple[Along | AlongSigned, ...]:
+        """Give the parameters of the cubic."""
+        scale = float(np.float64(self.d0) ** -self.n)
+        if is_table(self.limit):
+            only = [(x, value * scale) for x, value in self.limit]
+        else:
+            only = tuple(value * scale for value in at_both_ends(self.limit))
+        return tuple(only if k == self.n else 0.0 for k in (1.0, 2.0, 3.0))
+
+
 def _points(kind: type[PlasticLaw | HardeningLaw], **parameters: Along) -> list[tuple[float, float]] | None:
     """Give the polyline of a law of supports with these parameters; None unless all are numbers, those that matter above 0."""
     if any(isinstance(value, tuple) or is_table(value) for value in parameters.values()):
@@ -141,15 +171,18 @@ class LawAt(Table, forbid_unknown_fields=True, kw_only=True, gc=False):
     points: list[tuple[float, float]]
 
 
-GroundLawTable = PlasticGround | HardeningGround | HyperbolicGround | TanhGround | CubicGround | BrittleLaw | PowerLaw
+GroundLawTable = PlasticGround | HardeningGround | HyperbolicGround | TanhGround | CubicGround | PowerGround | BrittleLaw
 GroundLaw = list[tuple[float, float] | LawAt] | GroundLawTable
 
 NOT_FOR_GROUND = {
     BrittleLaw: "a law whose force falls is not available for foundations in this version; give a polyline that never falls",
-    PowerLaw: "a power of the displacement is not available for foundations: with n below 1 the ground is infinitely stiff at "
-    "first, so that a pile would change its side infinitely often; give a polyline, as codes do, or cubic",
 }
 """Laws of supports that are no laws of foundations, and why."""
+NO_POWER = (
+    "with n below 1 the ground is infinitely stiff at first, so that a pile would change its side infinitely often, with others no "
+    "series holds where contact begins; give a polyline, as codes do"
+)
+"""Why a power is a law of foundations with some exponents only."""
 
 
 def ground_points(law: GroundLaw) -> list[tuple[float, float]] | None:

@@ -15,8 +15,8 @@ from ..engine.beam import Beam, RefusalError
 from .columns import columns, curves
 from .combinations import plan_combinations
 from .files import read_file
-from .ground_laws import NOT_FOR_GROUND, LawAt
-from .ground_tables import is_table, settled
+from .ground_laws import NO_POWER, NOT_FOR_GROUND, LawAt, PowerGround
+from .ground_tables import is_table, least_and_most, settled
 from .laws import is_smooth, wrong_parameter
 from .names import check_names, names_in_errors
 from .refusals import refusal
@@ -166,6 +166,19 @@ def _polylines(law: list[Any], place: str) -> list[tuple[str, list[Any]]]:
     return [(f"{place}[{k}].points", one.points) for k, one in enumerate(law)]
 
 
+def _check_power(law: PowerGround, place: str) -> None:
+    """Refuse exponents that are not available, and what the cubic made of it would not show any more."""
+    if law.n not in (1.0, 2.0, 3.0):
+        raise SceneError(f"{place}.n", f"expected 1, 2 or 3, got {number(law.n)}: {NO_POWER}")
+    if not law.d0 > 0.0:
+        raise SceneError(f"{place}.d0", f"expected a number above 0, got {number(law.d0)}")
+    least, most = least_and_most(law.limit)
+    if least < 0.0:
+        raise SceneError(f"{place}.limit", f"expected numbers of 0 or more, got {number(least)}")
+    if not most > 0.0:
+        raise SceneError(f"{place}.limit", "is 0 everywhere, so it never carries; remove the foundation")
+
+
 def _settle_foundations(scene: Scene) -> None:
     """Tell pairs from tables."""
     if isinstance(scene.foundation, Table):
@@ -201,3 +214,5 @@ def _check_foundations(scene: Scene) -> None:
                 for value in () if is_table(given) else given if isinstance(given, tuple) else (given,):
                     if not isfinite(value):
                         raise SceneError(f"{place}.law.{key}", f"expected finite numbers, got {number(value)}")
+            if isinstance(law, PowerGround):
+                _check_power(law, f"{place}.law")

@@ -11,7 +11,7 @@ from msgspec import Struct
 
 from ..base.errors import SceneError
 from .columns import KINDS, SIDES
-from .ground_laws import varies
+from .ground_laws import PowerGround, varies
 from .structs import Scene
 from .wording import number, shown
 
@@ -92,6 +92,8 @@ def _bad_law(item: Any, path: str, key: str, point: int, message: str) -> SceneE
     problem = message.partition(": ")[2].removeprefix(f"{key}: ").removeprefix(f"point {point}: ")
     if key:
         path += f".{key}"
+    if isinstance(item.law, PowerGround) and key.startswith("law.k"):
+        path = path.removesuffix(key) + "law.limit"
     if point and key.startswith("law") and varies(item.law):
         ends = list(accumulate(len(place.points) for place in item.law))
         where = bisect_left(ends, point)
