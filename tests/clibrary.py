@@ -61,6 +61,9 @@ class Model(c.Structure):
         *((f"ground_law_{name}", REAL) for name in ("displacement", "force")),
         ("foundation_law", INTEGER),
         *((f"foundation_{name}", REAL) for name in ("parameter", "parameter_to")),
+        ("table_points", c.c_int),
+        *((f"table_{name}", INTEGER) for name in ("foundation", "quantity")),
+        *((f"table_{name}", REAL) for name in ("x", "value")),
     )
 
 
@@ -171,7 +174,7 @@ def columns(scene):
 
 def ground_columns(foundations, end):
     """The arrays of the C interface for foundations."""
-    ends = {key: [np.broadcast_to(f.get(key, 0.0), 2) for f in foundations] for key in ("k", "gap")}
+    ends = {key: [np.broadcast_to(number(f.get(key, 0.0)), 2) for f in foundations] for key in ("k", "gap")}
     made = {
         "foundation_from": [f.get("from", 0.0) for f in foundations],
         "foundation_to": [f.get("to", end) for f in foundations],
@@ -186,7 +189,7 @@ def ground_columns(foundations, end):
     parameters = np.zeros((len(foundations), 3, 2))
     for row, law, (_, keys) in zip(parameters, laws, codes, strict=True):
         for i, key in enumerate(keys):
-            row[i] = law.get(key, 0.0)
+            row[i] = number(law.get(key, 0.0))
     made["foundation_parameter"], made["foundation_parameter_to"] = (parameters[:, :, end].copy() for end in (0, 1))
     for name, key, pair in (("profile", "profile", ("x", "gap")), ("ground_law", "law", ("displacement", "force"))):
         lists = [f[key] if isinstance(f.get(key), list) else [] for f in foundations]
@@ -194,7 +197,18 @@ def ground_columns(foundations, end):
         made[f"{name}_foundation"] = np.array([k for k, *_ in points], dtype=np.int32)
         for i, column in enumerate(pair, 1):
             made[f"{name}_{column}"] = np.array([point[i] for point in points], dtype=float)
+    points = []
+    for k, (f, law, (_, keys)) in enumerate(zip(foundations, laws, codes, strict=True)):
+        given = {1: f.get("k", 0.0), **{3 + i: law.get(key, 0.0) for i, key in enumerate(keys)}}
+        points += [(k, quantity, *point) for quantity, value in given.items() if number(value) is not value for point in value]
+    for i, (name, kind) in enumerate((("foundation", np.int32), ("quantity", np.int32), ("x", float), ("value", float))):
+        made[f"table_{name}"] = np.array([point[i] for point in points], dtype=kind)
     return made
+
+
+def number(value):
+    """A number or a pair of a foundation; 0 of a table."""
+    return 0.0 if isinstance(value, list) and isinstance(value[0], list) else value
 
 
 def pointer(array):
@@ -220,7 +234,8 @@ class Library:
         for name, array in arrays.items():
             setattr(made, name, pointer(array))
         sizes = {"spans": "length", "hinges": "hinge_x", "supports": "support_x", "loads": "load_value", "law_points": "law_force",
-                 "foundations": "foundation_k", "profile_points": "profile_x", "ground_law_points": "ground_law_force"}  # fmt: skip
+                 "foundations": "foundation_k", "profile_points": "profile_x", "ground_law_points": "ground_law_force",
+                 "table_points": "table_x"}  # fmt: skip
         for name, key in sizes.items():
             setattr(made, name, len(arrays[key]))
         return made

@@ -28,9 +28,9 @@ KNOWN, NEAR = {"from", "to", "k", "side", "gap", "profile", "law", "name"}, exac
 class Layer:
     """One layer of the ground: where it is, its surface, and the pieces on which it acts."""
     def __init__(self, number, table, beam, zones):
-        if set(table) - KNOWN: raise Answer(2, f"this checker does not know {sorted(set(table) - KNOWN)} of ground")
+        if odd := set(table) - KNOWN | set("k" * ("[[" in str(table.get("k")))): raise Answer(2, f"{sorted(odd)} is not known here")
         law, k, both = table.get("law"), table.get("k"), table.get("side", "both") == "both"
-        if law is not None and (isinstance(law, dict) or len(law) != 1): raise Answer(2, "laws of ground that are no straight line")
+        if law is not None and ("{" in str(law) or len(law) != 1): raise Answer(2, "laws of ground that are no straight line")
         k = [exact(law[0][1]) / exact(law[0][0])] if law else [*map(exact, k if isinstance(k, list) else [k])]
         if len(set(k)) > 1 or k[0] <= 0: raise Answer(2, "a modulus that varies or is 0")
         self.k, self.name, self.pieces = k[0], f"foundation {number}", beam.stretch(table)

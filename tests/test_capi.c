@@ -629,6 +629,33 @@ static void foundations(void)
     gapbeam_free_state(state);
     gapbeam_free_beam(beam);
 
+    /* The same by tables: a modulus, and the profile */
+    static const int of_table[] = {0, 0, 0}, quantity[] = {GAPBEAM_TABLE_OF_K, GAPBEAM_TABLE_OF_K, GAPBEAM_TABLE_OF_GAP};
+    static const double table_x[] = {2.0, 9.0, 5.0}, table_value[] = {2.0, 2.0, 0.25}, no_k[] = {0.0, 0.0};
+    const int points = model.profile_points;
+    model.profile_points = 0;
+    model.foundation_k = no_k;
+    model.foundation_k_to = NULL;
+    model.table_points = 3;
+    model.table_foundation = of_table;
+    model.table_quantity = quantity;
+    model.table_x = table_x;
+    model.table_value = table_value;
+    check(prepare(&model, &beam) == GAPBEAM_SOLVED, "tables");
+    gapbeam_new_state(&state);
+    check(gapbeam_solve(beam, 1.0, NULL, state, NULL, 0) == GAPBEAM_SOLVED, "solved on them");
+    gapbeam_get_contact(beam, state, 2, foundation, from, to, condition, force, &number);
+    check_close(force[0], 12*2*(8/3.0 - 0.25), "the layer with tables");
+    gapbeam_free_state(state);
+    gapbeam_free_beam(beam);
+    model.table_value = NULL;
+    check(gapbeam_prepare(&model, &beam, message, sizeof message) == GAPBEAM_BAD_INPUT && strstr(message, "table_value"),
+          "tables without values");
+    model.table_points = 0;
+    model.foundation_k = k2;
+    model.foundation_k_to = k2;
+    model.profile_points = points;
+
     model.profile_gap = NULL;
     check(gapbeam_prepare(&model, &beam, message, sizeof message) == GAPBEAM_BAD_INPUT && strstr(message, "profile_gap"),
           "a profile without gaps");
@@ -754,7 +781,7 @@ static void names_and_sizes(void)
     check(!strcmp(gapbeam_status_message(-5), "unknown status"), "an unknown one");
     check(isinf(gapbeam_infinity()) && gapbeam_infinity() > 0.0, "infinity");
     /* The init functions compare the sizes of two structures, the get functions those of the others */
-    _Static_assert(sizeof(gapbeam_model) == 392 || sizeof(void *) != 8, "gapbeam_model is part of the ABI");
+    _Static_assert(sizeof(gapbeam_model) == 432 || sizeof(void *) != 8, "gapbeam_model is part of the ABI");
     _Static_assert(sizeof(gapbeam_options) == 16 || sizeof(void *) != 8, "gapbeam_options is part of the ABI");
     _Static_assert(sizeof(gapbeam_info) == 40 || sizeof(void *) != 8, "gapbeam_info is part of the ABI");
     _Static_assert(sizeof(gapbeam_history_info) == 32 || sizeof(void *) != 8, "gapbeam_history_info is part of the ABI");

@@ -153,6 +153,17 @@ def test_powers_are_refused_with_the_reason():
         gapbeam.solve({"beam": BEAM, "foundation": [{"law": {"type": "power", "d0": 0.01, "limit": 5.0, "n": 0.33}}]})
 
 
+@pytest.mark.parametrize("n", [1, 2, 3])
+def test_powers_that_are_cubics(n):
+    cubic = {"type": "cubic", "k1": 0.0, "k3": 0.0} | {f"k{n}": 60.0 / 0.01**n}
+    tables = {"type": "power", "d0": 0.01, "limit": [[0.0, 60.0]], "n": n}
+    for law in ({"type": "power", "d0": 0.01, "limit": 60.0, "n": n}, {**tables, "limit": [60.0, 60.0]}, tables):
+        loads = [{"type": "force", "x": 5.0, "F": 100.0}]
+        results = [gapbeam.solve({"beam": BEAM, "foundation": [{"law": one}], "loads": loads}) for one in (law, cubic)]
+        moments = [result.extremes()["moment"]["max"] for result in results]
+        assert moments[0] == pytest.approx(moments[1], rel=1e-13)
+
+
 @pytest.mark.parametrize(("turn", "digits"), [(0.6, 1e-11), (10.0, 1e-8), (300.0, 1e-4)])
 def test_a_rigid_pile_as_near_to_its_limit_load_as_one_likes(turn, digits):
     """With p = 400 x/L tanh(22.5 turn (a - x)) and e = pi^2/(12 (22.5 turn)^2): F L/400 = a^2 - L^2/2 + e, a^3 + 3 a e = L^3/2."""

@@ -158,12 +158,13 @@ contains
 
         linear = layer_type(side=1, modulus_a=2.0_wp, modulus_b=2.0_wp)
         bent = layer_type(side=1, law_first=2, law_last=3)
-        laws = [law_piece_type(slope=9.0_wp), law_piece_type(slope=5.0_wp), law_piece_type(0.1_wp, 0.5_wp, 1.0_wp)]
+        laws = [law_piece_type(slope_a=9.0_wp), law_piece_type(slope_a=5.0_wp), law_piece_type(0.1_wp, 0.1_wp, 0.5_wp, 0.5_wp, &
+                                                                                               1.0_wp, 1.0_wp)]
         call check(pieces_of_law(linear) == 1 .and. pieces_of_law(bent) == 2, "pieces of laws")
         second = law_piece(bent, laws, 2)
         only_one = law_piece(linear, laws, 1)
-        call check(abs(second%displacement - 0.1_wp) <= 0.0_wp, "the second piece begins where the first ends")
-        call check(.not. only_one%slope > 0.0_wp, "a linear layer has its moduli instead")
+        call check(abs(second%displacement_a - 0.1_wp) <= 0.0_wp, "the second piece begins where the first ends")
+        call check(.not. only_one%slope_a > 0.0_wp, "a linear layer has its moduli instead")
     end subroutine layers_and_their_laws
 
     !> A free beam of two spans on ground that pushes up

@@ -188,7 +188,8 @@ contains
         type(ground_type) :: given
 
         given = ground
-        ground%laws%slope = ground%laws%slope*(1 + 100*crack)
+        ground%laws%slope_a = ground%laws%slope_a*(1 + 100*crack)
+        ground%laws%slope_b = ground%laws%slope_b*(1 + 100*crack)
         call refused(state%ground, state%closed, [of_resultants, of_equilibrium, of_zone_ends], "the law of the ground")
         ground = given
         ground%layers%contact_a = ground%layers%contact_a + 100*crack

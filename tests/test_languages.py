@@ -18,6 +18,7 @@ from gapbeam.studies.meshes import gapped_spans
 from ground_scenes import touching
 from law_scenes import FAMILIES, law_scene
 from scenes import nodes_of, random_scene
+from tabled_scenes import random_tabled_scene
 
 FIELDS = ("deflection", "rotation", "moment", "shear", "axial_force", "axial_displacement")
 CONDITIONS = {"open": 0, "closed": 1, "bilateral": 2, "touching": 4} | {f"branch {k}": 10 + k for k in range(1, 10)}
@@ -321,6 +322,29 @@ def test_foundations_agree(library, first):
         beam.close()
     assert {0, 1} <= seen
     assert min(zones, spans) > 50
+
+
+def test_tables_of_foundations_agree(library):
+    """Of moduli and of parameters of laws, in C."""
+    solved = 0
+    for seed in range(40):
+        scene = {"supports": [], **random_tabled_scene(seed), "analysis": {"rule": "block", "steps": 1}}
+        scene.pop("sections", None)
+        beam, message = library.prepare(scene)
+        try:
+            result = python_result(scene)
+        except gapbeam.SceneError:
+            assert message
+            continue
+        assert not message
+        status = {"solved": 0, "no-equilibrium": 1}[result.status]
+        assert beam.solve(1.0)[0] == status
+        if status == 0:
+            solved += 1
+            zones = result.steps[-1].contact
+            assert beam.contact() == [(z.foundation, z.from_, z.to, CONDITIONS[z.state], z.resultant) for z in zones]
+        beam.close()
+    assert solved > 20
 
 
 def test_laws_of_foundations_by_parameters_agree(library):

@@ -6,7 +6,8 @@ program test_lower_foundations
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, gapbeam_bad_input, gapbeam_not_finite
     use gapbeam_scene, only: model_type, span_type, support_type, foundation_type, ground_point_type, ground_law_point_type, &
-        point_force, gapbeam_infinity, gapbeam_both, gapbeam_below, gapbeam_above
+        point_force, gapbeam_infinity, gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_law_plastic, gapbeam_law_tanh, &
+        gapbeam_law_cubic, gapbeam_table_of_k, gapbeam_table_of_gap, gapbeam_table_of_parameter
     use gapbeam_layers, only: layer_type
     use gapbeam_refusal, only: of_foundations, not_expected, off_beam, no_stretch, bad_law
     use gapbeam_lowered, only: lowered_type, copy_model, fingerprint, point_x
@@ -19,6 +20,8 @@ program test_lower_foundations
     call two_foundations_under_a_beam()
     call a_law_both_ways_is_two_layers()
     call a_profile_is_followed()
+    call tables_are_followed()
+    call a_law_that_varies()
     call a_long_profile()
     call layers_in_units_of_their_own()
     call everything_is_refused_with_a_reason()
@@ -124,11 +127,11 @@ contains
         call check(all(lowered%layers%side == [-1, -1, 1, -1]), "the first pushes up, the other down")
         call check_close([lowered%layers%contact_a, lowered%layers%contact_b], &
                          [-0.25_wp, -0.25_wp, 0.5_wp, -0.5_wp, -0.25_wp, -0.25_wp, 1.0_wp, -1.0_wp], "past the gaps on both sides")
-        call check(all(lowered%layers%law_first == [4, 4, 1, 1]) .and. all(lowered%layers%law_last == [4, 4, 3, 3]), &
+        call check(all(lowered%layers%law_first == [1, 1, 2, 2]) .and. all(lowered%layers%law_last == [1, 1, 4, 4]), &
                    "they share the pieces of the law")
-        call check_close(lowered%law_pieces%displacement, [0.0_wp, 0.01_wp, 0.05_wp, 0.0_wp], "where the pieces begin")
-        call check_close(lowered%law_pieces%force, [0.0_wp, 40.0_wp, 60.0_wp, 0.0_wp], "the force there")
-        call check_close(lowered%law_pieces%slope, [4000.0_wp, 500.0_wp, 0.0_wp, 0.5_wp], "and their slopes")
+        call check_close(lowered%law_pieces%displacement_a, [0.0_wp, 0.0_wp, 0.01_wp, 0.05_wp], "where the pieces begin")
+        call check_close(lowered%law_pieces%force_b, [0.0_wp, 0.0_wp, 40.0_wp, 60.0_wp], "the force there")
+        call check_close(lowered%law_pieces%slope_b, [0.5_wp, 4000.0_wp, 500.0_wp, 0.0_wp], "and their slopes")
     end subroutine a_law_both_ways_is_two_layers
 
     !> Straight between its points, beyond them the last value; points outside shape it
@@ -160,6 +163,79 @@ contains
                          absolute=1e-15_wp)
     end subroutine a_profile_is_followed
 
+    !> A table of a modulus and two of a law: steps, a part that never carries, values that meet pairs
+    subroutine tables_are_followed()
+        type(model_type) :: model
+        type(lowered_type) :: lowered
+        type(error_type), allocatable :: error
+        type(layer_type), allocatable :: one(:), other(:)
+
+        model = simple()
+        model%foundations = [foundation_type(side=gapbeam_below), &
+                             foundation_type(to=6.0_wp, law=gapbeam_law_plastic, parameter=[0.0_wp, 2.0_wp, 0.0_wp], &
+                                             parameter_to=[0.0_wp, 8.0_wp, 0.0_wp])]
+        model%ground = [table(1, gapbeam_table_of_k, -2.0_wp, 1.0_wp), table(1, gapbeam_table_of_k, 2.0_wp, 5.0_wp), &
+                        table(1, gapbeam_table_of_k, 2.0_wp, 0.0_wp), table(1, gapbeam_table_of_k, 6.0_wp, 0.0_wp), &
+                        table(1, gapbeam_table_of_k, 10.0_wp, 4.0_wp), &
+                        table(2, gapbeam_table_of_parameter, 3.0_wp, 1.0_wp), &
+                        table(2, gapbeam_table_of_parameter, 8.0_wp, 11.0_wp), table(1, gapbeam_table_of_gap, 4.0_wp, 0.5_wp)]
+        call lower(model, lowered, error)
+        call check(.not. allocated(error), "tables")
+        call check_close(places(lowered), [0.0_wp, 2.0_wp, 3.0_wp, 4.0_wp, 6.0_wp, 10.0_wp, 12.0_wp], "their points are points")
+        one = pack(lowered%layers, lowered%layers%foundation == 1)
+        other = pack(lowered%layers, lowered%layers%foundation == 2 .and. lowered%layers%side == gapbeam_below)
+        call check_close(one%modulus_a, [3.0_wp, 0.0_wp, 4.0_wp], "a modulus at the left ends, none where it is 0")
+        call check_close(one%modulus_b, [5.0_wp, 4.0_wp, 4.0_wp], "at the right ends, on the near side of a step")
+        call check_close(one%contact_a, [0.5_wp, 0.5_wp, 0.5_wp], "the gap is a table as well")
+        call check_close(other%parameter_a(1), [1.0_wp, 1.0_wp, 1.0_wp, 3.0_wp], "a stiffness at the left ends")
+        call check_close(other%parameter_b(1), [1.0_wp, 1.0_wp, 3.0_wp, 7.0_wp], "and at the right ends")
+        call check_close(other%parameter_b(2), [4.0_wp, 5.0_wp, 6.0_wp, 8.0_wp], "beside a limit that is a pair")
+    end subroutine tables_are_followed
+
+    !> A law at three places: its pieces at both ends of every piece of the beam
+    subroutine a_law_that_varies()
+        type(model_type) :: model
+        type(lowered_type) :: lowered
+        type(error_type), allocatable :: error
+
+        model = simple()
+        model%foundations = [foundation_type(from=2.0_wp, to=10.0_wp, side=gapbeam_below)]
+        model%ground_law = [ground_law_point_type(1, 1.0_wp, 0.0_wp, 0.0_wp), ground_law_point_type(1, 2.0_wp, 0.0_wp, 0.0_wp), &
+                            ground_law_point_type(1, 1.0_wp, 0.0_wp, 4.0_wp), ground_law_point_type(1, 2.0_wp, 0.0_wp, 4.0_wp), &
+                            ground_law_point_type(1, 1.0_wp, 4.0_wp, 8.0_wp), ground_law_point_type(1, 2.0_wp, 8.0_wp, 8.0_wp), &
+                            ground_law_point_type(1, 3.0_wp, 4.0_wp, 16.0_wp), ground_law_point_type(1, 8.0_wp, 8.0_wp, 16.0_wp)]
+        call lower(model, lowered, error)
+        call check(.not. allocated(error), "a law at four places")
+        call check_close(places(lowered), [0.0_wp, 2.0_wp, 3.0_wp, 4.0_wp, 6.0_wp, 8.0_wp, 10.0_wp, 12.0_wp], &
+                         "which are points")
+        call check(size(lowered%layers) == 3 .and. all(lowered%layers%law == [0, 0, 6]), &
+                   "straight, then not; nothing where it is 0")
+        associate (layer => lowered%layers(1), pieces => lowered%law_pieces)
+            call check(layer%law_last - layer%law_first == 1, "two pieces")
+            call check_close(pieces(layer%law_first)%slope_a, 0.0_wp, "from 0", absolute=0.0_wp)
+            call check_close([pieces(layer%law_first)%slope_b, pieces(layer%law_last)%force_b], [2.0_wp, 2.0_wp], "to 2")
+        end associate
+        associate (first => lowered%law_pieces(lowered%layers(3)%law_first), last => lowered%law_pieces(lowered%layers(3)%law_last))
+            call check_close([first%way_a, first%way_b, first%slope_b], [1.0_wp, 1.5_wp, 4/1.5_wp], "a quarter of the way")
+            call check_close([last%displacement_b, last%way_b, last%force_b], [1.5_wp, 2.0_wp, 4.0_wp], "the second piece there")
+        end associate
+        model%ground_law(8)%x = 15.0_wp
+        call lower(model, lowered, error)
+        call check(allocated(error) .and. error%key == "law.points" .and. error%partner == 7, "other numbers of points")
+        model%ground_law(7:8)%x = 7.0_wp
+        call lower(model, lowered, error)
+        call check(allocated(error) .and. error%key == "law.x" .and. error%partner == 7, "places that go back")
+    end subroutine a_law_that_varies
+
+    !> A point of a table
+    elemental function table(foundation, quantity, x, value) result(point)
+        integer, intent(in) :: foundation, quantity
+        real(wp), intent(in) :: x, value
+        type(ground_point_type) :: point
+
+        point = ground_point_type(foundation, x, value, quantity)
+    end function table
+
     !> Every point of a long one is there
     subroutine a_long_profile()
         integer, parameter :: n = 100000
@@ -173,8 +249,8 @@ contains
         model%ground = [(ground_point_type(1, 12*real(i, wp)/n, real(modulo(7*i, 11), wp)), i=0, n)]
         call lower(model, lowered, error)
         call check(.not. allocated(error) .and. size(lowered%layers) == n, "a hundred thousand points")
-        call check(all(abs(lowered%layers%contact_a - model%ground(:n)%gap) <= 0.0_wp) &
-                   .and. all(abs(lowered%layers%contact_b - model%ground(2:)%gap) <= 0.0_wp), "each with its own gap")
+        call check(all(abs(lowered%layers%contact_a - model%ground(:n)%value) <= 0.0_wp) &
+                   .and. all(abs(lowered%layers%contact_b - model%ground(2:)%value) <= 0.0_wp), "each with its own gap")
     end subroutine a_long_profile
 
     !> Moduli and levels in powers of two; once more where loads change
@@ -194,12 +270,12 @@ contains
                    way => lowered%units%deflection, layer => lowered%layers(1))
             call check_close(scale(layer%modulus_a, per_way), 3e200_wp, "a modulus is a force by length and deflection")
             call check_close(scale(layer%contact_a, way), 0.5_wp, "a level a deflection")
-            call check_close(scale(lowered%law_pieces(1)%slope, per_way), 8e200_wp, "and slopes are as moduli")
+            call check_close(scale(lowered%law_pieces(1)%slope_a, per_way), 8e200_wp, "and slopes are as moduli")
         end associate
         before = lowered
         call lower_loads(lowered, error)
-        call check_close([lowered%layers%modulus_a, lowered%layers%contact_a, lowered%law_pieces%slope], &
-                         [before%layers%modulus_a, before%layers%contact_a, before%law_pieces%slope], &
+        call check_close([lowered%layers%modulus_a, lowered%layers%contact_a, lowered%law_pieces%slope_a], &
+                         [before%layers%modulus_a, before%layers%contact_a, before%law_pieces%slope_a], &
                          "loads of other values leave them as they are")
         model%foundations(1)%k = 1e-200_wp
         call lower(model, lowered, error)
@@ -230,6 +306,23 @@ contains
                     profile=[(ground_point_type(2, 3.0_wp*(1 + i*epsilon(1.0_wp)), 0.0_wp), i=1, 2)], point=2)
         call expect(foundation_type(k=1.0_wp, side=gapbeam_below), bad_law, "profile", "a point nowhere", &
                     profile=[ground_point_type(2, nan, 0.0_wp)], point=1)
+        call expect(foundation_type(k=1.0_wp), bad_law, "k", "a modulus twice", profile=[table(2, 1, 0.0_wp, 1.0_wp)])
+        call expect(foundation_type(), bad_law, "k", "a table of zeros", profile=table(2, 1, [0.0_wp, 1.0_wp], 0.0_wp))
+        call expect(foundation_type(to=2.0_wp), bad_law, "k", "a table of zeros where the foundation is", &
+                    profile=table(2, 1, [0.0_wp, 2.0_wp, 3.0_wp], [0.0_wp, 0.0_wp, 1.0_wp]))
+        call expect(foundation_type(), bad_law, "k", "a modulus below 0 in a table", &
+                    profile=table(2, 1, [0.0_wp, 1.0_wp], [1.0_wp, -1.0_wp]), point=2)
+        call expect(foundation_type(), bad_law, "k", "three points at a place", &
+                    profile=table(2, 1, [0.0_wp, 0.0_wp, 0.0_wp], 1.0_wp), point=3)
+        call expect(foundation_type(k=1.0_wp), bad_law, "law", "a table of what there is not", &
+                    profile=[table(2, 3, 0.0_wp, 1.0_wp)])
+        call expect(foundation_type(k=1.0_wp), bad_law, "", "a table of nothing", profile=[table(2, 6, 0.0_wp, 1.0_wp)])
+        call expect(foundation_type(law=gapbeam_law_cubic, parameter=[1.0_wp, 0.0_wp, 1.0_wp]), bad_law, "law.k2", &
+                    "a law that falls between points of its tables", &
+                    profile=table(2, 4, [0.0_wp, 3.0_wp, 6.0_wp], [0.0_wp, -2.0_wp, 0.0_wp]))
+        call expect(foundation_type(law=gapbeam_law_tanh, parameter=[1.0_wp, 0.0_wp, 0.0_wp]), bad_law, "law.limit", &
+                    "a limit of 0 in the midst of a table", &
+                    profile=table(2, 4, [0.0_wp, 3.0_wp, 6.0_wp], [1.0_wp, 0.0_wp, 1.0_wp]))
         call expect(foundation_type(k=1.0_wp), bad_law, "", "a modulus and a law", law=[ground_law_point_type(2, 1.0_wp, 1.0_wp)])
         call expect(foundation_type(), bad_law, "law", "a vertical piece at first", &
                     law=[ground_law_point_type(2, 0.0_wp, 1.0_wp)], point=1)

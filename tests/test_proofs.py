@@ -20,7 +20,7 @@ PROVED, REFUTED, NOT_DECIDED = range(3)
 KNOWN = ["crane_runway", "lift_off_events", "paper_beam", "paper_beam_printed_load", "pipe_rack", "pipe_rack_states",
          "shaft_clearance", "shaft_jack_up", "snap_through", "three_spans",
          "rail_lift_off", "seabed_pipe", "slab_on_mound", "strip_footing"]  # fmt: skip
-NOT_KNOWN = ["pile_head", "rubber_stops", "laterally_loaded_pile", "pile_in_sand"]  # laws that are curves
+NOT_KNOWN = ["pile_head", "rubber_stops", "laterally_loaded_pile", "pile_in_sand", "pile_in_layers"]  # laws that are curves
 FREE = "moves freely"
 
 pytest.importorskip("flint", reason="the checkers need python-flint")
@@ -255,6 +255,9 @@ def test_values_and_supports_on_the_ground(check):
     status, line = check(data)
     assert status == PROVED
     assert error_of(line) < 1e-14
+    new = copy.deepcopy(data)
+    new["scene"]["foundation"][0]["k"] = [[0.0, 300.0]]
+    assert check(new)[0] == NOT_DECIDED  # a table
     for kind in ("deflection", "reaction"):
         new = copy.deepcopy(data)
         new["values"][kind][1] = (float.fromhex(new["values"][kind][1]) * (1 + 1e-6)).hex()

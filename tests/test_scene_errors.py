@@ -93,7 +93,7 @@ beam = {spans = [6.0, 6.0, 6.0], EI = 1e4, hinges = 3} -> beam.hinges: expected 
 sections = [{EI = 1.0, from_ = 2}] -> sections[0].from_: unknown key; did you mean "from"?
 sections = [{EI = [1.0]}] -> sections[0].EI: expected a number, got [1.0]
 foundation = [{}] -> foundation[0].k: this key is missing; give a number
-foundation = [{k = "soft"}] -> foundation[0].k: expected a number or a pair of numbers, got "soft"
+foundation = [{k = "soft"}] -> foundation[0].k: expected a number, a pair of numbers or a list of pairs of numbers, got "soft"
 analysis = {steps = 2.5} -> analysis.steps: expected a whole number, got 2.5
 analysis = {rule = "fast"} -> analysis.rule: expected "block" or "single", got "fast"
 analysis = {follow = "load"} -> analysis.follow: expected "events" or "steps", got "load"
@@ -366,8 +366,8 @@ def test_moment_at_a_hinge(place):
 # Foundations
 
 IN_A_FOUNDATION = """
-k = [1.0] -> foundation[1].k: expected a number or a pair of numbers, got [1.0]
-k = [1.0, "a"] -> foundation[1].k[1]: expected a number, got "a"
+k = [1.0] -> foundation[1].k: expected a number, a pair of numbers or a list of pairs of numbers, got [1.0]
+k = [1.0, "a"] -> foundation[1].k[1]: expected a number or a pair of numbers, got "a"
 k = 0 -> foundation[1].k: with a modulus of 0 it never carries; remove it
 k = [0.0, 0.0] -> foundation[1].k: with a modulus of 0 it never carries; remove it
 k = -2.0 -> foundation[1].k: expected a finite number, 0 or more, got -2.0
@@ -416,9 +416,13 @@ law = { type = "brittle", stiffness = 1.0, limit = 2.0 } ->
     foundation[1].law: a law whose force falls is not available for foundations in this version; give a polyline
     that never falls
 law = { type = "power", d0 = 1.0, limit = 2.0, n = 0.5 } ->
-    foundation[1].law: a power of the displacement is not available for foundations: with n below 1 the ground is
-    infinitely stiff at first, so that a pile would change its side infinitely often; give a polyline, as codes do,
-    or cubic
+    foundation[1].law.n: expected 1, 2 or 3, got 0.5: with n below 1 the ground is infinitely stiff at first, so that a pile
+    would change its side infinitely often, with others no series holds where contact begins; give a polyline, as codes do
+law = { type = "power", d0 = 0.0, limit = 2.0, n = 2 } -> foundation[1].law.d0: expected a number above 0, got 0
+law = { type = "power", d0 = 1.0, limit = [-2.0, 1.0], n = 2 } ->
+    foundation[1].law.limit: expected numbers of 0 or more, got -2
+law = { type = "power", d0 = 1.0, limit = 0, n = 2 } ->
+    foundation[1].law.limit: is 0 everywhere, so it never carries; remove the foundation
 law = { type = "tanh", stiffness = [0.0, 4.0], limit = [nan, 400.0] } ->
     foundation[1].law.limit: expected finite numbers, got nan
 law = { type = "plastic", stiffness = inf, limit = 2.0 } ->

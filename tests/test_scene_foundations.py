@@ -46,22 +46,22 @@ def test_all_keys_reach_the_engine():
         [2.0, NOT_GIVEN, 0.0, 0.0, 0.0, 0.0],
         [0.0, NOT_GIVEN, 0.0, 0.0, 0.02, 0.02],
     ]
-    assert c.profile_foundations.tolist() == [3, 3, 3, 0]
-    assert c.profile[:, :3].T.tolist() == [[-1.0, 0.0], [9.5, 0.02], [30.0, 0.5]]
+    assert c.table_foundations.tolist() == [3, 3, 3, 0]
+    assert c.table[:, :3].T.tolist() == [[-1.0, 0.0, 2.0], [9.5, 0.02, 2.0], [30.0, 0.5, 2.0]]
     assert c.ground_law_foundations.tolist() == [3, 3, 4, 4, 0]
-    assert c.ground_law[:, :4].T.tolist() == [[0.01, 40.0], [0.05, 60.0], [0.01, 40.0], [0.02, 40.0]]
+    assert c.ground_law[:2, :4].T.tolist() == [[0.01, 40.0], [0.05, 60.0], [0.01, 40.0], [0.02, 40.0]]
     assert beam.places.point_x.tolist() == [0.0, 2.0, 3.0, 6.0, 9.0, 9.5, 12.0, 18.0]
     assert beam.places.node_points.tolist() == list(range(8))
 
 
 def test_without_foundations_the_columns_are_empty():
     c = read_beam({"beam": BEAM, "supports": [{"node": 0, "rotation": "fixed"}]})[1].columns
-    assert (c.foundation.shape, c.profile.shape, c.ground_law.shape) == ((13, 1), (2, 1), (2, 1))
+    assert (c.foundation.shape, c.table.shape, c.ground_law.shape) == ((13, 1), (3, 1), (3, 1))
 
 
 def test_a_hardening_law_keeps_its_slope():
     law = {"type": "hardening", "stiffness": 4e3, "limit": 40.0, "slope": 1e3}
-    (d, f), (far, most) = read_beam({"beam": BEAM, "foundation": [{"law": law}]})[1].columns.ground_law[:, :2].T.tolist()
+    (d, f), (far, most) = read_beam({"beam": BEAM, "foundation": [{"law": law}]})[1].columns.ground_law[:2, :2].T.tolist()
     assert (d, f, (most - f) / (far - d)) == (0.01, 40.0, 1e3)
 
 

@@ -4,12 +4,14 @@
 !> one; parameters are linear along the stretch.
 module gapbeam_law_series
     use gapbeam_kinds, only: wp
-    use gapbeam_layers, only: law_hardening, law_hyperbolic, law_tanh, law_cubic, parameters_of_law
+    use gapbeam_layers, only: law_hardening, law_hyperbolic, law_tanh, law_cubic, law_polyline, parameters_of_law
     implicit none
     private
     public :: curve_type, law_series_type, order, curve_force, curve_slope, begin_series, next_term, force_scale, &
-        slope_scale, longest_step
+        slope_scale, longest_step, parameters_of_curve
 
+    !> Those of laws, or of a piece of a polyline the displacement and force at which it begins, and how far both go from there
+    integer, parameter :: parameters_of_curve = parameters_of_law + 1
     !> Degree of all series: with as many terms as digits need that shrink by e**2 each, the fewest operations for a length
     integer, parameter :: order = ceiling(digits(1.0_wp)*0.35_wp) + 3
     !> Parameters keep a ratio if they do to this share: they are rounded to doubles
@@ -22,7 +24,7 @@ module gapbeam_law_series
         !> The law, and 1 for a layer that pushes up, -1 for one that pushes down
         integer :: law = law_tanh, side = 1
         !> Its parameters at the left and right end of the stretch, linear in between
-        real(wp) :: parameter_a(parameters_of_law) = 0.0_wp, parameter_b(parameters_of_law) = 0.0_wp
+        real(wp) :: parameter_a(parameters_of_curve) = 0.0_wp, parameter_b(parameters_of_curve) = 0.0_wp
         !> Deflection at which it begins to act at the two ends, linear in between
         real(wp) :: contact_a = 0.0_wp, contact_b = 0.0_wp
     end type curve_type
@@ -31,7 +33,7 @@ module gapbeam_law_series
     type :: law_series_type
         integer :: law = law_tanh
         !> Parameters: value and change
-        real(wp) :: p(parameters_of_law, 0:1) = 0.0_wp
+        real(wp) :: p(parameters_of_curve, 0:1) = 0.0_wp
         !> Is stiffness/limit the same everywhere, and which then
         logical :: keeps_ratio = .false.
         real(wp) :: ratio = 0.0_wp
@@ -60,6 +62,8 @@ contains
             if (p(2) > 0.0_wp) force = p(1)*u/(1 + p(1)*u/p(2))
         case (law_cubic)
             force = u*(p(1) + u*(p(2) + u*p(3)))
+        case (law_polyline)
+            force = p(2) + p(4)*((u - p(1))/p(3))
         case default
             force = p(2) + p(3)*u
             if (p(1) > 0.0_wp) force = force - p(3)*(p(2)/p(1))
@@ -83,6 +87,8 @@ contains
             if (p(2) > 0.0_wp) slope = p(1)/(1 + p(1)*u/p(2))**2
         case (law_cubic)
             slope = p(1) + u*(2*p(2) + 3*p(3)*u)
+        case (law_polyline)
+            slope = p(4)/p(3)
         case default
             slope = p(3)
         end select
@@ -107,9 +113,12 @@ contains
         if (curve%law == law_cubic) return
         associate (a => curve%parameter_a, b => curve%parameter_b)
             cross = [a(1)*b(2), b(1)*a(2)]
+            if (curve%law == law_polyline) cross = [a(3)*b(4), b(3)*a(4)]
             series%keeps_ratio = abs(cross(1) - cross(2)) <= alike*maxval(abs(cross))
             if (.not. series%keeps_ratio) return
-            if (a(1) + a(2) > b(1) + b(2)) then
+            if (curve%law == law_polyline) then
+                series%ratio = a(4)/a(3)
+            else if (a(1) + a(2) > b(1) + b(2)) then
                 series%ratio = ratio_of(curve%law, a)
             else
                 series%ratio = ratio_of(curve%law, b)
@@ -170,6 +179,15 @@ contains
             s%b(n) = product_term(s%u, s%a, n)
             s%r(n) = linear_times(s%p(1, :), s%u, n) + s%way*linear_times(s%p(2, :), s%a, n) + linear_times(s%p(3, :), s%b, n)
             s%k(n) = linear_term(s%p(1, :), n) + 2*s%way*linear_times(s%p(2, :), s%u, n) + 3*linear_times(s%p(3, :), s%a, n)
+        case (law_polyline)
+            ! r = force + z (u - displacement), z = rise/way
+            if (s%keeps_ratio) then
+                s%z(n) = merge(s%ratio, 0.0_wp, n == 0)
+            else
+                s%z(n) = over_linear(linear_term(s%p(4, :), n), s%z, s%p(3, :), n)
+            end if
+            s%r(n) = product_term(s%z, s%u, n) + s%way*(linear_term(s%p(2, :), n) - linear_times(s%p(1, :), s%z, n))
+            s%k(n) = s%z(n)
         case default
             ! The second piece of a law that hardens: r = slope u + limit - slope (limit/stiffness)
             if (s%keeps_ratio) then
@@ -200,7 +218,7 @@ contains
         !> With three terms of the displacement
         type(law_series_type), intent(in) :: s
         real(wp) :: scale
-        real(wp) :: most(parameters_of_law), u
+        real(wp) :: most(parameters_of_curve), u
 
         most = max(abs(s%p(:, 0)), abs(s%p(:, 0) + s%p(:, 1)))
         u = size_of_way(s)
@@ -209,6 +227,8 @@ contains
             scale = most(1) + u*(2*most(2) + 3*u*most(3))
         case (law_hardening)
             scale = most(3)
+        case (law_polyline)
+            scale = most(4)/min(s%p(3, 0), s%p(3, 0) + s%p(3, 1))
         case default
             scale = most(1)
         end select
@@ -223,7 +243,7 @@ contains
         scale = slope_scale(s)*size_of_way(s)
         if (s%law == law_cubic) return
         associate (limit => max(abs(s%p(2, 0)), abs(s%p(2, 0) + s%p(2, 1))))
-            if (s%law == law_hardening) then
+            if (s%law == law_hardening .or. s%law == law_polyline) then
                 scale = scale + limit
             else
                 scale = min(scale, limit)
@@ -254,6 +274,7 @@ contains
         end if
         if (s%keeps_ratio .or. s%law == law_cubic) return
         divisor = merge(1, 2, s%law == law_hardening)
+        if (s%law == law_polyline) divisor = 3
         if (abs(s%p(divisor, 1)) > 2*s%p(divisor, 0)) step = min(step, s%p(divisor, 0)/(2*abs(s%p(divisor, 1))))
     end function longest_step
 

@@ -3,12 +3,14 @@ module gapbeam_layers
     use gapbeam_kinds, only: wp
     implicit none
     private
-    public :: layer_type, law_piece_type, pieces_of_law, branches_of_law, law_piece, is_curve, has_curves, has_limit
-    public :: law_by_points, law_plastic, law_hardening, law_hyperbolic, law_tanh, law_cubic, parameters_of_law
+    public :: layer_type, law_piece_type, pieces_of_law, branches_of_law, law_piece, is_curve, has_curves, has_points, has_limit
+    public :: law_polyline, law_by_points, law_plastic, law_hardening, law_hyperbolic, law_tanh, law_cubic, parameters_of_law
 
     !> Laws: by points, or none; elastic up to a force (stiffness, limit), of another slope beyond (and slope); curves that tend to
     !> a force (stiffness, limit); k1 d + k2 d**2 + k3 d**3 (k1, k2, k3)
     integer, parameter :: law_by_points = 0, law_plastic = 1, law_hardening = 2, law_hyperbolic = 3, law_tanh = 4, law_cubic = 5
+    !> By points whose displacements vary along the piece of the beam, so that slopes are no lines there; nobody gives that
+    integer, parameter :: law_polyline = 6
     !> Parameters of a law, at most
     integer, parameter :: parameters_of_law = 3
 
@@ -30,8 +32,11 @@ module gapbeam_layers
     end type layer_type
 
     !> A piece of a law: from a displacement past the contact and the force per length there, with a slope that is not below 0
+    !> over a way to the next point; all at the left and right end of the piece of the beam
     type :: law_piece_type
-        real(wp) :: displacement = 0.0_wp, force = 0.0_wp, slope = 0.0_wp
+        !> Linear in between; the slope too where the way is the same at both ends, otherwise slope times way
+        real(wp) :: displacement_a = 0.0_wp, displacement_b = 0.0_wp, force_a = 0.0_wp, force_b = 0.0_wp, slope_a = 0.0_wp, &
+                    slope_b = 0.0_wp, way_a = 1.0_wp, way_b = 1.0_wp
     end type law_piece_type
 
 contains
@@ -72,6 +77,14 @@ contains
         has = layer%law >= law_hardening
     end function has_curves
 
+    !> Is a law, if there is one, given by points
+    elemental function has_points(layer) result(has)
+        type(layer_type), intent(in) :: layer
+        logical :: has
+
+        has = layer%law == law_by_points .or. layer%law == law_polyline
+    end function has_points
+
     !> Is there a force that a layer never exceeds
     pure function has_limit(layer, laws) result(has)
         type(layer_type), intent(in) :: layer
@@ -80,7 +93,11 @@ contains
         logical :: has
 
         has = any(layer%law == [law_plastic, law_hyperbolic, law_tanh])
-        if (layer%law == law_by_points .and. layer%law_last >= layer%law_first) has = .not. laws(layer%law_last)%slope > 0.0_wp
+        if (has_points(layer) .and. layer%law_last >= layer%law_first) then
+            associate (last => laws(layer%law_last))
+                has = .not. max(last%slope_a, last%slope_b) > 0.0_wp
+            end associate
+        end if
     end function has_limit
 
     !> A piece of the law of a layer; of a linear one the only piece, without its slope

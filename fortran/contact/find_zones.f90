@@ -7,7 +7,7 @@ module gapbeam_find_zones
     use gapbeam_foundation_fields, only: fields_at
     use gapbeam_foundation_roots, only: find_crossings, find_limits
     use gapbeam_curved, only: curved_type, curved_fields
-    use gapbeam_layers, only: layer_type, pieces_of_law, has_curves, law_by_points, law_cubic, parameters_of_law
+    use gapbeam_layers, only: layer_type, pieces_of_law, has_curves, has_points, law_cubic, parameters_of_law
     use gapbeam_ground_laws, only: between, contact_line, line_of_kink, approach_kink, piece_of_deflection, parameters_at
     use gapbeam_workspace, only: workspace_type
     use gapbeam_ground, only: ground_type, zones_type, grounded_type, new_zones, resize, steps_of_piece, combined_load
@@ -155,7 +155,7 @@ contains
                         associate (layer => ground%layers(k))
                             if (layer%side == 0) cycle
                             do law = 1, pieces_of_law(layer)
-                                if (law > 1 .and. layer%law /= law_by_points) then
+                                if (law > 1 .and. .not. has_points(layer)) then
                                     limits = reshape([parameters_at(layer, from, length), parameters_at(layer, to, length)], &
                                                      shape(limits))
                                     call find_limits(grounded%stretches(i), load_of(i), ends_of(work, i), &

@@ -8,7 +8,7 @@ module gapbeam_ground
     use gapbeam_band, only: plain
     use gapbeam_foundation, only: stretch_type, stretch_load_type, condense_loaded, decay_lengths
     use gapbeam_curved, only: curved_type, condense_curved
-    use gapbeam_layers, only: layer_type, law_piece_type, law_piece, is_curve, law_by_points, law_hardening
+    use gapbeam_layers, only: layer_type, law_piece_type, law_piece, is_curve, has_points, law_by_points, law_hardening
     use gapbeam_ground_laws, only: between, along, contact_line, slope_of_layer, offset_of_layer, take_curves
     use gapbeam_model, only: beam_type, node_support_type, order_supports
     implicit none
@@ -161,13 +161,20 @@ contains
         varies = modulus > 0.0_wp
         do k = ground%first(piece), ground%first(piece + 1) - 1
             associate (layer => ground%layers(k))
-                if (layer%law /= law_by_points) then
+                if (.not. has_points(layer)) then
                     ! Also where a law is curved
                     modulus = modulus + stiffest(layer)
                     varies = varies .or. stiffest(layer) > 0.0_wp
                     cycle
                 end if
-                if (layer%law_last >= layer%law_first) cycle
+                if (layer%law_last >= layer%law_first) then
+                    associate (laws => ground%laws(layer%law_first:layer%law_last))
+                        if (.not. any(abs(laws%slope_a - laws%slope_b) > 0.0_wp)) cycle
+                        modulus = modulus + max(maxval(laws%slope_a), maxval(laws%slope_b))
+                        varies = .true.
+                    end associate
+                    cycle
+                end if
                 modulus = modulus + max(layer%modulus_a, layer%modulus_b)
                 varies = varies .or. abs(layer%modulus_a - layer%modulus_b) > 0.0_wp
             end associate
@@ -264,8 +271,8 @@ contains
             ! The bar without ground, for what needs its size only
             piece = piece_type(s%length, s%flexibility, s%shear_flexibility)
             call condense_link(piece, [piece_load(dead)], [piece_load(live)], work, link)
-            call take_curves(ground%layers(ground%first(j):ground%first(j + 1) - 1), zones%acts(:, i), from, to, p%length, &
-                             curved%curves)
+            call take_curves(ground%layers(ground%first(j):ground%first(j + 1) - 1), ground%laws, zones%acts(:, i), from, to, &
+                             p%length, curved%curves)
             if (allocated(curved%curves)) then
                 curved%stretch = s
                 curved%load = combined_load(dead, live, factor)

@@ -1,8 +1,9 @@
 !> What a layer of ground does at a place along its piece of the beam: where it acts, by which piece of its law, and how
 module gapbeam_ground_laws
     use gapbeam_kinds, only: wp
-    use gapbeam_law_series, only: curve_type, curve_force, curve_slope
-    use gapbeam_layers, only: layer_type, law_piece_type, pieces_of_law, law_piece, is_curve, law_by_points, parameters_of_law
+    use gapbeam_law_series, only: curve_type, curve_force, curve_slope, parameters_of_curve
+    use gapbeam_layers, only: layer_type, law_piece_type, pieces_of_law, law_piece, is_curve, has_points, law_polyline, &
+        parameters_of_law
     implicit none
     private
     public :: between, along, contact_line, line_of_kink, approach_kink, parameters_at, piece_of_deflection, slope_of_layer, &
@@ -56,7 +57,8 @@ contains
         type(law_piece_type) :: piece
 
         piece = law_piece(layer, laws, number)
-        level = contact_line(layer, distance, length) + layer%side*piece%displacement
+        level = contact_line(layer, distance, length) &
+            + layer%side*along(piece%displacement_a, piece%displacement_b, distance, length)
     end function line_of_kink
 
     !> Is a deflection beyond a kink of a law: positive if so, with its change along the beam. Of the limit of a law with
@@ -73,8 +75,9 @@ contains
         real(wp) :: p(parameters_of_law)
 
         past = layer%side*(w - line_of_kink(laws, layer, number, distance, length))
-        change = layer%side*(incline - (layer%contact_b - layer%contact_a)/length)
-        if (number == 1 .or. layer%law == law_by_points) return
+        change = layer%side*(incline - (line_of_kink(laws, layer, number, length, length) &
+                                        - line_of_kink(laws, layer, number, 0.0_wp, length))/length)
+        if (number == 1 .or. has_points(layer)) return
         p = parameters_at(layer, distance, length)
         associate (a => layer%parameter_a, b => layer%parameter_b)
             change = p(1)*change + past*(b(1) - a(1))/length - (b(2) - a(2))/length
@@ -90,6 +93,23 @@ contains
 
         p = along(layer%parameter_a, layer%parameter_b, distance, length)
     end function parameters_at
+
+    !> Parameters of a piece of a law that is a curve there
+    pure function curve_at(layer, laws, acts, distance, length) result(p)
+        !> The layer, the pieces of all laws, and that on which it acts
+        type(layer_type), intent(in) :: layer
+        type(law_piece_type), intent(in) :: laws(:)
+        integer, intent(in) :: acts
+        real(wp), intent(in) :: distance, length
+        real(wp) :: p(parameters_of_curve)
+
+        p = [parameters_at(layer, distance, length), 0.0_wp]
+        if (layer%law /= law_polyline) return
+        associate (piece => law_piece(layer, laws, acts))
+            p = along([piece%displacement_a, piece%force_a, piece%way_a, piece%slope_a*piece%way_a], &
+                      [piece%displacement_b, piece%force_b, piece%way_b, piece%slope_b*piece%way_b], distance, length)
+        end associate
+    end function curve_at
 
     !> The piece of its law on which a layer is at a deflection, 0: it is not reached
     pure function piece_of_deflection(laws, layer, w, distance, length) result(number)
@@ -117,8 +137,8 @@ contains
         real(wp), intent(in) :: distance, length
         real(wp) :: slope
 
-        slope = law%slope
-        if (layer%law /= law_by_points) then
+        slope = along(law%slope_a, law%slope_b, distance, length)
+        if (.not. has_points(layer)) then
             if (number == 1) slope = along(layer%parameter_a(1), layer%parameter_b(1), distance, length)
         else if (layer%law_last < layer%law_first) then
             slope = along(layer%modulus_a, layer%modulus_b, distance, length)
@@ -134,8 +154,8 @@ contains
         real(wp), intent(in) :: distance, length
         real(wp) :: offset
 
-        offset = law%force - law%slope*law%displacement
-        if (layer%law /= law_by_points .and. number == 2) then
+        offset = along(law%force_a - law%slope_a*law%displacement_a, law%force_b - law%slope_b*law%displacement_b, distance, length)
+        if (.not. has_points(layer) .and. number == 2) then
             offset = along(layer%parameter_a(2), layer%parameter_b(2), distance, length)
         end if
     end function offset_of_layer
@@ -154,7 +174,7 @@ contains
         push = 0.0_wp
         if (acts == 0) return
         if (is_curve(layer, acts)) then
-            push = layer%side*curve_force(layer%law, parameters_at(layer, place, length), &
+            push = layer%side*curve_force(layer%law, curve_at(layer, laws, acts, place, length), &
                                           layer%side*(deflection - contact_line(layer, place, length)))
         else
             law = law_piece(layer, laws, acts)
@@ -177,7 +197,7 @@ contains
         slope = 0.0_wp
         if (acts == 0) return
         if (is_curve(layer, acts)) then
-            slope = curve_slope(layer%law, parameters_at(layer, place, length), &
+            slope = curve_slope(layer%law, curve_at(layer, laws, acts, place, length), &
                                 layer%side*(deflection - contact_line(layer, place, length)))
         else
             slope = slope_of_layer(layer, law_piece(layer, laws, acts), acts, place, length)
@@ -185,9 +205,10 @@ contains
     end function slope_at
 
     !> The layers under a stretch that act by curves
-    pure subroutine take_curves(layers, acts, from, to, length, curves)
-        !> Layers under the piece of the beam, and the pieces of their laws on which they act
+    pure subroutine take_curves(layers, laws, acts, from, to, length, curves)
+        !> Layers under the piece of the beam, the pieces of all laws, and those on which the layers act
         type(layer_type), intent(in) :: layers(:)
+        type(law_piece_type), intent(in) :: laws(:)
         integer, intent(in) :: acts(:)
         !> Ends of the stretch, from the left end of the piece, and the length of that
         real(wp), intent(in) :: from, to, length
@@ -202,8 +223,8 @@ contains
         do k = 1, size(layers)
             if (.not. is_curve(layers(k), acts(k))) cycle
             n = n + 1
-            curves(n) = curve_type(layers(k)%law, layers(k)%side, parameters_at(layers(k), from, length), &
-                                   parameters_at(layers(k), to, length), contact_line(layers(k), from, length), &
+            curves(n) = curve_type(layers(k)%law, layers(k)%side, curve_at(layers(k), laws, acts(k), from, length), &
+                                   curve_at(layers(k), laws, acts(k), to, length), contact_line(layers(k), from, length), &
                                    contact_line(layers(k), to, length))
         end do
     end subroutine take_curves

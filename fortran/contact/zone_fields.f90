@@ -66,7 +66,8 @@ contains
             associate (layers => ground%layers(ground%first(j):ground%first(j + 1) - 1))
                 if (.not. any(is_curve(layers, zones%acts(:size(layers), i)))) return
                 allocate (curved)
-                call take_curves(layers, zones%acts(:, i), zones%from(i), zones%to(i), ground%pieces(j)%length, curved%curves)
+                call take_curves(layers, ground%laws, zones%acts(:, i), zones%from(i), zones%to(i), ground%pieces(j)%length, &
+                                 curved%curves)
             end associate
             call fields_at_ends(grounded, factor, work, i, rotation, shear)
             curved%stretch = s

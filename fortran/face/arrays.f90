@@ -81,10 +81,10 @@ contains
         !> left end and at the right end
         integer, intent(in) :: side(:)
         real(wp), intent(in) :: found(:, :)
-        !> Points of profiles: foundation, from 1; x, gap
+        !> Points of tables: foundation, from 1; x, value, and of what, if there is a third row: of the gap otherwise
         integer, intent(in) :: iprof(:)
         real(wp), intent(in) :: aprof(:, :)
-        !> Points of laws: foundation, from 1; displacement, force per length
+        !> Points of laws: foundation, from 1; displacement, force per length, and place, if there is a third row
         integer, intent(in) :: ilaw(:)
         real(wp), intent(in) :: alaw(:, :)
         !> Their places in it are filled
@@ -116,9 +116,11 @@ contains
         end do
         do i = 1, size(model%ground)
             model%ground(i) = ground_point_type(iprof(i), aprof(1, i), aprof(2, i))
+            if (size(aprof, 1) > 2) model%ground(i)%quantity = nint(aprof(3, i))
         end do
         do i = 1, size(model%ground_law)
             model%ground_law(i) = ground_law_point_type(ilaw(i), alaw(1, i), alaw(2, i))
+            if (size(alaw, 1) > 2) model%ground_law(i)%x = alaw(3, i)
         end do
     end subroutine foundations_from_arrays
 

@@ -37,6 +37,8 @@ module gapbeam_capi_model
         integer(c_int) :: ground_law_points = 0
         type(c_ptr) :: ground_law_foundation = c_null_ptr, ground_law_displacement = c_null_ptr, ground_law_force = c_null_ptr
         type(c_ptr) :: foundation_law = c_null_ptr, foundation_parameter = c_null_ptr, foundation_parameter_to = c_null_ptr
+        integer(c_int) :: table_points = 0
+        type(c_ptr) :: table_foundation = c_null_ptr, table_quantity = c_null_ptr, table_x = c_null_ptr, table_value = c_null_ptr
     end type c_model
     !> Mirrors of what was added to it in version 0.3, and since then
     type, bind(c) :: c_laws
@@ -53,6 +55,8 @@ module gapbeam_capi_model
         integer(c_int) :: ground_law_points
         type(c_ptr) :: ground_law_foundation, ground_law_displacement, ground_law_force
         type(c_ptr) :: foundation_law, foundation_parameter, foundation_parameter_to
+        integer(c_int) :: table_points
+        type(c_ptr) :: table_foundation, table_quantity, table_x, table_value
     end type c_foundations
 
 contains
@@ -186,14 +190,19 @@ contains
         if (.not. allocated(error)) call check_array("profile points", c%profile_points, c_associated(c%profile_foundation) &
                                                      .and. c_associated(c%profile_x) .and. c_associated(c%profile_gap), &
                                                      "profile_foundation, profile_x and profile_gap are needed", error)
+        if (.not. allocated(error)) call check_array("table points", c%table_points, c_associated(c%table_foundation) &
+                                                     .and. c_associated(c%table_quantity) .and. c_associated(c%table_x) &
+                                                     .and. c_associated(c%table_value), "table_foundation, table_quantity, "// &
+                                                     "table_x and table_value are needed", error)
         if (.not. allocated(error)) call check_array("ground law points", c%ground_law_points, &
                                                      c_associated(c%ground_law_foundation) .and. &
                                                      c_associated(c%ground_law_displacement) .and. &
                                                      c_associated(c%ground_law_force), "ground_law_foundation, "// &
                                                      "ground_law_displacement and ground_law_force are needed", error)
         if (allocated(error)) return
-        allocate (model%foundations(c%foundations), model%ground(c%profile_points), model%ground_law(c%ground_law_points), &
-                  stat=stat)
+        stat = merge(1, 0, c%profile_points > huge(c%table_points) - c%table_points)
+        if (stat == 0) allocate (model%foundations(c%foundations), model%ground(c%profile_points + c%table_points), &
+                                 model%ground_law(c%ground_law_points), stat=stat)
         if (stat /= 0) then
             call no_memory(error)
             return
@@ -218,10 +227,16 @@ contains
                 end do
             end if
         end associate
-        associate (points => model%ground, n => c%profile_points)
+        associate (points => model%ground(:c%profile_points), n => c%profile_points)
             if (has_integers(c%profile_foundation, n, integers)) points%foundation = integers + 1
             if (has_reals(c%profile_x, n, reals)) points%x = reals
-            if (has_reals(c%profile_gap, n, reals)) points%gap = reals
+            if (has_reals(c%profile_gap, n, reals)) points%value = reals
+        end associate
+        associate (points => model%ground(c%profile_points + 1:), n => c%table_points)
+            if (has_integers(c%table_foundation, n, integers)) points%foundation = integers + 1
+            if (has_integers(c%table_quantity, n, integers)) points%quantity = integers
+            if (has_reals(c%table_x, n, reals)) points%x = reals
+            if (has_reals(c%table_value, n, reals)) points%value = reals
         end associate
         associate (points => model%ground_law, n => c%ground_law_points)
             if (has_integers(c%ground_law_foundation, n, integers)) points%foundation = integers + 1

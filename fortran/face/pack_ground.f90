@@ -25,7 +25,7 @@ module gapbeam_pack_ground
 
 contains
 
-    !> Foundations, profiles and laws of the user's model
+    !> Foundations, tables and laws of the user's model
     subroutine exchange_foundations(tape, model)
         !> Measures, writes or reads
         type(tape_type), intent(inout) :: tape
@@ -67,7 +67,8 @@ contains
             associate (point => model%ground(i))
                 call exchange(tape, point%foundation)
                 call exchange(tape, point%x)
-                call exchange(tape, point%gap)
+                call exchange(tape, point%value)
+                call exchange(tape, point%quantity)
             end associate
         end do
         number = 0
@@ -83,6 +84,7 @@ contains
                 call exchange(tape, point%foundation)
                 call exchange(tape, point%displacement)
                 call exchange(tape, point%force)
+                call exchange(tape, point%x)
             end associate
         end do
     end subroutine exchange_foundations
@@ -132,9 +134,14 @@ contains
         end if
         do i = 1, number
             associate (piece => lowered%law_pieces(i))
-                call exchange(tape, piece%displacement)
-                call exchange(tape, piece%force)
-                call exchange(tape, piece%slope)
+                call exchange(tape, piece%displacement_a)
+                call exchange(tape, piece%displacement_b)
+                call exchange(tape, piece%force_a)
+                call exchange(tape, piece%force_b)
+                call exchange(tape, piece%slope_a)
+                call exchange(tape, piece%slope_b)
+                call exchange(tape, piece%way_a)
+                call exchange(tape, piece%way_b)
             end associate
         end do
     end subroutine exchange_layers

@@ -23,7 +23,7 @@ subroutine gbmake(mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw,
     integer, intent(in) :: isup(4, msup), ilaw(mlaw), iload(3, mload)
     ! As for foundations_from_arrays
     integer, intent(in) :: ifound(mfound), iprof(mprof), iflaw(mflaw)
-    double precision, intent(in) :: found(13, mfound), aprof(2, mprof), aflaw(2, mflaw)
+    double precision, intent(in) :: found(13, mfound), aprof(3, mprof), aflaw(3, mflaw)
     ! Python's main thread, which hears signals
     integer(8), intent(in) :: thread
     ! The handle; 0 where it is refused

@@ -142,9 +142,9 @@ contains
         ! A support that holds both ways has every point of its law twice
         kinks = supports + 2_int64*laws
         reals = 5_int64*spans + hinges + 6_int64*supports + 4*kinks + 2_int64*laws + 4_int64*loads + 25*points + 27*nodes + 16 &
-            + 12_int64*foundations + 2_int64*profiles + 5_int64*ground_laws + 10*layers
+            + 12_int64*foundations + 2_int64*profiles + 11_int64*ground_laws + 10*layers
         integers = header + 2_int64*spans + 9_int64*supports + 7*kinks + laws + 5_int64*loads + 4*points + 3*nodes + 72 &
-            + 4_int64*foundations + 2_int64*profiles + ground_laws + 5*layers
+            + 4_int64*foundations + 3_int64*profiles + 2_int64*ground_laws + 5*layers
         if (foundations > 0) integers = integers + points
     end subroutine sizes_of_beam
 

@@ -2,7 +2,7 @@
 module gapbeam_ground_pressure
     use gapbeam_kinds, only: wp
     use gapbeam_element, only: field_type
-    use gapbeam_layers, only: law_piece, law_by_points
+    use gapbeam_layers, only: layer_type, law_piece, law_by_points
     use gapbeam_curved, only: curved_type
     use gapbeam_ground_laws, only: contact_line, slope_of_layer, along, push_of_layer
     use gapbeam_ground_solver, only: ground_solution_type
@@ -94,10 +94,23 @@ contains
 
         associate (j => solution%piece(i))
             associate (layers => lowered%layers(lowered%layer_first(j):lowered%layer_first(j + 1) - 1))
-                varies = any(solution%acts(:size(layers), i) > 0 .and. (layers%law /= law_by_points .or. &
+                varies = any(solution%acts(:size(layers), i) > 0 .and. (layers%law /= law_by_points .or. law_varies(layers) .or. &
                                                                         abs(layers%modulus_a - layers%modulus_b) > 0.0_wp))
             end associate
         end associate
+
+    contains
+
+        !> Is a law by points another one at the right end of a piece than at the left
+        elemental function law_varies(layer)
+            type(layer_type), intent(in) :: layer
+            logical :: law_varies
+
+            associate (pieces => lowered%law_pieces(layer%law_first:layer%law_last))
+                law_varies = any(abs(pieces%force_a - pieces%force_b) > 0.0_wp .or. abs(pieces%slope_a - pieces%slope_b) > 0.0_wp)
+            end associate
+        end function law_varies
+
     end function varies
 
     !> Largest and smallest pressure, and where it is: at an end of a stretch, or where the deflection is extreme beside the ground

@@ -85,8 +85,8 @@ contains
             return
         end if
         associate (j => solution%piece(i))
-            call look_inside(lowered%layers(lowered%layer_first(j):lowered%layer_first(j + 1) - 1), lowered%pieces(j)%length, &
-                             solution, i, inside)
+            call look_inside(lowered%layers(lowered%layer_first(j):lowered%layer_first(j + 1) - 1), lowered%law_pieces, &
+                             lowered%pieces(j)%length, solution, i, inside)
         end associate
         call field_inside(inside, xi, field)
     end subroutine values_in
@@ -100,8 +100,8 @@ contains
         type(curved_type), allocatable, intent(out) :: curved
 
         associate (j => solution%piece(i))
-            call curved_stretch(lowered%layers(lowered%layer_first(j):lowered%layer_first(j + 1) - 1), lowered%pieces(j)%length, &
-                                solution, i, curved)
+            call curved_stretch(lowered%layers(lowered%layer_first(j):lowered%layer_first(j + 1) - 1), lowered%law_pieces, &
+                                lowered%pieces(j)%length, solution, i, curved)
         end associate
     end subroutine curved_in
 

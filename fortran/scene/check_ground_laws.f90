@@ -8,50 +8,96 @@ module gapbeam_check_ground_laws
     use gapbeam_check, only: entry_type, refuse_entry
     implicit none
     private
-    public :: check_ground_law
+    public :: check_law_kind, check_parameter, check_parameters, has_parameter, may_be_negative, key_of_parameter
 
     !> Parameters as scenes call them
-    character(len=*), parameter :: names(parameters_of_law) = [character(len=9) :: "stiffness", "limit", "slope"], &
-                                   names_of_cubic(parameters_of_law) = [character(len=9) :: "k1", "k2", "k3"]
+    character(len=*), parameter :: names(parameters_of_law) = [character(len=13) :: "law.stiffness", "law.limit", "law.slope"], &
+                                   names_of_cubic(parameters_of_law) = [character(len=13) :: "law.k1", "law.k2", "law.k3"]
     !> By so much k2 may be less than what is allowed: decimals are rounded
     real(wp), parameter :: rounding = 2.0_wp**(-50)
 
 contains
 
-    !> The law of one foundation
-    pure subroutine check_ground_law(law, left, right, here, error)
-        !> The law, and its parameters at both ends
+    !> Is there such a law
+    pure subroutine check_law_kind(law, here, error)
         integer, intent(in) :: law
-        real(wp), intent(in) :: left(:), right(:)
         type(entry_type), intent(in) :: here
         !> Bad input
         type(error_type), allocatable, intent(out) :: error
-        real(wp) :: values(2)
-        integer :: i, used
 
-        if (law == law_by_points) return
-        if (law < law_by_points .or. law > law_cubic) then
-            call refuse_entry(error, here, "law", not_expected, &
-                              "expected 0 to "//trim(whole(law_cubic))//", got "//trim(whole(law)))
+        if (law >= law_by_points .and. law <= law_cubic) return
+        call refuse_entry(error, here, "law", not_expected, "expected 0 to "//trim(whole(law_cubic))//", got "//trim(whole(law)))
+    end subroutine check_law_kind
+
+    !> Does a law have a parameter
+    elemental function has_parameter(law, number) result(has)
+        integer, intent(in) :: law, number
+        logical :: has
+
+        has = law /= law_by_points .and. number <= merge(parameters_of_law, 2, law == law_cubic .or. law == law_hardening)
+    end function has_parameter
+
+    !> May a parameter be below 0
+    elemental function may_be_negative(law, number) result(may)
+        integer, intent(in) :: law, number
+        logical :: may
+
+        may = law == law_cubic .and. number == 2
+    end function may_be_negative
+
+    !> A parameter as scenes call it, blanks behind it
+    pure function key_of_parameter(law, number) result(key)
+        integer, intent(in) :: law, number
+        character(len=len(names)) :: key
+
+        key = merge(names_of_cubic(number), names(number), law == law_cubic)
+    end function key_of_parameter
+
+    !> One parameter of a law alone
+    pure subroutine check_parameter(law, number, values, here, error)
+        !> The law, the parameter, and what it is at both ends
+        integer, intent(in) :: law, number
+        real(wp), intent(in) :: values(2)
+        type(entry_type), intent(in) :: here
+        !> Bad input
+        type(error_type), allocatable, intent(out) :: error
+
+        character(len=:), allocatable :: expected
+
+        if (.not. all(abs(values) <= huge(1.0_wp))) then
+            expected = "finite numbers"
+        else if (any(values < 0.0_wp) .and. .not. may_be_negative(law, number)) then
+            expected = "numbers of 0 or more"
+        else if (law /= law_cubic .and. number < 3 .and. .not. any(values > 0.0_wp)) then
+            expected = "a number above 0 at one end at least"
+        else
             return
         end if
-        used = merge(parameters_of_law, 2, law == law_cubic .or. law == law_hardening)
-        do i = 1, used
-            values = [left(i), right(i)]
-            if (.not. all(abs(values) <= huge(1.0_wp))) then
-                call say(error, i, "expected finite numbers, got "//trim(both_of(values)))
-            else if (any(values < 0.0_wp) .and. .not. (law == law_cubic .and. i == 2)) then
-                call say(error, i, "expected numbers of 0 or more, got "//trim(both_of(values)))
-            else if (law /= law_cubic .and. i < 3 .and. .not. any(values > 0.0_wp)) then
-                call say(error, i, "expected a number above 0 at one end at least, got "//trim(both_of(values)))
-            end if
-            if (allocated(error)) return
-        end do
+        call refuse_entry(error, here, trim(key_of_parameter(law, number)), bad_law, "expected "//expected//", got "// &
+                          trim(both_of(values)))
+    end subroutine check_parameter
+
+    !> The parameters of a law together, along a stretch on which all of them are linear
+    pure subroutine check_parameters(law, left, right, stretch, here, error)
+        !> The law, and its parameters at both ends, each possible alone
+        integer, intent(in) :: law
+        real(wp), intent(in) :: left(:), right(:)
+        !> "the stretch from x = ... to x = ...", or "" where it is all of the foundation
+        character(len=*), intent(in) :: stretch
+        type(entry_type), intent(in) :: here
+        !> Bad input
+        type(error_type), allocatable, intent(out) :: error
+
         if (law == law_cubic) then
             call check_cubic(error)
-        else if (law /= law_plastic .and. law /= law_hardening) then
+        else if (law == law_hardening) then
+            if (.not. max(left(2), right(2)) > 0.0_wp) then
+                call say(error, 2, "is 0"//part("all along")//", where stiffness is not; give a small limit there, "// &
+                         "or a stiffness of 0")
+            end if
+        else if (law /= law_plastic) then
             if ((left(1) > 0.0_wp .and. .not. left(2) > 0.0_wp) .or. (right(1) > 0.0_wp .and. .not. right(2) > 0.0_wp)) then
-                call say(error, 2, "is 0 at an end where stiffness is not, where the curve would have a kink; "// &
+                call say(error, 2, "is 0 at an end"//part("of")//" where stiffness is not, where the curve would have a kink; "// &
                          "give a small limit there, or a stiffness of 0")
             end if
         end if
@@ -81,7 +127,8 @@ contains
                 if (-change < curvature) vertex = min(to, max(from, -change/curvature))
             end if
             if (rises(from) .and. rises(to) .and. rises(vertex)) return
-            call say(found, 2, "with k2 below -sqrt(3*k1*k3) the force falls; softening ground is not available in this version")
+            call say(found, 2, "with k2 below -sqrt(3*k1*k3) the force falls"//part("along")// &
+                     "; softening ground is not available in this version")
         end subroutine check_cubic
 
         !> Does the law rise at a share of the way
@@ -94,20 +141,25 @@ contains
             rises = k(2)**2 <= 3*k(1)*k(3)*(1 + rounding)
         end function rises
 
+        !> The stretch in a sentence, if it is not all of the foundation
+        pure function part(preposition) result(words)
+            character(len=*), intent(in) :: preposition
+            character(len=:), allocatable :: words
+
+            words = ""
+            if (stretch /= "") words = " "//preposition//" "//stretch
+        end function part
+
         !> What is wrong with a parameter
         pure subroutine say(found, number, problem)
             type(error_type), allocatable, intent(out) :: found
             integer, intent(in) :: number
             character(len=*), intent(in) :: problem
 
-            if (law == law_cubic) then
-                call refuse_entry(found, here, "law."//trim(names_of_cubic(number)), bad_law, problem)
-            else
-                call refuse_entry(found, here, "law."//trim(names(number)), bad_law, problem)
-            end if
+            call refuse_entry(found, here, trim(key_of_parameter(law, number)), bad_law, problem)
         end subroutine say
 
-    end subroutine check_ground_law
+    end subroutine check_parameters
 
     !> One number as text, or two if they differ, blanks behind it
     pure function both_of(values) result(text)

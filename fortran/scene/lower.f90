@@ -1,7 +1,7 @@
 !> From what a user describes to the engine's arrays.
 !>
 !> The beam is cut into pieces wherever anything changes: at span ends, supports, hinges, point loads, the ends of distributed
-!> loads and of foundations, and the points of their profiles. Only beam ends, supports across the beam and hinges become nodes of
+!> loads and of foundations, and the points of their tables. Only beam ends, supports across the beam and hinges become nodes of
 !> the system, with foundations all points; the pieces between two nodes are condensed into one link.
 module gapbeam_lower
     use, intrinsic :: iso_fortran_env, only: int64
@@ -96,7 +96,7 @@ contains
 
         associate (model => lowered%model)
             n = size(model%spans)
-            total = 1_int64 + n + size(model%supports) + size(model%hinges) + size(model%ground) &
+            total = 1_int64 + n + size(model%supports) + size(model%hinges) + size(model%ground) + size(model%ground_law) &
                 + 2_int64*(size(model%sections) + size(model%loads) + size(model%foundations))
             stat = merge(1, 0, 2*total > huge(0))
             if (stat == 0) allocate (span(total), order(total), chosen(total), point(total), offset(total), stat=stat)
@@ -104,8 +104,8 @@ contains
                                      lowered%load_from(size(model%loads)), lowered%load_to(size(model%loads)), &
                                      lowered%section_from(size(model%sections)), lowered%section_to(size(model%sections)), &
                                      lowered%foundation_from(size(model%foundations)), &
-                                     lowered%foundation_to(size(model%foundations)), lowered%ground_point(size(model%ground)), &
-                                     stat=stat)
+                                     lowered%foundation_to(size(model%foundations)), &
+                                     lowered%ground_point(size(model%ground) + size(model%ground_law)), stat=stat)
             if (stat /= 0) then
                 call no_memory(error)
                 return
@@ -135,11 +135,10 @@ contains
                 call add(right_end(model%foundations(i)%to), gapbeam_by_x)
             end do
             do i = 1, size(model%ground)
-                ! What is not on its foundation is no place, so it stands at one that there is
-                associate (f => model%foundations(model%ground(i)%foundation), x => model%ground(i)%x)
-                    lowered%ground_point(i) = merge(0, -1, x > f%from .and. x < right_end(f%to))
-                    call add(merge(x, f%from, lowered%ground_point(i) == 0), gapbeam_by_x)
-                end associate
+                call add_on_foundation(i, model%ground(i)%foundation, model%ground(i)%x)
+            end do
+            do i = 1, size(model%ground_law)
+                call add_on_foundation(size(model%ground) + i, model%ground_law(i)%foundation, model%ground_law(i)%x)
             end do
             at = 1 + n + size(model%supports) + size(model%hinges)
             call merge_places(lowered%ends, span, offset, at, order, chosen, point, number)
@@ -190,7 +189,7 @@ contains
                 return
             end do
             at = at + 2*size(model%foundations)
-            where (lowered%ground_point == 0) lowered%ground_point = point(at + 1:at + size(model%ground))
+            where (lowered%ground_point == 0) lowered%ground_point = point(at + 1:at + size(lowered%ground_point))
         end associate
 
     contains
@@ -208,6 +207,18 @@ contains
                 offset(at) = 0.0_wp
             end if
         end subroutine add
+
+        !> Note a point of a table or a law. What is not on its foundation is no place, so it stands at one that there is
+        subroutine add_on_foundation(number, foundation, x)
+            !> Among the points of tables and laws; its foundation and place
+            integer, intent(in) :: number, foundation
+            real(wp), intent(in) :: x
+
+            associate (f => lowered%model%foundations(foundation))
+                lowered%ground_point(number) = merge(0, -1, x > f%from .and. x < right_end(f%to))
+                call add(merge(x, f%from, lowered%ground_point(number) == 0), gapbeam_by_x)
+            end associate
+        end subroutine add_on_foundation
 
         !> Where a stretch ends
         function right_end(to) result(x)

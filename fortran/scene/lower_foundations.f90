@@ -3,24 +3,22 @@ module gapbeam_lower_foundations
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
-    use gapbeam_layers, only: layer_type, parameters_of_law, law_cubic
+    use gapbeam_layers, only: layer_type, parameters_of_law, law_cubic, law_polyline
     use gapbeam_range, only: is_lost
-    use gapbeam_scene, only: foundation_type, gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_unchanged, &
-        gapbeam_law_by_points
+    use gapbeam_scene, only: model_type, foundation_type, gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_unchanged, &
+        gapbeam_law_by_points, gapbeam_law_plastic, gapbeam_table_of_k, gapbeam_table_of_gap, gapbeam_table_of_parameter
     use gapbeam_units, only: units_type, exponents_type, stiffness_unit
-    use gapbeam_lowered, only: lowered_type
-    use gapbeam_check_foundations, only: find_runs, at_right
+    use gapbeam_lowered, only: lowered_type, point_x
+    use gapbeam_lower_tables, only: place_in_table, place_of, distance, between, follow_table
+    use gapbeam_lower_ground_laws, only: law_of_foundation_type, find_laws, make_laws, is_straight
+    use gapbeam_check, only: entry_type, refuse_entry
+    use gapbeam_check_foundations, only: find_tables, at_right, quantities
+    use gapbeam_check_ground_laws, only: check_parameters
     use gapbeam_words, only: shown
-    use gapbeam_refusal, only: refuse_range, named, of_foundations
+    use gapbeam_refusal, only: refuse_range, named, of_foundations, bad_law
     implicit none
     private
-    public :: lower_foundations, note_foundations, scale_foundations, greatest_modulus
-
-    !> Where something is: the span and the distance from its left end
-    type :: place_type
-        integer :: span
-        real(wp) :: offset
-    end type place_type
+    public :: lower_foundations, note_foundations, scale_foundations, greatest_values
 
 contains
 
@@ -28,42 +26,47 @@ contains
     subroutine lower_foundations(lowered, error)
         !> Points in
         type(lowered_type), intent(inout) :: lowered
-        !> No memory
+        !> Laws that are impossible between the points of their tables, or no memory
         type(error_type), allocatable, intent(out) :: error
-        integer, allocatable :: first(:), last(:), law_first(:), law_last(:), next(:)
-        real(wp), allocatable :: at_point(:, :)
+        integer, allocatable :: first(:, :), last(:, :), next(:), here(:)
+        type(law_of_foundation_type), allocatable :: laws(:)
+        ! Modulus, gap and parameters at both ends of every piece
+        real(wp), allocatable :: values(:, :, :)
         integer(int64) :: total
-        integer :: i, j, m, n, stat, pieces
+        integer :: i, j, m, stat, pieces
 
         if (.not. allocated(lowered%model%foundations)) return
         m = size(lowered%model%foundations)
         if (m == 0) return
         pieces = size(lowered%pieces)
         if (.not. allocated(lowered%layers)) then
-            allocate (lowered%layer_first(pieces + 1), lowered%law_pieces(size(lowered%model%ground_law)), stat=stat)
+            allocate (lowered%layer_first(pieces + 1), stat=stat)
             if (stat /= 0) then
                 call no_memory(error)
                 return
             end if
         end if
-        allocate (first(m), last(m), law_first(m), law_last(m), next(pieces), at_point(2 + parameters_of_law, 0:pieces), stat=stat)
+        allocate (first(quantities, m), last(quantities, m), laws(m), next(pieces), here(pieces), values(quantities, 2, pieces), &
+                  stat=stat)
         if (stat /= 0) then
             call no_memory(error)
             return
         end if
         associate (model => lowered%model, layers => lowered%layers, from => lowered%foundation_from, to => lowered%foundation_to)
-            call find_runs(model%ground%foundation, first, last)
-            call find_runs(model%ground_law%foundation, law_first, law_last)
-            call make_laws(lowered)
+            call find_tables(model%ground, first, last)
+            call find_laws(lowered, laws)
+            call make_laws(lowered, laws, error)
+            if (allocated(error)) return
             next(:) = 0
             total = 0
             do i = 1, m
-                n = layers_of(model%foundations(i), has_law(i), last(i) >= first(i))
-                total = total + int(n, int64)*(to(i) - from(i))
-                next(from(i) + 1:to(i)) = next(from(i) + 1:to(i)) + n
+                call find_layers(i)
+                if (allocated(error)) return
+                total = total + sum(int(here(from(i) + 1:to(i)), int64))
+                next(from(i) + 1:to(i)) = next(from(i) + 1:to(i)) + here(from(i) + 1:to(i))
             end do
             if (.not. allocated(lowered%layers)) then
-                stat = merge(1, 0, total >= huge(n))
+                stat = merge(1, 0, total >= huge(m))
                 if (stat == 0) allocate (lowered%layers(total), stat=stat)
                 if (stat /= 0) then
                     call no_memory(error)
@@ -76,40 +79,137 @@ contains
                 next(j) = lowered%layer_first(j)
             end do
             do i = 1, m
-                call find_values(lowered, i, first(i), last(i), at_point)
+                call find_layers(i)
                 do j = from(i) + 1, to(i)
-                    n = layers_of(model%foundations(i), has_law(i), last(i) >= first(i))
-                    lowered%layers(next(j)) = layer_at(i, j, merge(gapbeam_below, model%foundations(i)%side, n == 2))
-                    if (n == 2) lowered%layers(next(j) + 1) = layer_at(i, j, gapbeam_above)
-                    next(j) = next(j) + n
+                    if (here(j) > 0) lowered%layers(next(j)) = layer_at(i, j, merge(gapbeam_below, model%foundations(i)%side, &
+                                                                                    here(j) == 2))
+                    if (here(j) == 2) lowered%layers(next(j) + 1) = layer_at(i, j, gapbeam_above)
+                    next(j) = next(j) + here(j)
                 end do
             end do
         end associate
 
     contains
 
-        !> Has a foundation a law
-        pure function has_law(foundation)
+        !> Values of a foundation at the ends of its pieces, and how many layers it has there: none where it never carries
+        subroutine find_layers(foundation)
             integer, intent(in) :: foundation
-            logical :: has_law
+            integer :: number, piece, range(2)
+            logical :: with_points
 
-            has_law = law_last(foundation) >= law_first(foundation) &
-                .or. lowered%model%foundations(foundation)%law /= gapbeam_law_by_points
-        end function has_law
+            call find_values(lowered, foundation, first(:, foundation), last(:, foundation), values)
+            with_points = laws(foundation)%points > 0
+            associate (f => lowered%model%foundations(foundation), a => lowered%foundation_from(foundation) + 1, &
+                       b => lowered%foundation_to(foundation), q => gapbeam_table_of_gap)
+                number = layers_of(f, with_points .or. f%law /= gapbeam_law_by_points, last(q, foundation) >= first(q, foundation))
+                here(a:b) = number
+                if (.not. (any(last(:, foundation) >= first(:, foundation)) .or. laws(foundation)%varies)) return
+                do piece = a, b
+                    range = range_under(foundation, piece)
+                    if (with_points) then
+                        if (.not. any(max(lowered%law_pieces(range(1):range(2))%slope_a, &
+                                          lowered%law_pieces(range(1):range(2))%slope_b) > 0.0_wp)) here(piece) = 0
+                    else if (.not. carries(f%law, values(:, :, piece))) then
+                        here(piece) = 0
+                    end if
+                end do
+                if (.not. allocated(error)) call check_values(lowered, foundation, with_points, here, values, error)
+            end associate
+        end subroutine find_layers
+
+        !> First and last piece of the law of a foundation under a piece of the beam
+        pure function range_under(foundation, piece) result(range)
+            integer, intent(in) :: foundation, piece
+            integer :: range(2)
+
+            range = [1, 0]
+            associate (law => laws(foundation))
+                if (law%points == 0) return
+                range(1) = law%first
+                if (law%varies) range(1) = law%first + (piece - lowered%foundation_from(foundation) - 1)*law%points
+                range(2) = range(1) + law%points - 1
+            end associate
+        end function range_under
 
         !> The layer of a foundation under a piece
         pure function layer_at(foundation, piece, side) result(layer)
             integer, intent(in) :: foundation, piece, side
             type(layer_type) :: layer
+            integer :: range(2)
 
-            layer = layer_type(foundation=foundation, side=side, modulus_a=at_point(1, piece - 1), modulus_b=at_point(1, piece), &
-                               contact_a=side*at_point(2, piece - 1), contact_b=side*at_point(2, piece), &
-                               law_first=law_first(foundation), law_last=law_last(foundation), &
-                               law=lowered%model%foundations(foundation)%law, parameter_a=at_point(3:, piece - 1), &
-                               parameter_b=at_point(3:, piece))
+            range = range_under(foundation, piece)
+            associate (a => values(:, 1, piece), b => values(:, 2, piece), gap => gapbeam_table_of_gap)
+                layer = layer_type(foundation=foundation, side=side, modulus_a=a(gapbeam_table_of_k), &
+                                   modulus_b=b(gapbeam_table_of_k), contact_a=side*a(gap), contact_b=side*b(gap), &
+                                   law_first=range(1), law_last=range(2), &
+                                   law=lowered%model%foundations(foundation)%law, &
+                                   parameter_a=a(gapbeam_table_of_parameter:), parameter_b=b(gapbeam_table_of_parameter:))
+            end associate
+            if (.not. is_straight(lowered%law_pieces(range(1):range(2)))) layer%law = law_polyline
         end function layer_at
 
     end subroutine lower_foundations
+
+    !> Does ground with a modulus, or a law with parameters, carry on a piece at all
+    pure function carries(law, values) result(does)
+        integer, intent(in) :: law
+        !> Modulus, gap and parameters at both ends
+        real(wp), intent(in) :: values(:, :)
+        logical :: does
+
+        associate (p => values(gapbeam_table_of_parameter:, :))
+            if (law == gapbeam_law_by_points) then
+                does = any(values(gapbeam_table_of_k, :) > 0.0_wp)
+            else if (law == law_cubic) then
+                does = any(abs(p) > 0.0_wp)
+            else
+                does = any(p(1, :) > 0.0_wp)
+                if (law == gapbeam_law_plastic) does = does .and. any(p(2, :) > 0.0_wp)
+            end if
+        end associate
+    end function carries
+
+    !> Is a foundation with tables possible on all its pieces
+    pure subroutine check_values(lowered, foundation, with_points, layers, values, error)
+        type(lowered_type), intent(in) :: lowered
+        integer, intent(in) :: foundation
+        !> Has it a law by points
+        logical, intent(in) :: with_points
+        !> How many layers it has on every piece; modulus, gap and parameters at both ends
+        integer, intent(in) :: layers(:)
+        real(wp), intent(in) :: values(:, :, :)
+        type(error_type), allocatable, intent(out) :: error
+        integer :: j
+
+        associate (f => lowered%model%foundations(foundation), a => lowered%foundation_from(foundation) + 1, &
+                   b => lowered%foundation_to(foundation), &
+                   here => entry_type(of_foundations, foundation, size(lowered%model%foundations)))
+            if (.not. any(layers(a:b) > 0)) then
+                call refuse_entry(error, here, trim(merge("law", "k  ", with_points .or. f%law /= gapbeam_law_by_points)), &
+                                  bad_law, "carries nowhere from "//stretch(a, b)//"; remove the foundation")
+                return
+            end if
+            if (f%law == gapbeam_law_by_points) return
+            do j = a, b
+                if (layers(j) == 0) cycle
+                call check_parameters(f%law, values(gapbeam_table_of_parameter:, 1, j), values(gapbeam_table_of_parameter:, 2, j), &
+                                      "the stretch from "//stretch(j, j), here, error)
+                if (allocated(error)) return
+            end do
+        end associate
+
+    contains
+
+        !> "x = 2 to x = 3"
+        pure function stretch(from, to)
+            !> First and last piece
+            integer, intent(in) :: from, to
+            character(len=:), allocatable :: stretch
+
+            stretch = "x = "//trim(shown(point_x(lowered, from - 1)))//" to x = "//trim(shown(point_x(lowered, to)))
+        end function stretch
+
+    end subroutine check_values
 
     !> Layers of a foundation under each of its pieces: two of one that holds both ways by a law or with a gap
     pure function layers_of(foundation, has_law, has_profile) result(number)
@@ -123,36 +223,16 @@ contains
         number = merge(2, 1, (has_law .or. has_gap) .and. foundation%side == gapbeam_both)
     end function layers_of
 
-    !> Pieces of all laws, one for every point: the one that ends there, the last one going on
-    pure subroutine make_laws(lowered)
-        type(lowered_type), intent(inout) :: lowered
-        integer :: i
-
-        associate (points => lowered%model%ground_law, pieces => lowered%law_pieces)
-            do i = 1, size(points)
-                pieces(i)%displacement = 0.0_wp
-                pieces(i)%force = 0.0_wp
-                if (i > 1) then
-                    if (points(i)%foundation == points(i - 1)%foundation) then
-                        pieces(i)%displacement = points(i - 1)%displacement
-                        pieces(i)%force = points(i - 1)%force
-                    end if
-                end if
-                pieces(i)%slope = (points(i)%force - pieces(i)%force)/(points(i)%displacement - pieces(i)%displacement)
-            end do
-        end associate
-    end subroutine make_laws
-
-    !> Modulus, gap and parameters of its law of a foundation at its points
-    pure subroutine find_values(lowered, foundation, first, last, at_point)
+    !> Modulus, gap and parameters of its law of a foundation at both ends of its pieces
+    pure subroutine find_values(lowered, foundation, first, last, values)
         type(lowered_type), intent(in) :: lowered
         integer, intent(in) :: foundation
-        !> First and last point of its profile, the last before the first: none
-        integer, intent(in) :: first, last
-        !> Modulus, gap, parameters, shape (2 + parameters_of_law, 0:npiece); set from its first to its last point
-        real(wp), intent(inout) :: at_point(:, 0:)
-        real(wp) :: whole, share
-        integer :: left, right, p
+        !> First and last point of its tables, the last before the first: none, shape (quantities)
+        integer, intent(in) :: first(:), last(:)
+        !> Shape (quantities, 2, npiece); set on its pieces
+        real(wp), intent(inout) :: values(:, :, :)
+        real(wp) :: whole, share, at_point(quantities)
+        integer :: left, right, p, q
 
         left = lowered%foundation_from(foundation)
         right = lowered%foundation_to(foundation)
@@ -160,88 +240,19 @@ contains
         associate (f => lowered%model%foundations(foundation))
             do p = left, right
                 share = distance(lowered, place_of(lowered, left), place_of(lowered, p))/whole
-                at_point(1, p) = between(f%k, at_right(f%k, f%k_to), share)
-                at_point(2, p) = between(f%gap, at_right(f%gap, f%gap_to), share)
-                at_point(3:, p) = between(f%parameter, at_right(f%parameter, f%parameter_to), share)
+                at_point = between([f%k, f%gap, f%parameter], [at_right(f%k, f%k_to), at_right(f%gap, f%gap_to), &
+                                                               at_right(f%parameter, f%parameter_to)], share)
+                if (p > left) values(:, 2, p) = at_point
+                if (p < right) values(:, 1, p + 1) = at_point
             end do
         end associate
-        if (first <= last) call follow_profile(lowered, left, right, first, last, at_point(2, :))
+        do q = 1, quantities
+            if (first(q) > last(q)) cycle
+            call follow_table(lowered, left, right, place_in_table(lowered, [(p, p=first(q), last(q))], &
+                                                                   lowered%model%ground(first(q):last(q))%x), &
+                              lowered%model%ground(first(q):last(q))%value, values(q, :, left + 1:right))
+        end do
     end subroutine find_values
-
-    !> The gap of a profile at points: straight between its points, beyond its ends the last value
-    pure subroutine follow_profile(lowered, left, right, first, last, gap)
-        type(lowered_type), intent(in) :: lowered
-        !> The points of the beam, and those of the profile
-        integer, intent(in) :: left, right, first, last
-        !> Shape (0:npiece)
-        real(wp), intent(inout) :: gap(0:)
-        type(place_type) :: here, before, after
-        integer :: i, p
-
-        associate (points => lowered%model%ground)
-            i = first
-            before = place_in_profile(lowered, first)
-            after = before
-            do p = left, right
-                here = place_of(lowered, p)
-                ! The first point of the profile that is right of the beam's
-                do while (i <= last)
-                    if (distance(lowered, after, here) < 0.0_wp) exit
-                    before = after
-                    i = i + 1
-                    if (i <= last) after = place_in_profile(lowered, i)
-                end do
-                if (i == first) then
-                    gap(p) = points(first)%gap
-                else if (i > last) then
-                    gap(p) = points(last)%gap
-                else
-                    gap(p) = between(points(i - 1)%gap, points(i)%gap, &
-                                     distance(lowered, before, here)/distance(lowered, before, after))
-                end if
-            end do
-        end associate
-    end subroutine follow_profile
-
-    !> Where a point of a profile is: on its foundation exactly at the beam's own point, which may differ by rounding
-    pure function place_in_profile(lowered, number) result(place)
-        type(lowered_type), intent(in) :: lowered
-        integer, intent(in) :: number
-        type(place_type) :: place
-
-        if (lowered%ground_point(number) >= 0) then
-            place = place_of(lowered, lowered%ground_point(number))
-        else
-            place = place_type(0, lowered%model%ground(number)%x)
-        end if
-    end function place_in_profile
-
-    !> Where a point of the beam is
-    pure function place_of(lowered, point) result(place)
-        type(lowered_type), intent(in) :: lowered
-        integer, intent(in) :: point
-        type(place_type) :: place
-
-        place = place_type(lowered%point_span(point), lowered%point_offset(point))
-    end function place_of
-
-    !> Distance from one place to another, positive to the right
-    pure function distance(lowered, from, to) result(length)
-        type(lowered_type), intent(in) :: lowered
-        type(place_type), intent(in) :: from, to
-        real(wp) :: length
-
-        length = (lowered%ends(to%span) - lowered%ends(from%span)) + (to%offset - from%offset)
-    end function distance
-
-    !> A value at a share of the way from one to another
-    elemental function between(a, b, share) result(value)
-        real(wp), intent(in) :: a, b, share
-        real(wp) :: value
-
-        value = a
-        if (abs(a - b) > 0.0_wp) value = a*(1 - share) + b*share
-    end function between
 
     !> Meet the moduli and levels of all foundations
     pure subroutine note_foundations(lowered, length, stiffness, forces, ways)
@@ -250,24 +261,26 @@ contains
         !> The exponent of the unit of length
         integer, intent(in) :: length
         type(exponents_type), intent(inout) :: stiffness, forces, ways
+        real(wp) :: most(quantities, size(lowered%model%foundations))
         integer :: i
 
         if (.not. allocated(lowered%layers)) return
+        most(:, :) = greatest_values(lowered%model)
         do i = 1, size(lowered%model%foundations)
-            call stiffness%note(greatest_modulus(lowered%model%foundations(i)), length)
-            associate (f => lowered%model%foundations(i))
-                if (f%law == gapbeam_law_by_points) cycle
-                call stiffness%note(greatest_parameter(f, 1), length)
-                if (f%law == law_cubic) cycle
-                call forces%note(greatest_parameter(f, 2), length)
-                call stiffness%note(greatest_parameter(f, 3), length)
+            call stiffness%note(most(gapbeam_table_of_k, i), length)
+            associate (law => lowered%model%foundations(i)%law, parameters => most(gapbeam_table_of_parameter:, i))
+                if (law == gapbeam_law_by_points) cycle
+                call stiffness%note(parameters(1), length)
+                if (law == law_cubic) cycle
+                call forces%note(parameters(2), length)
+                call stiffness%note(parameters(3), length)
             end associate
         end do
         do i = 1, size(lowered%law_pieces)
             associate (piece => lowered%law_pieces(i))
-                call stiffness%note(piece%slope, length)
-                call forces%note(piece%force, length)
-                call ways%note(piece%displacement, 0)
+                call stiffness%note(max(piece%slope_a, piece%slope_b), length)
+                call forces%note(max(piece%force_a, piece%force_b), length)
+                call ways%note(max(piece%displacement_a, piece%displacement_b), 0)
             end associate
         end do
         do i = 1, size(lowered%layers)
@@ -275,24 +288,26 @@ contains
         end do
     end subroutine note_foundations
 
-    !> The greater of the two moduli of a foundation
-    elemental function greatest_modulus(foundation) result(k)
-        type(foundation_type), intent(in) :: foundation
-        real(wp) :: k
+    !> The greatest size of every quantity of all foundations
+    pure function greatest_values(model) result(most)
+        !> With foundations
+        type(model_type), intent(in) :: model
+        !> Shape (quantities, number of foundations)
+        real(wp) :: most(quantities, size(model%foundations))
+        integer :: i
 
-        k = max(foundation%k, at_right(foundation%k, foundation%k_to))
-    end function greatest_modulus
-
-    !> The greatest of a parameter of a law
-    pure function greatest_parameter(foundation, number) result(value)
-        type(foundation_type), intent(in) :: foundation
-        integer, intent(in) :: number
-        real(wp) :: value
-
-        associate (a => foundation%parameter(number), b => foundation%parameter_to(number))
-            value = max(abs(a), abs(at_right(a, b)))
-        end associate
-    end function greatest_parameter
+        do i = 1, size(model%foundations)
+            associate (f => model%foundations(i))
+                most(:, i) = max(abs([f%k, f%gap, f%parameter]), abs([at_right(f%k, f%k_to), at_right(f%gap, f%gap_to), &
+                                                                      at_right(f%parameter, f%parameter_to)]))
+            end associate
+        end do
+        do i = 1, size(model%ground)
+            associate (point => model%ground(i))
+                most(point%quantity, point%foundation) = max(most(point%quantity, point%foundation), abs(point%value))
+            end associate
+        end do
+    end function greatest_values
 
     !> Layers and laws from the user's units to the engine's
     subroutine scale_foundations(lowered, units, error)
@@ -300,32 +315,38 @@ contains
         type(units_type), intent(in) :: units
         !> Numbers out of range
         type(error_type), allocatable, intent(out) :: error
-        real(wp) :: slope, given(parameters_of_law, 2), scaled(parameters_of_law, 2)
+        logical, allocatable :: lost(:)
+        real(wp) :: slopes(2), given(parameters_of_law, 2), scaled(parameters_of_law, 2)
+        real(wp) :: most(quantities, size(lowered%model%foundations))
         integer :: i, m, per_length, powers(parameters_of_law)
 
         if (.not. allocated(lowered%layers)) return
         m = size(lowered%model%foundations)
         per_length = units%length - stiffness_unit(units)
+        most(:, :) = greatest_values(lowered%model)
         do i = 1, m
-            associate (k => greatest_modulus(lowered%model%foundations(i)))
+            associate (k => most(gapbeam_table_of_k, i))
                 if (.not. k > 0.0_wp .or. .not. is_lost(scale(k, per_length))) cycle
                 call refuse_range(error, trim(named(of_foundations, i, m))//": k = "//trim(shown(k))// &
                                   " is too far from the stiffness of the beam", "bring them nearer together")
             end associate
             return
         end do
+        allocate (lost(size(lowered%law_pieces)))
         do i = 1, size(lowered%law_pieces)
             associate (piece => lowered%law_pieces(i))
-                piece%displacement = scale(piece%displacement, -units%deflection)
-                piece%force = scale(piece%force, units%length - units%force)
-                slope = piece%slope
-                piece%slope = scale(slope, per_length)
-                if (max(piece%displacement, piece%force) <= huge(1.0_wp) &
-                    .and. .not. (slope > 0.0_wp .and. is_lost(piece%slope))) cycle
-                call refuse_range(error, "the law of "//trim(named(of_foundations, lowered%model%ground_law(i)%foundation, m))// &
-                                  " is too far from the other numbers", "bring them nearer together")
+                slopes = [piece%slope_a, piece%slope_b]
+                piece%displacement_a = scale(piece%displacement_a, -units%deflection)
+                piece%displacement_b = scale(piece%displacement_b, -units%deflection)
+                piece%way_a = scale(piece%way_a, -units%deflection)
+                piece%way_b = scale(piece%way_b, -units%deflection)
+                piece%force_a = scale(piece%force_a, units%length - units%force)
+                piece%force_b = scale(piece%force_b, units%length - units%force)
+                piece%slope_a = scale(slopes(1), per_length)
+                piece%slope_b = scale(slopes(2), per_length)
+                lost(i) = max(piece%displacement_a, piece%displacement_b, piece%force_a, piece%force_b) > huge(1.0_wp) &
+                    .or. any(slopes > 0.0_wp .and. is_lost([piece%slope_a, piece%slope_b]))
             end associate
-            return
         end do
         do i = 1, size(lowered%layers)
             associate (layer => lowered%layers(i))
@@ -340,7 +361,7 @@ contains
                 given(:, 2) = layer%parameter_b
                 scaled(:, 1) = scale(layer%parameter_a, powers)
                 scaled(:, 2) = scale(layer%parameter_b, powers)
-                if (any(is_lost(abs(scaled)) .and. abs(given) > 0.0_wp)) then
+                if (any(is_lost(abs(scaled)) .and. abs(given) > 0.0_wp) .or. any(lost(layer%law_first:layer%law_last))) then
                     call refuse_range(error, "the law of "//trim(named(of_foundations, layer%foundation, m))// &
                                       " is too far from the other numbers", "bring them nearer together")
                     return

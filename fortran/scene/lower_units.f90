@@ -9,9 +9,10 @@ module gapbeam_lower_units
         units_with_loads, middle, largest, no_exponent, ordinary_exponent
     use gapbeam_lowered, only: lowered_type, point_x, piece_length, stiffness_of, in_bending, in_shear
     use gapbeam_lower_supports, only: contact_level
-    use gapbeam_lower_foundations, only: note_foundations, scale_foundations, greatest_modulus
+    use gapbeam_lower_foundations, only: note_foundations, scale_foundations, greatest_values
     use gapbeam_words, only: shown
     use gapbeam_refusal, only: refuse_range, named, of_supports, of_foundations
+    use gapbeam_scene, only: gapbeam_table_of_k
     implicit none
     private
     public :: change_units, refuse_link, name_farthest, load_in_units, support_in_units
@@ -308,9 +309,9 @@ contains
                 call say("the deflection of "//trim(shown(contact_level(supports(entry))))//" at which "// &
                          trim(named(of_supports, entry, size(supports)))//" acts")
             case (7)
-                associate (foundations => lowered%model%foundations)
+                associate (foundations => lowered%model%foundations, most => greatest_values(lowered%model))
                     call say(trim(named(of_foundations, entry, size(foundations)))//": k = "// &
-                             shown(greatest_modulus(foundations(entry))))
+                             shown(most(gapbeam_table_of_k, entry)))
                 end associate
             case default
                 call refuse_range(error, "though no length, stiffness or level is far from the rest", &

@@ -52,7 +52,7 @@ module gapbeam_lowered
         real(wp), allocatable :: point_offset(:)
         !> Point of every support; first and last point of every load
         integer, allocatable :: support_point(:), load_from(:), load_to(:)
-        !> First and last point of every foundation; point of every point of a profile, -1: not on its foundation
+        !> First and last point of every foundation; point of every point of tables, then of laws, -1: not on its foundation
         integer, allocatable :: foundation_from(:), foundation_to(:), ground_point(:)
         !> First and last point of every section; the last section that gives EI, GA and EA of a piece, 0: none, shape (3, npiece),
         !> not allocated without sections
@@ -290,12 +290,12 @@ contains
         end do
         do i = 1, size(model%ground)
             associate (point => model%ground(i))
-                call mix(all_bits, [real(point%foundation, wp), point%x, point%gap])
+                call mix(all_bits, [real(point%foundation, wp), point%x, point%value, real(point%quantity, wp)])
             end associate
         end do
         do i = 1, size(model%ground_law)
             associate (point => model%ground_law(i))
-                call mix(all_bits, [real(point%foundation, wp), point%displacement, point%force])
+                call mix(all_bits, [real(point%foundation, wp), point%displacement, point%force, point%x])
             end associate
         end do
     end subroutine mix_foundations

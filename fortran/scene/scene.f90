@@ -18,6 +18,7 @@ module gapbeam_scene
     public :: gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force
     public :: gapbeam_live, gapbeam_dead
     public :: gapbeam_elastic, gapbeam_plastic, gapbeam_broken
+    public :: gapbeam_table_of_k, gapbeam_table_of_gap, gapbeam_table_of_parameter
     public :: gapbeam_law_by_points, gapbeam_law_plastic, gapbeam_law_hardening, gapbeam_law_hyperbolic, gapbeam_law_tanh, &
               gapbeam_law_cubic
 
@@ -36,6 +37,8 @@ module gapbeam_scene
     integer, parameter :: gapbeam_live = 0, gapbeam_dead = 1
     !> How a support with a law unloads: back along it, parallel to its first piece, or not at all once its force has fallen
     integer, parameter :: gapbeam_elastic = 0, gapbeam_plastic = 1, gapbeam_broken = 2
+    !> Of what a table of a foundation is: its modulus, its gap, the first parameter of its law; the other parameters follow
+    integer, parameter :: gapbeam_table_of_k = 1, gapbeam_table_of_gap = 2, gapbeam_table_of_parameter = 3
     !> Instead of a stiffness of a section: it stays as it is; of a number at the right end of a foundation: it is that at the left.
     !> Instead of where a stretch ends: the right end of the beam
     real(wp), parameter :: gapbeam_unchanged = -huge(1.0_wp), gapbeam_right_end = -huge(1.0_wp)
@@ -97,27 +100,31 @@ module gapbeam_scene
     type :: foundation_type
         !> Ends of the stretch
         real(wp) :: from = 0.0_wp, to = gapbeam_right_end
-        !> Modulus (force/length**2) at its left and right end, linear in between, 0 or more; 0 where there is a law instead
+        !> Modulus (force/length**2) at its left and right end, linear in between, 0 or more; 0 where there is a law or a table
+        !> instead
         real(wp) :: k = 0.0_wp, k_to = gapbeam_unchanged
         !> gapbeam_both, gapbeam_below or gapbeam_above
         integer :: side = gapbeam_both
-        !> Distance to be closed before it acts, at its left and right end, linear in between; negative: lack of fit; one-sided
-        !> foundations, or those with a law, only
+        !> Distance to be closed before it acts, at its left and right end, linear in between; negative: lack of fit; 0 where there
+        !> is a table instead
         real(wp) :: gap = 0.0_wp, gap_to = gapbeam_unchanged
         !> Instead of a modulus or a law by points: gapbeam_law_plastic, _hyperbolic or _tanh, with stiffness (force/length**2) and
         !> limit (force/length); gapbeam_law_hardening, with stiffness, limit and the slope beyond; gapbeam_law_cubic, with k1, k2
         !> and k3 (force/length**2 to **4)
         integer :: law = gapbeam_law_by_points
-        !> Those at its left and right end, linear in between, 0 or more (k2 of any sign)
+        !> Those at its left and right end, linear in between, 0 or more (k2 of any sign); 0 where there is a table instead
         real(wp) :: parameter(parameters_of_law) = 0.0_wp, parameter_to(parameters_of_law) = gapbeam_unchanged
     end type foundation_type
 
-    !> A point of the profile of a foundation, which has one instead of a gap: straight in between, beyond its ends the last value
+    !> A point of a table of a foundation, which has one instead of a number or two: straight in between, beyond its ends the last
+    !> value. A table of gaps is the profile of the ground
     type :: ground_point_type
-        !> Number of the foundation, from 1; its points stand beside each other, in ascending order of x
+        !> Number of the foundation, from 1; the points of a table stand beside each other, in ascending order of x
         integer :: foundation
-        !> Place, also outside the foundation, and the gap there
-        real(wp) :: x, gap
+        !> Place, also outside the foundation, and the value there. Two points at a place are a step, but of a gap
+        real(wp) :: x, value
+        !> gapbeam_table_of_k, gapbeam_table_of_gap, or gapbeam_table_of_parameter plus 0, 1 or 2
+        integer :: quantity = gapbeam_table_of_gap
     end type ground_point_type
 
     !> A point of the law of a foundation, which has one instead of a modulus: a polyline from (0, 0) through its points, whose last
@@ -127,6 +134,9 @@ module gapbeam_scene
         integer :: foundation
         !> Displacement past the gap, above that of the point before; force per length, not below that of the point before
         real(wp) :: displacement, force
+        !> Place at which the law is that, also outside the foundation; gapbeam_unchanged: everywhere. The laws at several places
+        !> follow each other in ascending order of x, each with as many points, which are linear in between
+        real(wp) :: x = gapbeam_unchanged
     end type ground_law_point_type
 
     !> A load; the functions below make one of each kind
@@ -157,7 +167,7 @@ module gapbeam_scene
         !> Points of the laws of those that have one
         type(law_point_type), allocatable :: law(:)
         type(foundation_type), allocatable :: foundations(:)
-        !> Points of the profiles and of the laws of those that have one
+        !> Points of the tables and of the laws of those that have one
         type(ground_point_type), allocatable :: ground(:)
         type(ground_law_point_type), allocatable :: ground_law(:)
         type(load_type), allocatable :: loads(:)

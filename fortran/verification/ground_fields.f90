@@ -5,7 +5,7 @@ module gapbeam_ground_fields
     use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type, decay_lengths
     use gapbeam_foundation_taylor, only: is_sloped
     use gapbeam_foundation_fields, only: fields_at, sloped_start, sloped_fields_from
-    use gapbeam_layers, only: layer_type, is_curve
+    use gapbeam_layers, only: layer_type, law_piece_type, is_curve
     use gapbeam_curved, only: curved_type, curved_fields
     use gapbeam_ground_laws, only: along, take_curves
     use gapbeam_ground_solution, only: ground_solution_type
@@ -37,9 +37,10 @@ module gapbeam_ground_fields
 contains
 
     !> Make a stretch ready
-    pure subroutine look_inside(layers, length, solution, i, inside, roughly)
-        !> Layers of ground under the piece of the beam, and its length
+    pure subroutine look_inside(layers, laws, length, solution, i, inside, roughly)
+        !> Layers of ground under the piece of the beam, the pieces of all laws, and the length of the piece of the beam
         type(layer_type), intent(in) :: layers(:)
+        type(law_piece_type), intent(in) :: laws(:)
         real(wp), intent(in) :: length
         !> The solution, and the number of the stretch
         type(ground_solution_type), intent(in) :: solution
@@ -49,7 +50,7 @@ contains
         !> Is it enough if rotations and shears are made of load and moments, which costs less; default: no
         logical, intent(in), optional :: roughly
 
-        call curved_stretch(layers, length, solution, i, inside%curved)
+        call curved_stretch(layers, laws, length, solution, i, inside%curved)
         if (allocated(inside%curved)) return
         inside%stretch = solution%stretches(i)
         inside%load = solution%loads(i)
@@ -134,9 +135,10 @@ contains
     end function beside_chord
 
     !> A stretch on which ground acts by curves
-    pure subroutine curved_stretch(layers, length, solution, i, curved)
+    pure subroutine curved_stretch(layers, laws, length, solution, i, curved)
         !> As for look_inside
         type(layer_type), intent(in) :: layers(:)
+        type(law_piece_type), intent(in) :: laws(:)
         real(wp), intent(in) :: length
         type(ground_solution_type), intent(in) :: solution
         integer, intent(in) :: i
@@ -146,7 +148,7 @@ contains
         associate (ends => solution%ends(i), s => solution%stretches(i))
             if (.not. any(is_curve(layers, solution%acts(:size(layers), i)))) return
             allocate (curved)
-            call take_curves(layers, solution%acts(:, i), solution%from(i), solution%to(i), length, curved%curves)
+            call take_curves(layers, laws, solution%acts(:, i), solution%from(i), solution%to(i), length, curved%curves)
             curved%stretch = s
             curved%load = solution%loads(i)
             curved%left = [ends%w_a - s%shear_flexibility*ends%moment_a, solution%rotation(1, i), ends%moment_a, &

@@ -9,7 +9,7 @@ module gapbeam_ground_limit
     use gapbeam_watch, only: is_stopped
     use gapbeam_nodes, only: hinge, restrained
     use gapbeam_ground_quad, only: ground_type
-    use gapbeam_layers_quad, only: layer_type, has_limit, law_by_points
+    use gapbeam_layers_quad, only: layer_type, has_limit, has_points
     use gapbeam_kinematics_quad, only: work_of_loads
     implicit none
     private
@@ -252,8 +252,8 @@ contains
         type(layer_type), intent(in) :: layer
         real(qp) :: limits(2)
 
-        if (layer%law == law_by_points) then
-            limits = ground%laws(layer%law_last)%force
+        if (has_points(layer)) then
+            limits = [ground%laws(layer%law_last)%force_a, ground%laws(layer%law_last)%force_b]
         else
             limits = [layer%parameter_a(2), layer%parameter_b(2)]
         end if

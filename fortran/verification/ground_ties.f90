@@ -111,7 +111,8 @@ contains
             end associate
         end do
         ! The first parameter of a law that is not by points is its stiffness
-        modulus = maxval([ground%layers%modulus_a, ground%layers%modulus_b, ground%laws%slope, ground%layers%parameter_a(1), &
+        modulus = maxval([ground%layers%modulus_a, ground%layers%modulus_b, ground%laws%slope_a, ground%laws%slope_b, &
+                          ground%layers%parameter_a(1), &
                           ground%layers%parameter_b(1)])
         way = kappa*length**2 + maxval(abs([ground%layers%contact_a, ground%layers%contact_b])) &
             + force*length*(maxval(ground%pieces%flexibility)*length**2 + maxval(ground%pieces%shear_flexibility)) &

@@ -46,7 +46,9 @@ contains
         type(law_piece_type), intent(in) :: law
         type(fine_law_piece_type) :: fine
 
-        fine = fine_law_piece_type(real(law%displacement, qp), real(law%force, qp), real(law%slope, qp))
+        fine = fine_law_piece_type(real(law%displacement_a, qp), real(law%displacement_b, qp), real(law%force_a, qp), &
+                                   real(law%force_b, qp), real(law%slope_a, qp), real(law%slope_b, qp), real(law%way_a, qp), &
+                                   real(law%way_b, qp))
     end function fine_law
 
     !> Zones in quadruple precision

@@ -4,7 +4,7 @@
 module gapbeam_stretch_audit
     use gapbeam_kinds, only: wp
     use gapbeam_element, only: field_type
-    use gapbeam_layers, only: layer_type, law_piece_type, law_piece, pieces_of_law, is_curve, law_by_points, law_cubic, &
+    use gapbeam_layers, only: layer_type, law_piece_type, law_piece, pieces_of_law, is_curve, has_points, law_cubic, &
         parameters_of_law
     use gapbeam_ground_laws, only: along, approach_kink, push_of_layer
     use gapbeam_curved, only: curved_type, advance_curved
@@ -73,7 +73,7 @@ contains
                 if (curves) then
                     call go_along_curves()
                 else
-                    call look_inside(layers, ground%pieces(j)%length, solution, i, inside, roughly=.true.)
+                    call look_inside(layers, ground%laws, ground%pieces(j)%length, solution, i, inside, roughly=.true.)
                     call integrate()
                     call fits(of_bending, rotations, (right%rotation - left%rotation) - l*bent(1), &
                               abs(right%rotation) + abs(left%rotation) + l*(f*msize + abs(load%kappa)))
@@ -176,7 +176,7 @@ contains
 
             associate (j => solution%piece(i), s => solution%stretches(i))
                 associate (layers => ground%layers(ground%first(j):ground%first(j + 1) - 1), l => s%length)
-                    call curved_stretch(layers, ground%pieces(j)%length, solution, i, curved)
+                    call curved_stretch(layers, ground%laws, ground%pieces(j)%length, solution, i, curved)
                     allocate (by_curves(size(curved%curves)))
                     call advance_curved(curved, 0.0_wp, curved%left, 1.0_wp, y, lost, forces=by_curves)
                     if (lost) then
@@ -200,7 +200,7 @@ contains
                         c = c + 1
                         force(k) = layers(k)%side*by_curves(c)
                     end do
-                    call look_inside(layers, ground%pieces(j)%length, solution, i, inside)
+                    call look_inside(layers, ground%laws, ground%pieces(j)%length, solution, i, inside)
                     do t = 1, samples
                         call field_inside(inside, t/(samples + 1.0_wp), field)
                         call look_at(t/(samples + 1.0_wp), field, .false.)
@@ -346,8 +346,9 @@ contains
 
         piece = law_piece(layer, laws, kink)
         steepness = 1.0_wp
-        sizes = deflection + abs(layer%contact_a) + abs(layer%contact_b) + abs(piece%displacement)
-        if (kink == 1 .or. layer%law == law_by_points) return
+        sizes = deflection + abs(layer%contact_a) + abs(layer%contact_b) &
+            + max(abs(piece%displacement_a), abs(piece%displacement_b))
+        if (kink == 1 .or. has_points(layer)) return
         steepness = max(layer%parameter_a(1), layer%parameter_b(1))
         sizes = steepness*sizes + max(layer%parameter_a(2), layer%parameter_b(2))
     end subroutine kink_terms
@@ -367,9 +368,10 @@ contains
         sizes = 0.0_wp
         if (acts == 0) return
         u = deflection + abs(layer%contact_a) + abs(layer%contact_b)
-        if (layer%law == law_by_points) then
+        if (has_points(layer)) then
             piece = law_piece(layer, laws, acts)
-            sizes = max(layer%modulus_a, layer%modulus_b, piece%slope)*(u + abs(piece%displacement)) + abs(piece%force)
+            sizes = max(layer%modulus_a, layer%modulus_b, piece%slope_a, piece%slope_b) &
+                *(u + max(abs(piece%displacement_a), abs(piece%displacement_b))) + max(abs(piece%force_a), abs(piece%force_b))
             return
         end if
         p = max(abs(layer%parameter_a), abs(layer%parameter_b))

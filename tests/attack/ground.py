@@ -9,6 +9,7 @@ from curved_scenes import random_curved_scene
 from foundation_scenes import random_scene
 from gapbeam.base.errors import Status
 from scenes import nodes_of, place
+from tabled_scenes import is_table, tables_of, with_tables
 from touching_scenes import touching_scene
 
 from .family import Family, Verdict
@@ -33,6 +34,8 @@ def draw_scene(seed):
     while True:
         kind = rng.choice(("straight", "straight", "curved"))
         made = (random_scene if kind == "straight" else random_curved_scene)(rng.randrange(10**9))
+        if seed % 8 == 5:
+            kind, made = "tables", with_tables(rng, made)
         try:
             gapbeam.read_scene(made)
         except gapbeam.SceneError:
@@ -83,14 +86,17 @@ def cuts(made, result):
     found = {0.0, length, *nodes_of(made), *made["beam"].get("hinges", ())}
     for item in (*made.get("sections", ()), *made["loads"], *made["foundation"]):
         found |= {item[key] for key in ("from", "to", "x") if key in item}
-        found |= {x for x, _ in item.get("profile", ())}
+        found |= {x for points in (item.get("profile", ()), *tables_of(item)) for x, _ in points}
+        found |= {at["x"] for at in item.get("law", ()) if isinstance(at, dict)}
     found |= {place(made, item) for item in made.get("supports", ())}
     found |= {x for zone in result.steps[-1].contact for x in (zone.from_, zone.to)}
     return np.array(sorted(x for x in found if 0.0 <= x <= length))
 
 
 def between(values, x, item, length):
-    """A number, or a line from one end of an item to the other."""
+    """A number, a line from one end of an item to the other, or a table."""
+    if is_table(values):
+        return np.interp(x, *zip(*values, strict=True))
     if not isinstance(values, list | tuple):
         return np.full_like(x, values)
     a, b = item.get("from", 0.0), item.get("to", length)
@@ -117,6 +123,8 @@ def by_law(item, x, u, length):
     law = item.get("law")
     if law is None:
         return between(item["k"], x, item, length) * u
+    if isinstance(law, list) and isinstance(law[0], dict):
+        return by_polylines(law, x, u)
     if isinstance(law, list):
         d, r = (np.array([0.0, *column]) for column in zip(*law, strict=True))
         beyond = (r[-1] - r[-2]) / (d[-1] - d[-2]) * np.maximum(u - d[-1], 0.0)
@@ -129,6 +137,17 @@ def by_law(item, x, u, length):
         return np.where(k * u <= limit, k * u, limit + parameters.get("slope", 0.0) * (u - limit / np.where(k > 0.0, k, 1.0)))
     share = np.divide(k * u, limit, out=np.zeros_like(u), where=limit > 0.0)
     return k * u / (1.0 + share) if law["type"] == "hyperbolic" else limit * np.tanh(share)
+
+
+def by_polylines(law, x, u):
+    """Force of a law whose points are straight between places."""
+    places = [at["x"] for at in law]
+    points = np.array([[(0.0, 0.0), *at["points"]] for at in law])  # places by points by 2
+    d, r = (np.array([np.interp(x, places, column) for column in points[:, :, k].T]) for k in (0, 1))
+    slopes = np.diff(r, axis=0) / np.diff(d, axis=0)
+    piece = np.clip((u >= d).sum(axis=0) - 1, 0, len(slopes) - 1)
+    at = np.arange(len(x))
+    return r[piece, at] + slopes[piece, at] * (u - d[piece, at])
 
 
 def beam_of(made, x):

@@ -97,8 +97,12 @@ def is_for_all(made):
     spans, supports, foundations = made["beam"]["spans"], made.get("supports", []), made.get("foundation", [])
     plain = isinstance(spans, list) and len(spans) <= MOST_NODES and not set(made) & WHOLE_ONLY
     plain = plain and not any(isinstance(support.get("law"), dict) for support in supports)
-    laws = [item["law"]["type"] for item in foundations if isinstance(item.get("law"), dict)]
-    return plain and all(law in GROUND_LAWS for law in laws)
+    laws = [item["law"] for item in foundations if isinstance(item.get("law"), dict)]
+    numbers = [value for item in (*foundations, *laws) for key, value in item.items() if key != "profile"]
+    tables = any(isinstance(value, list) and isinstance(value[0], dict) for value in numbers)
+    tables |= any(isinstance(item["k"], list) and isinstance(item["k"][0], list) for item in foundations if "k" in item)
+    tables |= any(isinstance(value, list) and isinstance(value[0], list) for law in laws for value in law.values())
+    return plain and not tables and all(law["type"] in GROUND_LAWS for law in laws)
 
 
 def attempt(call, *arguments):

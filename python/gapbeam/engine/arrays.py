@@ -35,10 +35,10 @@ class Columns(Record):
         Kind, case and node of the loads, 3 rows of int; x or left end, right end, value, value at the right end, 4 rows.
     foundation_sides, foundation : numpy.ndarray
         Side of the foundations, int; left and right end, modulus there, gap there, law and its parameters at both ends, 13 rows.
-    profile_foundations, profile : numpy.ndarray
-        Points of the profiles: number of the foundation, from 1; x and gap, 2 rows.
+    table_foundations, table : numpy.ndarray
+        Points of the tables of foundations: number of the foundation, from 1; x, value, and of what, as in gapbeam_scene, 3 rows.
     ground_law_foundations, ground_law : numpy.ndarray
-        Points of the laws of foundations: number of the foundation, from 1; displacement and force per length, 2 rows.
+        Points of the laws of foundations: number of the foundation, from 1; displacement, force per length, and place, 3 rows.
     """
 
     span: np.ndarray
@@ -52,10 +52,61 @@ class Columns(Record):
     load: np.ndarray
     foundation_sides: np.ndarray
     foundation: np.ndarray
-    profile_foundations: np.ndarray
-    profile: np.ndarray
+    table_foundations: np.ndarray
+    table: np.ndarray
     ground_law_foundations: np.ndarray
     ground_law: np.ndarray
+
+    def of_tables(self, quantity: int) -> tuple[np.ndarray, np.ndarray]:
+        """Give the points of the tables of one quantity.
+
+        Parameters
+        ----------
+        quantity : int
+            Of what, as in gapbeam_scene.
+
+        Returns
+        -------
+        foundations, values : numpy.ndarray
+            Number of the foundation, from 0, and the value of every point.
+        """
+        which = np.flatnonzero(self.table[2, :-1] == quantity)
+        return self.table_foundations[which] - 1, self.table[1, which]
+
+    def has_varying_laws(self) -> bool:
+        """Whether a law of a foundation by points is not the same everywhere.
+
+        Returns
+        -------
+        bool
+        """
+        return bool((self.ground_law[2, :-1] > -np.finfo(float).max).any())
+
+    def slopes_of_laws(self) -> np.ndarray:
+        """Give the slopes of all pieces of the laws of foundations by points.
+
+        Returns
+        -------
+        numpy.ndarray
+        """
+        which, (way, force, place) = self.ground_law_foundations[:-1], self.ground_law[:, :-1]
+        first = np.append(True, (np.diff(which) != 0) | (np.diff(place) != 0.0))[: len(which)]
+        ways, forces = (np.where(first, values, np.diff(values, prepend=0.0)) for values in (way, force))
+        return np.divide(forces, ways, out=np.zeros(len(ways)), where=ways > 0.0)
+
+    def greatest_of_ground(self) -> np.ndarray:
+        """Give the greatest modulus, and the greatest of every parameter of its law, of every foundation.
+
+        Returns
+        -------
+        numpy.ndarray
+            Moduli, then parameters, rows by foundations; 0 where there is none.
+        """
+        ends = self.foundation[[[2, 3], [7, 10], [8, 11], [9, 12]], :-1]
+        most = ends.max(axis=1)
+        for row, quantity in enumerate((1, 3, 4, 5)):
+            np.maximum.at(most[row], *self.of_tables(quantity))
+        return most
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -98,7 +98,7 @@ class Beam:
         c = columns
         handle, status, reason, table, entry, partner, key, message = _engine.gbmake(
             c.span, c.hinge, c.section, c.support_codes, c.support, c.law_supports, c.law, c.load_codes, c.load,
-            c.foundation_sides, c.foundation, c.profile_foundations, c.profile, c.ground_law_foundations, c.ground_law,
+            c.foundation_sides, c.foundation, c.table_foundations, c.table, c.ground_law_foundations, c.ground_law,
         )  # fmt: skip
         if status == Status.BAD_INPUT:
             raise RefusalError(reason, table, entry, partner, key.decode().strip(), message.decode().strip())
@@ -116,7 +116,8 @@ class Beam:
             bool, has
         )
         self.units = Units(*units.tolist())
-        self.handle.has_curves = bool((self.columns.foundation[LAW_ROW] >= FIRST_CURVE).any())
+        c = self.columns
+        self.handle.has_curves = bool((c.foundation[LAW_ROW] >= FIRST_CURVE).any() or c.has_varying_laws())
 
     def with_factors(self, factors: np.ndarray) -> Beam:
         """Make another beam: each load times its factor, all of them live.

@@ -228,11 +228,8 @@ def points_a_span(scene: Scene, beam: Beam) -> float:
         0 without foundations.
     """
     columns = beam.columns
-    moduli = [columns.foundation[2:4, :-1].max(initial=0.0)]
-    which, (way, force) = columns.ground_law_foundations[:-1], columns.ground_law[:, :-1]
-    first = np.append(True, np.diff(which) != 0)[: len(which)]
-    ways, forces = (np.where(first, values, np.diff(values, prepend=0.0)) for values in (way, force))
-    moduli.append(np.divide(forces, ways, out=np.zeros(len(ways)), where=ways > 0.0).max(initial=0.0))
+    moduli = [columns.greatest_of_ground()[0].max(initial=0.0)]
+    moduli.append(columns.slopes_of_laws().max(initial=0.0))
     stiffness = float(beam.places.pieces[:, 1].min())
     return PER_LENGTH * max(scene.beam.spans) * (max(moduli) / (4.0 * stiffness)) ** 0.25
 

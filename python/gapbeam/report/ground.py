@@ -1,10 +1,11 @@
 """The ground in the report: the foundations, the zones in which they act, the stretches in which the beam hangs free."""
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..results import formatting as fmt
 from ..results.ground import TOUCHING, Contact, FreeSpan, joined
+from ..scene.ground_tables import is_table, least_and_most
 from ..scene.names import label
 from .scheme import symbol
 from .writer import LONGEST, Writer
@@ -211,10 +212,11 @@ def _some(values: Sequence[float | None]) -> list[str]:
     return ["" if value is None else next(texts) for value in values]
 
 
-def _pair(value: float | Sequence[float] | None) -> str:
-    """Write a number, or the two at both ends."""
+def _pair(value: Any) -> str:
+    """Write a number, the two at both ends, or the least and the greatest of a table."""
     if value is None:
         return ""
+    value = least_and_most(value) if is_table(value) else value
     first, last = (value, value) if isinstance(value, int | float) else value
     return _number(first) if first == last else f"{_number(first)} to {_number(last)}"
 

@@ -7,7 +7,7 @@ compression of the stretch, EI its smallest stiffness.
 
 from __future__ import annotations
 
-from bisect import bisect_right
+from bisect import bisect_left, bisect_right
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import chain, pairwise
@@ -18,9 +18,20 @@ import numpy as np
 from ..base.errors import SceneError
 from ..engine.beam import FIELDS, SOLVED, Beam
 from ..engine.combinations import Varied, solve_combinations
-from ..scene.ground_laws import CubicGround, HardeningGround, HyperbolicGround, PlasticGround, TanhGround
+from ..scene.ground_laws import (
+    CubicGround,
+    HardeningGround,
+    HyperbolicGround,
+    PlasticGround,
+    PowerGround,
+    TanhGround,
+    slopes_of_branch,
+    tables_of,
+    varies,
+)
+from ..scene.ground_tables import least_between
 from .branches import BranchPath
-from .ground import TOUCHING
+from .ground import TOUCHING, Contact
 from .kinks import piece_of
 
 if TYPE_CHECKING:
@@ -222,12 +233,12 @@ class Struts:
         """Find the largest compression beside what supports and ground resist, as `largest`, in a state on the ground."""
         pressure = float(np.abs(step.extremes()[0][:, FIELDS.index("pressure")]).max())
         zones = [
-            (zone.from_, zone.to, *modulus(under, zone.state, pressure), under)
+            (zone.from_, zone.to, zone.state, under)
             for zone in step.contact
             for under in [scene.foundation[zone.foundation]]
             if zone.state != TOUCHING
+            and any(modulus(under, zone.state, pressure, (x, x), float(self.x[-1])) > 0.0 for x in _places(zone, under))
         ]
-        zones = [zone for zone in zones if max(zone[2], zone[3]) > 0.0]
         closed, end, x = step.solution.closed, float(self.x[-1]), self.x
         supported = self.stretches(closed)
         held = set(x[self._support_points[self.acting(closed)]].tolist()) | {at for zone in zones for at in zone[:2]}
@@ -239,7 +250,7 @@ class Struts:
             if not (force > 0.0 and stop > start):
                 continue
             here = [zone for zone in zones if zone[0] <= start and stop <= zone[1]]
-            k = sum(min(linear(zone, start, end), linear(zone, stop, end)) for zone in here)
+            k = sum(modulus(under, state, pressure, (start, stop), end) for *_, state, under in here)
             both = {start, stop} <= held or {start, stop} <= hinges - held
             length = (stop - start) * (1.0 if both else 2.0)
             critical = euler(EI, length)
@@ -263,16 +274,14 @@ def resisted(k: float, EI: float) -> float:
     return float(2.0 * np.sqrt(k) * np.sqrt(EI))
 
 
-def linear(zone: tuple[Any, ...], x: float, end: float) -> float:
-    """The modulus of a zone's foundation at a place."""
-    foundation = zone[4]
-    start, stop = foundation.from_, end if foundation.to is None else foundation.to
-    share = min(max((x - start) / (stop - start), 0.0), 1.0)
-    return zone[2] + share * (zone[3] - zone[2])
+def _places(zone: Contact, foundation: Foundation) -> list[float]:
+    """Ends of a zone, and where tables of its foundation have a point in it."""
+    inside = [point[0] for table in tables_of(foundation) for point in table if zone.from_ < point[0] < zone.to]
+    return [zone.from_, *inside, zone.to]
 
 
-def modulus(foundation: Foundation, state: str, pressure: float) -> tuple[float, float]:
-    """Give the tangent modulus of a foundation in a zone, at its left and its right end.
+def modulus(foundation: Foundation, state: str, pressure: float, between: tuple[float, float], end: float) -> float:
+    """Give the least tangent modulus of a foundation in a part of a zone.
 
     Parameters
     ----------
@@ -282,37 +291,44 @@ def modulus(foundation: Foundation, state: str, pressure: float) -> tuple[float,
         Of the zone: ``branch 2`` is on the second piece of a law.
     pressure : float
         The largest pressure anywhere: a curve that gets softer is taken there.
+    between : (float, float)
+        Ends of the part.
+    end : float
+        Right end of the beam.
 
     Returns
     -------
-    tuple of (float, float)
+    float
     """
+    stretch = (foundation.from_, end if foundation.to is None else foundation.to)
+
+    def least(value: Any) -> float:
+        return least_between(value, stretch, *between)
+
     k, law = foundation.k, foundation.law
     if k is not None:
-        return k if isinstance(k, tuple) else (k, k)
+        return least(k)
     branch = int(state.removeprefix("branch ")) if state.startswith("branch ") else 1
+    if varies(law):  # between two places the slope is one between those there
+        slopes = slopes_of_branch(law, branch)
+        first, last = bisect_right(slopes, (between[0], np.inf)), bisect_left(slopes, (between[1],))
+        return min(slope for _, slope in slopes[max(first - 1, 0) : last + 1])
     if isinstance(law, list):
         points = [(0.0, 0.0), *law]
         (d, p), (e, q) = points[min(branch, len(points) - 1) - 1 :][:2]
-        return ((q - p) / (e - d),) * 2
-
-    def pair(value: Any) -> tuple[float, float]:
-        return value if isinstance(value, tuple) else (value, value)
-
+        return (q - p) / (e - d)
     if isinstance(law, PlasticGround):
-        return pair(law.stiffness) if branch == 1 else (0.0, 0.0)
+        return least(law.stiffness) if branch == 1 else 0.0
     if isinstance(law, HardeningGround):
-        return pair(law.stiffness if branch == 1 else law.slope)
+        return least(law.stiffness if branch == 1 else law.slope)
     if isinstance(law, TanhGround | HyperbolicGround):
-        left = [max(1.0 - pressure / limit, 0.0) if limit > 0.0 else 0.0 for limit in pair(law.limit)]
-        left = [one * (2.0 - one) if isinstance(law, TanhGround) else one**2 for one in left]
-        return tuple(k * one for k, one in zip(pair(law.stiffness), left, strict=True))
-    if isinstance(law, CubicGround):
-        return tuple(
-            max(a - (b * b / (3.0 * c) if b < 0.0 and c > 0.0 else 0.0), 0.0)
-            for a, b, c in zip(pair(law.k1), pair(law.k2), pair(law.k3), strict=True)
-        )
-    return 0.0, 0.0
+        limit = least(law.limit)
+        left = max(1.0 - pressure / limit, 0.0) if limit > 0.0 else 0.0
+        return least(law.stiffness) * (left * (2.0 - left) if isinstance(law, TanhGround) else left**2)
+    if isinstance(law, CubicGround | PowerGround):
+        a, b, c = map(least, law.values())
+        return max(a - (b * b / (3.0 * c) if b < 0.0 and c > 0.0 else 0.0), 0.0)
+    return 0.0
 
 
 def tensions(beam: Beam, step: Step) -> np.ndarray:

@@ -6,7 +6,7 @@ The ends of zones of contact move with a small force, but what they change is of
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from msgspec.structs import replace as replace_struct
@@ -14,7 +14,18 @@ from msgspec.structs import replace as replace_struct
 from ..engine.beam import FIELDS, SOLVED, Beam
 from ..engine.units import scaled
 from ..scene.columns import columns
-from ..scene.ground_laws import CubicGround, HardeningGround, HyperbolicGround, TanhGround, ground_points
+from ..scene.ground_laws import (
+    CubicGround,
+    HardeningGround,
+    HyperbolicGround,
+    PowerGround,
+    TanhGround,
+    ground_points,
+    is_straight,
+    slopes_of_branch,
+    varies,
+)
+from ..scene.ground_tables import is_table
 from ..scene.names import label
 from ..scene.structs import ForceLoad, Foundation, Scene, Support
 from .ground import TOUCHING, Contact
@@ -113,21 +124,27 @@ def _foundation(scene: Scene, zone: Contact) -> Foundation | None:
     to = scene.span_ends()[-1] if item.to is None else item.to
     shares = [(at - item.from_) / (to - item.from_) for at in (zone.from_, zone.to)]
     slope = _slope_of(scene, zone)
+    if is_table(slope):
+        carries = any(value > 0.0 for _, value in slope)
+        return Foundation(from_=zone.from_, to=zone.to, k=slope, side="both") if carries else None
     ends = slope if isinstance(slope, tuple) else (slope, slope)
     k = tuple(max(ends[0] + share * (ends[1] - ends[0]), 0.0) for share in shares)
     return Foundation(from_=zone.from_, to=zone.to, k=k, side="both") if max(k) > 0.0 else None
 
 
-def _slope_of(scene: Scene, zone: Contact) -> float | tuple[float, float]:
-    """Stiffness of a foundation in a zone, one number or those at the ends of the foundation."""
+def _slope_of(scene: Scene, zone: Contact) -> Any:
+    """Stiffness of a foundation in a zone, one number, those at the ends of the foundation, or a table."""
     item = scene.foundation[zone.foundation]
     if item.law is None:
         return item.k
-    if isinstance(item.law, (HyperbolicGround, TanhGround, CubicGround)):
+    bent = varies(item.law) and not is_straight(item.law)
+    if bent or isinstance(item.law, (HyperbolicGround, TanhGround, CubicGround, PowerGround)):
         name = label(scene.foundation, zone.foundation)
         problem = f"foundation {name} acts by a curve there"
         raise ValueError(f"position: {problem}; influence lines need straight laws, so give a polyline")
     branch = int(zone.state.split()[-1])
+    if varies(item.law):
+        return slopes_of_branch(item.law, branch)
     points = ground_points(item.law)
     if points is not None:
         points = [(0.0, 0.0), *points]

@@ -17,7 +17,7 @@ import numpy as np
 from ..base.errors import EngineError, SceneError, Status
 from ..engine.beam import SOLVED, Beam
 from ..engine.ground import zone_changes
-from ..scene.ground_laws import CubicGround
+from ..scene.ground_laws import CubicGround, tables_of
 from ..scene.structs import ForceLoad, Scene
 from ..scene.trains import LEFT, Course
 from .compression import tensions
@@ -373,11 +373,13 @@ def places_of_kinks(scene: Scene) -> np.ndarray:
     Returns
     -------
     numpy.ndarray
-        Ends of the beam, of spans, sections and foundations; supports, hinges, forces.
+        Ends of the beam, of spans, sections and foundations; supports, hinges, forces; where tables of ground have a kink.
     """
     ends = scene.span_ends()
     stretches = [(item.from_, ends[-1] if item.to is None else item.to) for item in (*scene.sections, *scene.foundation)]
-    found = np.concatenate((ends, places_of_jumps(scene), scene.beam.hinges, np.array(stretches).ravel()))
+    tables = [point[0] for item in scene.foundation for table in tables_of(item) for point in table]
+    inside = [x for x in tables if ends[0] < x < ends[-1]]
+    found = np.concatenate((ends, places_of_jumps(scene), scene.beam.hinges, np.array(stretches).ravel(), inside))
     return np.unique(found)
 
 
@@ -400,14 +402,11 @@ def grid_step(scene: Scene, beam: Beam, deflection: float) -> float:
     """
     end = beam.places.end
     spans = max(len(np.unique(scene.positions(scene.supports))) - 1, 1)
-    ground = beam.columns.foundation[:, :-1]
-    modulus = max(ground[2:4].max(initial=0.0), ground[[7, 10]].max(initial=0.0))
-    k1, _, k3 = ground[7:13, ground[6] == CubicGround.code].reshape(2, 3, -1).max(axis=0)
+    greatest = beam.columns.greatest_of_ground()
+    modulus = greatest[:2].max(initial=0.0)
+    k1, _, k3 = greatest[1:, beam.columns.foundation[6, :-1] == CubicGround.code]
     modulus = max(modulus, (k1 + 3.0 * k3 * deflection**2).max(initial=0.0))
-    which, (way, force) = beam.columns.ground_law_foundations[:-1], beam.columns.ground_law[:, :-1]
-    first = np.append(True, np.diff(which) != 0)[: len(which)]
-    ways, forces = (np.where(first, values, np.diff(values, prepend=0.0)) for values in (way, force))
-    modulus = max(modulus, np.divide(forces, ways, out=np.zeros(len(ways)), where=ways > 0.0).max(initial=0.0))
+    modulus = max(modulus, beam.columns.slopes_of_laws().max(initial=0.0))
     stiffness = float(beam.places.pieces[:, 1].min())
     bends = (4.0 * stiffness / modulus) ** 0.25 if modulus > 0.0 and np.isfinite(stiffness) else end
     return min(end / spans, bends) / PER_LENGTH

@@ -205,6 +205,8 @@ def _check_moduli(columns: Columns, which: list[int], values: np.ndarray) -> Non
     found, places = values[:, which], [f"foundation[{k}].k" for k in which]
     at_ends = columns.foundation[2:4, which]
     _refuse(~((found > 0.0) & np.isfinite(found)), found, places, "expected a finite number above 0")
+    with_table = np.broadcast_to(np.isin(which, columns.of_tables(1)[0]), found.shape)
+    _refuse(with_table, found, places, "the prepared scene has a table here, which stays; prepare it with one number")
     with_law = np.broadcast_to(~(at_ends > 0.0).any(axis=0), found.shape)
     _refuse(with_law, found, places, "it has a law instead of a modulus; leave it out")
     pairs = np.broadcast_to(at_ends[0] != at_ends[1], found.shape)

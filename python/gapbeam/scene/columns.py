@@ -11,7 +11,8 @@ import numpy as np
 from ..base.errors import SceneError
 from ..engine.arrays import Columns
 from ..engine.beam import Curve
-from .ground_laws import PARAMETERS, ground_parameters, ground_points
+from .ground_laws import PARAMETERS, ground_parameters, parameter_tables, points_with_places
+from .ground_tables import GAP, MODULUS, at_both_ends, is_table, points_of
 from .laws import is_smooth, law_points
 from .structs import AxialLoad, CurvatureLoad, ForceLoad, LinearLoad, MomentLoad, Scene, UniformLoad
 from .tables import Table
@@ -72,7 +73,7 @@ def columns(scene: Scene) -> Columns:
     load_codes, load_values = _loads(scene.loads)
     return Columns(
         span, hinge, _sections(scene.sections), codes, values, law_supports, law, load_codes, load_values,
-        *_foundations(scene.foundation), *_profiles(scene.foundation), *_laws(scene.foundation, ground_points),
+        *_foundations(scene.foundation), *_tables(scene.foundation), *_laws(scene.foundation, points_with_places, rows=3),
     )  # fmt: skip
 
 
@@ -140,34 +141,32 @@ def _foundations(items: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _at_both_ends(items: Sequence[Any], key: str) -> Any:
-    """Numbers at the left and at the right end, given as one or as a pair; 0 where there is none."""
+    """Numbers at the left and at the right end, given as one or as a pair; 0 where there is none, or a table."""
     values = _column(items, key)
     if not isinstance(values, list):
         return values
-    pairs = [value if isinstance(value, tuple) else (value or 0.0, value or 0.0) for value in values]
-    return np.array(pairs, dtype=float).reshape(-1, 2).T
+    return np.array(list(map(at_both_ends, values)), dtype=float).reshape(-1, 2).T
 
 
-def _profiles(items: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
-    """Points of profiles, and the numbers of their foundations, from 1; none of them can be given as columns."""
-    profiles = [] if isinstance(items, Table) else list(map(attrgetter("profile"), items))
-    points = [np.empty((0, 2)), *(np.asarray(one, dtype=float) for one in profiles if one is not None)]
-    which = [i for i, one in enumerate(profiles, 1) if one is not None]
-    found = _empty(2, sum(map(len, points)))
-    found[:, :-1] = np.concatenate(points).T
-    return np.repeat([*which, 0], [*map(len, points[1:]), 1]).astype(np.int32), found
+def _tables(items: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
+    """Points of tables, and the numbers of their foundations, from 1; none of them can be given as columns."""
+    tables = []
+    for i, item in enumerate(() if isinstance(items, Table) else items, 1):
+        given = [(GAP, item.profile), (MODULUS, item.k), *parameter_tables(item.law)]
+        tables += [(i, quantity, table) for quantity, table in given if is_table(table)]
+    return points_of(tables)
 
 
 def _laws(
-    items: Sequence[Any], points_of: Callable[[Any], list[tuple[float, float]] | None] = law_points
+    items: Sequence[Any], points_of: Callable[[Any], Sequence[tuple[float, ...]] | None] = law_points, rows: int = 2
 ) -> tuple[np.ndarray, np.ndarray]:
     """Points of laws, and the numbers of their supports or foundations, from 1; none of them can be given as columns."""
     laws = [] if isinstance(items, Table) else list(map(attrgetter("law"), items))
     which = [i for i, law in enumerate(laws) if law is not None] if laws.count(None) < len(laws) else []
     points = [(i + 1, *point) for i in which for point in points_of(laws[i]) or ()]
-    supports, found = _empty(1, len(points), np.int32)[0], _empty(2, len(points))
-    for k, (support, displacement, force) in enumerate(points):
-        supports[k], found[:, k] = support, (displacement, force)
+    supports, found = _empty(1, len(points), np.int32)[0], _empty(rows, len(points))
+    for k, (support, *point) in enumerate(points):
+        supports[k], found[:, k] = support, point
     return supports, found
 
 

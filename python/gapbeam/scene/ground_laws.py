@@ -1,20 +1,24 @@
-"""Laws of the ground by name: every parameter a number or a pair, linear in between."""
+"""Laws of the ground by name: every parameter a number, a pair or a table, linear in between."""
 
 from __future__ import annotations
 
-from typing import ClassVar
+import sys
+from typing import Any, ClassVar
 
-from .laws import BrittleLaw, HardeningLaw, PlasticLaw, PowerLaw
-from .table import NotNegative, Table
+import numpy as np
 
-Linear = NotNegative | tuple[NotNegative, NotNegative]
+from .ground_tables import PARAMETER, Along, AlongSigned, at_both_ends, is_table
+from .laws import BrittleLaw, HardeningLaw, PlasticLaw
+from .table import Positive, Table
 
 PARAMETERS = 3
 """Of any law, for the engine."""
+EVERYWHERE = -sys.float_info.max
+"""Instead of the place of a law."""
 
 
 class _GroundLaw(Table, forbid_unknown_fields=True, kw_only=True, gc=False, tag_field="type"):
-    """A law by its parameters, each a number or (at from, at to), linear in between."""
+    """A law by its parameters, each a number, (at from, at to) or points (x, value), linear in between."""
 
     code: ClassVar[int]
 
@@ -24,9 +28,13 @@ class _GroundLaw(Table, forbid_unknown_fields=True, kw_only=True, gc=False, tag_
 
     def parameters(self) -> list[tuple[float, float]]:
         """Give the parameters at both ends in the engine's order."""
-        return [value if isinstance(value, tuple) else (value, value) for value in self.values()]
+        return list(map(at_both_ends, self.values()))
 
-    def values(self) -> tuple[Linear, ...]:
+    def tables(self) -> list[tuple[int, Any]]:
+        """Give the parameters that are tables, each with what it is for the engine."""
+        return [(PARAMETER + k, value) for k, value in enumerate(self.values()) if is_table(value)]
+
+    def values(self) -> tuple[Along | AlongSigned, ...]:
         """Give the parameters in the engine's order."""
         return tuple(getattr(self, key) for key in self.__struct_fields__)
 
@@ -36,14 +44,15 @@ class _Limited(_GroundLaw):
 
     Parameters
     ----------
-    stiffness : float or (float, float)
-        Stiffness at first (force/length^2); or (at from, at to), linear in between.
-    limit : float or (float, float)
-        The force per length up to which it is elastic, or to which it tends; or (at from, at to), linear in between.
+    stiffness : float, (float, float) or list of (float, float)
+        Stiffness at first (force/length^2); or (at from, at to), or points (x, value), linear in between.
+    limit : float, (float, float) or list of (float, float)
+        The force per length up to which it is elastic, or to which it tends; or (at from, at to), or points (x, value), linear
+        in between.
     """
 
-    stiffness: Linear
-    limit: Linear
+    stiffness: Along
+    limit: Along
 
 
 class PlasticGround(_Limited, tag="plastic"):
@@ -61,12 +70,13 @@ class HardeningGround(_Limited, tag="hardening"):
 
     Parameters
     ----------
-    slope : float or (float, float)
-        Stiffness beyond (force/length^2), greater or less than the first one; or (at from, at to), linear in between.
+    slope : float, (float, float) or list of (float, float)
+        Stiffness beyond (force/length^2), greater or less than the first one; or (at from, at to), or points (x, value), linear
+        in between.
     """
 
     code = 2
-    slope: Linear
+    slope: Along
 
     def points(self) -> list[tuple[float, float]] | None:
         """Give the polyline where the parameters are numbers above 0."""
@@ -90,43 +100,89 @@ class CubicGround(_GroundLaw, tag="cubic"):
 
     Parameters
     ----------
-    k1 : float or (float, float)
-        Stiffness at first (force/length^2); or (at from, at to), linear in between.
-    k3 : float or (float, float)
-        Hardening (force/length^4); or (at from, at to), linear in between.
-    k2 : float or (float, float)
-        Below 0 softening (force/length^3), down to -sqrt(3*k1*k3), where the force would fall; or (at from, at to), linear in
-        between.
+    k1 : float, (float, float) or list of (float, float)
+        Stiffness at first (force/length^2); or (at from, at to), or points (x, value), linear in between.
+    k3 : float, (float, float) or list of (float, float)
+        Hardening (force/length^4); or (at from, at to), or points (x, value), linear in between.
+    k2 : float, (float, float) or list of (float, float)
+        Below 0 softening (force/length^3), down to -sqrt(3*k1*k3), where the force would fall; or (at from, at to), or points
+        (x, value), linear in between.
     """
 
     code = 5
-    k1: Linear
-    k3: Linear
-    k2: float | tuple[float, float] = 0.0
+    k1: Along
+    k3: Along
+    k2: AlongSigned = 0.0
 
-    def values(self) -> tuple[float | tuple[float, float], ...]:
+    def values(self) -> tuple[Along | AlongSigned, ...]:
         """Give the parameters in the engine's order."""
         return self.k1, self.k2, self.k3
 
 
-def _points(kind: type[PlasticLaw | HardeningLaw], **parameters: Linear) -> list[tuple[float, float]] | None:
-    """Give the polyline of a law of supports with these parameters; None with pairs, and where a number is not above 0."""
-    if any(isinstance(value, tuple) for value in parameters.values()):
+class PowerGround(_GroundLaw, tag="power"):
+    """Force = limit*(d/d0)^n, with n = 1, 2 or 3: a cubic.
+
+    Parameters
+    ----------
+    d0 : float
+        Displacement (length) at which the force is limit.
+    limit : float, (float, float) or list of (float, float)
+        The force per length there; or (at from, at to), or points (x, value), linear in between.
+    n : float
+        Exponent.
+    """
+
+    code = 5
+    d0: Positive
+    limit: Along
+    n: Positive
+
+    def values(self) -> tuple[Along | AlongSigned, ...]:
+        """Give the parameters of the cubic."""
+        scale = float(np.float64(self.d0) ** -self.n)
+        if is_table(self.limit):
+            only = [(x, value * scale) for x, value in self.limit]
+        else:
+            only = tuple(value * scale for value in at_both_ends(self.limit))
+        return tuple(only if k == self.n else 0.0 for k in (1.0, 2.0, 3.0))
+
+
+def _points(kind: type[PlasticLaw | HardeningLaw], **parameters: Along) -> list[tuple[float, float]] | None:
+    """Give the polyline of a law of supports with these parameters; None unless all are numbers, those that matter above 0."""
+    if any(isinstance(value, tuple) or is_table(value) for value in parameters.values()):
         return None
     if not (parameters["stiffness"] > 0.0 and parameters["limit"] > 0.0):
         return None
     return kind(**parameters).points()
 
 
-GroundLawTable = PlasticGround | HardeningGround | HyperbolicGround | TanhGround | CubicGround | BrittleLaw | PowerLaw
-GroundLaw = list[tuple[float, float]] | GroundLawTable
+class LawAt(Table, forbid_unknown_fields=True, kw_only=True, gc=False):
+    """The polyline of a law at one place; between two places it is linear point by point.
+
+    Parameters
+    ----------
+    x : float
+        The place, from the left end of the beam.
+    points : list of (float, float)
+        Displacement past the gap and force per length, from (0, 0) on, which is left out; as many at every place.
+    """
+
+    x: float
+    points: list[tuple[float, float]]
+
+
+GroundLawTable = PlasticGround | HardeningGround | HyperbolicGround | TanhGround | CubicGround | PowerGround | BrittleLaw
+GroundLaw = list[tuple[float, float] | LawAt] | GroundLawTable
 
 NOT_FOR_GROUND = {
     BrittleLaw: "a law whose force falls is not available for foundations in this version; give a polyline that never falls",
-    PowerLaw: "a power of the displacement is not available for foundations: with n below 1 the ground is infinitely stiff at "
-    "first, so that a pile would change its side infinitely often; give a polyline, as codes do, or cubic",
 }
 """Laws of supports that are no laws of foundations, and why."""
+NO_POWER = (
+    "with n below 1 the ground is infinitely stiff at first, so that a pile would change its side infinitely often, with others no "
+    "series holds where contact begins; give a polyline, as codes do"
+)
+"""Why a power is a law of foundations with some exponents only."""
 
 
 def ground_points(law: GroundLaw) -> list[tuple[float, float]] | None:
@@ -140,7 +196,8 @@ def ground_points(law: GroundLaw) -> list[tuple[float, float]] | None:
     Returns
     -------
     list of (float, float) or None
-        Displacement past the gap and force per length, from (0, 0) on, which is left out; None where it is no polyline.
+        Displacement past the gap and force per length, from (0, 0) on, which is left out; None where it is no polyline, or one
+        that varies.
 
     Examples
     --------
@@ -148,7 +205,89 @@ def ground_points(law: GroundLaw) -> list[tuple[float, float]] | None:
     [(0.05, 5.0), (0.1, 5.0)]
     >>> ground_points(PlasticGround(stiffness=100.0, limit=(0.0, 5.0)))
     """
-    return law if isinstance(law, list) else law.points()
+    if isinstance(law, list):
+        return None if varies(law) else law
+    return law.points()
+
+
+def varies(law: GroundLaw | None) -> bool:
+    """Whether a law is a polyline that is not the same everywhere.
+
+    Parameters
+    ----------
+    law : list, law table or None
+        Of a foundation.
+
+    Returns
+    -------
+    bool
+    """
+    return isinstance(law, list) and len(law) > 0 and isinstance(law[0], LawAt)
+
+
+def slopes_of_branch(law: list[LawAt], branch: int) -> list[tuple[float, float]]:
+    """Give the slope of a piece of a polyline that varies, at its places.
+
+    Parameters
+    ----------
+    law : list of LawAt
+        Of a foundation.
+    branch : int
+        The piece, from 1; the last one goes on.
+
+    Returns
+    -------
+    list of (float, float)
+        Place, and slope there.
+
+    Examples
+    --------
+    >>> slopes_of_branch([LawAt(x=0.0, points=[(0.1, 5.0)]), LawAt(x=3.0, points=[(0.1, 7.0)])], 1)
+    [(0.0, 50.0), (3.0, 70.0)]
+    """
+    found = []
+    for place in law:
+        (d, p), (e, q) = [(0.0, 0.0), *place.points][min(branch, len(place.points)) - 1 :][:2]
+        found.append((place.x, (q - p) / (e - d)))
+    return found
+
+
+def is_straight(law: list[LawAt]) -> bool:
+    """Whether a polyline that varies has the same displacements everywhere, so that its slopes are straight between its places.
+
+    Parameters
+    ----------
+    law : list of LawAt
+        Of a foundation.
+
+    Returns
+    -------
+    bool
+    """
+    return all([d for d, _ in place.points] == [d for d, _ in law[0].points] for place in law)
+
+
+def points_with_places(law: GroundLaw) -> list[tuple[float, float, float]]:
+    """Give the points of a law for the engine.
+
+    Parameters
+    ----------
+    law : list or law table
+        Of a foundation.
+
+    Returns
+    -------
+    list of (float, float, float)
+        Displacement past the gap, force per length, and place, `EVERYWHERE` of a law that is the same everywhere.
+
+    Examples
+    --------
+    >>> points_with_places([LawAt(x=0.0, points=[(0.1, 5.0)]), LawAt(x=3.0, points=[(0.1, 7.0)])])
+    [(0.1, 5.0, 0.0), (0.1, 7.0, 3.0)]
+    """
+    if varies(law):
+        return [(*point, place.x) for place in law for point in place.points]
+    return [(*point, EVERYWHERE) for point in ground_points(law) or ()]
 
 
 def ground_parameters(law: GroundLaw | None) -> list[float]:
@@ -162,15 +301,53 @@ def ground_parameters(law: GroundLaw | None) -> list[float]:
     Returns
     -------
     list of float
-        Code of the law, 0 for none and for polylines; its parameters at the left end, and at the right end.
+        Code of the law, 0 for none and for polylines; its parameters at the left end, and at the right end, 0 of tables.
 
     Examples
     --------
     >>> ground_parameters(TanhGround(stiffness=(0.0, 9e3), limit=400.0))
     [4.0, 0.0, 400.0, 0.0, 9000.0, 400.0, 0.0]
     """
-    if law is None or ground_points(law) is not None:
+    if law is None or isinstance(law, list) or ground_points(law) is not None:
         return [0.0] * (1 + 2 * PARAMETERS)
     given = law.parameters()
     given += [(0.0, 0.0)] * (PARAMETERS - len(given))
     return [float(law.code), *(float(left) for left, _ in given), *(float(right) for _, right in given)]
+
+
+def tables_of(foundation: Any) -> list[Any]:
+    """Give the tables that say how stiff a foundation is, of its modulus and of the parameters or the first slope of its law.
+
+    Parameters
+    ----------
+    foundation : Foundation
+        Of a scene that has been read.
+
+    Returns
+    -------
+    list of table
+    """
+    if varies(foundation.law):
+        return [slopes_of_branch(foundation.law, 1)]
+    return [foundation.k] if is_table(foundation.k) else [table for _, table in parameter_tables(foundation.law)]
+
+
+def parameter_tables(law: GroundLaw | None) -> list[tuple[int, Any]]:
+    """Give the tables of the parameters of a law.
+
+    Parameters
+    ----------
+    law : list, law table or None
+        Of a foundation.
+
+    Returns
+    -------
+    list of (int, list)
+        Of what it is, for the engine, and its points.
+
+    Examples
+    --------
+    >>> parameter_tables(TanhGround(stiffness=9e3, limit=[(0.0, 100.0), (8.0, 400.0)]))
+    [(4, [(0.0, 100.0), (8.0, 400.0)])]
+    """
+    return [] if law is None or isinstance(law, list) else law.tables()

@@ -15,12 +15,13 @@ from ..engine.beam import Beam, RefusalError
 from .columns import columns, curves
 from .combinations import plan_combinations
 from .files import read_file
-from .ground_laws import NOT_FOR_GROUND
+from .ground_laws import NO_POWER, NOT_FOR_GROUND, LawAt, PowerGround
+from .ground_tables import is_table, least_and_most, settled
 from .laws import is_smooth, wrong_parameter
 from .names import check_names, names_in_errors
 from .refusals import refusal
 from .structs import Scene
-from .tables import Table, take_profiles, take_tables
+from .tables import Table, take_arrays, take_tables
 from .trains import check_trains
 from .typed import typed
 from .wording import number, shown
@@ -105,15 +106,16 @@ def _structured(source: Scene | Mapping[str, Any] | str | os.PathLike) -> Scene:
     if not isinstance(source, Scene | Mapping):
         raise SceneError(f"expected a Scene, a mapping or the path of a file, got {shown(source)}")
     source, tables = take_tables(source)
-    source, profiles = take_profiles(source)
+    source, arrays = take_arrays(source)
     scene = typed(source, Scene)
     for key, table in tables.items():
         setattr(scene, key, table)
-    for i, profile in profiles.items():
-        scene.foundation[i].profile = profile
+    for (i, key), array in arrays.items():
+        setattr(scene.foundation[i], key, array)
     check_names(scene)
     with names_in_errors(scene):
         _check_laws(scene)
+        _settle_foundations(scene)
         _check_foundations(scene)
     check_trains(scene)
     if scene.analysis.steps < 1:
@@ -148,6 +150,46 @@ def _check_laws(scene: Scene) -> None:
             raise SceneError(f"supports[{i}].law", "has no point; give (displacement past the gap, force)")
 
 
+def _polylines(law: list[Any], place: str) -> list[tuple[str, list[Any]]]:
+    """The polylines of a law, one or one for every place, and where they stand."""
+    with_places = [isinstance(one, LawAt) for one in law]
+    if not any(with_places):
+        return [(place, law)]
+    if not all(with_places):
+        raise SceneError(place, "expected pairs of numbers, or tables with x and points, got some of both")
+    for k, one in enumerate(law):
+        if not isfinite(one.x):
+            raise SceneError(f"{place}[{k}].x", f"expected a finite number, got {number(one.x)}")
+        if k and one.x == law[k - 1].x:
+            problem = f"there is a law at x = {number(one.x)} already; leave one out, or give a step two places"
+            raise SceneError(f"{place}[{k}].x", problem)
+    return [(f"{place}[{k}].points", one.points) for k, one in enumerate(law)]
+
+
+def _check_power(law: PowerGround, place: str) -> None:
+    """Refuse exponents that are not available, and what the cubic made of it would not show any more."""
+    if law.n not in (1.0, 2.0, 3.0):
+        raise SceneError(f"{place}.n", f"expected 1, 2 or 3, got {number(law.n)}: {NO_POWER}")
+    if not law.d0 > 0.0:
+        raise SceneError(f"{place}.d0", f"expected a number above 0, got {number(law.d0)}")
+    least, most = least_and_most(law.limit)
+    if least < 0.0:
+        raise SceneError(f"{place}.limit", f"expected numbers of 0 or more, got {number(least)}")
+    if not most > 0.0:
+        raise SceneError(f"{place}.limit", "is 0 everywhere, so it never carries; remove the foundation")
+
+
+def _settle_foundations(scene: Scene) -> None:
+    """Tell pairs from tables."""
+    if isinstance(scene.foundation, Table):
+        return
+    for i, foundation in enumerate(scene.foundation):
+        foundation.k = settled(foundation.k, f"foundation[{i}].k")
+        law = foundation.law
+        for key in () if law is None or isinstance(law, list) or type(law) in NOT_FOR_GROUND else law.__struct_fields__:
+            setattr(law, key, settled(getattr(law, key), f"foundation[{i}].law.{key}"))
+
+
 def _check_foundations(scene: Scene) -> None:
     """Refuse what the columns of a foundation would not show any more, and laws that are not available."""
     if isinstance(scene.foundation, Table):
@@ -161,12 +203,16 @@ def _check_foundations(scene: Scene) -> None:
         if foundation.profile is not None and not len(foundation.profile):
             raise SceneError(f"{place}.profile", "has no point; give (x, gap)")
         if isinstance(law, list):
-            if not law:
-                raise SceneError(f"{place}.law", "has no point; give (displacement past the gap, force per length)")
+            for key, points in _polylines(law, f"{place}.law"):
+                if not points:
+                    raise SceneError(key, "has no point; give (displacement past the gap, force per length)")
         elif problem := NOT_FOR_GROUND.get(type(law)):
             raise SceneError(f"{place}.law", problem)
         elif law is not None:
             for key in law.__struct_fields__:
-                for value in pair if isinstance(pair := getattr(law, key), tuple) else (pair,):
+                given = getattr(law, key)
+                for value in () if is_table(given) else given if isinstance(given, tuple) else (given,):
                     if not isfinite(value):
                         raise SceneError(f"{place}.law.{key}", f"expected finite numbers, got {number(value)}")
+            if isinstance(law, PowerGround):
+                _check_power(law, f"{place}.law")

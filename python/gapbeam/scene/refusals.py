@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
+from itertools import accumulate
 from math import isfinite, isnan
 from typing import Any
 
@@ -9,6 +11,7 @@ from msgspec import Struct
 
 from ..base.errors import SceneError
 from .columns import KINDS, SIDES
+from .ground_laws import PowerGround, varies
 from .structs import Scene
 from .wording import number, shown
 
@@ -89,7 +92,14 @@ def _bad_law(item: Any, path: str, key: str, point: int, message: str) -> SceneE
     problem = message.partition(": ")[2].removeprefix(f"{key}: ").removeprefix(f"point {point}: ")
     if key:
         path += f".{key}"
-    if point and not isinstance(getattr(item, key), Struct):
+    if isinstance(item.law, PowerGround) and key.startswith("law.k"):
+        path = path.removesuffix(key) + "law.limit"
+    if point and key.startswith("law") and varies(item.law):
+        ends = list(accumulate(len(place.points) for place in item.law))
+        where = bisect_left(ends, point)
+        inside = f"points[{point - 1 - (ends[where - 1] if where else 0)}]" if key == "law" else key.removeprefix("law.")
+        return SceneError(f"{path.removesuffix(key)}law[{where}].{inside}", problem)
+    if point and not (key == "law" and isinstance(item.law, Struct)):
         path += f"[{point - 1}]"
     return SceneError(path, problem)
 

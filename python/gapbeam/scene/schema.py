@@ -9,7 +9,7 @@ from typing import Any, get_args
 
 import msgspec
 
-from .ground_laws import GroundLawTable
+from .ground_laws import GroundLawTable, LawAt
 from .laws import LawTable
 from .structs import Analysis, Beam, Combination, Foundation, Load, Scene, Section, Support, Train, Units
 
@@ -29,7 +29,7 @@ def scene_schema() -> dict[str, Any]:
     """
     schema = msgspec.json.schema(Scene)
     tables = (Units, Beam, Section, Support, Foundation, Train, Combination, Analysis, Scene)
-    for struct in (*tables, *get_args(Load), *get_args(LawTable), *get_args(GroundLawTable)):
+    for struct in (*tables, *get_args(Load), *get_args(LawTable), *get_args(GroundLawTable), LawAt):
         table = schema["$defs"][struct.__name__]
         table["description"] = inspect.cleandoc(struct.__doc__).partition("\n\n")[0]
         texts: dict[str, str] = {}

@@ -32,6 +32,7 @@ import numpy as np
 from msgspec import field
 
 from .ground_laws import GroundLaw
+from .ground_tables import Along
 from .laws import Law
 from .table import Count, Node, NotNegative, Positive, Side, Spans, Table
 
@@ -175,9 +176,9 @@ class Foundation(_Stretch, kw_only=True, gc=False):
 
     Parameters
     ----------
-    k : float or (float, float), optional
-        Modulus: force per length of beam and deflection (force/length^2); or (at from, at to), linear in between.
-        Give either k or law.
+    k : float, (float, float) or list of (float, float), optional
+        Modulus: force per length of beam and deflection (force/length^2); or (at from, at to), linear in between; or points
+        (x, k) as of profile, where two at a place are a step. Give either k or law.
     side : {"both", "below", "above"}
         both (default) holds the beam, below pushes it up only, above pushes it down only.
     gap : float or (float, float)
@@ -189,14 +190,15 @@ class Foundation(_Stretch, kw_only=True, gc=False):
         two columns.
     law : list of (float, float) or table, optional
         Instead of k: points (displacement past the gap, force per length) from (0, 0) on, which is left out. The force never
-        falls, and no displacement stands there twice; the last slope goes on; with side both the law is mirrored. Or a table
-        with a type, plastic, hardening, hyperbolic, tanh or cubic, whose parameters are numbers per length, or (at from, at to),
-        linear in between: curves are solved to all digits.
+        falls, and no displacement stands there twice; the last slope goes on; with side both the law is mirrored. Or tables
+        with x and points, as many at every place, straight point by point between the places. Or a table
+        with a type, plastic, hardening, hyperbolic, tanh or cubic, whose parameters are numbers per length, (at from, at to), or
+        points (x, value), linear in between: curves are solved to all digits.
     name : str, optional
         Its name, unique among foundations; shown instead of its number.
     """
 
-    k: NotNegative | tuple[NotNegative, NotNegative] | None = None
+    k: Along | None = None
     side: Side = "both"
     gap: float | tuple[float, float] = 0.0
     profile: list[tuple[float, float]] | None = None

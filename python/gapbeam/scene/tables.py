@@ -136,8 +136,8 @@ def take_tables(source: Scene | Mapping[str, Any]) -> tuple[Scene | Mapping[str,
     return msgspec.structs.replace(source, **others), tables
 
 
-def take_profiles(source: Scene | Mapping[str, Any]) -> tuple[Scene | Mapping[str, Any], dict[int, np.ndarray]]:
-    """Take out of a scene the profiles of foundations that are given as arrays.
+def take_arrays(source: Scene | Mapping[str, Any]) -> tuple[Scene | Mapping[str, Any], dict[tuple[int, str], np.ndarray]]:
+    """Take out of a scene the profiles and moduli of foundations that are given as arrays of points.
 
     Parameters
     ----------
@@ -148,28 +148,29 @@ def take_profiles(source: Scene | Mapping[str, Any]) -> tuple[Scene | Mapping[st
     -------
     source : Scene or mapping
         The same without them.
-    profiles : dict
-        What was taken out, with two columns, by the number of the foundation.
+    arrays : dict
+        What was taken out, with two columns, by the number of the foundation and the key.
     """
     items = source.get("foundation") if isinstance(source, Mapping) else source.foundation
     if not isinstance(items, list | tuple):
         return source, {}
-    profiles = {}
+    arrays = {}
     rest = list(items)
     for i, item in enumerate(items):
-        given = item.get("profile") if isinstance(item, Mapping) else getattr(item, "profile", None)
-        if type(given) is not np.ndarray or given.dtype.kind not in "iuf" or given.dtype.itemsize > 8 or given.shape[1:] != (2,):
-            continue
-        profiles[i] = read_only(given.astype(float))
-        if isinstance(item, Mapping):
-            rest[i] = {key: value for key, value in item.items() if key != "profile"}
-        else:
-            rest[i] = msgspec.structs.replace(item, profile=None)
-    if not profiles:
+        for key in ("profile", "k"):
+            given = item.get(key) if isinstance(item, Mapping) else getattr(item, key, None)
+            if type(given) is np.ndarray and given.dtype.kind in "iuf" and given.dtype.itemsize <= 8 and given.shape[1:] == (2,):
+                arrays[i, key] = read_only(given.astype(float))
+        taken = {key: None for k, key in arrays if k == i}
+        if taken and isinstance(item, Mapping):
+            rest[i] = {key: value for key, value in item.items() if key not in taken}
+        elif taken:
+            rest[i] = msgspec.structs.replace(item, **taken)
+    if not arrays:
         return source, {}
     if isinstance(source, Mapping):
-        return {**source, "foundation": rest}, profiles
-    return msgspec.structs.replace(source, foundation=rest), profiles
+        return {**source, "foundation": rest}, arrays
+    return msgspec.structs.replace(source, foundation=rest), arrays
 
 
 def _columns(key: str, value: Any) -> tuple[dict[str, Any], int] | None:

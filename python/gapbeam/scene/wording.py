@@ -338,11 +338,22 @@ def _described(kind: inspect.Type, plural: bool = False) -> str:
             return f"a table of {_described(value, plural=True) if isinstance(value, inspect.FloatType) else 'words'}"
         case inspect.UnionType(types=types) if not plural:
             values = [shown(value) for member in types for value in getattr(member, "values", ())]
-            others = dict.fromkeys(_described(member) for member in types if not hasattr(member, "values"))
-            return choice([*values, *others])
-        case inspect.UnionType():
-            return "tables"
+            members = [one for member in types if not hasattr(member, "values") for one in _alternatives(member)]
+            return choice([*values, *dict.fromkeys(members)])
+        case inspect.UnionType(types=types):
+            others = [_described(member, plural=True) for member in types if not isinstance(member, inspect.StructType)]
+            return choice([*others, "tables"])
     return "something else"
+
+
+def _alternatives(kind: inspect.Type) -> list[str]:
+    """Word what a user may write, where a list of numbers or pairs is one pair or several."""
+    kind = _core(kind)
+    if isinstance(kind, inspect.ListType) and isinstance(items := _core(kind.item_type), inspect.UnionType):
+        pair = next((item for item in items.types if isinstance(item, inspect.TupleType)), None)
+        if pair is not None and any(isinstance(_core(item), inspect.FloatType) for item in items.types):
+            return [_described(pair), f"a list of {_described(pair, plural=True)}"]
+    return [_described(kind)]
 
 
 def _tags(kind: inspect.UnionType) -> str:
