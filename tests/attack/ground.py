@@ -16,9 +16,9 @@ from .family import Family, Verdict
 from .proofs import proof_faults
 
 PROMISE = (
-    "On one-sided ground with gaps, profiles and laws of all kinds the fields satisfy the differential equations with the pressure "
-    "that the law gives for the deflection, jump by what acts at a place, and every support carries what its law says, also "
-    "where they touch it to a few roundings; refused are beams whose loads all stand over a spring at an end of the ground"
+    "On one-sided ground with gaps, profiles, tables and laws of all kinds the fields satisfy the differential equations with the "
+    "pressure that the law gives for the deflection, jump by what acts at a place, and every support carries what its law says, "
+    "also where they touch it to a few roundings; refused are beams whose loads all stand over a spring at an end of the ground"
 )
 SIDES = {"below": (1,), "above": (-1,), "both": (1, -1)}
 NEAR = 1e-8  # of the largest of a kind
