@@ -462,6 +462,13 @@ def test_curves_on_bumps_and_with_gaps(name, zones):
     assert len(gapbeam.solve(made).steps[-1].contact) == zones
 
 
+def test_a_beam_over_160_bumps():
+    """On every one of them, and on both ends; it carries its load, which is audited stretch by stretch."""
+    contact = gapbeam.solve(HERE / "faults" / "C2_bumps_160.json").steps[-1].contact
+    assert len(contact) == 161
+    assert sum(zone.resultant for zone in contact) == pytest.approx(2.0 * 400.0, rel=1e-14)
+
+
 def test_beam_that_touches_the_ground_to_a_rounding():
     """The deflection at midspan is the gap to 1e-14, as it would be exactly: 5 q L^4/(384 EI)."""
     (zone,) = gapbeam.solve(HERE / "faults" / "C4_touching_tie.json").steps[-1].contact
