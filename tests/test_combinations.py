@@ -11,7 +11,7 @@ import pytest
 from gapbeam.cli import main
 from gapbeam.report import report_text, to_csv, to_json
 from gapbeam.report.json_csv import json_parts
-from gapbeam.results.combined import WORST
+from gapbeam.results.cases.combined import WORST
 from law_scenes import law_scene
 from scenes import at, force, random_scene, scene, uniform
 from test_prepared import scaled

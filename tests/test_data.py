@@ -70,7 +70,7 @@ def arrays_in(value, seen):
     """All arrays that can be reached through public attributes."""
     if isinstance(value, np.ndarray):
         yield value
-    elif isinstance(value, tuple | list | gapbeam.results.steps.Steps):
+    elif isinstance(value, tuple | list | gapbeam.results.state.steps.Steps):
         for part in value:
             yield from arrays_in(part, seen)
     elif type(value).__module__.startswith("gapbeam") and id(value) not in seen:

@@ -11,6 +11,8 @@ TOP = Path(__file__).resolve().parents[1]
 FORTRAN = ("base", "beam", "chain", "contact", "verification", "path", "lanes", "scene", "result", "face")
 SUFFIX = re.compile(r"_(quad|own|(own_)?v\d)$")
 """Of modules that are made of the same sources."""
+ROOMS = ("state", "paths", "envelopes", "trains", "cases")
+"""Of `results`."""
 PYTHON = ("base", "engine", "scene", "results", "batches", "report", "plots", "studies", "cli")
 
 
@@ -56,7 +58,7 @@ def imports(path):
 def test_python_folders_use_only_those_above():
     wrong = []
     for folder in PYTHON:
-        for path in (TOP / "python" / "gapbeam" / folder).glob("*.py"):
+        for path in (TOP / "python" / "gapbeam" / folder).rglob("*.py"):
             for used in imports(path):
                 if used not in ("_engine", "_yardsticks") and PYTHON.index(used) > PYTHON.index(folder):
                     wrong.append(f"{folder}/{path.name} imports from {used}")
@@ -88,6 +90,15 @@ def test_python_files_import_each_other_in_no_circle():
             del left[path]
 
 
+def test_rooms_of_the_results_use_only_those_before():
+    results = TOP / "python" / "gapbeam" / "results"
+    assert {path.parent.name for path in results.glob("*/__init__.py")} == set(ROOMS)
+    for path in results.glob("*/*.py"):
+        for used, _ in modules_of(path):
+            if used.parent.parent == results:
+                assert ROOMS.index(used.parent.name) <= ROOMS.index(path.parent.name), f"{path} imports {used}"
+
+
 def test_imports_inside_functions_are_of_what_a_command_may_not_need():
     """The command loads what it needs when it needs it; elsewhere only files that load rich or pyarrow come late."""
     late = {
@@ -108,7 +119,7 @@ def test_there_are_no_other_folders(language):
 def test_the_map_names_every_file():
     house = (TOP / "docs" / "house.md").read_text()
     for language in ("fortran", "python/gapbeam"):
-        for path in (TOP / language).glob("*/*"):
+        for path in (TOP / language).rglob("*/*"):
             if path.parent.name in ("build", "yardsticks"):
                 continue
             if path.suffix in (".f90", ".F90", ".py") and not path.stem.startswith("__"):

@@ -12,8 +12,8 @@ from clibrary import F77Beam
 from curved_scenes import random_curved_scene
 from foundation_scenes import random_scene as ground_scene
 from gapbeam.base.errors import EngineError, SceneError
-from gapbeam.results.branches import BranchPath
-from gapbeam.results.kinks import EVENTS
+from gapbeam.results.paths.branches import BranchPath
+from gapbeam.results.state.kinks import EVENTS
 from gapbeam.studies.meshes import gapped_spans
 from ground_scenes import touching
 from law_scenes import FAMILIES, law_scene

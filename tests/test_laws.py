@@ -74,7 +74,7 @@ def test_snap_through_stops_jumps_and_follows():
 def test_the_three_states_of_snap_through():
     path = gapbeam.solve(snap(at_limit="follow")).path
     found = [
-        gapbeam.results.step.Step(path.beam(s), 0.4, "given", path.closed(s)).deflection[1]
+        gapbeam.results.state.step.Step(path.beam(s), 0.4, "given", path.closed(s)).deflection[1]
         for s in path.segments
         if min(s.start, s.stop) <= 0.4 <= max(s.start, s.stop)
     ]
@@ -337,7 +337,7 @@ def test_500_histories(family):
 
 def test_a_path_that_never_ends_is_cut_off(monkeypatch):
     scene = law_scene(203, "broken")
-    monkeypatch.setattr(gapbeam.results.branches, "MOST_STRETCHES", 500)
+    monkeypatch.setattr(gapbeam.results.paths.branches, "MOST_STRETCHES", 500)
     with pytest.raises(EngineError, match="more than 500 stretches"):
         gapbeam.solve(scene)
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from gapbeam.cli import main
 from gapbeam.report import report_text, to_csv
-from gapbeam.results.combined import WORST
+from gapbeam.results.cases.combined import WORST
 from mutations import mutated_scene, mutated_text
 
 

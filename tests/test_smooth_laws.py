@@ -4,7 +4,7 @@ import gapbeam
 import mpmath as mp
 import numpy as np
 import pytest
-from gapbeam.results.smooth import SmoothLaws
+from gapbeam.results.state.smooth import SmoothLaws
 from gapbeam.scene.reading import read_beam
 from test_laws import midspan
 

@@ -6,15 +6,15 @@ from .base.errors import EngineError, GapbeamError, SceneError, Status
 from .batches import sample
 from .batches.batch import Batch
 from .batches.run import batch
-from .results.cases import Prepared, prepare
-from .results.combined import CombinedResult
-from .results.envelope import Envelope
-from .results.fields import Fields
+from .results.cases.cases import Prepared, prepare
+from .results.cases.combined import CombinedResult
+from .results.cases.solved_cases import Cases
+from .results.envelopes.envelope import Envelope
 from .results.result import Result
-from .results.solved_cases import Cases
-from .results.step import Step
+from .results.state.fields import Fields
+from .results.state.step import Step
+from .results.state.system import System
 from .results.stepping import solve
-from .results.system import System
 from .scene import (
     Analysis,
     AxialLoad,

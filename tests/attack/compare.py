@@ -48,7 +48,7 @@ def compare_state(beam, step, look, verdict, where=""):
     Parameters
     ----------
     beam : Exact
-    step : gapbeam.results.step.Step
+    step : gapbeam.results.state.step.Step
     look : Look
         Fields of this state.
     verdict : Verdict

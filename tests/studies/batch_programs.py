@@ -29,7 +29,7 @@ LOOP_MOST = 2000
 
 def _by_gapbeam(batch: Batch) -> Callable[[], Found]:
     """Prepare the scene, and solve its cases in one call."""
-    from gapbeam.results.cases import prepare
+    from gapbeam.results.cases.cases import prepare
 
     prepared = prepare(batch.scene())
     factors = batch.q if batch.factors else np.ones(batch.q.shape[1])

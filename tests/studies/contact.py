@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 from gapbeam.results import formatting as fmt
-from gapbeam.results.cases import Prepared, prepare
+from gapbeam.results.cases.cases import Prepared, prepare
 from gapbeam.results.stepping import solve
 from gapbeam.studies.meshes import MeshedBeam, gapped_spans, mesh
 from gapbeam.studies.methods import CONDENSED, yardstick

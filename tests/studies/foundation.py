@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 from gapbeam.results import formatting as fmt
-from gapbeam.results.cases import Prepared, prepare
+from gapbeam.results.cases.cases import Prepared, prepare
 from gapbeam.results.result import Result
 from gapbeam.results.stepping import solve
 

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..base.errors import SceneError
-from ..results.arguments import whole
+from ..results.state.arguments import whole
 from ..scene.reading import read_scene
 from ..scene.structs import Scene
 from ..scene.wording import shown

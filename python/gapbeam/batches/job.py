@@ -15,7 +15,7 @@ import numpy as np
 from ..base.characters import visible
 from ..base.errors import EngineError, SceneError
 from ..results.result import Result
-from ..results.step import BOUNDED
+from ..results.state.step import BOUNDED
 from ..results.stepping import solve
 from ..scene.structs import Scene
 from .paths import KeyPath, with_values

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from ..base.errors import GapbeamError, SceneError, Status
-from ..results.cases import prepare
+from ..results.cases.cases import prepare
+from ..results.cases.varied import OF_SPANS
 from ..results.stepping import solve
-from ..results.varied import OF_SPANS
 from ..scene.columns import SIDES
 from ..scene.combinations import VALUES
 from ..scene.names import DEAD

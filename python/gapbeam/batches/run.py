@@ -14,7 +14,7 @@ from typing import Any
 import msgspec
 
 from ..base.errors import SceneError
-from ..results.arguments import whole
+from ..results.state.arguments import whole
 from ..scene.combinations import plan_combinations
 from ..scene.names import labels
 from ..scene.reading import read_beam

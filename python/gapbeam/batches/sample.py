@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 
 from ..base.errors import SceneError
-from ..results.arguments import finite, whole
+from ..results.state.arguments import finite, whole
 from ..scene.wording import shown
 from .quantile import normal_quantile
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from ..base.errors import SceneError
 from ..base.records import Record
-from ..results.arguments import finite, numbers, whole
+from ..results.state.arguments import finite, numbers, whole
 from ..scene.wording import shown
 
 if TYPE_CHECKING:

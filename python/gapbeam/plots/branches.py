@@ -9,11 +9,11 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ..results import formatting as fmt
-from ..results.branches import BranchPath
+from ..results.paths.branches import BranchPath
 
 if TYPE_CHECKING:
     from ..results.result import Result
-    from ..results.step import Step
+    from ..results.state.step import Step
 
 STABLE, UNSTABLE, JUMP = range(3)
 MOST_MARKS = 300

@@ -33,8 +33,8 @@ from .save import literal
 from .thin import outline
 
 if TYPE_CHECKING:
-    from ..results.combined import CombinedResult
-    from ..results.envelope import Curves, Envelope
+    from ..results.cases.combined import CombinedResult
+    from ..results.envelopes.envelope import Curves, Envelope
 
 STRIP = 0.06
 """Height of the strip that tells which combination governs, as a share of the panel."""

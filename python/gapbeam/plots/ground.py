@@ -12,14 +12,14 @@ from matplotlib.lines import Line2D
 
 from ..base.characters import visible
 from ..results.formatting import stretch
-from ..results.ground import TOUCHING
+from ..results.state.ground import TOUCHING
 from .beam import HALF, OFF, face
 from .labels import LINE, text_width
 from .thin import outline
 
 if TYPE_CHECKING:
     from ..engine.beam import Beam
-    from ..results.ground import Contact
+    from ..results.state.ground import Contact
     from ..scene.structs import Foundation, Scene
 
 STRIP = 6.0

@@ -11,12 +11,12 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.ticker import MaxNLocator
 
-from ..results.ground import Contact, joined
-from ..results.ground_path import BEGIN
+from ..results.paths.ground_path import BEGIN
+from ..results.state.ground import Contact, joined
 
 if TYPE_CHECKING:
     from ..results.result import Result
-    from ..results.step import Step
+    from ..results.state.step import Step
 
 MOST_STATES = 80
 """States about that are solved for between the events."""

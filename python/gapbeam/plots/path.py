@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..results import formatting as fmt
-from ..results.branches import BranchPath
+from ..results.paths.branches import BranchPath
 from ..scene.names import label
 from .branches import KINK, MARKERS, Trace, draw_trace, name_limits
 from .ground_path import draw_extremes, draw_zones, note_on_ground, states_on_ground
@@ -21,7 +21,7 @@ from .save import literal, save
 
 if TYPE_CHECKING:
     from ..results.result import Result
-    from ..results.step import Step
+    from ..results.state.step import Step
     from ..scene.structs import Scene
 
 #: Inches: height of a panel and of what is above it, the space below for the load factor and on the right for names

@@ -14,7 +14,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..results import formatting as fmt
-from ..results.ground import joined
+from ..results.state.ground import joined
 from .beam import SupportLanes, draw_beam, draw_contacts, known_states, legend_handles
 from .envelope import envelope_figure
 from .ground import GroundLanes, draw_ground, draw_surface, points_a_span, zone_handles
@@ -40,8 +40,8 @@ from .thin import outline
 from .train_envelope import train_envelope_figure
 
 if TYPE_CHECKING:
-    from ..results.ground import Contact
     from ..results.result import Result
+    from ..results.state.ground import Contact
 
 def plot(result: "Result", path: str | os.PathLike, step: int = -1) -> None:
     """Draw a result into a file.

@@ -15,8 +15,8 @@ from .save import literal
 
 if TYPE_CHECKING:
     from ..results.result import Result
-    from ..results.train_envelope import TrainCurves
-    from ..results.train_members import TrainExtreme
+    from ..results.trains.envelope import TrainCurves
+    from ..results.trains.members import TrainExtreme
 
 POINTS, MOST_POINTS = 40, 100
 """Divisions of a span at which the curves are drawn; on foundations more where the beam bends within short lengths."""

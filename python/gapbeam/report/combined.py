@@ -4,16 +4,16 @@ from typing import TYPE_CHECKING
 
 from ..base.characters import visible
 from ..results import formatting as fmt
-from ..results.hints import beyond
+from ..results.envelopes.hints import beyond
 from ..scene.names import labels
 from .over_path import write_over_path
 from .trains import write_trains
 from .writer import Writer
 
 if TYPE_CHECKING:
-    from ..results.combined import CombinedResult
-    from ..results.envelope import Extreme
-    from ..results.ground_envelope import GroundExtreme
+    from ..results.cases.combined import CombinedResult
+    from ..results.envelopes.envelope import Extreme
+    from ..results.envelopes.ground_envelope import GroundExtreme
 
 MOST_FOLLOWED = 100
 """Combinations that are followed from event to event for the report, to find factors between that govern."""

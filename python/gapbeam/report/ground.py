@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from ..results import formatting as fmt
-from ..results.ground import TOUCHING, Contact, FreeSpan, joined
+from ..results.state.ground import TOUCHING, Contact, FreeSpan, joined
 from ..scene.ground_tables import is_table, least_and_most
 from ..scene.names import label
 from .scheme import symbol
@@ -12,7 +12,7 @@ from .writer import LONGEST, Writer
 
 if TYPE_CHECKING:
     from ..results.result import Result
-    from ..results.step import Step
+    from ..results.state.step import Step
     from ..scene.structs import Foundation
 
 MOST_ROWS = 24

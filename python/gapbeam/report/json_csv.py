@@ -14,7 +14,7 @@ from ..base.memory import refuse_beyond
 from ..engine.calls import parts
 from ..results import formatting as fmt
 from ..results.data import step_data
-from ..results.fields import Fields
+from ..results.state.fields import Fields
 
 if TYPE_CHECKING:
     from ..results.result import Result

@@ -6,14 +6,14 @@ import numpy as np
 
 from ..base.characters import visible
 from ..results import formatting as fmt
-from ..results.envelope import AT_SUPPORTS
-from ..results.hints import CLOSE
-from ..results.over_path import count_states, is_followed
+from ..results.envelopes.envelope import AT_SUPPORTS
+from ..results.envelopes.hints import CLOSE
+from ..results.envelopes.over_path import count_states, is_followed
 from .writer import Writer
 
 if TYPE_CHECKING:
-    from ..results.envelope import Source
-    from ..results.over_path import PathEnvelope
+    from ..results.envelopes.envelope import Source
+    from ..results.envelopes.over_path import PathEnvelope
     from ..results.result import Result
 
 MOST_WORK = 2_000_000

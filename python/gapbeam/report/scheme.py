@@ -10,9 +10,9 @@ from ..results.formatting import number, ranges, with_unit
 from ..scene.names import label
 
 if TYPE_CHECKING:
-    from ..results.ground_path import GroundEvent
-    from ..results.path import Event
-    from ..results.train_ways import TrainEvent
+    from ..results.paths.ground_path import GroundEvent
+    from ..results.paths.path import Event
+    from ..results.trains.ways import TrainEvent
     from ..scene.structs import Scene
 
 #: State -> character; the second where the terminal knows only ASCII

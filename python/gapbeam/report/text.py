@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from ..base.characters import visible
 from ..results import formatting as fmt
-from ..results.step import BOUNDED
+from ..results.state.step import BOUNDED
 from ..scene.names import label, labels
 from .combined import write_combined
 from .ground import ground_in_words, write_contact, write_contact_history, write_foundations
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from ..results.result import Result
-    from ..results.step import Step
+    from ..results.state.step import Step
     from .writer import Writer
 
 LEFT_OUT = {

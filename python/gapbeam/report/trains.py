@@ -4,15 +4,15 @@ from typing import TYPE_CHECKING
 
 from ..base.characters import visible
 from ..results import formatting as fmt
-from ..results.train_data import passing_trains
+from ..results.trains.data import passing_trains
 from ..scene.trains import LEFT
 from .scheme import changed_item, words_of_event
 from .writer import Writer
 
 if TYPE_CHECKING:
     from ..results.result import Result
-    from ..results.train_envelope import TrainEnvelope
-    from ..results.train_members import TrainExtreme
+    from ..results.trains.envelope import TrainEnvelope
+    from ..results.trains.members import TrainExtreme
 
 MOST_EVENTS = 24
 """Events that are listed; of more some in the middle are left out."""

@@ -6,13 +6,13 @@ from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
 
 from ..scene.structs import Scene
-from .branches import BranchPath
-from .fields import Fields
-from .ground_path import GroundEvent
-from .over_path import is_followed
-from .path import Event
-from .step import Step
-from .train_data import trains_data
+from .envelopes.over_path import is_followed
+from .paths.branches import BranchPath
+from .paths.ground_path import GroundEvent
+from .paths.path import Event
+from .state.fields import Fields
+from .state.step import Step
+from .trains.data import trains_data
 
 if TYPE_CHECKING:
     from .result import Result

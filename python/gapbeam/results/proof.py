@@ -23,7 +23,7 @@ from ..scene.reading import read_beam, read_scene
 from ..scene.structs import Scene
 from ..scene.wording import choice, shown
 from .result import Result
-from .step import Step
+from .state.step import Step
 from .stepping import solve
 
 FORMAT = "gapbeam-proof 1"

@@ -8,18 +8,18 @@ from typing import Any
 
 from ..engine.beam import Beam
 from ..scene.structs import Scene
-from .arguments import whole
 from .data import result_data
-from .envelope import Envelope
-from .fields import Fields
-from .full_load import envelope_of_one
-from .hints import Hint, find_hints
-from .over_path import PathEnvelope, is_followed
-from .states import States
-from .train_data import lost_positions
-from .train_envelope import TrainEnvelope, places_given
-from .train_members import Member
-from .trains import Trains
+from .envelopes.envelope import Envelope
+from .envelopes.full_load import envelope_of_one
+from .envelopes.hints import Hint, find_hints
+from .envelopes.over_path import PathEnvelope, is_followed
+from .state.arguments import whole
+from .state.fields import Fields
+from .state.states import States
+from .trains.data import lost_positions
+from .trains.envelope import TrainEnvelope, places_given
+from .trains.members import Member
+from .trains.trains import Trains
 
 
 class Result(States):

@@ -9,10 +9,10 @@ from typing import Any
 from ..scene.names import names_in_errors
 from ..scene.reading import read_beam
 from ..scene.structs import Scene
-from .combined import solve_combined
-from .following import follow_load
+from .cases.combined import solve_combined
+from .paths.following import follow_load
 from .result import Result
-from .schemes import choose_rule, starting_scheme
+from .state.schemes import choose_rule, starting_scheme
 
 
 def solve(

@@ -1,0 +1,1 @@
+"""Many cases and combinations of one beam."""

@@ -1,0 +1,418 @@
+"""The combinations of a scene: each has a result of its own, and all of them together an envelope."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from time import perf_counter
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ...base.errors import WITHOUT_ANSWER, EngineError, SceneError, Status
+from ...base.memory import refuse_beyond
+from ...base.records import read_only
+from ...engine.beam import FIELDS, Beam
+from ...engine.combinations import Combined, all_combinations, solve_combinations
+from ...scene.columns import columns, curves
+from ...scene.combinations import Plan, plan_combinations
+from ...scene.names import label
+from ...scene.structs import Scene
+from ...scene.wording import shown
+from ..envelopes.envelope import Envelope, Source
+from ..envelopes.full_load import at_full_load, fields_on_sides
+from ..envelopes.hints import Hint, find_hints
+from ..paths.compression import WARNED, euler, larger
+from ..result import Result
+from ..state.fields import Fields
+from ..trains.envelope import TrainEnvelope, places_given
+from ..trains.members import Member, Standing
+from .combinations import Combinations
+from .combined_data import combined_data
+
+if TYPE_CHECKING:
+    from ..state.step import Step
+    from ..trains.trains import Trains
+
+WORST = ("solved", "limit-load", "no-equilibrium", *(status.word for status in WITHOUT_ANSWER))
+"""Outcomes, the worst last: that is the outcome of all combinations together."""
+
+
+class NoSteps(Sequence):
+    """No steps, and what to look at instead.
+
+    Parameters
+    ----------
+    words : str
+        What is said to who asks for one.
+    """
+
+    def __init__(self, words: str):
+        self._words = words
+
+    def __len__(self) -> int:
+        """Count them."""
+        return 0
+
+    def __getitem__(self, index: int | slice) -> list:
+        """Give none."""
+        if isinstance(index, slice):
+            return []
+        raise IndexError(self._words)
+
+
+class CombinedResult(Result):
+    """All combinations of a scene.
+
+    What a `Result` says of one load is asked of one of its `combinations`, or of the `envelope` of all.
+
+    Attributes
+    ----------
+    status : str
+        ``solved`` if all combinations are; else that of the worst.
+    reason : str or None
+        Which are not solved, and why the first of them is not.
+    names : tuple of str
+        The combinations, patterns written out.
+    statuses : tuple of str
+        The status of each.
+    remarks : list of str
+        What else is to be known: load cases that act in none of them, schemes that are not decided.
+    """
+
+    def __init__(self, scene: Scene, plan: Plan, beam: Beam, rule: str, start: np.ndarray):
+        super().__init__(scene, beam, rule)
+        self.names = plan.names
+        self._plan, self._start = plan, start
+        numbers = 4 * beam.scene_supports + beam.supports + len(scene.loads) + 40
+        what = f"the results of {len(plan):,} combinations"
+        refuse_beyond("combinations", what, 16.0 * len(plan) * numbers, "take fewer at a time")
+        self._combinations = Combinations(plan, beam, rule, start)
+        self._words = (
+            f"the scene has {len(plan)} combinations, each with a result of its own; take for example "
+            f"result.combinations[{plan.names[0]!r}], or result.envelope()"
+        )
+        self.steps = NoSteps(self._words)
+        self._near: list[str] = []
+        begin = perf_counter()
+        # One solve each, or the whole way of the load, or trains that pass
+        analysis = scene.analysis
+        self._at_once = (analysis.follow, analysis.steps, analysis.history) == ("steps", 1, [1.0]) and not (
+            beam.depends_on_path or beam.curves or scene.trains
+        )
+        self._check_products()
+        self._found, reasons = self._solve_at_once() if self._at_once else self._solve_one_by_one()
+        self.statuses = tuple(reasons)
+        self._combinations.take(self._found, self.statuses, self.fields_there)
+        self._check_compression()
+        self._seconds = perf_counter() - begin
+        self.remarks = [f"no combination has loads of the case {shown(case)}" for case in plan.idle]
+        self.remarks += self._near
+        self.remarks += [words for k in range(len(plan)) if (words := self._doubt(k))]
+        fallen = [k for k, status in enumerate(self.statuses) if status != "solved"]
+        if fallen:
+            self.status = max(self.statuses, key=WORST.index)
+            first = next(k for k in fallen if self.statuses[k] == self.status)
+            more = f"; {len(fallen) - 1} more of {len(self.names)} not solved" if len(fallen) > 1 else ""
+            self.reason = f"combination {shown(self.names[first])}: {self.combinations[first].reason}{more}"
+
+    def __eq__(self, other: object) -> bool:
+        """Whether scene, outcomes and all values are equal."""
+        if not isinstance(other, CombinedResult):
+            return NotImplemented
+        return self is other or (
+            self.scene == other.scene and self.rule == other.rule and self.statuses == other.statuses
+            and np.array_equal(self._found.at_supports, other._found.at_supports, equal_nan=True)
+            and np.array_equal(self._found.extremes, other._found.extremes, equal_nan=True)
+        )  # fmt: skip
+
+    __hash__ = None
+
+    @property
+    def combinations(self) -> Combinations:
+        """Results of the combinations by name or number; each is made when it is looked at."""
+        return self._combinations
+
+    @property
+    def factors(self) -> np.ndarray:
+        """Factor of every load, combinations by loads (those that patterns cut are several)."""
+        return self._plan.factors
+
+    @property
+    def solves(self) -> int:
+        """Linear solves until all schemes were found."""
+        return int(self._found.solves.sum(dtype=np.int64))
+
+    @property
+    def seconds(self) -> float:
+        """Time of these."""
+        return self._seconds
+
+    def _chosen(self, step: int | None, factor: float | None = None) -> Step:
+        raise ValueError(self._words)
+
+    def history(self) -> list[tuple[float, tuple[str, ...]]]:
+        """Refuse: every combination has a history of its own."""
+        raise ValueError(self._words)
+
+    def state(self, factor: float) -> Step:
+        """Refuse: every combination has states of its own."""
+        return self._chosen(None, factor)
+
+    def _doubt(self, k: int) -> str:
+        """Say whether the scheme that a combination takes is not decided."""
+        other = self._plan.scheme_of[k]
+        if other is None or not self.combinations[other].stands:
+            return ""
+        before = self.combinations[other].steps[-1]
+        if not before.undecided:
+            return ""
+        which = ", ".join(
+            f"{label(self.scene.supports, i)} (taken as {before.state[i]})" for i in before.undecided
+        )
+        return (
+            f"the combination {shown(self.names[k])} takes the scheme of {shown(self.names[other])}, in which reaction or opening "
+            f"of support {which} is zero, so that it may be closed or open"
+        )
+
+    def _check_products(self) -> None:
+        """Refuse loads that leave the range of doubles with their factors."""
+        with np.errstate(over="ignore"):
+            largest = np.abs(self.beam.columns.load[2:, :-1]).max(axis=0, initial=0.0)
+            wrong = np.argwhere(~np.isfinite(self._plan.factors * largest))
+        if len(wrong):
+            k, load = wrong[0].tolist()
+            raise SceneError(
+                f"combinations {shown(self.names[k])}", f"loads[{load}] times its factor is too great"
+            )
+
+    def _check_compression(self) -> None:
+        """Refuse combinations whose compression is beyond the Euler load; those that are far below it are not looked at."""
+        if self.scene.analysis.first_order or not self._at_once:
+            return  # one by one they are checked as they are solved
+        with np.errstate(invalid="ignore"):
+            force = -self._found.extremes[:, FIELDS.index("axial_force"), 1]
+            least = euler(float(self.beam.places.pieces[:, 1].min()), 2.0 * self.beam.places.end)
+            near = force > WARNED * least
+        for k in np.flatnonzero(near).tolist():
+            self._note_compression(k)
+
+    def _note_compression(self, k: int) -> None:
+        """Keep the largest compression of all combinations, and what is to be said of it."""
+        one = self.combinations[k]
+        if one.compression is not None and larger(self.compression, one.compression) is one.compression:
+            self.compression = one.compression
+            self._near = [f"combination {shown(self.names[k])}: {remark}" for remark in one.remarks]
+
+    def _solve_at_once(self) -> tuple[Combined, list[str]]:
+        """Solve all in few calls of the engine, those in the scheme of others after them."""
+        plan = self._plan
+        found = all_combinations(self.beam, plan.factors, plan.settlements, self.rule, self._start)
+        alone = [k for k, other in enumerate(plan.scheme_of) if other is not None]
+        for k in np.flatnonzero(found.status > Status.NO_EQUILIBRIUM).tolist():
+            if k not in alone:
+                self.combinations.failed[k] = Status(found.status[k])
+                if found.status[k] in (Status.BAD_INPUT, Status.NOT_FINITE):
+                    self.combinations[k]  # says it in words where there is not even a beam
+        words = {status: Status(status).word for status in np.unique(found.status).tolist()}
+        statuses = [words[status] for status in found.status.tolist()]
+        if alone:
+            found = _changeable(found)
+            for k in alone:
+                statuses[k] = self._take(found, k)
+            found.__post_init__()
+        return found, statuses
+
+    def _solve_one_by_one(self) -> tuple[Combined, list[str]]:
+        """Solve all one after the other, as the way of the load asks for."""
+        beam, count = self.beam, len(self.names)
+        nan = np.full
+        found = Combined(
+            np.zeros(count, np.int32), np.zeros((count, beam.supports), np.int32),
+            nan((count, 4, beam.scene_supports), np.nan), nan((count, 7, 2), np.nan), nan((count, 7, 2), np.nan),
+            np.zeros((count, 0, 7)), np.zeros(count, np.int64),
+        )  # fmt: skip
+        found = _changeable(found)
+        statuses = [self._take(found, k) for k in range(count)]
+        found.__post_init__()
+        return found, statuses
+
+    def _take(self, found: Combined, k: int) -> str:
+        """Put the state of a combination at full load into arrays."""
+        result = self.combinations[k]
+        try:
+            values = at_full_load(result)
+        except EngineError as error:
+            if error.status not in WITHOUT_ANSWER:
+                raise
+            self.combinations.failed[k] = error.status
+            result.refuse_answer(error)
+            values = at_full_load(result)
+        self._note_compression(k)
+        found.status[k] = Status.SOLVED if result.status == "solved" else Status.NO_EQUILIBRIUM
+        found.at_supports[k], found.extremes[k], found.places[k], found.solves[k] = values
+        return result.status
+
+    @property
+    def trains(self) -> Trains:
+        """Refuse: trains pass in every combination."""
+        return self._chosen(None)
+
+    def envelope(self, points: int = 20, *, x: Any = None) -> Envelope | TrainEnvelope:
+        """Largest and smallest values of all combinations together, with trains over all their positions.
+
+        Parameters
+        ----------
+        points : int
+            Divisions of every span at which its curves are made, when they are asked for.
+        x : array_like, optional
+            Places of the curves instead; where a field jumps the larger and the smaller side count.
+
+        Returns
+        -------
+        Envelope or TrainEnvelope
+            Of the combinations that are solved, each at its full load.
+
+        Raises
+        ------
+        ValueError
+            No combination is solved, or a place is outside the beam.
+        """
+        if self.scene.trains:
+            return super().envelope(points, x=x)
+        places = places_given(self.beam, x)
+        sources = [Source(name) for name in self.names]
+        found = self._found
+        return Envelope(
+            self.scene, self.fields_there, sources, found.at_supports, found.extremes, found.places,
+            lambda k: self.combinations[k], lambda: self._curves(points, places), places is not None,
+        )  # fmt: skip
+
+    def members(self) -> Iterator[Member]:
+        """Go through the trains in every combination, and the combinations in which none acts.
+
+        Yields
+        ------
+        Member
+        """
+        for k, name in enumerate(self.names):
+            result = self.combinations[k]
+            if not result.has_answer:
+                continue
+            if result.scene.trains:
+                yield from result.trains.members(name)
+            elif result.status == "solved":
+                yield Standing(result, name)
+
+    def hints(self) -> list[Hint]:
+        """Where a load factor between governs, as `Result.hints`, of every combination that has a scheme of its own.
+
+        Returns
+        -------
+        list of Hint
+        """
+        own = [k for k, other in enumerate(self._plan.scheme_of) if other is None]
+        return [hint for k in own for hint in find_hints(self.combinations[k], self.names[k])]
+
+    def to_data(
+        self, points: int = 20, steps: Callable[[Iterator], Any] = list, fields: Callable[[Fields], dict] = Fields.to_dict
+    ) -> dict[str, Any]:
+        """Everything as plain data, as `Result.to_data`, with the combinations in place of the steps.
+
+        Parameters
+        ----------
+        points, steps, fields
+            As there.
+
+        Returns
+        -------
+        dict
+        """
+        return combined_data(self, points, steps)
+
+    @property
+    def has_envelope(self) -> bool:
+        """Whether there is anything in the envelope."""
+        return "solved" in self.statuses or any(one.has_envelope for one in self.combinations.values())
+
+    @property
+    def fields_there(self) -> dict[str, int]:
+        """Names of the fields, and which of FIELDS they are."""
+        there = dict(self.beam.fields)
+        if self._plan.settlements[:, ~self.beam.across].any():
+            there |= {"axial_force": 4, "axial_displacement": 5}
+        return there
+
+    def _curves(
+        self, points: int, x: np.ndarray | None
+    ) -> tuple[np.ndarray, Iterator[tuple[slice, np.ndarray]]]:
+        """Places along the beam, and the fields there of some combinations at a time."""
+        if x is not None:
+            piece, distance = map(
+                np.concatenate, zip(self.beam.find(x, False), self.beam.find(x, True), strict=True)
+            )
+            x = np.tile(x, 2)
+            return x, self._fields_at(piece, distance, x, np.arange(len(x)) >= len(x) // 2)
+        piece, distance = self.places_along(points)
+        places, lengths = self.beam.places, self.beam.places.pieces[:, 0]
+        at_end = distance == lengths[piece]
+        x = np.where(at_end, places.point_x[piece + 1], places.point_x[piece] + distance)
+        return x, self._fields_at(piece + np.int32(1), distance, x, at_end)
+
+    def _fields_at(
+        self, piece: np.ndarray, distance: np.ndarray, x: np.ndarray, left: np.ndarray
+    ) -> Iterator:
+        plan = self._plan
+        alone = [k for k in range(len(plan)) if not self._at_once or plan.scheme_of[k] is not None]
+        if self._at_once:
+            start = self._found.closed
+            left_out = {*alone, *np.flatnonzero(self._found.status)}
+            for part, found in solve_combinations(
+                self.beam, plan.factors, plan.settlements, self.rule, start, piece, distance
+            ):
+                values = found.fields
+                here = [k - part.start for k in left_out if part.start <= k < part.stop]
+                if here:
+                    values = values.copy()
+                    values[here] = np.nan
+                yield part, values
+        for k in alone:
+            if self.statuses[k] == "solved":
+                yield slice(k, k + 1), fields_on_sides(self.combinations[k], x, left)[None]
+
+
+def _changeable(found: Combined) -> Combined:
+    """The same with arrays of their own that can be changed until they are protected again."""
+    made = object.__new__(Combined)
+    for name in Combined.__dataclass_fields__:
+        object.__setattr__(made, name, np.array(getattr(found, name)))
+    return made
+
+
+def solve_combined(scene: Scene, beam: Beam, rule: str, start: np.ndarray) -> CombinedResult:
+    """Solve the combinations of a scene.
+
+    Parameters
+    ----------
+    scene : Scene
+        Checked.
+    beam : Beam
+        Made of it.
+    rule : {"block", "single"}
+        How working schemes are found.
+    start : numpy.ndarray of int
+        Where every search starts: no result depends on those before it.
+
+    Returns
+    -------
+    CombinedResult
+
+    Raises
+    ------
+    SceneError
+        A combination makes no sense, or moves supports so that they leave no room for each other.
+    """
+    plan = plan_combinations(scene)
+    if plan.scene is not scene:
+        taken = columns(plan.scene)
+        beam = Beam(taken, curves(plan.scene, taken))
+    return CombinedResult(scene, plan, beam, rule, read_only(start))

@@ -1,0 +1,388 @@
+"""Envelopes: largest and smallest values over combinations, where they come from, and what goes with them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, NamedTuple, overload
+
+import numpy as np
+
+from ...base.records import Record
+from ...scene.names import names_of
+from ...scene.structs import Scene
+from .ground_envelope import GroundExtreme, find_ground_extremes, ground_extremes_data
+from .tables import curves_with_sources, support_places
+
+if TYPE_CHECKING:
+    from ..result import Result
+    from ..state.step import Step
+
+AT_SUPPORTS = ("reaction", "deflection", "opening", "couple")
+"""Rows of the values at supports."""
+OF_SUPPORTS = ("reaction", "opening", "deflection")
+"""What an envelope tells of every support."""
+EQUAL = 1e-12
+"""Share of the largest value along the beam by which curves of combinations that coincide differ."""
+NEAR = 10.0
+"""How many error bounds from an extreme another combination is looked at for a tie."""
+
+
+class Source(NamedTuple):
+    """Where an extreme comes from.
+
+    Attributes
+    ----------
+    combination : str or None
+        Name of the combination; None in a scene without any.
+    factor : float or None
+        Load factor, over the whole way of the load; None at full load.
+    leg : int or None
+        Which factor of the history was gone to there, from 0; -1 at a limit while the dead loads were put on, whose factor
+        it is then.
+    """
+
+    combination: str | None = None
+    factor: float | None = None
+    leg: int | None = None
+
+    def to_dict(self) -> dict[str, Any]:
+        """As plain data.
+
+        Returns
+        -------
+        dict
+            What is None is left out.
+        """
+        return {key: value for key, value in self._asdict().items() if value is not None}
+
+
+class Extreme:
+    """The largest or smallest value of a quantity over all combinations, or over the way of the load.
+
+    Attributes
+    ----------
+    quantity : str
+        For example ``moment`` or ``reaction``.
+    value : float
+        The value.
+    x : float
+        Its place.
+    support : int or None
+        Number of the support it belongs to.
+    source : Source
+        Where it comes from: the first one of those that tie.
+    """
+
+    def __init__(self, of: Envelope, quantity: str, values: np.ndarray, which: int, x: float, support: int | None, sign: int):
+        self.quantity, self.value, self.x, self.support = quantity, float(values[which]), x, support
+        self.source = of.sources[which]
+        self._of, self._values, self._which, self._sign = of, values, which, sign
+
+    def __repr__(self) -> str:
+        """Show value, place and source."""
+        return f"Extreme({self.quantity} {self.value:.6g} at x = {self.x:.6g}, {self.source})"
+
+    @property
+    def combination(self) -> str | None:
+        """Name of the combination it comes from."""
+        return self.source.combination
+
+    @property
+    def factor(self) -> float | None:
+        """Load factor it comes from, over the whole way of the load; else None."""
+        return self.source.factor
+
+    @property
+    def leg(self) -> int | None:
+        """Which factor of the history was gone to there, from 0; else None."""
+        return self.source.leg
+
+    @property
+    def result(self) -> Result:
+        """The result of that combination."""
+        return self._of.result_of(self._which)
+
+    @cached_property
+    def ties(self) -> tuple[Source, ...]:
+        """All sources of this value, the first one included: those whose values differ by no more than their error bounds."""
+        bound = self._of.bound(self._which, self.quantity)
+        away = self._sign * (self.value - self._values)
+        found = []
+        for k in np.flatnonzero(away <= NEAR * bound).tolist():
+            if away[k] <= 0.0 or away[k] <= bound + self._of.bound(k, self.quantity):
+                found.append(self._of.sources[k])
+        return tuple(found)
+
+    @cached_property
+    def concurrent(self) -> dict[str, float]:
+        """What the other quantities are there, in the combination it comes from.
+
+        Of a field the others at the same place, on the side of the extreme; of a support what else it has.
+        """
+        if self.support is not None:
+            rows = self._of.at_supports[self._which, :, self.support].tolist()
+            return {name: value for name, value in zip(AT_SUPPORTS, rows, strict=True) if name != self.quantity}
+        state = self._of.state_of(self._which)
+        both = [self.result.at_state(state, self.x, side).columns() for side in ("right", "left")]
+        there = min(both, key=lambda fields: abs(float(fields[self.quantity]) - self.value))
+        return {name: float(value) for name, value in there.items() if name not in ("x", self.quantity)}
+
+    def to_dict(self) -> dict[str, Any]:
+        """As plain data: its source, all that tie with it, and the concurrent values.
+
+        Returns
+        -------
+        dict
+        """
+        ties = {"ties": [one.to_dict() for one in self.ties if one != self.source]} if len(self.ties) > 1 else {}
+        return {**self.source.to_dict(), **ties, "concurrent": self.concurrent}
+
+
+@dataclass(frozen=True, eq=False)
+class Curves(Record):
+    """Largest and smallest values of every field along the beam.
+
+    Attributes
+    ----------
+    x : numpy.ndarray
+        Places; where something changes twice: the values left of it, then those right of it.
+    largest, smallest : dict
+        By field, an array with a value for every place.
+    largest_of, smallest_of : dict
+        By field, for every place the number of the combination that gives the value: the first one of those that coincide
+        there but for rounding.
+    """
+
+    x: np.ndarray
+    largest: dict[str, np.ndarray]
+    smallest: dict[str, np.ndarray]
+    largest_of: dict[str, np.ndarray]
+    smallest_of: dict[str, np.ndarray]
+
+    def columns(self) -> dict[str, np.ndarray]:
+        """As columns of a table, for example for pandas.
+
+        Returns
+        -------
+        dict
+            ``x``, and of every field its largest and smallest values, as ``moment_max`` and ``moment_min``.
+        """
+        found = {"x": self.x}
+        for name in self.largest:
+            found |= {f"{name}_max": self.largest[name], f"{name}_min": self.smallest[name]}
+        return found
+
+
+class SupportExtremes(Sequence):
+    """Extremes at the supports of a scene, each made when it is looked at.
+
+    Parameters
+    ----------
+    of : Envelope
+        Whose they are.
+    """
+
+    def __init__(self, of: Envelope):
+        self._of = of
+        self._x = of.scene.positions(of.scene.supports)
+        self._rows = [AT_SUPPORTS.index(name) for name in OF_SUPPORTS]
+        values = of.at_supports[:, self._rows]
+        self._of_all = {
+            kind: best(values, axis=0) if len(self._x) else np.zeros((len(self._rows), 0), int)
+            for kind, best in (("max", np.nanargmax), ("min", np.nanargmin))
+        }
+
+    def __len__(self) -> int:
+        """Count the supports."""
+        return len(self._x)
+
+    @overload
+    def __getitem__(self, index: int) -> dict[str, dict[str, Extreme]]: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> list[dict[str, dict[str, Extreme]]]: ...
+
+    def __getitem__(self, index: int | slice) -> Any:
+        """Give the extremes of a support: by quantity, then by ``max`` and ``min``."""
+        if isinstance(index, slice):
+            return [self[k] for k in range(len(self))[index]]
+        k = range(len(self))[index]
+        return {
+            name: {
+                kind: Extreme(self._of, name, self._of.at_supports[:, row, k], int(which[i, k]), float(self._x[k]), k, sign)
+                for (kind, which), sign in zip(self._of_all.items(), (1, -1), strict=True)
+            }
+            for i, (name, row) in enumerate(zip(OF_SUPPORTS, self._rows, strict=True))
+        }
+
+    def columns(self) -> dict[str, Any]:
+        """As columns of a table, for example for pandas.
+
+        Returns
+        -------
+        dict
+            ``support`` (name or number), ``x``, and of every quantity ``reaction_max`` and ``reaction_min``, in a scene with
+            combinations each with the first one it comes from, ``reaction_max_combination``; over the way of the load with
+            ``reaction_max_factor`` and ``reaction_max_leg``.
+        """
+        found, supports = support_places(self._of.scene), np.arange(len(self))
+        for i, (name, row) in enumerate(zip(OF_SUPPORTS, self._rows, strict=True)):
+            for kind, which in self._of_all.items():
+                found[f"{name}_{kind}"] = self._of.at_supports[which[i], row, supports]
+                for key in self._of.keys:
+                    found[f"{name}_{kind}_{key}"] = [getattr(self._of.sources[k], key) for k in which[i].tolist()]
+        return found
+
+
+class Envelope:
+    """Largest and smallest values over all combinations that are solved, each at its full load; never floored at zero.
+
+    Attributes
+    ----------
+    sources : list of Source
+        Where values may come from: the combinations.
+    extremes : dict
+        By field ``{"max": Extreme, "min": Extreme}``: exact values along the whole beam.
+    supports : sequence of dict
+        For every support by quantity (``reaction``, ``opening``, ``deflection``) the same.
+    foundations : list of dict
+        For every foundation ``{"resultant": {"max": ..., "min": ...}, "free_span": {"longest": ..., "deepest": ...}}``.
+    """
+
+    def __init__(
+        self, scene: Scene, fields: dict[str, int], sources: Sequence[Source], at_supports: np.ndarray, extremes: np.ndarray,
+        places: np.ndarray, result_of: Callable[[int], Result],
+        curves: Callable[[], tuple[np.ndarray, Iterator[tuple[slice, np.ndarray]]]], on_both_sides: bool,
+        state_of: Callable[[int], Step] | None = None, keys: Sequence[str] | None = None,
+    ):  # fmt: skip
+        self.state_of = (lambda k: result_of(k).steps[-1]) if state_of is None else state_of
+        # What of a source tells where a value comes from
+        self.keys = (["combination"] if scene.combinations else []) if keys is None else keys
+        self.scene, self.sources, self.at_supports, self.result_of = scene, list(sources), at_supports, result_of
+        self._fields, self._values, self._places, self._make = fields, extremes, places, curves
+        self._on_both_sides = on_both_sides  # are the second half of the curves' places the first ones again, from the left
+        self._bounds: dict[int, dict[str, float]] = {}
+        if not np.isfinite(extremes[:, 2, 0]).any():
+            raise ValueError("no combination is solved, so there is no envelope")
+
+    def bound(self, k: int, quantity: str) -> float:
+        """Give the error bound of a quantity in a combination.
+
+        Parameters
+        ----------
+        k : int
+            Number of the combination.
+        quantity : str
+            Of a field or of supports; where nothing is known 0.
+
+        Returns
+        -------
+        float
+        """
+        if k not in self._bounds:
+            bounds = self.state_of(k).error_bounds
+            self._bounds[k] = {name: bound or 0.0 for name, bound in bounds.items()}
+        return self._bounds[k].get("deflection" if quantity == "opening" else quantity, 0.0)
+
+    @cached_property
+    def extremes(self) -> dict[str, dict[str, Extreme]]:
+        """Exact extremes of every field, by ``max`` and ``min``."""
+        found = {}
+        for name, column in self._fields.items():
+            found[name] = {}
+            for row, (kind, best, sign) in enumerate((("max", np.nanargmax, 1), ("min", np.nanargmin, -1))):
+                values = self._values[:, column, row]
+                k = int(best(values))
+                found[name][kind] = Extreme(self, name, values, k, float(self._places[k, column, row]), None, sign)
+        return found
+
+    @cached_property
+    def supports(self) -> SupportExtremes:
+        """Extremes at every support, in the order of the scene, by quantity and by ``max`` and ``min``."""
+        return SupportExtremes(self)
+
+    @cached_property
+    def foundations(self) -> list[dict[str, dict[str, GroundExtreme | None]]]:
+        """Extremes of every foundation, in the order of the scene.
+
+        ``resultant`` by ``max`` and ``min``, ``free_span`` by ``longest`` and ``deepest`` (None where the beam lies on the
+        foundation everywhere and always). Every combination is looked at, so each is solved once more.
+        """
+        solved = np.flatnonzero(np.isfinite(self._values[:, 2, 0])).tolist()
+        return find_ground_extremes(self, solved) if self.scene.foundation else []
+
+    @cached_property
+    def fields(self) -> Curves:
+        """Largest and smallest values of every field along the beam."""
+        x, parts = self._make()
+        shape = 2, len(x), 7
+        best, of = np.full(shape, np.nan), np.zeros(shape, dtype=np.int32)
+        equal = np.broadcast_to(EQUAL * np.fmax.reduce(np.abs(self._values), axis=(0, 2)), shape[1:])
+        for part, values in parts:
+            for row, (extreme, sign) in enumerate(((np.fmax, 1.0), (np.fmin, -1.0))):
+                there = extreme.reduce(values, axis=0)  # passes over what is not a number
+                better = (sign * (there - best[row]) > equal) | (np.isnan(best[row]) & ~np.isnan(there))
+                if better.any():
+                    near = sign * (there[better] - values[:, better]) <= equal[better]
+                    of[row][better] = part.start + near.argmax(axis=0)
+                best[row] = extreme(best[row], there)
+        if self._on_both_sides:
+            x, best, of = _joined(x, best, of)
+        names = self._fields.items()
+        tables = [{name: table[row][:, column].copy() for name, column in names} for table in (best, of) for row in (0, 1)]
+        return Curves(x, *tables)
+
+    def columns(self) -> dict[str, Any]:
+        """The curves as columns of a table, for example for pandas.
+
+        Returns
+        -------
+        dict
+            ``x``, of every field its largest and smallest values (``moment_max``), and in a scene with combinations the one that
+            gives them (``moment_max_combination``); over the way of the load ``moment_max_factor`` and ``moment_max_leg``.
+        """
+        return curves_with_sources(self.fields, self.sources, self.keys)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything as plain data, in the form of the JSON output.
+
+        Returns
+        -------
+        dict
+            Only numbers, strings, lists and dicts.
+        """
+        names = names_of(self.scene.supports)
+        curves = self.fields
+        return {
+            "supports": [
+                {
+                    **({} if names[k] is None else {"name": names[k]}),
+                    **{name: {kind: [one.value, one.to_dict()] for kind, one in row.items()} for name, row in support.items()},
+                }
+                for k, support in enumerate(self.supports)
+            ],
+            **({"foundations": ground_extremes_data(self)} if self.scene.foundation else {}),
+            "extremes": {
+                name: {kind: [one.value, one.x, one.to_dict()] for kind, one in row.items()} for name, row in self.extremes.items()
+            },
+            "fields": {
+                "x": curves.x.tolist(),
+                **{
+                    name: {
+                        "max": curves.largest[name].tolist(), "min": curves.smallest[name].tolist(),
+                        "max_of": curves.largest_of[name].tolist(), "min_of": curves.smallest_of[name].tolist(),
+                    }
+                    for name in self._fields
+                },
+            },
+        }  # fmt: skip
+
+
+def _joined(x: np.ndarray, best: np.ndarray, of: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Of two values at every place the larger one, or the smaller one."""
+    n = len(x) // 2
+    first, second = best[:, :n], best[:, n:]
+    later = np.stack((second[0] > first[0], second[1] < first[1]))
+    return x[:n], np.where(later, second, first), np.where(later, of[:, n:], of[:, :n])

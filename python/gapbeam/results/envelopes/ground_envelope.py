@@ -1,0 +1,143 @@
+"""Envelopes on foundations: largest and smallest resultants, the longest and the deepest free spans, and where they come from."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ...scene.names import names_of
+from ..state.ground import FreeSpan
+
+if TYPE_CHECKING:
+    from ..result import Result
+    from .envelope import Envelope, Source
+
+SAME = 1e-12
+"""Share of the largest of them by which values that tie differ at most: of resultants, lengths and sags."""
+
+
+class GroundExtreme:
+    """The largest or smallest value of a foundation over all combinations.
+
+    Attributes
+    ----------
+    quantity : str
+        ``resultant`` (force on the beam, positive upward), ``length`` or ``sag``.
+    value : float
+        The value.
+    foundation : int
+        Number of the foundation in the scene.
+    span : FreeSpan or None
+        The free span, if it is one's length or sag.
+    source : Source
+        Where it comes from: the first one of those that tie.
+    ties : tuple of Source
+        All sources of this value, the first one included: those whose values differ by rounding.
+    """
+
+    def __init__(self, of: Envelope, quantity: str, value: float, foundation: int, span: FreeSpan | None, which: Sequence[int]):
+        self.quantity, self.value, self.foundation, self.span = quantity, value, foundation, span
+        self.ties = tuple(of.sources[k] for k in which)
+        self.source: Source = self.ties[0]
+        self._of, self._which = of, which[0]
+
+    def __repr__(self) -> str:
+        """Show value, foundation and source."""
+        where = "" if self.span is None else f" from x = {self.span.from_:.6g} to {self.span.to:.6g}"
+        return f"GroundExtreme({self.quantity} {self.value:.6g} of foundation {self.foundation}{where}, {self.source})"
+
+    @property
+    def combination(self) -> str | None:
+        """Name of the combination it comes from."""
+        return self.source.combination
+
+    @property
+    def result(self) -> Result:
+        """The result of that combination."""
+        return self._of.result_of(self._which)
+
+    def to_dict(self) -> dict[str, Any]:
+        """As plain data: the free span, its source, and all that tie with it.
+
+        Returns
+        -------
+        dict
+        """
+        span = {} if self.span is None else {"from": self.span.from_, "to": self.span.to, "sag": self.span.sag}
+        ties = {"ties": [one.to_dict() for one in self.ties[1:]]} if len(self.ties) > 1 else {}
+        return {**span, **self.source.to_dict(), **ties}
+
+
+def find_ground_extremes(of: Envelope, solved: Sequence[int]) -> list[dict[str, dict[str, GroundExtreme | None]]]:
+    """Find the extremes of every foundation.
+
+    Parameters
+    ----------
+    of : Envelope
+        Whose they are.
+    solved : sequence of int
+        The combinations that are solved.
+
+    Returns
+    -------
+    list of dict
+        For every foundation ``resultant`` with ``max`` and ``min``, and ``free_span`` with ``longest`` and ``deepest``; these are
+        None where the beam lies on the foundation in all of them.
+    """
+    count = len(of.scene.foundation)
+    resultants, spans = np.zeros((len(solved), count)), [[] for _ in range(count)]
+    for row, k in enumerate(solved):
+        step = of.state_of(k)
+        for zone in step.contact:
+            resultants[row, zone.foundation] += zone.resultant
+        for span in step.free_spans:
+            spans[span.foundation].append((k, span))
+    found = []
+    for i in range(count):
+        values = resultants[:, i]
+        near, rows = SAME * np.abs(values).max(), {}
+        for kind, value in (("max", values.max()), ("min", values.min())):
+            which = [solved[k] for k in np.flatnonzero(np.abs(values - value) <= near).tolist()]
+            first = float(values[solved.index(which[0])])
+            rows[kind] = GroundExtreme(of, "resultant", first, i, None, which)
+        free = {"longest": _largest(of, "length", i, spans[i]), "deepest": _largest(of, "sag", i, spans[i])}
+        found.append({"resultant": rows, "free_span": free})
+    return found
+
+
+def _largest(of: Envelope, quantity: str, foundation: int, spans: Sequence[tuple[int, FreeSpan]]) -> GroundExtreme | None:
+    """Find the free span that is the longest, or that sags most: the first of those that tie, and their combinations."""
+    if not spans:
+        return None
+    values = np.array([span.to - span.from_ if quantity == "length" else span.sag for _, span in spans])
+    near = SAME * (of.scene.span_ends()[-1] if quantity == "length" else values.max())
+    which = np.flatnonzero(values >= values.max() - near).tolist()
+    combinations = list(dict.fromkeys(spans[k][0] for k in which))
+    return GroundExtreme(of, quantity, float(values[which[0]]), foundation, spans[which[0]][1], combinations)
+
+
+def ground_extremes_data(of: Envelope) -> list[dict[str, Any]]:
+    """Give the extremes of all foundations as plain data.
+
+    Parameters
+    ----------
+    of : Envelope
+        Whose they are.
+
+    Returns
+    -------
+    list of dict
+        Every value beside its source, as for supports.
+    """
+    return [
+        {
+            **({} if name is None else {"name": name}),
+            **{
+                quantity: {kind: [one.value, one.to_dict()] for kind, one in row.items() if one is not None}
+                for quantity, row in rows.items()
+            },
+        }
+        for name, rows in zip(names_of(of.scene.foundation), of.foundations, strict=True)
+    ]

@@ -1,0 +1,431 @@
+"""The path of a beam whose supports soften, break, or keep a set: through limit points, to load factors in turn."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from time import perf_counter
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ...base.errors import EngineError, Status
+from ...base.records import Pickled, read_only
+from ...engine.arrays import History
+from ...engine.beam import GIVEN, Beam
+from ...engine.paths import ENDINGS, follow_history
+from ..state.energy import bulge, work_of_loads
+from ..state.kinks import piece_of, what_happens
+from ..state.step import Step
+from .curved import CurvedPath
+from .path import Event, Segment
+
+if TYPE_CHECKING:
+    from ...scene.structs import Scene
+    from ..result import Result
+
+MOST_STRETCHES = 20_000
+"""Stretches after which a path is cut off; without a history there are finitely many."""
+BEYOND = 0.1
+"""By what share the polylines of smooth laws are followed further, where on the laws the load does not come to its end."""
+CURVE = 25
+"""States of a segment with smooth laws in a picture."""
+DIRECTIONS = {1: "rising", -1: "falling", 0: "turning"}
+
+
+@dataclass(frozen=True, slots=True)
+class Limit:
+    """Where the load cannot go on.
+
+    Attributes
+    ----------
+    factor : float
+        The load factor.
+    kind : str
+        ``limit``: the load must fall; ``bifurcation``: several ways go on, none of them stable; ``mechanism``: none does.
+    leg : int
+        Which factor of the history was gone to, from 0; -1 while the dead loads were put on.
+    causes : tuple of (int, str)
+        Supports and what happens to them there.
+    landing : Step or None
+        The next stable state on the path at the same load factor; dynamics may lead elsewhere. None too while settlements or
+        lacks of fit grow with the dead loads.
+    released : float or None
+        By how much the potential energy is less there (force times length).
+    exact : bool
+        Whether factor and landing are those of the smooth laws; False where only those of their polylines are known.
+    """
+
+    factor: float
+    kind: str
+    leg: int
+    causes: tuple[tuple[int, str], ...]
+    landing: Step | None
+    released: float | None
+    exact: bool
+
+
+@dataclass(frozen=True, slots=True)
+class OtherWay:
+    """A way on from a tie that was not taken.
+
+    Attributes
+    ----------
+    direction : str
+        ``rising``, ``falling`` or ``turning``: what the load does along it.
+    index : int
+        In how many independent ways the beam gives way by itself there.
+    changes : tuple of (int, str)
+        Supports, and what happens to them.
+    """
+
+    direction: str
+    index: int
+    changes: tuple[tuple[int, str], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class BranchSegment(Segment):
+    """A stretch of the path on which all supports stay on their piece; of a smooth law there is one only.
+
+    Attributes
+    ----------
+    first, number : int
+        Its first and last number in the history of the engine.
+    leg : int
+        Which factor of the history is gone to, from 0.
+    path : float
+        Load factors passed up to its end, falling ones included.
+    stable : bool
+        Whether the beam would stay there under this load.
+    index : int
+        In how many independent ways it gives way by itself.
+    others : tuple of OtherWay
+        Ways on there were at its beginning beside it.
+    exact : bool
+        Whether its end is on the smooth laws; False where it is known on their polylines only.
+    """
+
+    first: int
+    number: int
+    leg: int
+    path: float
+    stable: bool
+    index: int
+    others: tuple[OtherWay, ...]
+    exact: bool
+
+
+class BranchPath(Pickled):
+    """The path, as `gapbeam.results.path.Path` is for other beams.
+
+    Attributes
+    ----------
+    events : list of Event
+        What happens to the supports, in the order of the path.
+    segments : list of BranchSegment
+        The stretches of the path that count; what is passed in a jump does not.
+    limits : list of Limit
+        Where the load could not go on.
+    ending : str
+        How the path ended: empty at the last factor, ``ended``, ``mechanism``, or ``cut off``.
+    motion : numpy.ndarray or None
+        Displacements of the nodes in the mechanism in which it ended.
+    solves, nodes : int
+        Linear solves of the whole beam, all in quadruple precision; 0.
+    seconds : float
+        Time of these.
+    """
+
+    def __init__(self, scene: Scene, beam: Beam, history: History, seconds: float, curved: CurvedPath | None = None):
+        self._scene = scene
+        self._beam = beam
+        self._curved = curved
+        self._dead = beam.with_dead_loads_alone() if 0 in history.about[:, 0] else None
+        self._history = history = history if curved is None else curved.history
+        self._ways = np.sign(np.diff(scene.analysis.history, prepend=0.0)).tolist()
+        self.ending = history.ending
+        self.motion = history.motion
+        self.solves, self.nodes, self.seconds = history.solves, 0, seconds
+        self.segments = self._segments()
+        self.events = self._events()
+
+    def _segments(self) -> list[BranchSegment]:
+        found: list[BranchSegment] = []
+        path, h = 0.0, self._history
+        for first, last in [(k, k) for k in range(len(h.about))] if self._curved is None else self._curved.runs:
+            leg, direction, index, _, skipped = h.about[last].tolist()
+            if skipped or leg == 0 or direction == 0:
+                continue
+            start, stop = float(h.along[first, 0]), float(h.along[last, 1])
+            path += abs(stop - start)
+            stable = index == 0 and direction == self._ways[leg - 1]
+            exact = self._curved is None or self._curved.is_exact(last)
+            found.append(BranchSegment(start, stop, 0, first, last, leg - 1, path, stable, index, self._others(first), exact))
+        return found
+
+    def _others(self, k: int) -> tuple[OtherWay, ...]:
+        """Ways that were not taken where a stretch begins."""
+        h = self._history
+        before = h.closed[k - 1] if k else h.closed[k]
+        return tuple(
+            OtherWay(DIRECTIONS[direction], index, tuple(self._between(before, h.other_schemes[j], h.kinks[k])))
+            for j, (stretch, direction, index) in enumerate(h.others.tolist())
+            if stretch == k + 1
+        )
+
+    def _events(self) -> list[Event]:
+        beam, h = self._beam, self._history
+        x = beam.node_x[beam.places.support_nodes]
+        places = dict(zip(beam.numbers.tolist(), x.tolist(), strict=True))
+        found: list[Event] = []
+        before = None
+        passed: list[tuple[int, str]] = []
+        for k, (leg, direction, *_, skipped) in enumerate(h.about.tolist()):
+            if skipped:
+                # What is passed in a jump happens where it begins
+                passed += self._changes(k - 1, k)
+                before = k
+                continue
+            factor = float(h.along[k, 0])
+            if direction == 0 and k + 1 < len(h.about):
+                held = np.flatnonzero(h.closed[k + 1] > h.closed[k])
+                if leg > 0 and len(held):
+                    number = int(beam.numbers[held[0]])
+                    found.append(Event(factor, number, places[number], "turns"))
+            if before is not None and leg > 0:
+                changes, passed = [*passed, *self._changes(before, k)], []
+                at_start = factor == 0.0 and self._leg_begins(k) and leg == 1
+                found += [Event(factor, i, places[i], what) for i, what in changes if not at_start]
+            before = k
+        if passed and self._history.limits.size:
+            # The path ends at a limit: what happens there is all that happens
+            limit = self.limits[-1]
+            found += [Event(limit.factor, i, places[i], what) for i, what in limit.causes]
+        return found
+
+    def _leg_begins(self, k: int) -> bool:
+        return k == 0 or self._history.about[k, 0] != self._history.about[k - 1, 0]
+
+    def _changes(self, before: int, after: int) -> list[tuple[int, str]]:
+        """Supports to which something happens between two stretches."""
+        h = self._history
+        return self._between(h.closed[before], h.closed[after], h.kinks[after], h.kinks[before])
+
+    def _between(
+        self, before: np.ndarray, after: np.ndarray, kinks: np.ndarray, kinks_before: np.ndarray | None = None
+    ) -> list[tuple[int, str]]:
+        """Supports to which something happens between two schemes."""
+        beam, found = self._beam, {}
+        for j in np.flatnonzero(before != after).tolist():
+            i = int(beam.numbers[j])
+            if i in beam.laws:
+                old = piece_of(beam, i, before, kinks if kinks_before is None else kinks_before)
+                found[i] = what_happens(old, piece_of(beam, i, after, kinks))
+            else:
+                found[i] = "closes" if after[j] else "opens"
+        return sorted((i, what) for i, what in found.items() if what)
+
+    @cached_property
+    def limits(self) -> list[Limit]:
+        """Where the load could not go on."""
+        found = []
+        for factor, (kind, leg, before, landing) in zip(
+            self._history.limit_factors.tolist(), self._history.limits.tolist(), strict=True
+        ):
+            causes = self._changes(before - 1, before) if 0 < before < len(self._history.about) else []
+            step = self._step(landing - 1, factor) if landing and (leg > 0 or self._dead is not None) else None
+            released = None if step is None else self._released(before, landing, factor)
+            is_known = self._curved is None or before == 0 or self._curved.is_exact(before - 1)
+            exact = is_known and (step is None or step.exact)
+            found.append(Limit(factor, ENDINGS[kind], leg - 1, tuple(causes), step, released, exact))
+        return found
+
+    def _released(self, before: int, landing: int, factor: float) -> float:
+        """Energy that is set free from a limit to the landing: along a path it changes by the work of the loads only."""
+        found, h = 0.0, self._history
+        runs = [(k, k) for k in range(before, landing)]
+        if self._curved is not None:
+            runs = [(max(a, before), min(b, landing - 1)) for a, b in self._curved.runs if a < landing and b >= before]
+        for first, last in runs:
+            # In a jump the landing is said to begin at the factor of the limit
+            start, stop = float(h.along[first, 0]), float(h.along[last, 1])
+            if last == landing - 1:
+                start, stop = float(h.along[first - 1, 1]), factor
+            if start != stop:
+                ends = [self._step(k, at) for k, at in ((first, start), (last, stop))]
+                case = "live" if h.about[first, 0] else "dead"
+                work = [work_of_loads(self._scene, case, self._beam_at(first), step) for step in ends]
+                found += (stop - start) * sum(work) / 2 - bulge(self._beam, *(step.solution for step in ends))
+        return float(found)
+
+    def closed(self, segment: BranchSegment) -> np.ndarray:
+        """Give the scheme of a segment.
+
+        Parameters
+        ----------
+        segment : BranchSegment
+            One of the segments.
+
+        Returns
+        -------
+        numpy.ndarray of int
+        """
+        return self._history.closed[segment.number].astype(np.int32)
+
+    def beam(self, segment: BranchSegment) -> Beam:
+        """Give the beam with the laws of its supports as they are on a segment.
+
+        Parameters
+        ----------
+        segment : BranchSegment
+            One of the segments.
+
+        Returns
+        -------
+        Beam
+        """
+        return self._beam_at(segment.number)
+
+    def along(self, segment: BranchSegment) -> list[Step]:
+        """Give the states at both ends of a segment, and with smooth laws some between them.
+
+        Parameters
+        ----------
+        segment : BranchSegment
+            One of the segments.
+
+        Returns
+        -------
+        list of Step
+            In the order of the path; the last one need not be at the greatest load factor.
+        """
+        # Closer at both ends, where the load may turn round
+        share = (1.0 - np.cos(np.linspace(0.0, np.pi, 2 if self._curved is None else CURVE))) / 2
+        between = (segment.start + share * (segment.stop - segment.start))[1:-1].tolist()
+        factors = [segment.start, *between, segment.stop]
+        return [self._step(segment.number if k else segment.first, factor) for k, factor in enumerate(factors)]
+
+    def at_dead_limits(self) -> list[Step]:
+        """Give the states on both sides of the jumps while the dead loads are put on; their factor is that of the dead loads.
+
+        Returns
+        -------
+        list of Step
+            None where settlements or lacks of fit grow with them.
+        """
+        found, h = [], self._history
+        for factor, (_, leg, before, landing) in zip(h.limit_factors.tolist(), h.limits.tolist(), strict=True):
+            if leg == 0 and self._dead is not None:
+                jumps = landing and not (landing == len(h.about) and self.ending)
+                found += [self._step(k - 1, factor) for k in (before, landing if jumps else 0) if k]
+        return found
+
+    def step(self, segment: BranchSegment, factor: float) -> Step:
+        """Give the state on a segment at a load factor.
+
+        Parameters
+        ----------
+        segment : BranchSegment
+            One of the segments.
+        factor : float
+            One of its load factors.
+
+        Returns
+        -------
+        Step
+        """
+        return self._step(segment.number, factor)
+
+    def begin(self, segment: BranchSegment) -> Step:
+        """Give the state with which a segment begins.
+
+        Parameters
+        ----------
+        segment : BranchSegment
+            One of the segments.
+
+        Returns
+        -------
+        Step
+        """
+        return self._step(segment.first, segment.start)
+
+    def jumps_to(self, segment: BranchSegment) -> bool:
+        """Whether a segment begins where a jump has landed.
+
+        Parameters
+        ----------
+        segment : BranchSegment
+            One of the segments.
+
+        Returns
+        -------
+        bool
+        """
+        return segment.first > 0 and bool(self._history.about[segment.first - 1, -1])
+
+    def _beam_at(self, k: int) -> Beam:
+        beam = self._beam if self._history.about[k, 0] else self._dead
+        return beam.with_kinks(self._history.kinks[k])
+
+    def _step(self, k: int, factor: float) -> Step:
+        if self._curved is not None:
+            return self._curved.step(k, factor)
+        return Step(self._beam_at(k), factor, GIVEN, read_only(self._history.closed[k].astype(np.int32)))
+
+    def find(self, factor: float) -> BranchSegment | None:
+        """Find the segment that a load factor belongs to.
+
+        Parameters
+        ----------
+        factor : float
+            Load factor.
+
+        Returns
+        -------
+        BranchSegment or None
+            The last one with it, a stable one if there is any; None if the path does not pass it.
+        """
+        there = [s for s in self.segments if min(s.start, s.stop) <= factor <= max(s.start, s.stop)]
+        return max(there, key=lambda s: (s.stable, s.number), default=None)
+
+
+def follow_branches(result: Result) -> BranchPath:
+    """Follow the load of a scene through its factors in turn.
+
+    Parameters
+    ----------
+    result : Result
+        Receives the status, and the reason where the load cannot go on.
+
+    Returns
+    -------
+    BranchPath
+    """
+    begin = perf_counter()
+    analysis = result.scene.analysis
+    factors = np.asarray(analysis.history, dtype=float)
+    stops = analysis.at_limit == "stop"
+    at_limit = "jump" if stops and result.beam.curves else analysis.at_limit
+    history = follow_history(result.beam, factors, at_limit, MOST_STRETCHES)
+    curved = CurvedPath(result.beam, history, factors[-1], stops) if result.beam.curves else None
+    if curved is not None and curved.unreached == len(factors):
+        # The limit load that keeps it from there lies beyond on the polylines
+        further = np.append(factors[:-1], factors[-1] + BEYOND * (factors[-1] - np.append(0.0, factors)[-2]))
+        history = follow_history(result.beam, further, at_limit, MOST_STRETCHES)
+        curved = CurvedPath(result.beam, history, factors[-1], stops)
+    if curved is not None and curved.unreached is not None:
+        which = f"load factor {factors[curved.unreached - 1]:g} is" if curved.unreached else "the dead loads are"
+        raise EngineError(
+            f"{which} so near a limit load that the smooth laws of the supports cannot be followed there: change it a little",
+            Status.NOT_CONVERGED,
+        )
+    path = BranchPath(result.scene, result.beam, history, perf_counter() - begin, curved)
+    if path.ending == "cut off":
+        raise EngineError(
+            f"the path has more than {MOST_STRETCHES:,} stretches: shorten the history, or follow it in parts", Status.NOT_CONVERGED
+        )
+    if path.ending:
+        result.refuse_limit(path)
+    return path

@@ -1,0 +1,151 @@
+"""The load path of a beam on the ground: every change of zones of contact and of supports at its load factor."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from time import perf_counter
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ...engine.beam import NO_EQUILIBRIUM, Beam
+from ...engine.paths import follow_ground
+from ..state.kinks import EVENTS
+from ..state.motion import describe_motion
+from ..state.step import Step
+from .branches import Limit
+from .path import Segment
+
+if TYPE_CHECKING:
+    from ..result import Result
+
+BEGIN = 2.0**-40
+"""What acts here acts from the beginning: at factor 0 a beam without dead load lies on the ground without any force."""
+
+
+@dataclass(frozen=True, slots=True)
+class GroundEvent:
+    """A change of what holds the beam.
+
+    Attributes
+    ----------
+    factor : float
+        The load factor at which it happens.
+    support : int or None
+        Number of the support in the scene, where it is one that changes.
+    foundation : int or None
+        Number of the foundation in the scene, where it is a zone of contact that changes.
+    x : float
+        Its place.
+    event : str
+        Of a support ``opens`` or ``closes``, with a law also ``yields``, ``hardens``, ``unloads``; of a zone
+        ``zone appears``, ``zone vanishes``, ``zones merge``, ``zone splits``,
+        ``end reaches`` and ``end leaves`` (an end of the foundation or of the beam).
+    branch : int
+        Of a foundation with a law the first of its branches that make up the zone; 1 is the zone of contact.
+    """
+
+    factor: float
+    support: int | None
+    foundation: int | None
+    x: float
+    event: str
+    branch: int = 1
+
+
+class GroundPath:
+    """What acts along the load.
+
+    Attributes
+    ----------
+    events : list of GroundEvent
+        Every change above load factor 0.
+    segments : list of Segment
+        From 0 to 1, or to the factor above which there is no equilibrium; between events.
+    solves : int
+        Linear solves.
+    nodes : int
+        Always 0.
+    seconds : float
+        Time of these.
+    limits : list of Limit
+        The load factor that ground which yields can carry at most, if the path ends there.
+    beyond : float
+        A load factor above the last segment at which there is no equilibrium for sure.
+    motion : numpy.ndarray or None
+        How the beam moves there; None if it stands to the end, or slides along its axis.
+    stands : bool
+        Whether it stands to the end.
+    """
+
+    nodes = 0
+
+    def __init__(self, beam: Beam, rule: str, closed: np.ndarray):
+        begin = perf_counter()
+        self._beam, self._rule = beam, rule
+        found = follow_ground(beam, rule, closed)
+        self._schemes = found.closed
+        self.solves = found.solves
+        self.beyond = found.beyond
+        self.stands = found.status != NO_EQUILIBRIUM
+        self.motion = None if self.stands or found.slides else found.motion
+        columns = (found.factor, found.support, found.foundation, found.x, found.event, found.branch)
+        self.events = [
+            GroundEvent(factor, k if k >= 0 else None, f if f >= 0 else None, x, EVENTS[event], branch)
+            for factor, k, f, x, event, branch in zip(*(column.tolist() for column in columns), strict=True)
+        ]
+        starts = found.begins.tolist()
+        ends = [*starts[1:], found.last][: len(starts)]
+        self.segments = [Segment(start, stop, k) for k, (start, stop) in enumerate(zip(starts, ends, strict=True))]
+        self.limits = [Limit(found.last, "mechanism", 0, (), None, None, True)] if found.at_limit else []
+        self.seconds = perf_counter() - begin
+
+    def closed(self, segment: Segment) -> np.ndarray:
+        """Give the scheme of the supports on a segment, as `Path.closed`."""
+        return self._schemes[segment.changes]
+
+    def find(self, factor: float) -> Segment | None:
+        """Find the segment that a load factor belongs to, as `Path.find`."""
+        there = [segment for segment in self.segments if segment.start <= factor <= segment.stop]
+        return there[-1] if there else None
+
+    def step(self, segment: Segment, factor: float) -> Step:
+        """Give the state at a load factor on a segment, as `Path.step`."""
+        return Step(self._beam, factor, self._rule, self.closed(segment))
+
+    def at(self, factor: float) -> np.ndarray:
+        """Give the scheme of the supports at a load factor, as `Path.at`."""
+        return self.closed([segment for segment in self.segments if segment.start <= max(factor, 0.0)][-1])
+
+
+def follow_on_ground(result: Result, rule: str, closed: np.ndarray) -> GroundPath | None:
+    """Follow the load of a beam on the ground from factor 0 to 1.
+
+    Parameters
+    ----------
+    result : Result
+        Receives the reason where the beam cannot stand.
+    rule : {"block", "single"}
+        How schemes of the supports are found.
+    closed : numpy.ndarray of int
+        Where their search starts.
+
+    Returns
+    -------
+    GroundPath or None
+        From 0 to 1, or to the factor above which there is no equilibrium; None if there is none from the beginning.
+    """
+    path = GroundPath(result.beam, rule, closed)
+    if path.limits:
+        result.status = "limit-load"
+        last, beyond = path.limits[0].factor, path.beyond
+        where = f"between the load factors {last:.12g} and {beyond:.12g}" if beyond > last else f"beyond load factor {last:.12g}"
+        result.reason = f"limit load: nothing more resists the load {where}"
+        if path.motion is not None:
+            result.motion = list(zip(result.beam.node_x.tolist(), path.motion.tolist(), strict=True))
+            result.reason += f"; {describe_motion(result.beam, path.motion)}"
+        return path
+    if not path.stands:
+        where = f"above load factor {path.segments[-1].stop:.16g}" if path.segments else "at load factor 0"
+        result.refuse(where, path.motion)
+    return path if path.segments else None

@@ -1,0 +1,240 @@
+"""The load path: every change of the working scheme at its exact load factor."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from time import perf_counter
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ...base.records import read_only
+from ...engine.arrays import Stretch
+from ...engine.beam import GIVEN, NO_EQUILIBRIUM, Beam
+from ...engine.paths import TURNS, follow_stretch
+from ..state.kinks import EVENTS, piece_of, what_happens
+from ..state.smooth import factor_on_curves
+from ..state.step import Step
+
+if TYPE_CHECKING:
+    from ..result import Result
+
+EVENTS_AT_A_TIME = 1000
+
+
+@dataclass(frozen=True, slots=True)
+class Event:
+    """A change of the working scheme, or a turn of the beam.
+
+    Attributes
+    ----------
+    factor : float
+        The load factor at which it happens.
+    support : int
+        Number of the support in the scene.
+    x : float
+        Its place.
+    event : str
+        ``opens``, ``closes``, or ``turns``: the beam has lost its hold and turns, at constant load, until this support
+        holds it. What opens and closes with that is listed beside it, at the same factor. Of a support with a law also
+        ``yields``, ``hardens``, ``softens``, ``breaks`` and ``unloads``.
+    """
+
+    factor: float
+    support: int
+    x: float
+    event: str
+
+
+@dataclass(frozen=True, slots=True)
+class Segment:
+    """A stretch of the path on which one scheme acts and all values are linear in the factor.
+
+    Attributes
+    ----------
+    start, stop : float
+        Load factors.
+    changes : int
+        Events before it.
+    """
+
+    start: float
+    stop: float
+    changes: int
+
+
+class Path:
+    """The schemes along the load, kept as the changes from one to the next.
+
+    Attributes
+    ----------
+    events : list of Event
+        Every change above load factor 0, and every turn of the beam.
+    segments : list of Segment
+        From 0 to 1, or to the factor above which there is no equilibrium; between events.
+    solves : int
+        Linear solves of the whole beam.
+    nodes : int
+        Nodes at which the solution was made anew besides.
+    seconds : float
+        Time of these.
+    """
+
+    def __init__(self, beam: Beam, closed: np.ndarray, stretches: list[Stretch], solves: int, seconds: float):
+        self._beam = beam
+        self._closed = closed
+        self._factors = np.concatenate([piece.factors for piece in stretches])
+        self._supports = np.concatenate([piece.supports for piece in stretches])
+        self._events = np.concatenate([piece.events for piece in stretches])
+        self.solves = solves + sum(piece.solves for piece in stretches)
+        self.nodes = sum(piece.nodes for piece in stretches)
+        self.seconds = seconds
+        self.events: list[Event] = []
+        counted = self._name_events()
+        self.segments = self._between(stretches[-1].factor, counted)
+
+    def _between(self, end: float, counted: np.ndarray) -> list[Segment]:
+        """Segments between the changes that count; all of them do but those along smooth laws."""
+        ends = np.append(np.diff(self._factors) > 0.0, True) if len(self._factors) else np.zeros(0, bool)
+        counts = np.flatnonzero(ends) + 1
+        if not counted.all():
+            first = np.append(0, counts[:-1])
+            counts = counts[[counted[a:b].any() for a, b in zip(first, counts, strict=True)]]
+        starts = {0.0: 0} | {float(self._factors[count - 1]): int(count) for count in counts}
+        stops = [*list(starts)[1:], end]
+        return [
+            Segment(start, stop, changes)
+            for (start, changes), stop in zip(starts.items(), stops, strict=True)
+            if start < stop
+        ]
+
+    def closed(self, segment: Segment) -> np.ndarray:
+        """Give the scheme of a segment.
+
+        Parameters
+        ----------
+        segment : Segment
+            One of the segments.
+
+        Returns
+        -------
+        numpy.ndarray of int
+            1 where a support acts.
+        """
+        before = slice(segment.changes)
+        changed = self._supports[before][self._events[before] != TURNS]
+        times = np.bincount(changed, minlength=len(self._closed))
+        return self._closed ^ (times & 1).astype(np.int32)
+
+    def at(self, factor: float) -> np.ndarray:
+        """Give the scheme at a load factor.
+
+        Parameters
+        ----------
+        factor : float
+            Load factor.
+
+        Returns
+        -------
+        numpy.ndarray of int
+            1 where a support acts; at an event after the change.
+        """
+        return self.closed([segment for segment in self.segments if segment.start <= max(factor, 0.0)][-1])
+
+    def find(self, factor: float) -> Segment | None:
+        """Find the segment that a load factor belongs to.
+
+        Parameters
+        ----------
+        factor : float
+            Load factor.
+
+        Returns
+        -------
+        Segment or None
+            The one that begins there, where two meet; None if the path does not pass it.
+        """
+        there = [segment for segment in self.segments if segment.start <= factor <= segment.stop]
+        return there[-1] if there else None
+
+    def step(self, segment: Segment, factor: float) -> Step:
+        """Give the state on a segment at a load factor.
+
+        Parameters
+        ----------
+        segment : Segment
+            One of the segments.
+        factor : float
+            One of its load factors.
+
+        Returns
+        -------
+        Step
+        """
+        return Step(self._beam, factor, GIVEN, read_only(self.closed(segment)))
+
+    def _name_events(self) -> np.ndarray:
+        """List the events, and tell which changes are any."""
+        beam = self._beam
+        laws = beam.laws if beam.has_laws else {}
+        counted = np.ones(len(self._factors), dtype=bool)
+        closed = self._closed.copy()
+        places, numbers = beam.node_x[beam.places.support_nodes].tolist(), beam.numbers.tolist()
+        columns = (self._factors.tolist(), self._supports.tolist(), self._events.tolist())
+        for i, (factor, k, event) in enumerate(zip(*columns, strict=True)):
+            # What changes at factor 0 is no event, unless the beam turns there
+            name = EVENTS[event]
+            if event != TURNS:
+                if numbers[k] in laws:
+                    before = piece_of(beam, numbers[k], closed, beam.kinks)
+                if beam.curves and factor > 0.0:
+                    factor = factor_on_curves(beam, factor, closed, k)
+                closed[k] ^= 1
+                if numbers[k] in laws:
+                    name = what_happens(before, piece_of(beam, numbers[k], closed, beam.kinks))
+                counted[i] = bool(name)
+                if name:
+                    self._factors[i] = factor
+            if (factor > 0.0 or event == TURNS) and name:
+                self.events.append(Event(factor, numbers[k], places[k], name))
+        # What is between two events along smooth laws happens at no factor of its own
+        self._factors = np.maximum.accumulate(np.where(counted, self._factors, 0.0)) if beam.curves else self._factors
+        return counted
+
+
+def follow(result: Result, rule: str, closed: np.ndarray) -> Path | None:
+    """Follow the load from factor 0 to 1, from event to event.
+
+    Parameters
+    ----------
+    result : Result
+        Receives the reason where the beam cannot stand.
+    rule : {"block", "single"}
+        How schemes are found.
+    closed : numpy.ndarray of int
+        Where the search at factor 0 starts.
+
+    Returns
+    -------
+    Path or None
+        From 0 to 1, or to the factor above which there is no equilibrium; None if there is none at 0.
+    """
+    begin = perf_counter()
+    beam = result.beam
+    solution = beam.solve(0.0, rule, closed)
+    if solution.slides:
+        # What nothing holds along its axis moves as soon as it is pushed
+        result.refuse("above load factor 0", None)
+        return None
+    if solution.status == NO_EQUILIBRIUM:
+        result.refuse("at load factor 0", solution.motion)
+        return None
+    factor, scheme, marginal, stretches = 0.0, solution.closed, solution.undecided, []
+    while factor < 1.0:
+        piece = follow_stretch(beam, factor, scheme, marginal, EVENTS_AT_A_TIME)
+        stretches.append(piece)
+        factor, scheme, marginal = piece.factor, piece.closed, piece.marginal
+        if piece.status == NO_EQUILIBRIUM:
+            result.refuse(f"above load factor {factor:.16g}", piece.motion)
+            break
+    return Path(beam, solution.closed, stretches, solution.solves, perf_counter() - begin)

@@ -1,0 +1,1 @@
+"""States of a beam: steps, their fields, what is free to move."""

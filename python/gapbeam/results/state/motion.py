@@ -1,0 +1,66 @@
+"""Free motions in words."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+
+from ...engine.beam import HINGE, Beam
+
+SLIDES = "the beam slides along its axis, no axial support holds it"
+
+
+def describe_motion(beam: Beam, motion: np.ndarray) -> str:
+    """Say how a beam moves where nothing resists.
+
+    Parameters
+    ----------
+    beam : Beam
+        The beam.
+    motion : numpy.ndarray
+        Displacements of the nodes, positive downward, straight between hinges.
+
+    Returns
+    -------
+    str
+        For example "the beam tips about the support at x = 6: its left end goes up, its right end goes down; ...".
+    """
+    x = beam.node_x
+    cuts = np.unique(np.concatenate(([0], np.flatnonzero(beam.places.kinds == HINGE), [len(x) - 1])))
+    parts = [
+        _describe_body(beam, motion, a, b)
+        for a, b in pairwise(cuts)
+        if max(abs(motion[a]), abs(motion[b])) > 0.0
+    ]
+    shown = parts[:4] + (["and so on"] if len(parts) > 4 else [])
+    return "; ".join(shown) + "; the loads push it that way and no support resists"
+
+
+def _describe_body(beam: Beam, motion: np.ndarray, a: int, b: int) -> str:
+    """One body between two hinges or ends, nodes a to b."""
+    x = beam.node_x
+    last = len(x) - 1
+    if (a, b) == (0, last):
+        name = "the beam"
+    else:
+        left = "the left end" if a == 0 else f"the hinge at x = {x[a]:g}"
+        right = "the right end" if b == last else f"the hinge at x = {x[b]:g}"
+        name = f"the part between {left} and {right}"
+    size = max(abs(motion[a]), abs(motion[b]))
+    if abs(motion[a] - motion[b]) <= 1e-9 * size:
+        return f"{name} moves {'down' if motion[a] > 0 else 'up'} as a whole"
+    if motion[a] * motion[b] > 0.0:
+        return f"{name} moves {'down' if motion[a] > 0 else 'up'} and turns"
+    pivot = x[a] + (x[b] - x[a]) * motion[a] / (motion[a] - motion[b])
+    supports = x[beam.places.support_nodes]
+    near = np.abs(supports - pivot) <= 1e-9 * (x[-1] - x[0])
+    hinge_there = (a > 0 and pivot == x[a]) or (b < last and pivot == x[b])
+    if near.any():
+        about = f"the support at x = {supports[near][0]:g}"
+    elif hinge_there:
+        about = f"the hinge at x = {pivot:g}"
+    else:
+        about = f"x = {pivot:g}"
+    left, right = ("goes down" if motion[k] > 0.0 else "goes up" if motion[k] < 0.0 else "stays" for k in (a, b))
+    return f"{name} tips about {about}: its left end {left}, its right end {right}"

@@ -1,0 +1,382 @@
+"""The states of a beam under its load: what is known about every load step, as numpy arrays; fields are made when asked for.
+
+Signs: deflections positive downward, reactions upward, moments sagging, V = dM/dx, rotations and couples clockwise,
+axial forces in tension, axial displacements to the right.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ...base.errors import EngineError
+from ...base.memory import refuse_beyond
+from ...base.records import Pickled
+from ...engine.arrays import Solution
+from ...engine.beam import Beam
+from ...scene.names import label
+from ...scene.structs import Scene
+from ...scene.wording import shown
+from .arguments import finite, numbers, whole
+from .fields import Fields, find_places
+from .ground import with_ends_of_zones
+from .motion import SLIDES, describe_motion
+from .step import Step, solve_step
+from .steps import LoadSteps, Steps
+from .system import System, system_of
+
+if TYPE_CHECKING:
+    from ..paths.branches import BranchPath, Limit
+    from ..paths.compression import Compression
+    from ..paths.ground_path import GroundEvent, GroundPath
+    from ..paths.path import Event, Path, Segment
+
+BYTES_PER_PLACE = 120
+"""Memory that a row of a table of fields takes while it is made."""
+
+
+class States(Pickled):
+    """All load steps of a beam.
+
+    It can be pickled, for other processes, and goes on from there with the same digits; all its arrays are read-only. Two
+    results are equal if scene, outcome and events are, and all steps to the last digit; how long it took does not count.
+
+    Attributes
+    ----------
+    scene : Scene
+        What was solved.
+    status : str
+        ``solved``, ``no-equilibrium``, or ``limit-load``: supports soften or yield, and the load cannot grow to the end. Of a
+        combination also ``indeterminate``, ``not-converged``, ``not-finite``: it has no unique answer.
+    reason : str or None
+        Why there is no equilibrium or no unique answer, or which limit there is.
+    motion : list of (float, float) or None
+        The free motion then: x and displacement (positive downward, largest 1), straight lines between.
+    steps : sequence of Step
+        The load steps up to there; following events, the states at every event and at the end. What is kept of a step is
+        its scheme; its values are solved for when it is looked at.
+    path : Path, BranchPath, GroundPath or None
+        Following events, the schemes along the load; with supports whose state depends on it always.
+    without_trains : str or None
+        Why the beam cannot stand while no train is on it, which is not in the envelope and does not count for `status`; None
+        where it can, and in scenes without trains.
+    has_answer : bool
+        Whether there is a unique answer, be it that the beam cannot stand.
+    compression : Compression or None
+        The largest axial compression beside the Euler load in all steps, and while trains pass: what its effect on bending is,
+        is left out. None where nothing is compressed.
+    remarks : list of str
+        What else is to be known: compression that comes near the Euler load.
+    """
+
+    __hash__ = None
+
+    def __init__(self, scene: Scene, beam: Beam, rule: str):
+        self.scene = scene
+        self.status = "solved"
+        self.reason: str | None = None
+        self.motion: list[tuple[float, float]] | None = None
+        self.steps: Steps = LoadSteps(beam, rule, np.ones(beam.supports, dtype=np.int32), 0)
+        self.beam = beam
+        self.rule = rule
+        self.path: Path | BranchPath | GroundPath | None = None
+        self.without_trains: str | None = None
+        self.has_answer = True
+        self.compression: Compression | None = None
+        self.remarks: list[str] = []
+
+    def __eq__(self, other: object) -> bool:
+        """Whether scene, outcome, events and all steps are equal."""
+        if not isinstance(other, States):
+            return NotImplemented
+        return self is other or (
+            self.scene == other.scene
+            and self.beam == other.beam
+            and (self.status, self.reason, self.motion) == (other.status, other.reason, other.motion)
+            and self.events == other.events
+            and len(self.steps) == len(other.steps)
+            and all(a == b for a, b in zip(self.steps, other.steps, strict=True))
+        )
+
+    @property
+    def events(self) -> list[Event] | list[GroundEvent]:
+        """Every change of the working scheme and of zones of contact with its load factor, following events."""
+        return [] if self.path is None else self.path.events
+
+    @property
+    def segments(self) -> list[Segment]:
+        """The stretches between the events, following events."""
+        return [] if self.path is None else self.path.segments
+
+    @property
+    def limits(self) -> list[Limit]:
+        """Where the load could not go on, with supports that soften or yield."""
+        return getattr(self.path, "limits", [])
+
+    @property
+    def solves(self) -> int:
+        """Linear solves of the whole beam until all schemes were found."""
+        return self.steps.solves if self.path is None else self.path.solves
+
+    @property
+    def seconds(self) -> float:
+        """Time of these."""
+        return self.steps.seconds if self.path is None else self.path.seconds
+
+    def refuse(self, where: str, motion: np.ndarray | None) -> None:
+        """Note that there is no equilibrium.
+
+        Parameters
+        ----------
+        where : str
+            At or above which load factor.
+        motion : numpy.ndarray or None
+            Displacements of the nodes in the free motion; None where the beam slides along its axis.
+        """
+        self.status = "no-equilibrium"
+        if motion is None:
+            self.reason = f"no equilibrium {where}: {SLIDES}"
+            return
+        self.reason = f"no equilibrium {where}: {describe_motion(self.beam, motion)}"
+        self.motion = list(zip(self.beam.node_x.tolist(), motion.tolist(), strict=True))
+
+    def refuse_answer(self, error: EngineError) -> None:
+        """Note that there is no unique answer.
+
+        Parameters
+        ----------
+        error : EngineError
+            What stands in its way.
+        """
+        self.status, self.reason, self.path, self.has_answer = error.status.word, str(error), None, False
+        self.steps = LoadSteps(self.beam, self.rule, np.ones(self.beam.supports, dtype=np.int32), 0)
+
+    def refuse_limit(self, path: BranchPath) -> None:
+        """Note that the load cannot go to its last factor.
+
+        Parameters
+        ----------
+        path : BranchPath
+            As far as it goes.
+        """
+        self.path = path
+        limit = path.limits[0]
+        self.status = "limit-load"
+        what = {
+            "limit": "the load cannot grow beyond load factor",
+            "bifurcation": "several ways go on, none of them stable, at load factor",
+            "mechanism": "nothing more resists the load beyond load factor",
+        }[limit.kind]
+        causes = ", ".join(f"support {label(self.scene.supports, k)} {event}" for k, event in limit.causes)
+        self.reason = f"limit load: {what} {limit.factor:.12g}" + (f", where {causes}" if causes else "")
+        if limit.leg < 0:
+            self.reason += ", while the dead loads are put on (they count from 0 to 1)"
+        if path.motion is not None:
+            self.motion = list(zip(self.beam.node_x.tolist(), path.motion.tolist(), strict=True))
+            self.reason += f"; {describe_motion(self.beam, path.motion)}"
+
+    def state(self, factor: float) -> Step:
+        """Solve the exact state at any load factor.
+
+        Parameters
+        ----------
+        factor : float
+            Load factor; following events, within the path, where the scheme is known beforehand.
+
+        Returns
+        -------
+        Step
+            One linear solve away from what is known.
+
+        Raises
+        ------
+        ValueError
+            Where there is no equilibrium at that factor, or it is no finite number.
+        """
+        factor = finite("factor", factor)
+        segment = self.path.find(factor) if self.path is not None else None
+        if segment is not None:
+            return self.path.step(segment, factor)
+        if self.beam.depends_on_path:
+            raise ValueError(f"factor: the path of the load does not come to load factor {factor:g}")
+        closed = self.path.at(factor) if self.segments else self.steps.nearest(factor)
+        step = solve_step(self.beam, factor, self.rule, closed)
+        if isinstance(step, Solution):
+            raise ValueError(f"factor: there is no equilibrium at load factor {factor:g}")
+        return step
+
+    @cached_property
+    def system(self) -> System:
+        """What the system of equations consisted of."""
+        return system_of(self)
+
+    def _chosen(self, step: int | None, factor: float | None = None) -> Step:
+        """Give a step by its number, or the state at a load factor, whichever the caller asks for."""
+        if factor is not None:
+            if step is not None:
+                raise ValueError(f"step: give a load step or a load factor, not both (got {shown(step)} and {shown(factor)})")
+            return self.state(factor)
+        number = -1 if step is None else whole("step", step)
+        count = len(self.steps)
+        if count == 0:
+            raise IndexError(f"step: no load step stands; {self.reason}")
+        if not -count <= number < count:
+            raise IndexError(f"step: expected a number from 0 to {count - 1}, or from -{count} to -1, got {shown(number)}")
+        return self.steps[number]
+
+    def at(self, x: Any, step: int | None = None, side: str = "right", factor: float | None = None) -> Fields:
+        """Exact values anywhere along the beam.
+
+        Parameters
+        ----------
+        x : float or array_like
+            Places along the beam.
+        step : int, optional
+            Number of the load step; default the last.
+        side : {"right", "left"}
+            Which value is taken where a field jumps.
+        factor : float, optional
+            Any load factor instead of a step; solved for when asked.
+
+        Returns
+        -------
+        Fields
+            Arrays of the shape of `x`.
+
+        Raises
+        ------
+        ValueError
+            A place outside the beam, or something else than numbers; another side; both a step and a factor, or one that
+            is no number; no equilibrium at that factor.
+        IndexError
+            There is no such step.
+        """
+        return self.at_state(self._chosen(step, factor), x, side)
+
+    def at_state(self, state: Step, x: Any, side: str = "right") -> Fields:
+        """Exact values anywhere along the beam in a state of it, for example the landing of a limit.
+
+        Parameters
+        ----------
+        state : Step
+            The state.
+        x, side
+            As for `at`.
+
+        Returns
+        -------
+        Fields
+            Arrays of the shape of `x`.
+
+        Raises
+        ------
+        ValueError
+            As for `at`.
+        """
+        x = np.array(numbers("x", x))
+        piece, distance = find_places(self.beam, x.ravel(), side)
+        return self._fields(x, piece, distance, state)
+
+    def _fields(self, x: np.ndarray, piece: np.ndarray, distance: np.ndarray, state: Step) -> Fields:
+        values = state.values(piece, distance)
+        return Fields(x, **{name: values[row].reshape(x.shape) for name, row in self.beam.fields.items()})
+
+    def fields(self, step: int | None = None, points: int = 20) -> Fields:
+        """Tabulate all fields, for drawing.
+
+        Parameters
+        ----------
+        step : int, optional
+            Number of the load step; default the last.
+        points : int
+            Equal divisions of every span, beside all places where something changes.
+
+        Returns
+        -------
+        Fields
+            With every place between two pieces twice: the values left of it, then those right of it. On the ground the ends
+            of the zones of contact are among them.
+
+        Raises
+        ------
+        ValueError
+            `step` or `points` is no whole number, or `points` is less than 1 or more than memory holds.
+        IndexError
+            There is no such step.
+        """
+        state = self._chosen(step)
+        piece, distance = self.places_along(points)
+        lengths, places = self.beam.places.pieces[:, 0], self.beam.places
+        if state.solution.ground is not None:
+            piece, distance = with_ends_of_zones(piece, distance, self.beam, state.solution.ground)
+        x = np.where(distance == lengths[piece], places.point_x[piece + 1], places.point_x[piece] + distance)
+        return self._fields(x, piece + np.int32(1), distance, state)
+
+    def places_along(self, points: int) -> tuple[np.ndarray, np.ndarray]:
+        """Choose places for a table of fields.
+
+        Parameters
+        ----------
+        points : int
+            Equal divisions of every span, beside all places where something changes.
+
+        Returns
+        -------
+        piece : numpy.ndarray of int
+            Piece of every place, from 0.
+        distance : numpy.ndarray
+            Distance from its left end.
+
+        Raises
+        ------
+        ValueError
+            `points` is no whole number, or less than 1 or more than memory holds.
+        """
+        points = whole("points", points, least=1)
+        rows = float(min(points, 2**62)) * len(self.scene.beam.spans)
+        refuse_beyond("points", f"fields at {shown(points)} points a span", rows * BYTES_PER_PLACE, "give fewer")
+        places, lengths = self.beam.places, self.beam.places.pieces[:, 0]
+        spans = np.asarray(self.scene.beam.spans, dtype=float)[places.span]
+        parts = np.maximum(np.ceil(points * (lengths / spans)).astype(int), 1)
+        piece = np.repeat(np.arange(len(lengths), dtype=np.int32), parts + 1)
+        place = np.arange(len(piece)) - np.repeat(np.cumsum(parts + 1) - (parts + 1), parts + 1)
+        return piece, lengths[piece] * (place / parts[piece])
+
+    def extremes(self, step: int | None = None) -> dict[str, dict[str, tuple[float, float]]]:
+        """Exact largest and smallest values of every field with their places.
+
+        Parameters
+        ----------
+        step : int, optional
+            Number of the load step; default the last.
+
+        Returns
+        -------
+        dict
+            ``{"moment": {"max": (value, x), "min": (value, x)}, ...}``.
+
+        Raises
+        ------
+        ValueError
+            `step` is no whole number.
+        IndexError
+            There is no such step.
+        """
+        state = self._chosen(step)
+        values, x = state.extremes()
+        return {
+            name: {"max": (float(values[0, k]), float(x[0, k])), "min": (float(values[1, k]), float(x[1, k]))}
+            for name, k in self.beam.fields.items()
+        }
+
+    def history(self) -> list[tuple[float, tuple[str, ...]]]:
+        """Follow the working scheme over the load.
+
+        Returns
+        -------
+        list of (float, tuple of str)
+            Load factor and the state of every support, one row a load step.
+        """
+        return list(self.steps.history())

@@ -1,0 +1,311 @@
+"""The state at one load factor.
+
+Signs: deflections positive downward, reactions upward, couples clockwise; at axial supports both to the right.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+from time import perf_counter
+from typing import NamedTuple
+
+import numpy as np
+
+from ...base.records import Pickled, read_only
+from ...engine.arrays import Solution
+from ...engine.beam import SOLVED, Beam
+from ...engine.case_certificates import BOUNDED
+from ...engine.units import bound_in_scene, scaled
+from .ground import Contact, FreeSpan, Run, find_contact, find_free_spans, find_runs
+from .kinks import piece_of
+from .smooth import solve_on_curves, with_openings
+
+PLASTIC = 1
+"""Unloading, as in gapbeam_scene."""
+
+
+class Known(NamedTuple):
+    """What is kept of a state that was solved: its scheme, and what it took to find it."""
+
+    closed: np.ndarray
+    solves: int
+    seconds: float
+
+
+class Step(Pickled):
+    """The state at one load factor; arrays have one entry per support, in the order of the scene, and are read-only.
+
+    It is solved when something is first asked for. Two steps are equal if the beam, the load factor and all values are.
+
+    Attributes
+    ----------
+    factor : float
+        Load factor of the live loads.
+    exact : bool
+        Whether it is on the smooth laws themselves; False where only the state on their polylines is known.
+    """
+
+    __hash__ = None
+
+    def __init__(
+        self, beam: Beam, factor: float, rule: str, start: np.ndarray, known: Known | None = None,
+        settled: bool = False, exact: bool = True, solution: Solution | None = None,
+    ):  # fmt: skip
+        self.factor = factor
+        self.exact = exact
+        # Whether the beam has lines or polylines instead of smooth laws that are right for this state
+        self._settled = settled
+        self._beam = beam
+        self._rule = rule
+        self._start = start
+        self._known = known
+        if solution is not None:
+            self._solved = beam, solution, 0.0
+
+    def __eq__(self, other: object) -> bool:
+        """Whether beam, load factor and all values are equal."""
+        if not isinstance(other, Step):
+            return NotImplemented
+        return self is other or (
+            self.factor == other.factor and self._beam == other._beam and self.solution == other.solution
+        )
+
+    @cached_property
+    def _solved(self) -> tuple[Beam, Solution, float]:
+        begin = perf_counter()
+        beam, solution = self._beam, self._beam.solve(self.factor, self._rule, self._start)
+        if beam.curves and solution.status == SOLVED:
+            if not self._settled:
+                beam, solution = solve_on_curves(beam, self.factor, solution, self._rule)
+            if solution.status == SOLVED:
+                solution = with_openings(beam, solution)
+        return beam, solution, perf_counter() - begin
+
+    @property
+    def solution(self) -> Solution:
+        """What the engine found."""
+        return self._solved[1]
+
+    @property
+    def closed(self) -> np.ndarray:
+        """The working scheme: 1 where a support across the beam acts, 0 where it is open."""
+        return self.solution.closed if self._known is None else self._known.closed
+
+    @property
+    def seconds(self) -> float:
+        """Time it took to find the working scheme."""
+        return self._solved[2] if self._known is None else self._known.seconds
+
+    @property
+    def solves(self) -> int:
+        """Linear solves it took to find the working scheme."""
+        return self.solution.solves if self._known is None else self._known.solves
+
+    @property
+    def came_back(self) -> bool:
+        """Whether the paper's rule (``single``) came back to a scheme that it had seen, so that ``block`` went on."""
+        return self.solution.came_back
+
+    @property
+    def indifferent(self) -> bool:
+        """Whether the beam can move freely without work of the loads: its forces are unique, its position is not."""
+        return self.solution.indifferent
+
+    @property
+    def reaction(self) -> np.ndarray:
+        """Reactions, positive upward; of an axial support positive to the right."""
+        return self.solution.at_supports[0]
+
+    @property
+    def deflection(self) -> np.ndarray:
+        """Deflection of the beam at each support, positive downward; at an axial one to the right."""
+        return self.solution.at_supports[1]
+
+    @property
+    def opening(self) -> np.ndarray:
+        """Distance still to go until a support acts; negative where the beam has gone past one without stiffness."""
+        return self.solution.at_supports[2]
+
+    @property
+    def couple(self) -> np.ndarray:
+        """Couple of each support on the beam, positive clockwise; a rotational restraint acts at open supports too."""
+        return self.solution.at_supports[3]
+
+    @property
+    def kinks(self) -> np.ndarray:
+        """The laws of the supports as they are in this state, as `Beam.kinks`."""
+        return self._beam.kinks
+
+    @cached_property
+    def set(self) -> np.ndarray:
+        """Permanent set of each support with plastic unloading (length, in the direction in which it gives way), else 0."""
+        beam = self._beam
+        found = np.zeros(beam.scene_supports)
+        which = np.flatnonzero(beam.columns.support_codes[3, :-1] == PLASTIC)
+        if len(which):
+            first = np.searchsorted(beam.numbers, which)
+            side, (_, gap, settlement) = beam.sides[which], beam.columns.support[1:4, which]
+            contact = scaled(beam.kinks[0, first], beam.units.deflection)
+            slope = scaled(beam.kinks[2, first], beam.units.force - beam.units.deflection)
+            yielded = self.closed[first] + self.closed[np.minimum(first + 1, len(self.closed) - 1)] > 1
+            back = np.divide(self.reaction[which], slope, out=np.zeros(len(which)), where=slope > 0.0)
+            now = np.where(yielded, self.deflection[which] - back, contact)
+            found[which] = side * (now - settlement) - gap
+        return read_only(found + 0.0)
+
+    @cached_property
+    def state(self) -> tuple[str, ...]:
+        """``closed``, ``open`` or ``bilateral``; of a law ``open`` or ``branch 1``, ``branch 2`` and so on."""
+        return name_states(self._beam, self.closed)
+
+    @cached_property
+    def _certified(self) -> tuple[np.ndarray, np.ndarray, bool]:
+        beam, solution, _ = self._solved
+        return beam.certify(self.factor, solution)
+
+    @property
+    def error_bounds(self) -> dict[str, float | None]:
+        """Largest errors of deflections, rotations, moments and shears anywhere along the beam, and of the reactions.
+
+        Deflections and rotations have none (None) where the beam is free to move, or where quadruple precision does not
+        confirm the working scheme; the others are infinite then.
+        """
+        units = self._beam.units
+        powers = dict(zip(BOUNDED, [*units.field, units.force], strict=True))
+        return {
+            kind: None if bound is None else bound_in_scene(bound, powers[kind]) for kind, bound in self._inner_bounds.items()
+        }
+
+    @property
+    def _inner_bounds(self) -> dict[str, float | None]:
+        """The same in the engine's units."""
+        _, (_, reaction, *fields), known = self._certified
+        named = dict(zip(BOUNDED, map(float, (*fields, reaction)), strict=True))
+        return named if known else {**named, "deflection": None, "rotation": None}
+
+    @property
+    def bounds(self) -> tuple[float | None, float]:
+        """Largest errors of the deflections of the nodes (None where the beam is free to move) and of the reactions."""
+        (_, (deflection, reaction, *_), known), units = self._certified, self._beam.units
+        return bound_in_scene(deflection, units.deflection) if known else None, bound_in_scene(reaction, units.force)
+
+    @property
+    def residuals(self) -> dict[str, float]:
+        """Relative residuals of equilibrium, compatibility and complementarity; infinite where bounds are."""
+        compatibility, equilibrium, complementarity = self._certified[0].tolist()
+        return {"equilibrium": equilibrium, "compatibility": compatibility, "complementarity": complementarity + 0.0}
+
+    @property
+    def certificate(self) -> dict[str, float | None]:
+        """The residuals, and bounds of the errors relative to the largest value of each kind; computed when first asked for.
+
+        None for what there is not.
+        """
+        fields = self._beam.largest_fields(self.factor, self.starts, self.solution).tolist()
+        largest = dict(zip(BOUNDED, [*fields, float(np.abs(self.solution.reaction).max(initial=0.0))], strict=True))
+        relative = {kind: _relative(bound, largest[kind]) for kind, bound in self._inner_bounds.items()}
+        return {
+            **{name: residual if np.isfinite(residual) else None for name, residual in self.residuals.items()},
+            "error_bound": None if None in relative.values() else max(relative.values()),
+            **{f"error_bound_{kind}": bound for kind, bound in relative.items()},
+        }
+
+    @cached_property
+    def undecided(self) -> tuple[int, ...]:
+        """Supports whose reaction or opening is zero, even in quadruple precision: they may be closed or open."""
+        return tuple(dict.fromkeys(self._beam.numbers[self.solution.undecided == 1].tolist()))
+
+    @cached_property
+    def runs(self) -> tuple[Run, ...]:
+        """What every layer of ground does along the beam."""
+        return find_runs(self._beam, self.solution.ground)
+
+    @cached_property
+    def contact(self) -> tuple[Contact, ...]:
+        """The zones in which the ground acts, foundation by foundation from left to right."""
+        return find_contact(self.runs)
+
+    @cached_property
+    def free_spans(self) -> tuple[FreeSpan, ...]:
+        """The stretches in which the beam has no contact with ground that is there."""
+        return find_free_spans(self.runs)
+
+    def extremes(self) -> tuple[np.ndarray, np.ndarray]:
+        """Exact extremes of all fields.
+
+        Returns
+        -------
+        values, x : numpy.ndarray
+            Maximum and minimum (rows) of every field in the order of FIELDS (columns), and where they are.
+        """
+        return self._beam.extremes(self.factor, self.starts, self.solution)
+
+    def values(self, piece: np.ndarray, distance: np.ndarray) -> np.ndarray:
+        """Fields at given distances from the left ends of pieces, as `Beam.values`: with the loads that act in this state."""
+        return self._beam.values(self.factor, self.starts, self.solution, piece, distance)
+
+    def forgotten(self) -> Step:
+        """The same step that has not been solved yet: of many steps only what is looked at should be in memory.
+
+        Returns
+        -------
+        Step
+        """
+        return Step(self._beam, self.factor, self._rule, self._start, self._known, self._settled, self.exact)
+
+    @cached_property
+    def starts(self) -> np.ndarray:
+        """Fields at the left end of every piece of the beam."""
+        return self._beam.recover(self.factor, self.solution)
+
+
+def name_states(beam: Beam, closed: np.ndarray) -> tuple[str, ...]:
+    """Name the state of every support of the scene in a working scheme.
+
+    Parameters
+    ----------
+    beam : Beam
+        The beam.
+    closed : numpy.ndarray of int
+        1 where a support that can carry acts.
+
+    Returns
+    -------
+    tuple of str
+        ``closed``, ``open`` or ``bilateral``; of a law ``open`` or ``branch 1``, ``branch 2`` and so on.
+    """
+    acting = np.zeros(beam.scene_supports, dtype=np.int64)
+    np.add.at(acting, beam.numbers, closed)
+    states = np.where(beam.sides == 0, "bilateral", np.where(acting > 0, "closed", "open")).tolist()
+    for k in beam.laws if beam.has_laws else ():
+        piece = piece_of(beam, k, closed, beam.kinks).number
+        states[k] = f"branch {piece}" if piece else "open"
+    return tuple(states)
+
+
+def _relative(bound: float | None, size: float) -> float | None:
+    """Bound as a share of the largest value; None where there is none, or none that is a number."""
+    if bound is None or not np.isfinite(bound):
+        return None
+    with np.errstate(over="ignore"):
+        share = float(np.divide(bound, size)) if size > 0.0 else 0.0
+    return share if np.isfinite(share) else None
+
+
+def solve_step(beam: Beam, factor: float, rule: str, closed: np.ndarray) -> Step | Solution:
+    """Solve one state.
+
+    Parameters
+    ----------
+    beam : Beam
+        The beam.
+    factor, rule, closed
+        As for `Beam.solve`.
+
+    Returns
+    -------
+    Step or Solution
+        The step; the solution with its motion where there is no equilibrium.
+    """
+    step = Step(beam, factor, rule, closed)
+    return step if step.solution.status == SOLVED else step.solution

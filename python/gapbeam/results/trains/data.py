@@ -1,0 +1,99 @@
+"""Trains as plain data, in the form of the JSON output."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+from .ways import TrainEvent
+
+if TYPE_CHECKING:
+    from ..result import Result
+    from .trains import TrainResult, Trains
+
+
+def passing_trains(result: Result) -> Iterator[tuple[str | None, TrainResult]]:
+    """Go through the trains of a result, in every combination in which they act.
+
+    Parameters
+    ----------
+    result : Result
+        What `gapbeam.solve` returned.
+
+    Yields
+    ------
+    combination : str or None
+        Its name; None in a scene without any.
+    train : TrainResult
+    """
+    if not result.combinations:
+        for train in result.trains.values():
+            yield None, train
+        return
+    for name, combination in result.combinations.items():
+        for train in combination.trains.values() if combination.has_answer else ():
+            yield name, train
+
+
+def lost_positions(trains: Trains) -> tuple[str, str] | None:
+    """Say that positions of trains are not solved.
+
+    Parameters
+    ----------
+    trains : Trains
+        Of a scene, or of a combination.
+
+    Returns
+    -------
+    status, reason : str
+        Of the first at which the beam cannot stand, else of the first without a unique answer; None where all are solved.
+    """
+    lost = [(train, gap) for train in trains.values() for gap in train.gaps if gap.status != "solved"]
+    if not lost:
+        return None
+    train, gap = next((one for one in lost if one[1].status == "no-equilibrium"), lost[0])
+    return gap.status, f"train {train.name}, positions {gap.from_:.6g} to {gap.to:.6g}: {gap.reason}"
+
+
+def trains_data(result: Result) -> dict[str, Any]:
+    """Give trains as plain data: events, and positions that are not solved.
+
+    Parameters
+    ----------
+    result : Result
+        What `gapbeam.solve` returned.
+
+    Returns
+    -------
+    dict
+        Empty without trains.
+    """
+    if not result.scene.trains:
+        return {}
+    return {
+        "trains": [
+            {
+                "name": train.name,
+                **({} if combination is None else {"combination": combination}),
+                "case": train.train.case,
+                "events": [_event(event, result) for event in train.events],
+                "gaps": [
+                    {"from": gap.from_, "to": gap.to, "status": gap.status, "reason": gap.reason, "direction": gap.direction}
+                    for gap in train.gaps
+                ],
+                "solves": train.solves,
+            }
+            for combination, train in passing_trains(result)
+        ]
+    }
+
+
+def _event(event: TrainEvent, result: Result) -> dict[str, Any]:
+    """Give an event as plain data."""
+    of_support = event.support is not None
+    what, number = ("support", event.support) if of_support else ("foundation", event.foundation)
+    name = (result.scene.supports if of_support else result.scene.foundation)[number].name
+    return {
+        "position": event.position, what: number, **({} if name is None else {"name": name}),
+        "x": event.x, "event": event.event, **({} if event.branch == 1 else {"branch": event.branch}), "direction": event.direction,
+    }  # fmt: skip

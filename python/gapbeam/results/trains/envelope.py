@@ -1,0 +1,270 @@
+"""Largest and smallest values over all positions of trains, in every combination, and where they come from."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import product
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ...engine.beam import Beam
+from ...scene.names import names_of
+from ...scene.places import END_TOLERANCE
+from ..envelopes.envelope import Curves
+from ..envelopes.tables import KINDS, SupportRows, curves_with_sources
+from ..state.arguments import numbers
+from .members import OF_SUPPORTS, Member, TrainExtreme, fields_of
+
+if TYPE_CHECKING:
+    from ..result import Result
+
+EQUAL = 2.0**-40
+"""Share of a value by which ties differ at most."""
+OF_FOUNDATIONS = {"resultant": (("max", "resultant", 0), ("min", "resultant", 1)),
+                  "free_span": (("longest", "length", 0), ("deepest", "sag", 0))}  # fmt: skip
+"""Values of foundations that have envelopes: their kinds, what is asked of a member, the largest (0) or the smallest (1)."""
+
+
+@dataclass(frozen=True, eq=False)
+class TrainCurves(Curves):
+    """Largest and smallest values along the beam, with positions; `largest_of`, `smallest_of` number the members of the envelope.
+
+    Places that one chooses are there once. Values are not-a-number where no position is solved.
+
+    Attributes
+    ----------
+    largest_at, smallest_at : dict
+        By field, for every place the position of the train; not-a-number where no train acts.
+    """
+
+    largest_at: dict[str, np.ndarray]
+    smallest_at: dict[str, np.ndarray]
+
+
+class TrainEnvelope:
+    """Largest and smallest values over all positions of trains; never floored at zero. Trains pass one at a time.
+
+    A state in which no train acts is in it only where a combination gives its case no factor.
+
+    Attributes
+    ----------
+    members : list of Member
+        What it is made of.
+    extremes : dict
+        ``{"moment": {"max": TrainExtreme, "min": TrainExtreme}, ...}`` of the whole beam, exact in place and position; None
+        where nothing is solved.
+    supports : list of dict
+        The same of reaction, opening, deflection, couple of every support; its `columns` are a table.
+    gaps : list of (Member, Gap)
+        Positions that are not in it, as there the beam cannot stand.
+    """
+
+    def __init__(self, result: Result, members: Sequence[Member], x: np.ndarray | None = None, points: int = 20):
+        if not members:
+            raise ValueError("envelope: no combination is solved, and no train acts in any")
+        self._result, self.members, self._x, self._points = result, list(members), x, points
+        self.gaps = [(member, gap) for member in members for gap in member.gaps]
+
+    @cached_property
+    def extremes(self) -> dict[str, dict[str, TrainExtreme | None]]:
+        """Exact extremes of every field, by ``max`` and ``min``."""
+        return {
+            name: {kind: _merged([one.of_fields(name, i) for one in self.members], i) for i, kind in enumerate(KINDS)}
+            for name in fields_of(self._result.beam)
+        }
+
+    @cached_property
+    def foundations(self) -> list[dict[str, dict[str, TrainExtreme | None]]]:
+        """Extremes of every foundation, in the order of the scene, as those of combinations.
+
+        ``resultant`` by ``max`` and ``min``, ``free_span`` by ``longest`` and ``deepest`` (None where the beam lies on the
+        foundation everywhere and always).
+        """
+        return [
+            {
+                name: {kind: _merged([one.of_foundations(k, what, i) for one in self.members], i) for kind, what, i in kinds}
+                for name, kinds in OF_FOUNDATIONS.items()
+            }
+            for k in range(len(self._result.scene.foundation))
+        ]
+
+    @cached_property
+    def supports(self) -> SupportRows:
+        """Extremes at every support, in the order of the scene, by quantity and by ``max`` and ``min``."""
+        rows = [
+            {
+                name: {kind: _merged([one.of_supports(k, name, i) for one in self.members], i) for i, kind in enumerate(KINDS)}
+                for name in OF_SUPPORTS
+            }
+            for k in range(len(self._result.scene.supports))
+        ]
+        return SupportRows(self._result.scene, rows)
+
+    @cached_property
+    def fields(self) -> TrainCurves:
+        """Largest and smallest fields along the beam, at the places asked for."""
+        beam = self._result.beam
+        x = places_along(beam, self._points) if self._x is None else self._x
+        n = len(x)
+        piece, distance = beam.find(x, False)
+        between = np.flatnonzero((distance == 0.0) & (piece > 1))  # there fields may jump
+        pieces, distances = map(np.concatenate, zip((piece, distance), beam.find(x[between], True), strict=True))
+        rows = np.append(np.arange(n), between)
+        if self._x is None:
+            order = np.argsort(np.append(2 * np.arange(n) + 1, 2 * between))
+            x, rows = x[rows][order], np.argsort(order)
+        halves = ((slice(0, n), rows[:n]), (slice(n, None), rows[n:]))
+        fields = fields_of(beam)
+        values, positions = np.empty((2, len(fields), len(x))), np.full((2, len(fields), len(x)), np.nan)
+        members = np.zeros((2, len(fields), len(x)), dtype=np.int32)
+        values[0], values[1] = -np.inf, np.inf
+        for number, member in enumerate(self.members):
+            found, where = member.curves(pieces, distances)
+            for (half, at), (i, sign) in product(halves, enumerate((1.0, -1.0))):
+                better = sign * found[i][:, half] > sign * values[i][:, at]
+                row, column = np.nonzero(better)
+                values[i][row, at[column]] = found[i][:, half][better]
+                positions[i][row, at[column]] = where[i][:, half][better]
+                members[i][row, at[column]] = number
+        values[np.isinf(values)] = np.nan
+        tables = (values, members, positions)
+        return TrainCurves(x, *(dict(zip(fields, table[i], strict=True)) for table in tables for i in (0, 1)))
+
+    def columns(self) -> dict[str, Any]:
+        """The curves as columns of a table, for example for pandas.
+
+        Returns
+        -------
+        dict
+            ``x``, of every field its largest and smallest values (``moment_max``), the position of the train that gives them
+            (``moment_max_position``), its name and direction and, in a scene with combinations, their names.
+        """
+        curves = self.fields
+        keys = ["combination", "train", "direction"] if self._result.scene.combinations else ["train", "direction"]
+        positions = {f"{name}_max_position": where for name, where in curves.largest_at.items()}
+        positions |= {f"{name}_min_position": where for name, where in curves.smallest_at.items()}
+        return curves_with_sources(curves, self.members, keys) | positions
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything as plain data, in the form of the JSON output.
+
+        Returns
+        -------
+        dict
+            Only numbers, strings, lists and dicts.
+        """
+        names, curves = names_of(self._result.scene.supports), self.fields
+        return {
+            "supports": [
+                {
+                    **({} if names[k] is None else {"name": names[k]}),
+                    **{name: {kind: _pair(one) for kind, one in row.items()} for name, row in support.items()},
+                }
+                for k, support in enumerate(self.supports)
+            ],
+            **({"foundations": self._foundations_data()} if self.foundations else {}),
+            "extremes": {
+                name: {kind: _pair(one, with_x=True) for kind, one in row.items()} for name, row in self.extremes.items()
+            },
+            "fields": {
+                "x": curves.x.tolist(),
+                **{
+                    name: {
+                        "max": _numbers(curves.largest[name]), "min": _numbers(curves.smallest[name]),
+                        "max_at": _numbers(curves.largest_at[name]), "min_at": _numbers(curves.smallest_at[name]),
+                    }
+                    for name in curves.largest
+                },
+            },
+        }  # fmt: skip
+
+    def _foundations_data(self) -> list[dict[str, Any]]:
+        names = names_of(self._result.scene.foundation)
+        return [
+            {
+                **({} if name is None else {"name": name}),
+                **{what: {kind: _pair(one) for kind, one in kinds.items()} for what, kinds in row.items()},
+            }
+            for name, row in zip(names, self.foundations, strict=True)
+        ]
+
+
+def _pair(extreme: TrainExtreme | None, with_x: bool = False) -> list[Any]:
+    if extreme is None:
+        return []
+    return [extreme.value, *([extreme.x] if with_x else []), extreme.to_dict()]
+
+
+def _numbers(values: np.ndarray) -> list[float | None]:
+    return [value if np.isfinite(value) else None for value in values.tolist()]
+
+
+def _merged(found: list[list[TrainExtreme]], i: int) -> TrainExtreme | None:
+    """The largest (0) or smallest (1) of several, with all ties; None where nothing is solved."""
+    ties = [tie for some in found for tie in some]
+    if not ties:
+        return None
+    values = [tie.value for tie in ties]
+    best = min(values) if i else max(values)
+    slack = EQUAL * max(abs(value) for value in values)
+    first, *others = [tie for tie in ties if abs(tie.value - best) <= slack]
+    first.ties = tuple(others)
+    return first
+
+
+def places_along(beam: Beam, points: int = 20) -> np.ndarray:
+    """Divide all spans equally, and add all places where something is.
+
+    Parameters
+    ----------
+    beam : Beam
+        The beam.
+    points : int
+        Divisions of a span.
+
+    Returns
+    -------
+    numpy.ndarray
+    """
+    places = beam.places
+    lengths = places.pieces[:, 0]
+    spans = np.bincount(places.span, weights=lengths)[places.span]
+    parts = np.maximum(np.ceil(points * (lengths / spans)).astype(int), 1)
+    rows = zip(places.point_x, lengths, parts, strict=False)
+    inner = [start + length * np.arange(count) / count for start, length, count in rows]
+    return np.append(np.concatenate(inner), places.end)
+
+
+def places_given(beam: Beam, x: Any, name: str = "x") -> np.ndarray | None:
+    """Take places on the beam that a caller gives.
+
+    Parameters
+    ----------
+    beam : Beam
+        The beam.
+    x : array_like or None
+        The places.
+    name : str
+        Name of the argument.
+
+    Returns
+    -------
+    numpy.ndarray or None
+        None where none are given.
+
+    Raises
+    ------
+    ValueError
+        A place outside the beam.
+    """
+    if x is None:
+        return None
+    x, end = np.atleast_1d(np.array(numbers(name, x), dtype=float)).ravel(), beam.places.end
+    slack = END_TOLERANCE * end
+    off = x[~((x >= -slack) & (x <= end + slack))]
+    if len(off):
+        raise ValueError(f"{name}: the beam goes from 0 to {end:g}, got {off[0]:g}")
+    return np.clip(x, 0.0, end)

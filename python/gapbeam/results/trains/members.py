@@ -1,0 +1,356 @@
+"""What envelopes of trains are made of: their extreme values, of a train in one direction or of a combination without any."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ...base.errors import EngineError
+from ...engine.beam import Beam
+from ...engine.trains import SIDES, Extremes, Passage
+from ..envelopes.envelope import AT_SUPPORTS
+from ..envelopes.tables import KINDS
+from ..state.ground import size_of
+
+if TYPE_CHECKING:
+    from ..result import Result
+    from ..state.ground import FreeSpan
+    from ..state.step import Step
+    from .trains import TrainResult
+    from .ways import Gap, TrainWay
+
+FIELDS = ("deflection", "rotation", "moment", "shear", "pressure")
+"""Fields that have envelopes; the last one on foundations only."""
+OF_FORCES = ("moment", "shear", "reaction", "couple")
+"""What is unique where the beam can move freely without work of the loads."""
+OF_SUPPORTS = ("reaction", "opening", "deflection", "couple")
+"""Values of supports that have them."""
+
+
+class TrainExtreme:
+    """A largest or smallest value, and where it comes from.
+
+    Attributes
+    ----------
+    quantity : str
+        For example ``moment`` or ``reaction``.
+    value : float
+        The value.
+    x : float or None
+        Place on the beam; None for a support.
+    side : {"left", "right"} or None
+        On which side of x it is the value, where an axle or a support is there.
+    support, foundation : int or None
+        Number of the support, or of the foundation.
+    span : FreeSpan or None
+        The free span, if it is one's length or sag.
+    combination : str or None
+        Name of the combination; None in a scene without any.
+    train : str or None
+        Name of the train; None for the state of a combination in which no train acts.
+    position : float or None
+        Its position.
+    direction : {"right", "left"} or None
+        Which way it goes.
+    ties : tuple of TrainExtreme
+        Others with the same value.
+    """
+
+    def __init__(self, of: Member, quantity: str, value: float, x: float | None, side: str | None, support: int | None,
+                 position: float | None, foundation: int | None = None, span: FreeSpan | None = None):  # fmt: skip
+        self.quantity, self.value, self.x, self.side, self.support, self.position = quantity, value, x, side, support, position
+        self.foundation, self.span = foundation, span
+        self.combination, self.train, self.direction = of.combination, of.train, of.direction
+        self.ties: tuple[TrainExtreme, ...] = ()
+        self._of = of
+
+    def __repr__(self) -> str:
+        """Show value, place and source."""
+        where = f" at x = {self.x:.6g}" if self.x is not None else f" of support {self.support}"
+        where = where if self.foundation is None else f" of foundation {self.foundation}"
+        return f"TrainExtreme({self.quantity} {self.value:.6g}{where}, {self.source()})"
+
+    def __eq__(self, other: object) -> bool:
+        """Whether values and sources are equal, those of the ties too."""
+        if not isinstance(other, TrainExtreme):
+            return NotImplemented
+        return self._key() == other._key() and self.ties == other.ties
+
+    __hash__ = None
+
+    def _key(self) -> tuple:
+        return self.quantity, self.value, self.x, self.support, self.foundation, self.span, self.source()
+
+    @property
+    def state(self) -> Step:
+        """The state in which it is the value: with a train at its position one whose axles are forces."""
+        return self._of.state_of(self)
+
+    @cached_property
+    def concurrent(self) -> dict[str, float]:
+        """What the other quantities are there in this state.
+
+        Of a field the others at the same place, on the side of the extreme; of a support or a foundation what else it has.
+        """
+        if self.foundation is not None:
+            zones = [zone.resultant for zone in self.state.contact if zone.foundation == self.foundation]
+            spans = [span for span in self.state.free_spans if span.foundation == self.foundation]
+            found = {"resultant": sum(zones), "length": max((span.to - span.from_ for span in spans), default=0.0),
+                     "sag": max((span.sag for span in spans), default=0.0)}  # fmt: skip
+            return {name: value for name, value in found.items() if name != self.quantity}
+        if self.support is not None:
+            rows = self.state.solution.at_supports[:, self.support].tolist()
+            there = dict(zip(AT_SUPPORTS, rows, strict=True))
+        else:
+            there = self._of.fields(self)
+        return {name: value for name, value in there.items() if name not in ("x", self.quantity) and self._of.is_unique(name)}
+
+    def source(self) -> dict[str, Any]:
+        """Where it comes from, as plain data.
+
+        Returns
+        -------
+        dict
+            What is None is left out.
+        """
+        found = {"combination": self.combination, "train": self.train, "position": self.position, "direction": self.direction}
+        found["side"] = self.side
+        return {key: value for key, value in found.items() if value is not None}
+
+    def to_dict(self) -> dict[str, Any]:
+        """Where it comes from, all that tie with it, and the concurrent values, as plain data.
+
+        Returns
+        -------
+        dict
+        """
+        ties = [({} if tie.x is None else {"x": tie.x}) | tie.source() for tie in self.ties]
+        span = {} if self.span is None else {"from": self.span.from_, "to": self.span.to, "sag": self.span.sag}
+        return {**span, **self.source(), **({"ties": ties} if ties else {}), "concurrent": self.concurrent}
+
+
+class Member:
+    """What an envelope is made of: the positions of a train in one direction, or the state of a combination without trains.
+
+    Attributes
+    ----------
+    combination, train, direction : str or None
+        Of what.
+    gaps : list of Gap
+        Positions that are not solved.
+    """
+
+    train: str | None = None
+    direction: str | None = None
+
+    def __init__(self, combination: str | None) -> None:
+        self.combination = combination
+        self.gaps: list[Gap] = []
+
+    def of_fields(self, quantity: str, i: int) -> list[TrainExtreme]:
+        """Give the largest (0) or smallest (1) values of a field, all that tie."""
+        raise NotImplementedError
+
+    def of_supports(self, support: int, quantity: str, i: int) -> list[TrainExtreme]:
+        """Give the same of a support."""
+        raise NotImplementedError
+
+    def of_foundations(self, foundation: int, quantity: str, i: int) -> list[TrainExtreme]:
+        """Give the same of a foundation: its ``resultant``, ``length`` or ``sag`` of its free spans."""
+        raise NotImplementedError
+
+    def curves(self, piece: np.ndarray, distance: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Give largest and smallest fields at places, and positions, 2 by fields by places."""
+        raise NotImplementedError
+
+    def state_of(self, extreme: TrainExtreme) -> Step:
+        """Give the state in which a value is an extreme one."""
+        raise NotImplementedError
+
+    def fields(self, extreme: TrainExtreme) -> dict[str, float]:
+        """Give all fields in that state at the place of an extreme value."""
+        fields = self.state_of(extreme).fields(extreme.x, extreme.side or "right")
+        return {name: float(value) for name, value in fields.columns().items()}
+
+    def is_unique(self, quantity: str) -> bool:
+        """Tell whether there is but one value of a quantity in such a state."""
+        return True
+
+
+class Passing(Member):
+    """A train that goes over the beam in one direction.
+
+    Parameters
+    ----------
+    train : TrainResult
+        The train.
+    way : TrainWay
+        One of its ways.
+    combination : str, optional
+        Name of the combination.
+    """
+
+    def __init__(self, train: TrainResult, way: TrainWay, combination: str | None = None):
+        super().__init__(combination)
+        self.train, self.direction, self.gaps = train.name, way.course.direction, way.gaps
+        self._train, self._way = train, way
+        self._fields, self._supports = way.extremes
+
+    def of_fields(self, quantity: str, i: int) -> list[TrainExtreme]:
+        """As `Member.of_fields`."""
+        return self._ties(self._fields, quantity, FIELDS.index(quantity), i, None)
+
+    def of_supports(self, support: int, quantity: str, i: int) -> list[TrainExtreme]:
+        """As `Member.of_supports`."""
+        return self._ties(self._supports[support], quantity, OF_SUPPORTS.index(quantity), i, support)
+
+    def _ties(self, found: Extremes, quantity: str, k: int, i: int, support: int | None) -> list[TrainExtreme]:
+        count = int(found.count[i, k])
+        rows = zip(found.values[i, k, :count].tolist(), found.sides[i, k, :count].tolist(), strict=True)
+        return [
+            TrainExtreme(self, quantity, value, x if support is None else None, SIDES[side], support, position)
+            for (value, x, position), side in rows
+        ]
+
+    def curves(self, piece: np.ndarray, distance: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """As `Member.curves`."""
+        return self._way.passage.curves(piece, distance)
+
+    def state_of(self, extreme: TrainExtreme) -> Step:
+        """As `Member.state_of`: where the beam tips at a position, that before or that after it, whichever has the value."""
+        states = []
+        for scheme, inside in self._way.schemes(extreme.position):
+            for position in (extreme.position, inside):
+                try:
+                    states.append(self._train.at(position, self.direction, scheme))
+                    break
+                except (EngineError, ValueError):  # on the other side of a change by rounding
+                    continue
+        if not states:
+            return self._train.at(extreme.position, self.direction)
+        return min(states, key=lambda state: abs(_value_in(state, extreme) - extreme.value))
+
+
+class Neutral(Passing):
+    """A train at positions at which the beam can move freely: forces are unique there, deflections and rotations are not.
+
+    Parameters
+    ----------
+    train, way, combination
+        As of `Passing`.
+    held : Passage
+        On a beam that is kept from moving, by supports after its own.
+    """
+
+    def __init__(self, train: TrainResult, way: TrainWay, combination: str | None, held: Passage):
+        Member.__init__(self, combination)
+        self.train, self.direction = train.name, way.course.direction
+        self._train, self._way, self._held = train, way, held
+        self._fields, self._supports = held.extremes()
+
+    def of_fields(self, quantity: str, i: int) -> list[TrainExtreme]:
+        """As `Member.of_fields`."""
+        return super().of_fields(quantity, i) if quantity in OF_FORCES else []
+
+    def of_supports(self, support: int, quantity: str, i: int) -> list[TrainExtreme]:
+        """As `Member.of_supports`."""
+        return super().of_supports(support, quantity, i) if quantity in OF_FORCES else []
+
+    def curves(self, piece: np.ndarray, distance: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """As `Member.curves`."""
+        values, positions = (found.copy() for found in self._held.curves(piece, distance))
+        values[:, [k for k, name in enumerate(FIELDS[:-1]) if name not in OF_FORCES]] = np.nan
+        return values, positions
+
+    def state_of(self, extreme: TrainExtreme) -> Step:
+        """As `Member.state_of`: one of those that are possible there."""
+        try:
+            return self._train.at(extreme.position, self.direction)
+        except (EngineError, ValueError):  # the beam falls beside it, by rounding there
+            start, end, beside = self._held.ends[0, 0], self._held.ends[-1, 1], 4 * self._way.near
+            return self._train.at(float(min(max(extreme.position, start + beside), end - beside)), self.direction)
+
+    def is_unique(self, quantity: str) -> bool:
+        """As `Member.is_unique`."""
+        return quantity in OF_FORCES
+
+
+def _value_in(state: Step, extreme: TrainExtreme) -> float:
+    """What a state has for an extreme value."""
+    if extreme.support is not None:
+        return float(state.solution.at_supports[AT_SUPPORTS.index(extreme.quantity), extreme.support])
+    return float(state.fields(extreme.x, extreme.side or "right").columns()[extreme.quantity])
+
+
+class Standing(Member):
+    """A combination in which no train acts.
+
+    Parameters
+    ----------
+    result : Result
+        A solved one.
+    combination : str
+        Its name.
+    """
+
+    def __init__(self, result: Result, combination: str):
+        super().__init__(combination)
+        self._result, self._step = result, result.steps[-1]
+        self._extremes = result.extremes()
+
+    def of_fields(self, quantity: str, i: int) -> list[TrainExtreme]:
+        """As `Member.of_fields`."""
+        value, x = self._extremes[quantity][KINDS[i]]
+        side = None
+        right, left = (float(self._result.at(x, side=one).columns()[quantity]) for one in ("right", "left"))
+        if abs(right - value) > abs(left - value):
+            side = "left"
+        return [TrainExtreme(self, quantity, value, x, side, None, None)]
+
+    def of_supports(self, support: int, quantity: str, i: int) -> list[TrainExtreme]:
+        """As `Member.of_supports`."""
+        value = float(self._step.solution.at_supports[AT_SUPPORTS.index(quantity), support])
+        return [TrainExtreme(self, quantity, value, None, None, support, None)]
+
+    def of_foundations(self, foundation: int, quantity: str, i: int) -> list[TrainExtreme]:
+        """As `Member.of_foundations`."""
+        step = self._step
+        if quantity == "resultant":
+            value = sum(zone.resultant for zone in step.contact if zone.foundation == foundation)
+            return [TrainExtreme(self, quantity, value, None, None, None, None, foundation)]
+        spans = [span for span in step.free_spans if span.foundation == foundation]
+        span = max(spans, key=lambda one: size_of(one, quantity), default=None)
+        return [TrainExtreme(self, quantity, size_of(span, quantity), None, None, None, None, foundation, span)] if span else []
+
+    def curves(self, piece: np.ndarray, distance: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """As `Member.curves`."""
+        step, beam = self._result.steps[-1], self._result.beam
+        values = beam.values(step.factor, step.starts, step.solution, piece, distance)
+        found = np.array([values[beam.fields[name]] for name in fields_of(beam)])
+        return np.stack((found, found)), np.full((2, *found.shape), np.nan)
+
+    def state_of(self, extreme: TrainExtreme) -> Step:
+        """As `Member.state_of`."""
+        return self._step
+
+    def fields(self, extreme: TrainExtreme) -> dict[str, float]:
+        """As `Member.fields`."""
+        return {name: float(value) for name, value in self._result.at(extreme.x, side=extreme.side or "right").columns().items()}
+
+
+def fields_of(beam: Beam) -> tuple[str, ...]:
+    """Give the fields of a beam that have envelopes.
+
+    Parameters
+    ----------
+    beam : Beam
+        The beam.
+
+    Returns
+    -------
+    tuple of str
+        Some of FIELDS.
+    """
+    return FIELDS if beam.ground_layers else FIELDS[:-1]

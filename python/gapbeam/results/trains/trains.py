@@ -1,0 +1,315 @@
+"""Trains: loads that move over the beam, followed from event to event, and what they make at most.
+
+Positions are those of the first axle. The loads of the scene stay, dead and live ones in full. A state is that of supports that
+act one way, so superposition does not hold: at every position the right supports act. The engine follows them by polynomials in
+the position (`TrainWay`), but on foundations and with smooth laws, where there are none, `SearchedWay` does.
+
+>>> import gapbeam
+>>> result = gapbeam.solve({
+...     "beam": {"spans": [1.0, 1.0], "EI": 1.0},
+...     "supports": [{"node": i, "side": "below"} for i in range(3)],
+...     "loads": [{"type": "uniform", "q": 1.0, "case": "dead"}],
+...     "trains": [{"name": "crane", "axles": [[0.0, 8.0]], "to": 1.0}],
+... })
+>>> [(event.support, event.event, round(event.position, 12)) for event in result.trains["crane"].events]
+[(2, 'opens', 0.194903920083), (2, 'closes', 0.888199776858)]
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ...base.errors import EngineError
+from ...base.records import Record
+from ...engine.beam import GIVEN, Beam
+from ...scene.columns import columns, curves
+from ...scene.places import POSITION_TOLERANCE
+from ...scene.trains import LEFT, RIGHT, at_ends, courses, fitted, joined, nearest, train_name
+from ...scene.wording import choice, shown
+from ..state.arguments import finite
+from ..state.schemes import starting_scheme
+from ..state.step import Step
+from ..state.steps import LoadSteps
+from .envelope import TrainEnvelope, places_along, places_given
+from .influence import influence_line
+from .members import Member, fields_of
+from .neutral import loaded
+from .search import SearchedWay
+from .ways import Gap, TrainEvent, TrainWay
+
+if TYPE_CHECKING:
+    from ..result import Result
+    from ..state.fields import Fields
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Influence(Record):
+    """An influence line: what a unit force, downward, adds while the same supports act.
+
+    Attributes
+    ----------
+    places : numpy.ndarray
+        Where the force is.
+    values : numpy.ndarray
+        What it makes.
+    """
+
+    places: np.ndarray
+    values: np.ndarray
+
+
+class TrainState(Step):
+    """The state at one position of a train: a step whose beam has the train's axles as forces.
+
+    Attributes
+    ----------
+    position : float
+        Position of the train.
+    direction : {"right", "left"}
+        Which way it goes.
+    result : Result
+        The same as the result of a scene with these forces: fields anywhere, extremes, report.
+    """
+
+    def __init__(self, result: Result, position: float, direction: str):
+        super().__init__(result.beam, 1.0, result.rule, result.steps.closed(0))
+        self.position = position
+        self.direction = direction
+        self.result = result
+
+    def fields(self, x: Any, side: str = "right") -> Fields:
+        """Exact values anywhere along the beam.
+
+        Parameters
+        ----------
+        x, side
+            As for `Result.at`.
+
+        Returns
+        -------
+        Fields
+        """
+        return self.result.at(x, side=side)
+
+    def extremes(self) -> dict[str, dict[str, tuple[float, float]]]:
+        """Exact largest and smallest values of every field with their places.
+
+        Returns
+        -------
+        dict
+            As from `Result.extremes`.
+        """
+        return self.result.extremes()
+
+
+class TrainResult:
+    """A train on its way over the beam.
+
+    Attributes
+    ----------
+    name : str
+        Its name.
+    train : Train
+        What it is.
+    """
+
+    def __init__(self, result: Result, i: int):
+        self.name, self.train = train_name(result.scene, i), result.scene.trains[i]
+        self._result, self._joined = result, fitted(joined(result.scene.trains, i), float(result.scene.span_ends()[-1]))
+
+    @cached_property
+    def ways(self) -> list[TrainWay] | list[SearchedWay]:
+        """The train in every direction in which it goes."""
+        result = self._result
+        end = result.beam.places.end
+        near = nearest(self._joined, end)
+        try:
+            if is_searched(result.beam):
+                return [SearchedWay(result, course, near, self.name) for course in courses(self._joined, end)]
+            return [TrainWay(result.beam, result.scene, course, near) for course in courses(self._joined, end)]
+        except EngineError as error:
+            raise EngineError(f"train {self.name}: {error}", error.status) from None
+
+    @property
+    def events(self) -> list[TrainEvent]:
+        """Every change of the working scheme at its exact position, in the order in which they happen."""
+        return [event for way in self.ways for event in way.events]
+
+    @property
+    def gaps(self) -> list[Gap]:
+        """Positions at which the beam cannot stand, is not held in one place, or has no unique answer."""
+        return [gap for way in self.ways for gap in way.gaps]
+
+    @property
+    def solves(self) -> int:
+        """Linear solves."""
+        return sum(way.solves for way in self.ways)
+
+    def envelope(self, x: Any = None) -> TrainEnvelope:
+        """Largest and smallest values over all positions.
+
+        Parameters
+        ----------
+        x : array_like, optional
+            Places for the curves; default: 20 divisions of every span, and all places where something is.
+
+        Returns
+        -------
+        TrainEnvelope
+
+        Raises
+        ------
+        ValueError
+            A place outside the beam.
+        """
+        return TrainEnvelope(self._result, self.members(), places_given(self._result.beam, x))
+
+    def members(self, combination: str | None = None) -> list[Member]:
+        """What an envelope is made of: the train in every direction.
+
+        Parameters
+        ----------
+        combination : str, optional
+            Name of the combination.
+
+        Returns
+        -------
+        list of Member
+        """
+        return [member for way in self.ways for member in way.members(self, combination)]
+
+    def at(self, position: float, direction: str = RIGHT, scheme: np.ndarray | None = None) -> TrainState:
+        """The state at a position of the train.
+
+        Parameters
+        ----------
+        position : float
+            Position of its first axle; any, also beyond those that the scene gives.
+        direction : {"right", "left"}
+            Which way it goes; left needs ``both_directions``.
+        scheme : numpy.ndarray of int, optional
+            Which supports act, where that is known: at a position at which the beam tips, that before or after.
+
+        Returns
+        -------
+        TrainState
+            A step, with fields and extremes; the axles are forces of its beam, so it has a certificate.
+
+        Raises
+        ------
+        ValueError
+            Without equilibrium there, or the train does not go that way.
+        """
+        position = finite("position", position)
+        way = self._way(direction)
+        # Extremes beside the end, where an axle has just left, are farther off
+        position = at_ends(position, self._joined, direction, self._result.beam.places.end, POSITION_TOLERANCE)
+        scene = loaded(self._result.scene, way.course, way.near, position)
+        taken = columns(scene)
+        result = self._result.another(scene, Beam(taken, curves(scene, taken)), self._result.rule if scheme is None else GIVEN)
+        result.steps = LoadSteps(result.beam, result.rule, starting_scheme(result.beam) if scheme is None else scheme, 1)
+        fallen = result.steps.solve_all()
+        if fallen is not None:
+            result.refuse(f"at position {position:g} of train {self.name}", fallen[1])
+            raise ValueError(f"position: {result.reason}")
+        return TrainState(result, position, way.course.direction)
+
+    def influence(
+        self, what: str, *, x: float, position: float, direction: str = RIGHT, places: Any = None, side: str = "right"
+    ) -> Influence:
+        """Influence line while the supports act that act at a position of the train.
+
+        Parameters
+        ----------
+        what : {"reaction", "moment", "shear", "rotation", "deflection", "pressure"}
+            What it is of; pressure on foundations only.
+        x : float
+            Place on the beam; for a reaction that of the support.
+        position, direction
+            Of the train.
+        places : array_like, optional
+            Where the unit force is; default: 20 divisions of every span, and all places where something is.
+        side : {"right", "left"}
+            Which value is taken where it jumps at x.
+
+        Returns
+        -------
+        Influence
+            It says what a small force adds; a larger one may open or close supports.
+
+        Raises
+        ------
+        ValueError
+            A place outside the beam, no support there, no equilibrium at that position, or ground whose law is a curve.
+        """
+        beam, way = self._result.beam, self._way(direction)
+        if what not in (has_lines := (*fields_of(beam), "reaction")):
+            raise ValueError(f"what: expected {choice(shown(name) for name in has_lines)}, got {shown(what)}")
+        state = self.at(position, direction)
+        x = float(places_given(beam, [finite("x", x)])[0])
+        places = places_along(beam) if places is None else places_given(beam, places, "places")
+        at = self._result.scene.positions(self._result.scene.supports)
+        chosen = (np.abs(at - x) <= way.near) & beam.across
+        if what == "reaction" and not chosen.any():
+            raise ValueError(f"x: there is no support at x = {x:g}")
+        if is_searched(beam):
+            return Influence(places, influence_line(state, what, x, chosen, places, side))
+        piece, distance = beam.find(np.array([x]), side == "left")
+        values = way.passage.influence(state.solution.closed, chosen, int(piece[0]), float(distance[0]), places)
+        return Influence(places, values[("deflection", "rotation", "moment", "shear", "reaction").index(what)])
+
+    def _way(self, direction: str) -> TrainWay:
+        for way in self.ways:
+            if way.course.direction == direction:
+                return way
+        if direction not in (RIGHT, LEFT):
+            raise ValueError(f'direction: expected "right" or "left", got {shown(direction)}')
+        raise ValueError(f"direction: train {self.name} goes to the right only; give both_directions = true")
+
+
+class Trains(Mapping[str, TrainResult]):
+    """Trains by name, in the order of the scene."""
+
+    def __init__(self, result: Result):
+        self._by_name = {train_name(result.scene, i): TrainResult(result, i) for i in range(len(result.scene.trains))}
+
+    def __getitem__(self, name: str) -> TrainResult:
+        """Give a train by its name."""
+        return self._by_name[name]
+
+    def __iter__(self) -> Iterator[str]:
+        """Go through the names."""
+        return iter(self._by_name)
+
+    def __len__(self) -> int:
+        """Count the trains."""
+        return len(self._by_name)
+
+    def pass_all(self) -> None:
+        """Move all trains over the beam, so that what stands in the way of one is said at once."""
+        for train in self._by_name.values():
+            train.ways  # noqa: B018
+
+    def members(self, combination: str | None = None) -> list[Member]:
+        """What an envelope is made of: every train in every direction.
+
+        Parameters
+        ----------
+        combination : str, optional
+            Name of the combination.
+
+        Returns
+        -------
+        list of Member
+        """
+        return [member for train in self.values() for member in train.members(combination)]
+
+
+def is_searched(beam: Beam) -> bool:
+    """Whether no formula says how states depend on the position of a train: on foundations and with smooth laws."""
+    return beam.ground_layers > 0 or bool(beam.curves)
