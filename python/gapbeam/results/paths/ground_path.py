@@ -138,8 +138,8 @@ def follow_on_ground(result: Result, rule: str, closed: np.ndarray) -> GroundPat
     path = GroundPath(result.beam, rule, closed)
     if path.limits:
         result.status = "limit-load"
-        last, beyond = path.limits[0].factor, path.beyond
-        where = f"between the load factors {last:.12g} and {beyond:.12g}" if beyond > last else f"beyond load factor {last:.12g}"
+        last, beyond = f"{path.limits[0].factor:.12g}", f"{max(path.limits[0].factor, path.beyond):.12g}"
+        where = f"beyond load factor {last}" if beyond == last else f"between the load factors {last} and {beyond}"
         result.reason = f"limit load: nothing more resists the load {where}"
         if path.motion is not None:
             result.motion = list(zip(result.beam.node_x.tolist(), path.motion.tolist(), strict=True))
