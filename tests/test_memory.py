@@ -78,7 +78,7 @@ CALLS = {
     "structs": (read_again, read_scene(long_beam("steps")), 30_000_000, 40),
     "two springs": (every_answer, TWO_SPRINGS, 400_000, 25),
     "seesaw": (every_answer, SEESAW, 400_000, 25),
-    "two springs as cases": (cases, TWO_SPRINGS, 400_000, 25),
+    "two springs as cases": (cases, TWO_SPRINGS, 600_000, 25),
     "steps": (every_answer, long_beam("steps"), 80_000_000, 18),
     "events": (every_answer, long_beam("events"), 120_000_000, 14),
     "ties": (every_answer, long_beam("steps", float("inf"), SPANS / 2), 80_000_000, 18),

@@ -92,13 +92,13 @@ contains
             call check_cubic(error)
         else if (law == law_hardening) then
             if (.not. max(left(2), right(2)) > 0.0_wp) then
-                call say(error, 2, "is 0"//part("all along")//", where stiffness is not; give a small limit there, "// &
+                call say(error, 2, "is 0"//trim(part("all along"))//", where stiffness is not; give a small limit there, "// &
                          "or a stiffness of 0")
             end if
         else if (law /= law_plastic) then
             if ((left(1) > 0.0_wp .and. .not. left(2) > 0.0_wp) .or. (right(1) > 0.0_wp .and. .not. right(2) > 0.0_wp)) then
-                call say(error, 2, "is 0 at an end"//part("of")//" where stiffness is not, where the curve would have a kink; "// &
-                         "give a small limit there, or a stiffness of 0")
+                call say(error, 2, "is 0 at an end"//trim(part("of"))//" where stiffness is not, where the curve would "// &
+                         "have a kink; give a small limit there, or a stiffness of 0")
             end if
         end if
 
@@ -127,7 +127,7 @@ contains
                 if (-change < curvature) vertex = min(to, max(from, -change/curvature))
             end if
             if (rises(from) .and. rises(to) .and. rises(vertex)) return
-            call say(found, 2, "with k2 below -sqrt(3*k1*k3) the force falls"//part("along")// &
+            call say(found, 2, "with k2 below -sqrt(3*k1*k3) the force falls"//trim(part("along"))// &
                      "; softening ground is not available in this version")
         end subroutine check_cubic
 
@@ -141,10 +141,10 @@ contains
             rises = k(2)**2 <= 3*k(1)*k(3)*(1 + rounding)
         end function rises
 
-        !> The stretch in a sentence, if it is not all of the foundation
+        !> The stretch in a sentence, if it is not all of the foundation, blanks behind it
         pure function part(preposition) result(words)
             character(len=*), intent(in) :: preposition
-            character(len=:), allocatable :: words
+            character(len=160) :: words
 
             words = ""
             if (stretch /= "") words = " "//preposition//" "//stretch

@@ -186,25 +186,25 @@ contains
                    here => entry_type(of_foundations, foundation, size(lowered%model%foundations)))
             if (.not. any(layers(a:b) > 0)) then
                 call refuse_entry(error, here, trim(merge("law", "k  ", with_points .or. f%law /= gapbeam_law_by_points)), &
-                                  bad_law, "carries nowhere from "//stretch(a, b)//"; remove the foundation")
+                                  bad_law, "carries nowhere from "//trim(stretch(a, b))//"; remove the foundation")
                 return
             end if
             if (f%law == gapbeam_law_by_points) return
             do j = a, b
                 if (layers(j) == 0) cycle
                 call check_parameters(f%law, values(gapbeam_table_of_parameter:, 1, j), values(gapbeam_table_of_parameter:, 2, j), &
-                                      "the stretch from "//stretch(j, j), here, error)
+                                      "the stretch from "//trim(stretch(j, j)), here, error)
                 if (allocated(error)) return
             end do
         end associate
 
     contains
 
-        !> "x = 2 to x = 3"
+        !> "x = 2 to x = 3", blanks behind it
         pure function stretch(from, to)
             !> First and last piece
             integer, intent(in) :: from, to
-            character(len=:), allocatable :: stretch
+            character(len=120) :: stretch
 
             stretch = "x = "//trim(shown(point_x(lowered, from - 1)))//" to x = "//trim(shown(point_x(lowered, to)))
         end function stretch
