@@ -2,7 +2,7 @@
 module gapbeam_error
     implicit none
     private
-    public :: error_type, fatal_error, no_memory, status_text, status_codes, status_texts, unknown_status
+    public :: error_type, fatal_error, no_memory, out_of_range, status_text, status_codes, status_texts, unknown_status
     public :: gapbeam_solved, gapbeam_no_equilibrium
     public :: gapbeam_bad_input, gapbeam_indeterminate, gapbeam_not_converged, gapbeam_not_finite
     public :: gapbeam_no_memory, gapbeam_not_prepared, gapbeam_other_version, gapbeam_stopped
@@ -83,6 +83,15 @@ contains
 
         call fatal_error(error, gapbeam_no_memory, trim(status_text(gapbeam_no_memory)))
     end subroutine no_memory
+
+    !> Set the error that says that numbers left the range of double precision, and what helps
+    pure subroutine out_of_range(error)
+        !> Becomes allocated
+        type(error_type), allocatable, intent(out) :: error
+
+        call fatal_error(error, gapbeam_not_finite, trim(status_text(gapbeam_not_finite)) &
+                         //": choose units in which lengths, stiffnesses and loads are nearer to 1")
+    end subroutine out_of_range
 
     !> What a status code means, in a few words, blanks behind them. Not of deferred length: gfortran keeps the length of such a
     !> result in static storage, which threads share

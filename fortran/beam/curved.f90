@@ -24,8 +24,11 @@ module gapbeam_curved
         real(wp) :: left(4) = 0.0_wp, right(4) = 0.0_wp
     end type curved_type
 
-    !> More steps a stretch is not given, and beyond this size no fields
+    !> More steps a stretch is not given
     integer, parameter :: most_steps = 512
+    !> A shorter step, in parts of the stretch, gets nowhere
+    real(wp), parameter :: shortest_step = 1/real(most_steps, wp)**2
+    !> Beyond this size there are no fields
     real(wp), parameter :: largest = sqrt(sqrt(huge(1.0_wp)))
     !> Slopes of a law, relative to its steepest, that are none: elimination would lose its range to them
     real(wp), parameter :: no_slope = 2.0_wp**(-100)
@@ -169,7 +172,7 @@ contains
             lost = .not. all(abs(values) <= largest)
             if (lost) return
             call expand_curved(curved, at, values, left, c, modulus, r, step)
-            lost = .not. step > 1/real(most_steps, wp)**2
+            lost = .not. step > shortest_step
             if (lost) return
             if (present(transfer)) transfer = matmul(transfer_of(curved%stretch, left, modulus, step), transfer)
             if (present(forces)) then
@@ -357,7 +360,7 @@ contains
                 way = 0.5_wp - ends(number - 1)
                 call expand_curved(curved, ends(number - 1), y, way, c, modulus, forces, step)
                 ! Fields that run away are nobody's: the rest is one part
-                if (number == most_steps .or. .not. (all(abs(y) <= largest) .and. step > 1/real(most_steps, wp)**2)) step = 1.0_wp
+                if (number == most_steps .or. .not. (all(abs(y) <= largest) .and. step > shortest_step)) step = 1.0_wp
                 do i = 1, 4
                     inside(i, number) = value_of(c(i, :), step/2)
                     y(i) = value_of(c(i, :), step)

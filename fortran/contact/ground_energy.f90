@@ -10,7 +10,7 @@
 module gapbeam_ground_energy
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_not_converged, gapbeam_not_finite, &
+    use gapbeam_error, only: error_type, fatal_error, out_of_range, gapbeam_solved, gapbeam_not_converged, &
         gapbeam_no_memory, gapbeam_stopped
     use gapbeam_link, only: piece_type, piece_load_type, condense_link
     use gapbeam_band, only: plain
@@ -134,8 +134,7 @@ contains
             ! A rounding of deflections is a force on stiff ground
             force = balanced*force + 8*epsilon(force)*sum(slope)*maxval(abs(w))
             if (.not. (force <= huge(force) .and. maxval(abs(w)) <= huge(force))) then
-                call fatal_error(error, gapbeam_not_finite, "numbers left the range of double precision: choose units "// &
-                                 "in which lengths, stiffnesses and loads are nearer to 1")
+                call out_of_range(error)
                 return
             end if
             if (begun .and. way >= 1.0_wp .and. sum(abs(push - modelled)) <= force) then

@@ -8,8 +8,8 @@
 module gapbeam_scheme
     use gapbeam_kinds, only: wp, dp
     use gapbeam_require, only: checked, require
-    use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_no_equilibrium, &
-        gapbeam_indeterminate, gapbeam_not_converged, gapbeam_not_finite
+    use gapbeam_error, only: error_type, fatal_error, out_of_range, gapbeam_solved, gapbeam_no_equilibrium, &
+        gapbeam_indeterminate, gapbeam_not_converged
     use gapbeam_band, only: band_ok, band_needs_pivoting
     use gapbeam_law, only: always_closed, separate_rigid_pairs, has_laws, go_to_level
     use gapbeam_law_motions, only: find_free_level, is_blocked, distance_to_contact
@@ -102,8 +102,7 @@ contains
             ! That has turned a sign, or shown one that elimination had hidden
         end do
         if (.not. is_finite(work)) then
-            call fatal_error(error, gapbeam_not_finite, "numbers left the range of double precision: choose units " &
-                //"in which lengths, stiffnesses and loads are nearer to 1")
+            call out_of_range(error)
         end if
     end subroutine find_scheme
 

@@ -182,9 +182,9 @@ contains
             total = total + lowered%layer_first(solution%piece(i) + 1) - lowered%layer_first(solution%piece(i))
         end do
         allocate (way(size(solution%acts, 1), m), touch(2, size(solution%acts, 1), m), supported(0:size(lowered%pieces)), stat=stat)
-        if (stat == 0) then
-            if (.not. bare) call largest_ways(lowered, solution, way, touch)
-            if (.not. bare) total = total + count(touch >= 0.0_wp, kind=int64)
+        if (stat == 0 .and. .not. bare) then
+            call largest_ways(lowered, solution, way, touch)
+            total = total + count(touch >= 0.0_wp, kind=int64)
         end if
         if (stat == 0) stat = merge(1, 0, total > huge(n))
         associate (keys => 2*size(lowered%model%foundations))

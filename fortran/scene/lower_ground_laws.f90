@@ -73,16 +73,18 @@ contains
         !> Not 0: no memory
         integer, intent(out) :: stat
         real(wp), allocatable :: d(:, :, :), f(:, :, :)
+        type(place_type), allocatable :: places(:)
         integer :: i, j, n
 
         n = law%points
         allocate (d(2, law%times, n), f(2, law%times, n), stat=stat)
         if (stat /= 0) return
+        if (law%varies) places = places_of_law(lowered, law)
         associate (points => lowered%model%ground_law(law%from:law%to))
             do i = 1, n
                 if (law%varies) then
-                    call follow_table(lowered, left, right, places_of_law(lowered, law), points(i::n)%displacement, d(:, :, i))
-                    call follow_table(lowered, left, right, places_of_law(lowered, law), points(i::n)%force, f(:, :, i))
+                    call follow_table(lowered, left, right, places, points(i::n)%displacement, d(:, :, i))
+                    call follow_table(lowered, left, right, places, points(i::n)%force, f(:, :, i))
                 else
                     d(:, :, i) = points(i)%displacement
                     f(:, :, i) = points(i)%force

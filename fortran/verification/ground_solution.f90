@@ -105,7 +105,7 @@ contains
             solution%slope(i) = real((ends%w_b - ends%w_a)/stretch%length, wp)
             solution%ends(i) = stretch_ends_type(real(ends%w_a, wp), real(ends%w_b, wp), real(ends%moment_a, wp), &
                                                  real(ends%moment_b, wp))
-            call sum_layers(fine, zones, i, zones%from(i), stretch, load, ends, field, curved, forces)
+            call sum_layers(fine, zones, i, stretch, load, ends, field, curved, forces)
             beside = beside_line(stretch, load, [ends%w_a, ends%w_b])
             if (allocated(curved)) beside = load
             solution%loads(i) = stretch_load_type(real(beside%qa, wp), real(beside%qb, wp), real(beside%qc, wp), &
@@ -260,12 +260,11 @@ contains
     end subroutine drop_small
 
     !> Force of every layer on a stretch: what the shear gains is the whole pressure less the load, and shared out by the moduli
-    subroutine sum_layers(fine, zones, i, from, stretch, load, ends, field, curved, forces)
+    subroutine sum_layers(fine, zones, i, stretch, load, ends, field, curved, forces)
         type(fine_ground_type), intent(in) :: fine
         type(fine_zones_type), intent(in) :: zones
-        !> Number of the stretch, distance of its left end from that of the piece; what it is made of, its load, what is at its ends
+        !> Number of the stretch; what it is made of, its load, what is at its ends
         integer, intent(in) :: i
-        real(qp), intent(in) :: from
         type(fine_stretch_type), intent(in) :: stretch
         type(fine_stretch_load_type), intent(in) :: load
         type(fine_ends_type), intent(in) :: ends
@@ -276,12 +275,13 @@ contains
         !> Up
         real(qp), intent(out) :: forces(:)
         type(fine_law_piece_type) :: law
-        real(qp) :: slope(2), contact(2), offset(2), modulus(2), by_springs, y(4)
+        real(qp) :: from, slope(2), contact(2), offset(2), modulus(2), by_springs, y(4)
         real(qp), allocatable :: by_curves(:)
         logical :: alike, lost
         integer :: k, n
 
         forces(:) = 0.0_qp
+        from = zones%from(i)
         modulus = [stretch%modulus_a, stretch%modulus_b]
         by_springs = (field(2, 2) - field(1, 2)) + stretch%length*((load%qa + load%qb)/2 + load%qc/6)
         n = 0

@@ -5,7 +5,7 @@
 !> tells (gapbeam_ground_energy); that loads are more than the ground can bear is proved by limit analysis (gapbeam_ground_limit).
 module gapbeam_ground_solver
     use gapbeam_kinds, only: wp, qp
-    use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_not_converged, &
+    use gapbeam_error, only: error_type, fatal_error, out_of_range, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_not_converged, &
         gapbeam_not_finite, gapbeam_no_memory, gapbeam_indeterminate, gapbeam_stopped
     use gapbeam_foundation, only: stretch_ends_type
     use gapbeam_memory, only: reserve_memory, for_solving, for_ground
@@ -28,7 +28,7 @@ module gapbeam_ground_solver
     use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type
     use gapbeam_scheme_quad, only: fine_outcome_type => outcome_type
     use gapbeam_ground_solution, only: ground_solution_type, take_rounded
-    use gapbeam_ground_start, only: ground_start_type
+    use gapbeam_ground_start, only: ground_start_type, rough
     use gapbeam_ground_ties, only: stands_on_edge, may_move
     use gapbeam_ground_limit, only: find_collapse, find_limit
     implicit none
@@ -36,7 +36,7 @@ module gapbeam_ground_solver
     public :: ground_solution_type, solve_on_ground, limit_on_ground
 
     !> Shares of the stretches beside them by which ends may still move in the round that is taken for the last one
-    real(wp), parameter :: rough = 1e-10_wp, nearly = 1e-2_wp
+    real(wp), parameter :: nearly = 1e-2_wp
     real(qp), parameter :: fine_enough = 1e-15_qp
     !> Ends that still move by no more are taken, with the fields there: what is left is the square of the way
     real(qp), parameter :: movable = 1e-11_qp
@@ -315,8 +315,7 @@ contains
                                            work)
         end if
         if (all(abs(solution%deflection) <= huge(1.0_wp)) .and. all(abs(solution%moment_left) <= huge(1.0_wp))) return
-        call fatal_error(error, gapbeam_not_finite, "numbers left the range of double precision: choose units "// &
-                         "in which lengths, stiffnesses and loads are nearer to 1")
+        call out_of_range(error)
     end subroutine settle_finely
 
     !> How good the solution is. It is rounded from quadruple precision; what its data lost when they were rounded to doubles moves
@@ -328,7 +327,7 @@ contains
         type(workspace_type), intent(in) :: work
         real(wp), intent(in) :: factor
         type(ground_solution_type), intent(inout) :: solution
-        real(wp) :: rough(4), right(4), largest(5)
+        real(wp) :: before(4), right(4), largest(5)
         integer :: first, last, i, j, m
 
         largest(:) = 0.0_wp
@@ -366,11 +365,11 @@ contains
             call rough_fields_at_ends(grounded, factor, work, stretch, rotation, shear)
             ends = rough_ends_of(work, stretch)
             if (at_right) then
-                rough = [ends%w_b, rotation(2), ends%moment_b, shear(2)]
+                before = [ends%w_b, rotation(2), ends%moment_b, shear(2)]
             else
-                rough = [ends%w_a, rotation(1), ends%moment_a, shear(1)]
+                before = [ends%w_a, rotation(1), ends%moment_a, shear(1)]
             end if
-            solution%bounds(:4) = max(solution%bounds(:4), abs(rough - right))
+            solution%bounds(:4) = max(solution%bounds(:4), abs(before - right))
             largest(:4) = max(largest(:4), abs(right))
         end subroutine compare
 

@@ -9,7 +9,7 @@ module gapbeam_ground_start
     use gapbeam_ground_solution, only: ground_solution_type
     implicit none
     private
-    public :: ground_start_type, start_from, settle_nearby, polish_nearby, take_zones
+    public :: ground_start_type, start_from, settle_nearby, polish_nearby, take_zones, rough
 
     !> Where the search for a solution may begin: zones and states of the supports at a load factor nearby
     type :: ground_start_type

@@ -20,7 +20,7 @@ from .batch import add_batch
 from .exits import FAILED, INTERRUPTED, NO_SOLUTION, REFUSED, SOLVED, say
 from .outputs import Outputs, source, until_closed
 from .proofs import add_proofs
-from .studies import add_studies
+from .studies import add_studies, refuse_moved
 
 if TYPE_CHECKING:
     from ..scene.structs import Scene
@@ -130,8 +130,6 @@ def run(argv: Sequence[str] | None = None, make_parser: Callable[[], argparse.Ar
         warnings.formatwarning = lambda message, *_: f"gapbeam: warning: {message}\n"
     try:
         if make_parser is None:
-            from .studies import refuse_moved
-
             refuse_moved(sys.argv[1:] if argv is None else argv)
         arguments = (make_parser or _parser)().parse_args(argv)
         if reserve(FOR_NUMPY + FOR_A_THREAD * (_threads() - 1)):

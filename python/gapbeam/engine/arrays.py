@@ -11,6 +11,9 @@ from ..base.records import Record, read_only
 GROUND_ROWS = 19
 """Rows of `Ground.values` beside those of the layers, as in gapbeam_handle."""
 
+MODULUS, GAP, PARAMETER = 1, 2, 3
+"""Of what a table is, as in gapbeam_scene; the parameters of a law follow the first one."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Columns(Record):
@@ -104,7 +107,7 @@ class Columns(Record):
         """
         ends = self.foundation[[[2, 3], [7, 10], [8, 11], [9, 12]], :-1]
         most = ends.max(axis=1)
-        for row, quantity in enumerate((1, 3, 4, 5)):
+        for row, quantity in enumerate((MODULUS, PARAMETER, PARAMETER + 1, PARAMETER + 2)):
             np.maximum.at(most[row], *self.of_tables(quantity))
         return most
 

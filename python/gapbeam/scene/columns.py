@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 
 from ..base.errors import SceneError
-from ..engine.arrays import Columns
+from ..engine.arrays import GAP, MODULUS, Columns
 from ..engine.beam import Curve
 from .ground_laws import PARAMETERS, ground_parameters, parameter_tables, points_with_places
-from .ground_tables import GAP, MODULUS, at_both_ends, is_table, points_of
+from .ground_tables import at_both_ends, is_table, points_of
 from .laws import is_smooth, law_points
 from .structs import AxialLoad, CurvatureLoad, ForceLoad, LinearLoad, MomentLoad, Scene, UniformLoad
 from .tables import Table

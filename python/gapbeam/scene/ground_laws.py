@@ -7,7 +7,8 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from .ground_tables import PARAMETER, Along, AlongSigned, at_both_ends, is_table
+from ..engine.arrays import PARAMETER
+from .ground_tables import Along, AlongSigned, at_both_ends, is_table
 from .laws import BrittleLaw, HardeningLaw, PlasticLaw
 from .table import Positive, Table
 

@@ -14,9 +14,6 @@ from .wording import shown
 Along = NotNegative | list[NotNegative | tuple[float, NotNegative]]
 AlongSigned = float | list[float | tuple[float, float]]
 
-MODULUS, GAP, PARAMETER = 1, 2, 3
-"""Of what a table is, as in gapbeam_scene; the parameters of a law follow the first one."""
-
 
 def is_table(value: Any) -> bool:
     """Whether a value is a table, not a number or a pair.

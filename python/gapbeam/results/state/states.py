@@ -38,38 +38,7 @@ BYTES_PER_PLACE = 120
 
 
 class States(Pickled):
-    """All load steps of a beam.
-
-    It can be pickled, for other processes, and goes on from there with the same digits; all its arrays are read-only. Two
-    results are equal if scene, outcome and events are, and all steps to the last digit; how long it took does not count.
-
-    Attributes
-    ----------
-    scene : Scene
-        What was solved.
-    status : str
-        ``solved``, ``no-equilibrium``, or ``limit-load``: supports soften or yield, and the load cannot grow to the end. Of a
-        combination also ``indeterminate``, ``not-converged``, ``not-finite``: it has no unique answer.
-    reason : str or None
-        Why there is no equilibrium or no unique answer, or which limit there is.
-    motion : list of (float, float) or None
-        The free motion then: x and displacement (positive downward, largest 1), straight lines between.
-    steps : sequence of Step
-        The load steps up to there; following events, the states at every event and at the end. What is kept of a step is
-        its scheme; its values are solved for when it is looked at.
-    path : Path, BranchPath, GroundPath or None
-        Following events, the schemes along the load; with supports whose state depends on it always.
-    without_trains : str or None
-        Why the beam cannot stand while no train is on it, which is not in the envelope and does not count for `status`; None
-        where it can, and in scenes without trains.
-    has_answer : bool
-        Whether there is a unique answer, be it that the beam cannot stand.
-    compression : Compression or None
-        The largest axial compression beside the Euler load in all steps, and while trains pass: what its effect on bending is,
-        is left out. None where nothing is compressed.
-    remarks : list of str
-        What else is to be known: compression that comes near the Euler load.
-    """
+    """All load steps of a beam, without what stands on them; its attributes are those of `Result`."""
 
     __hash__ = None
 
