@@ -5,11 +5,8 @@ import subprocess
 import sys
 
 import pytest
-from hypothesis import HealthCheck, settings
-
-sys.path.insert(0, os.path.dirname(__file__))  # the helper modules beside the tests
-
 from clibrary import Library
+from hypothesis import HealthCheck, settings
 from installation import LANGUAGES, install_once
 
 CALM = [HealthCheck.too_slow, HealthCheck.data_too_large, HealthCheck.filter_too_much]

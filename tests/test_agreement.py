@@ -1,12 +1,13 @@
 """Some of the seeds of `attack/enumeration.py`: the program and the exact enumeration agree on all of them."""
 
-import degenerate
+from fractions import Fraction
+
 import gapbeam
 import oracle
 import pytest
 from attack import enumeration
 from attack.command import main
-from scenes import one_sided
+from scenes import degenerate, one_sided
 
 # Seeds of runs over 100,000 on which the program once did not agree
 ONCE_WRONG = (
@@ -42,7 +43,7 @@ def test_scenes_are_what_they_are_called():
 def cycles(made):
     """Whether switching all wrong supports comes back to a scheme, by exact solutions."""
     beam = oracle.Oracle(made)
-    weights = (oracle.Fraction(1),) * 3
+    weights = (Fraction(1),) * 3
     closed, seen = [True] * len(one_sided(made)), set()
     while tuple(closed) not in seen:
         seen.add(tuple(closed))

@@ -18,9 +18,9 @@ from attack import command, compare, doubled, draw, events, hinges, memory, mode
 from attack.exact import Exact, NoSolution, Redundant, falls_surely, moves_freely, stands
 from attack.family import Family, Verdict
 from attack.workers import Ended, judge_all
-from degenerate import draw as draw_degenerate
-from oracle_forms import Reading
+from oracle.forms import Reading
 from scenes import at, force, scene, uniform
+from scenes.degenerate import draw as draw_degenerate
 from scipy.optimize import linprog
 
 TOP = Path(__file__).resolve().parents[1]

@@ -12,8 +12,8 @@ from gapbeam.cli import main
 from gapbeam.report import report_text, to_csv, to_json
 from gapbeam.report.json_csv import json_parts
 from gapbeam.results.cases.combined import WORST
-from law_scenes import law_scene
 from scenes import at, force, random_scene, scene, uniform
+from scenes.law import law_scene
 from test_prepared import scaled
 
 CASES = ("dead", "live", "wind")

@@ -5,9 +5,9 @@ import json
 import gapbeam
 import numpy as np
 import pytest
-from curved_scenes import random_curved_scene
 from gapbeam.base.errors import SceneError
-from oracle_curved import Curved
+from oracle.curved import Curved
+from scenes.curved import random_curved_scene
 
 BEAM = {"spans": [20.0], "EI": 1.0e5}
 LOADS = [{"type": "force", "x": 0.0, "F": 300.0}, {"type": "moment", "x": 0.0, "M": 100.0}]

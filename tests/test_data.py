@@ -11,8 +11,8 @@ from multiprocessing import get_context
 import gapbeam
 import numpy as np
 import pytest
-from ground_scenes import stopped
 from scenes import at, force, moment, random_scene, scene, uniform
+from scenes.ground import stopped
 
 BELOW = [at(i, side="below") for i in range(3)]
 

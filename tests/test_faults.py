@@ -11,11 +11,11 @@ from pathlib import Path
 
 import gapbeam
 import numpy as np
-import oracle_energy
 import pytest
 from attack import events, ground, hinges, signs
 from attack.workers import Ended, judge_all
 from gapbeam.report import to_json
+from oracle import energy
 from scenes import one_sided
 
 HERE = Path(__file__).parent
@@ -486,5 +486,5 @@ def test_curves_that_begin_at_nothing(seed):
 def test_cubic_law_with_a_gap():
     """Displacement elements with a line search on the energy, which come near with the square of their length."""
     made = read(HERE / "faults" / "C3_cubic_gap.json")
-    x, w, _ = oracle_energy.solve(made, 1024)
+    x, w, _ = energy.solve(made, 1024)
     assert np.abs(gapbeam.solve(made).at(x).deflection - w).max() <= 4e-6 * np.abs(w).max()

@@ -164,7 +164,7 @@ contains
         end do
     end subroutine two_in_a_row
 
-    !> Written by oracle_stretch.py
+    !> Written by oracle/stretch.py
     subroutine known_numbers()
         call compare("no ground", [0.5_qp, 0.25_qp, 0.0_qp, 0.0_qp, 3.0_qp], &
                      [0.333333333333333333333333333333333333_qp, 0.333333333333333333333333333333333333_qp, &

@@ -7,10 +7,10 @@ from itertools import pairwise
 import gapbeam
 import numpy as np
 import pytest
-from foundation_scenes import random_scene
-from ground_scenes import touching
 from mpmath import mp
-from oracle_foundation import solve as reference
+from oracle.foundation import solve as reference
+from scenes.foundation import random_scene
+from scenes.ground import touching
 
 SEEDS = 150
 TIE = 1e-9

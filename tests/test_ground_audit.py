@@ -1,12 +1,11 @@
 """States on the ground stand their own audit, and the residuals of their certificates are what it measured."""
 
-import curved_scenes
-import foundation_scenes
 import gapbeam
-import ground_scenes
 import pytest
+from scenes import curved, foundation
+from scenes import ground as ground_scenes
 
-MAKERS = {"lines": (foundation_scenes.random_scene, 250), "curves": (curved_scenes.random_curved_scene, 50)}
+MAKERS = {"lines": (foundation.random_scene, 250), "curves": (curved.random_curved_scene, 50)}
 
 
 @pytest.mark.parametrize("kind", MAKERS)

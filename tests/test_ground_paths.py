@@ -3,10 +3,10 @@
 import gapbeam
 import pytest
 import scenes
-from foundation_scenes import random_scene
-from ground_scenes import on_ground, over_peaks, rough_pipe
 from mpmath import mp, mpf
-from oracle_foundation import solve as reference
+from oracle.foundation import solve as reference
+from scenes.foundation import random_scene
+from scenes.ground import on_ground, over_peaks, rough_pipe
 
 ROUNDINGS = 4 * 2.0**-53
 LOOK = 4  # linear solves for a place of the grid

@@ -7,9 +7,9 @@ import scenes
 from gapbeam.plots import figure, ground_path, path_figure, plot
 from gapbeam.plots.ground import GroundLanes, draw_ground, surface
 from gapbeam.scene import read_scene
-from ground_scenes import footing, on_ground, rail, stopped, touching, two, yielding
 from matplotlib.figure import Figure
 from matplotlib.image import imread
+from scenes.ground import footing, on_ground, rail, stopped, touching, two, yielding
 
 WAVES = [[x, 0.02 + 0.02 * np.sin(x)] for x in np.linspace(0.0, 20.0, 21).tolist()]
 

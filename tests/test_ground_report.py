@@ -12,7 +12,7 @@ from gapbeam.cli import main
 from gapbeam.report import report_text, to_csv, to_json
 from gapbeam.results.data import event_data
 from gapbeam.results.paths.ground_path import GroundEvent
-from ground_scenes import footing, on_ground, patches, rail, stopped, touching, two, yielding
+from scenes.ground import footing, on_ground, patches, rail, stopped, touching, two, yielding
 
 
 @pytest.fixture(scope="module")

@@ -11,9 +11,9 @@ from gapbeam.plots import figure
 from gapbeam.report import report_text, to_csv, to_json
 from gapbeam.scene.reading import read_beam
 from mpmath import mp
-from oracle_foundation import solve as reference
+from oracle.foundation import solve as reference
 from scenes import nodes_of
-from tabled_scenes import in_parts, random_tabled_scene, tables_of
+from scenes.tabled import in_parts, random_tabled_scene, tables_of
 
 BEAM = {"spans": [6.0, 6.0], "EI": 1.0e4}
 LOADS = [{"type": "force", "x": 5.0, "F": 100.0}, {"type": "uniform", "q": 2.0, "case": "dead"}]

@@ -9,16 +9,16 @@ import gapbeam
 import numpy as np
 import pytest
 from clibrary import F77Beam
-from curved_scenes import random_curved_scene
-from foundation_scenes import random_scene as ground_scene
 from gapbeam.base.errors import EngineError, SceneError
 from gapbeam.results.paths.branches import BranchPath
 from gapbeam.results.state.kinks import EVENTS
 from gapbeam.studies.meshes import gapped_spans
-from ground_scenes import touching
-from law_scenes import FAMILIES, law_scene
 from scenes import nodes_of, random_scene
-from tabled_scenes import random_tabled_scene
+from scenes.curved import random_curved_scene
+from scenes.foundation import random_scene as ground_scene
+from scenes.ground import touching
+from scenes.law import FAMILIES, law_scene
+from scenes.tabled import random_tabled_scene
 
 FIELDS = ("deflection", "rotation", "moment", "shear", "axial_force", "axial_displacement")
 CONDITIONS = {"open": 0, "closed": 1, "bilateral": 2, "touching": 4} | {f"branch {k}": 10 + k for k in range(1, 10)}

@@ -1,4 +1,4 @@
-"""Supports with laws: closed forms, and thousands of random paths beside an independent one in fractions (`oracle_laws.py`)."""
+"""Supports with laws: closed forms, and thousands of random paths beside an independent one in fractions (`oracle/laws.py`)."""
 
 import itertools
 import json
@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from gapbeam import EngineError, SceneError
 from gapbeam.engine.paths import follow_history
-from law_scenes import law_scene, symmetric_scene
-from oracle_history import history
-from oracle_laws import follow
+from oracle.history import history
+from oracle.laws import follow
+from scenes.law import law_scene, symmetric_scene
 
 SNAP = [[1, 4], [2.5, 1], [3.5, 2]]
 """Problem P4: 4 w up to 1, then falling with 2 up to 2.5, then rising with 1."""

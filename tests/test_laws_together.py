@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from gapbeam import EngineError, SceneError
 from gapbeam.scene.laws import law_points
-from law_scenes import random_law
-from step_program import follow_steps
+from oracle.step_program import follow_steps
+from scenes.law import random_law
 
 RIGID = float("inf")
 LENGTH = 4.0

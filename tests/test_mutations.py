@@ -9,7 +9,7 @@ import pytest
 from gapbeam.cli import main
 from gapbeam.report import report_text, to_csv
 from gapbeam.results.cases.combined import WORST
-from mutations import mutated_scene, mutated_text
+from scenes.mutations import mutated_scene, mutated_text
 
 
 @pytest.mark.parametrize("block", range(10))

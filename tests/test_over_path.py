@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from gapbeam.report.json_csv import to_json
 from gapbeam.report.text import report_text
-from ground_scenes import rail, yielding
-from law_scenes import law_scene
-from oracle_history import history
+from oracle.history import history
 from scenes import at, force, random_scene, scene, uniform
+from scenes.ground import rail, yielding
+from scenes.law import law_scene
 
 FIELDS = ("deflection", "rotation", "moment", "shear")
 ARM = {

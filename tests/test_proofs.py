@@ -7,13 +7,12 @@ import subprocess
 import sys
 from pathlib import Path
 
-import foundation_scenes
 import gapbeam
 import pytest
 from gapbeam.cli import main
 from gapbeam.results.proof import proof_data
-from law_scenes import law_scene
-from scenes import at, force, random_scene, scene, uniform
+from scenes import at, force, foundation, random_scene, scene, uniform
+from scenes.law import law_scene
 
 TOP = Path(__file__).resolve().parent.parent
 PROVED, REFUTED, NOT_DECIDED = range(3)
@@ -271,7 +270,7 @@ def test_random_beams_on_the_ground_are_proved_and_refuted_with_an_end_moved(che
     counts, seed = {}, -1
     while sum(n for (kind, _), n in counts.items() if kind == "right") < 60:
         seed += 1
-        made = foundation_scenes.random_scene(seed)
+        made = foundation.random_scene(seed)
         if any("law" in ground for ground in made["foundation"]):
             continue
         data = proof_data(made)

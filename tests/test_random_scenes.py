@@ -1,4 +1,4 @@
-"""Random scenes against the exact solution of `oracle.py`: values, contact states, and whether it can stand.
+"""Random scenes against the exact solution of `oracle/equilibrium.py`: values, contact states, and whether it can stand.
 
 Agreement is asked to 1e-12 of the largest value of each kind. Where the answer itself moves by more than that
 when every number of the scene changes in its last digits, no method in double precision can do better; there
@@ -7,14 +7,15 @@ the bound is that movement.
 
 import copy
 import random
+from fractions import Fraction
 
 import gapbeam
 import numpy as np
 import oracle
-import oracle_axial
 import pytest
 from hypothesis import given, note
 from hypothesis import strategies as st
+from oracle import axial
 from scenes import nodes_of, one_sided, place, random_scene
 
 TOLERANCE = 1e-12
@@ -140,9 +141,9 @@ def proves_no_equilibrium(made, beam, motion, factor):
             k = int(np.clip(np.searchsorted(x, place(made, support)), 1, len(x) - 1))
             assert abs(w[k] - w[k - 1]) <= 1e-9 * size, "turns where rotation is held"
     slope = np.diff(w) / np.diff(x)
-    vector = [oracle.Fraction(w[0]), oracle.Fraction(slope[0])]
-    vector += [oracle.Fraction(_kink(x, slope, hinge)) for hinge in hinges]
-    weights = (oracle.Fraction(1), oracle.Fraction(1), oracle.Fraction(factor))
+    vector = [Fraction(w[0]), Fraction(slope[0])]
+    vector += [Fraction(_kink(x, slope, hinge)) for hinge in hinges]
+    weights = (Fraction(1), Fraction(1), Fraction(factor))
     return beam.work(vector, weights) > 0
 
 
@@ -235,7 +236,7 @@ def test_axial_system(seed):
     rows = [i for i, s in enumerate(made["supports"]) if s.get("direction") == "axial"]
     points = [(length * rng.random(), side) for side in ("left", "right", "left", "right")]
     for index, step in enumerate(result.steps):
-        bar = oracle_axial.Bar(made, step.factor)
+        bar = axial.Bar(made, step.factor)
         u, N = (
             np.array(column, dtype=float)
             for column in zip(*(bar.at(*point) for point in points), strict=True)

@@ -8,10 +8,10 @@ import gapbeam
 import numpy as np
 import pytest
 from clibrary import F77Beam
-from extreme_scenes import POWERS, extreme_scene, in_units
 from gapbeam.base.errors import EngineError, SceneError, Status
 from gapbeam.report import report_text
 from scenes import at, curvature, force, moment, nodes_of, random_scene, scene, stretch, uniform
+from scenes.extreme import POWERS, extreme_scene, in_units
 
 FIELDS = ("deflection", "rotation", "moment", "shear")
 NOT_FINITE = Status.NOT_FINITE

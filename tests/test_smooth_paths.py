@@ -10,7 +10,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 from gapbeam import SceneError
-from oracle_smooth import Problem
+from oracle.smooth import Problem
 from test_laws import SNAP, midspan
 
 C1 = {"type": "cubic", "k1": 9.0, "k2": -6.0, "k3": 1.0}

@@ -5,7 +5,7 @@ import json
 import gapbeam
 from gapbeam.report import to_json
 from scenes import at, scene, stretch, uniform
-from train_scenes import differences, passages_of
+from scenes.train import differences, passages_of
 
 
 def hill_of_an_opening():

@@ -6,11 +6,11 @@ from math import cos, exp, sin
 
 import gapbeam
 import numpy as np
-import oracle_foundation
 import pytest
 from gapbeam.cli import main
 from gapbeam.plots.train_envelope import train_envelope_figure
 from gapbeam.report import report_text, to_csv, to_json
+from oracle import foundation
 from test_trains import loads_of
 
 STIFFNESS, MODULUS, FORCE = 100.0, 6.4, 8.0
@@ -180,7 +180,7 @@ def test_beside_the_oracle():
     found = gapbeam.solve(made).envelope().extremes["moment"]["max"]
     train = made.pop("trains")[0]
     loads = [*made["loads"], *loads_of(train, found.position, "right", 12.0)]
-    answer = oracle_foundation.solve({**made, "loads": loads})
+    answer = foundation.solve({**made, "loads": loads})
     assert float(answer.solution.at(found.x, "left")[2]) == pytest.approx(found.value, rel=1e-12)
 
 
