@@ -5,9 +5,9 @@ import subprocess
 import sys
 
 import pytest
-from clibrary import Library
 from hypothesis import HealthCheck, settings
-from installation import LANGUAGES, install_once
+from languages.clibrary import Library
+from languages.installation import LANGUAGES, install_once
 
 CALM = [HealthCheck.too_slow, HealthCheck.data_too_large, HealthCheck.filter_too_much]
 settings.register_profile(

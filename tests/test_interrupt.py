@@ -16,7 +16,7 @@ from gapbeam import _yardsticks
 from gapbeam.cli import main
 from gapbeam.engine import calls
 from gapbeam.studies.meshes import gapped_spans
-from installation import TOP
+from languages.installation import TOP
 from scenes import random_scene
 
 pytestmark = pytest.mark.alone

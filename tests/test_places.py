@@ -7,11 +7,11 @@ from bisect import bisect_left
 import gapbeam
 import numpy as np
 import pytest
-from clibrary import F77Beam
 from gapbeam.base.errors import SceneError
 from gapbeam.scene import POSITION_TOLERANCE
 from gapbeam.scene.places import locate
 from gapbeam.scene.reading import read_beam, read_scene
+from languages.clibrary import F77Beam
 from scenes import at, curvature, force, linear, moment, scene, stretch, uniform
 
 

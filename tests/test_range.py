@@ -7,9 +7,9 @@ import random
 import gapbeam
 import numpy as np
 import pytest
-from clibrary import F77Beam
 from gapbeam.base.errors import EngineError, SceneError, Status
 from gapbeam.report import report_text
+from languages.clibrary import F77Beam
 from scenes import at, curvature, force, moment, nodes_of, random_scene, scene, stretch, uniform
 from scenes.extreme import POWERS, extreme_scene, in_units
 

@@ -6,11 +6,13 @@ import re
 import shutil
 import subprocess
 import sys
+from pathlib import Path
 
 import gapbeam
 import pytest
-from clibrary import Library
-from installation import LANGUAGES, TOP
+
+from .clibrary import Library
+from .installation import LANGUAGES, TOP
 
 PROGRAMS = ("paper_beam.c", "paper_beam.f90", "paper_beam.f")
 
@@ -83,7 +85,7 @@ def test_same_digits_in_every_language(installed, tmp_path, python_digits, name)
 @pytest.mark.parametrize("name", ["test_capi.c", "test_f77.f", "test_threads.c", "test_memory.c"])
 def test_interfaces_as_installed(installed, tmp_path, name):
     """The tests of the interfaces once more, with the shared library; failures within it print nothing."""
-    program = installed.compile(TOP / "tests" / name, tmp_path / "program", "-pthread", "-lm")
+    program = installed.compile(Path(__file__).with_name(name), tmp_path / "program", "-pthread", "-lm")
     done = installed.run(program)
     assert all(line.startswith(("ok ", "1..")) for line in done.stdout.splitlines())
     assert not done.stderr
@@ -211,6 +213,6 @@ def test_valgrind_finds_nothing_in_the_extension(tmp_path, python_digits):
 
 @pytest.mark.skipif(shutil.which("valgrind") is None, reason="no valgrind on this machine")
 def test_helgrind_finds_nothing(installed, tmp_path):
-    program = installed.compile(TOP / "tests" / "test_threads.c", tmp_path / "test_threads", "-g", "-pthread")
+    program = installed.compile(Path(__file__).with_name("test_threads.c"), tmp_path / "test_threads", "-g", "-pthread")
     done = installed.run("valgrind", "--tool=helgrind", "--quiet", "--error-exitcode=9", program, "1")
     assert "not ok" not in done.stdout

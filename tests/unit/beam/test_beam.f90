@@ -25,7 +25,7 @@ program test_beam
 
 contains
 
-    !> There is memory for a small beam; that there may be none for a large one, tests/test_memory.c shows
+    !> There is memory for a small beam; that there may be none for a large one, tests/languages/test_memory.c shows
     subroutine memory_for_little()
         type(error_type), allocatable :: error
 

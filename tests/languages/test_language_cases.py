@@ -6,9 +6,10 @@ import random
 import gapbeam
 import numpy as np
 import pytest
-from clibrary import RULES, F77Beam, Options, pointer
 from gapbeam.base.errors import GapbeamError
 from scenes import random_scene
+
+from .clibrary import RULES, F77Beam, Options, pointer
 
 
 def solve_in_c(beam, factors, given, rule):

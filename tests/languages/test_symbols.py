@@ -9,7 +9,8 @@ import sysconfig
 
 import pytest
 from gapbeam import _engine, _yardsticks
-from installation import LANGUAGES, TOP
+
+from .installation import LANGUAGES, TOP
 
 # Python would not make the extension's symbols global; here they are to meet the library's.
 IN_ONE_PROCESS = f"""
@@ -22,7 +23,7 @@ if sys.argv[1] == "first":
 import gapbeam, gapbeam._yardsticks
 ctypes.CDLL(library, ctypes.RTLD_GLOBAL)
 runpy.run_path({str(LANGUAGES / "paper_beam.py")!r}, run_name="__main__")
-from clibrary import F77Beam, Library
+from languages.clibrary import F77Beam, Library
 scene = {{"beam": {{"spans": [6.0, 6.0], "EI": 1e4}}, "supports": [{{"node": i, "side": "below"}} for i in range(3)],
           "loads": [{{"type": "uniform", "q": 5.0, "to": 6.0}}], "analysis": {{}}}}
 beams = [Library(library).prepare(scene)[0], F77Beam(Library(library), scene)]
@@ -67,6 +68,6 @@ def test_program_that_links_one_and_embeds_the_other(installed, tmp_path, python
         pytest.skip(f"pkg-config does not know {embedding} on this machine")
     flags = installed.run("pkg-config", "--cflags", "--libs", "gapbeam", embedding, env=environment).stdout.split()
     program = tmp_path / "embedding"
-    installed.run("cc", "-std=c11", f"-I{LANGUAGES}", TOP / "tests" / "embedding.c", "-o", program, *flags)
+    installed.run("cc", "-std=c11", f"-I{LANGUAGES}", TOP / "tests" / "languages" / "embedding.c", "-o", program, *flags)
     done = installed.run(program, LANGUAGES / "paper_beam.py", env=environment)
     assert done.stdout == 3 * python_digits

@@ -1,5 +1,5 @@
 /* Many cases through the C interface: what is refused, and cases beside beams of their own. Reports in the Test Anything Protocol;
- * tests/test_language_cases.py holds the digits against Python. */
+ * tests/languages/test_language_cases.py holds the digits against Python. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

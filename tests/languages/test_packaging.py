@@ -10,7 +10,8 @@ from importlib.util import find_spec
 
 import gapbeam
 import pytest
-from installation import LANGUAGES, TOP, install_once
+
+from .installation import LANGUAGES, TOP, install_once
 
 
 @pytest.fixture(scope="session")

@@ -1,6 +1,6 @@
 """The interfaces say the same: C and Fortran 77, called by ctypes in the installed library, against Python, to the last digit.
 
-The Fortran interface is what the other two marshal to; its own tests are tests/test_api.f90 and the example.
+The Fortran interface is what the other two marshal to; its own tests are test_api*.f90 and the example.
 """
 
 import random
@@ -8,7 +8,6 @@ import random
 import gapbeam
 import numpy as np
 import pytest
-from clibrary import F77Beam
 from gapbeam.base.errors import EngineError, SceneError
 from gapbeam.results.paths.branches import BranchPath
 from gapbeam.results.state.kinks import EVENTS
@@ -19,6 +18,8 @@ from scenes.foundation import random_scene as ground_scene
 from scenes.ground import touching
 from scenes.law import FAMILIES, law_scene
 from scenes.tabled import random_tabled_scene
+
+from .clibrary import F77Beam
 
 FIELDS = ("deflection", "rotation", "moment", "shear", "axial_force", "axial_displacement")
 CONDITIONS = {"open": 0, "closed": 1, "bilateral": 2, "touching": 4} | {f"branch {k}": 10 + k for k in range(1, 10)}
