@@ -40,12 +40,12 @@ def test_changes_are_killed_and_the_tree_is_left_alone(tmp_path):
     changes = {old: next(one for one in read_changes() if old in one.old) for old in TRIED}
     before = {change.file: (TOP / change.file).read_bytes() for change in changes.values()}
     shop = Workshop(tmp_path, compiled=False)
-    first, second = (replace(change, tests=tests) for change, tests in zip(
-        changes.values(), (("test_scheme_of.py",), ("test_laws.py::test_what_goes_out_as_data",)), strict=True))  # fmt: skip
+    tests = ("python/results/cases/test_scheme_of.py",), ("python/results/paths/test_laws.py::test_what_goes_out_as_data",)
+    first, second = (replace(change, tests=those) for change, those in zip(changes.values(), tests, strict=True))
     outcome, what = shop.tried(first)
     assert outcome == "killed"
     assert what in shop.sound
-    assert what.startswith("test_scheme_of.py::")
+    assert what.startswith("python/results/cases/test_scheme_of.py::")
     assert shop.tried(replace(second, new=second.old + "  # the same")) == ("survived", "")
     assert shop.tried(replace(second, tests=("nothing.py",)))[0] == "broken"
     assert before == {name: (TOP / name).read_bytes() for name in before}

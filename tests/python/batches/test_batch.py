@@ -10,6 +10,7 @@ import sys
 import time
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
+from pathlib import Path
 
 import gapbeam
 import numpy as np
@@ -411,8 +412,8 @@ def test_it_goes_on_after_kills(tmp_path):
     """SIGKILL as soon as some files are there, and at a random moment."""
     program = f"""if True:
         import sys
-        sys.path.insert(0, {os.path.dirname(__file__)!r})
-        from test_batch import SCENE, gapbeam, table, time
+        sys.path.insert(0, {str(Path(__file__).parents[2])!r})
+        from python.batches.test_batch import SCENE, gapbeam, table, time
         gapbeam.batch(SCENE, table(6000), "out", jobs=2, chunk=500, progress=lambda *_: time.sleep(0.1))
     """
     for _ in range(2):

@@ -6,7 +6,8 @@ import gapbeam
 import oracle
 import pytest
 from scenes import at, force, place, scene
-from test_combinations import by_hand
+
+from .test_combinations import by_hand
 
 
 def held_in_scheme(written, states):

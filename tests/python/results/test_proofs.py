@@ -14,7 +14,7 @@ from gapbeam.results.proof import proof_data
 from scenes import at, force, foundation, random_scene, scene, uniform
 from scenes.law import law_scene
 
-TOP = Path(__file__).resolve().parent.parent
+TOP = Path(__file__).resolve().parents[3]
 PROVED, REFUTED, NOT_DECIDED = range(3)
 KNOWN = ["crane_runway", "lift_off_events", "paper_beam", "paper_beam_printed_load", "pipe_rack", "pipe_rack_states",
          "shaft_clearance", "shaft_jack_up", "snap_through", "three_spans",

@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 from gapbeam import SceneError
 from oracle.smooth import Problem
-from test_laws import SNAP, midspan
+
+from .test_laws import SNAP, midspan
 
 C1 = {"type": "cubic", "k1": 9.0, "k2": -6.0, "k3": 1.0}
 """Reference problem C1: on a beam of stiffness 1 the load is w + 9 w - 6 w**2 + w**3."""

@@ -11,7 +11,8 @@ from gapbeam.cli import main
 from gapbeam.plots.train_envelope import train_envelope_figure
 from gapbeam.report import report_text, to_csv, to_json
 from oracle import foundation
-from test_trains import loads_of
+
+from .test_trains import loads_of
 
 STIFFNESS, MODULUS, FORCE = 100.0, 6.4, 8.0
 BETA = (MODULUS / (4 * STIFFNESS)) ** 0.25

@@ -14,7 +14,8 @@ from gapbeam.report.json_csv import json_parts
 from gapbeam.results.cases.combined import WORST
 from scenes import at, force, random_scene, scene, uniform
 from scenes.law import law_scene
-from test_prepared import scaled
+
+from .test_prepared import scaled
 
 CASES = ("dead", "live", "wind")
 

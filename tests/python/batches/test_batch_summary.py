@@ -12,7 +12,8 @@ from gapbeam.cli import main
 from gapbeam.report.batch import print_summary
 from rich.console import Console
 from scipy.special import ndtri
-from test_batch import SCENE, digests
+
+from .test_batch import SCENE, digests
 
 GAPS = {"supports.R-101.gap": sample.normal(0.0, 0.01), 'supports."R 102".gap': sample.uniform(0.0, 0.02),
         "factors.wind": sample.lognormal(1.0, 0.3)}  # fmt: skip

@@ -9,16 +9,18 @@ import sys
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import ExitStack, contextmanager
 from multiprocessing import get_context
+from pathlib import Path
 
 import gapbeam
 import pytest
-from test_batch import SCENE, digests, table, undisturbed
+
+from .test_batch import SCENE, digests, table, undisturbed
 
 MPI = """
 import os, signal, sys, time
 sys.path.insert(0, {tests!r})
 from mpi4py.futures import MPIPoolExecutor
-from test_batch import SCENE, gapbeam, table
+from python.batches.test_batch import SCENE, gapbeam, table
 
 if __name__ == "__main__":
     with MPIPoolExecutor() as pool:
@@ -111,7 +113,7 @@ def test_mpi_goes_on_after_a_lost_worker(tmp_path, whole):
     pytest.importorskip("mpi4py")
     if shutil.which("mpirun") is None:
         pytest.skip("there is no mpirun")
-    (tmp_path / "program.py").write_text(MPI.format(tests=os.path.dirname(__file__)))
+    (tmp_path / "program.py").write_text(MPI.format(tests=str(Path(__file__).parents[2])))
     as_root = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1"}
 
     def run(what):

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from gapbeam.results.state.smooth import SmoothLaws
 from gapbeam.scene.reading import read_beam
-from test_laws import midspan
+
+from .test_laws import midspan
 
 CURVES = {
     "cubic": ({"type": "cubic", "k1": 100.0, "k3": 1e5}, lambda d: 100 * d + 100000 * d**3),
