@@ -25,8 +25,8 @@ FREE = "moves freely"
 pytest.importorskip("flint", reason="the checkers need python-flint")
 import proof_checker  # noqa: E402
 import proof_checker_ground  # noqa: E402
-import proof_times  # noqa: E402
 from attack import proofs  # noqa: E402
+from studies import proof_times  # noqa: E402
 
 
 @pytest.fixture

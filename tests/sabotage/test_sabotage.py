@@ -4,6 +4,7 @@ import re
 from dataclasses import replace
 
 import pytest
+
 from sabotage import command
 from sabotage.change import TOP, Change, read_changes
 from sabotage.workshop import Workshop

@@ -1,4 +1,7 @@
-"""How many bits and seconds a proof takes, over the number of spans: python tests/proof_times.py --markdown docs/proof.md."""
+"""How many bits and seconds a proof takes, over the number of spans.
+
+    python tests/studies/proof_times.py --markdown docs/proof.md
+"""
 
 import argparse
 import random
@@ -7,8 +10,10 @@ import sys
 import time
 from pathlib import Path
 
-import proof_checker
 from gapbeam.results.proof import proof_data
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "oracle" / "checkers"))
+import proof_checker
 
 BEGIN = "| spans |"
 
@@ -37,7 +42,7 @@ def measure(spans):
 
 def main(arguments=None):
     """Print the table, and put it into the page."""
-    parser = argparse.ArgumentParser("python tests/proof_times.py", description=__doc__)
+    parser = argparse.ArgumentParser("python tests/studies/proof_times.py", description=__doc__)
     parser.add_argument("--largest", type=int, default=10_000, metavar="N", help="most spans (default 10000, which take a minute)")
     parser.add_argument("--markdown", type=Path, metavar="FILE", help="the page whose table is made anew")
     chosen = parser.parse_args(arguments)

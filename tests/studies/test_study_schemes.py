@@ -3,6 +3,7 @@
 import pytest
 from gapbeam import solve
 from gapbeam.studies.meshes import gapped_spans
+
 from studies.fronts import random_front, scaled
 from studies.schemes import PAGE, lifted_end, schemes, sprung_base, table
 

@@ -8,6 +8,7 @@ import gapbeam
 import numpy as np
 import pytest
 from gapbeam.plots.save import picture
+
 from studies import train_positions as positions
 from studies import train_programs as programs
 from studies import trains as study

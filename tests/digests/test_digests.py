@@ -3,6 +3,7 @@
 import json
 
 import numpy as np
+
 from digests import command
 from digests.collect import digest, is_for_all
 from digests.drawn import FAMILIES, write_scenes

@@ -7,7 +7,7 @@ from pathlib import Path
 import gapbeam
 import pytest
 
-TOP = Path(__file__).resolve().parents[1]
+TOP = Path(__file__).resolve().parents[2]
 FORTRAN = ("base", "beam", "chain", "contact", "verification", "path", "lanes", "scene", "result", "face")
 SUFFIX = re.compile(r"_(quad|own|(own_)?v\d)$")
 """Of modules that are made of the same sources."""
@@ -65,9 +65,8 @@ def test_python_folders_use_only_those_above():
     assert wrong == []
 
 
-def modules_of(path):
-    """Files of the package that a file imports at run time, at its top or inside a function."""
-    package = TOP / "python" / "gapbeam"
+def modules_of(path, package=TOP / "python" / "gapbeam"):
+    """Files of the package that a file imports by a relative name at run time, at its top or inside a function."""
     tree = ast.parse(path.read_text())
     for_types = {id(node) for one in ast.walk(tree) if isinstance(one, ast.If) and ast.unparse(one.test) == "TYPE_CHECKING"
                  for node in ast.walk(one)}  # fmt: skip
@@ -126,16 +125,51 @@ def test_the_map_names_every_file():
                 assert re.search(rf"\b{path.stem}\b", house), path
     studies = house.partition("`tests/studies`, run")[2].partition("\n\n")[0]
     for path in (TOP / "tests" / "studies").glob("*.py"):
-        assert path.stem.startswith("__") or f"`{path.stem}`" in studies, path
+        assert path.stem.startswith(("__", "test_")) or f"`{path.stem}`" in studies, path
+
+
+def modules_named(path):
+    """Modules that a file imports by their whole names, at its top or inside a function."""
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.Import):
+            yield from (name.name for name in node.names)
+        elif isinstance(node, ast.ImportFrom) and not node.level:
+            yield from (node.module, *(f"{node.module}.{name.name}" for name in node.names))
 
 
 def test_the_package_needs_nothing_of_the_tests():
     tests = {path.stem for path in (TOP / "tests").iterdir() if path.suffix == ".py" or (path / "__init__.py").exists()}
     for path in (TOP / "python").rglob("*.py"):
-        for node in ast.walk(ast.parse(path.read_text())):
-            names = [name.name for name in node.names] if isinstance(node, ast.Import) else []
-            names += [node.module] if isinstance(node, ast.ImportFrom) and not node.level else []
-            assert not {name.split(".")[0] for name in names} & {*tests, "tests"}, path
+        assert not {name.split(".")[0] for name in modules_named(path)} & {*tests, "tests"}, path
+
+
+def test_all_tests_are_in_rooms():
+    here = {path.name for path in (TOP / "tests").iterdir() if path.is_file()}
+    assert here == {"conftest.py", "lowest", "meson.build", "run", "sanitized.ini", "wheel"}
+    house = (TOP / "docs" / "house.md").read_text().partition("Tests are in rooms")[2]
+    for path in (TOP / "tests").iterdir():
+        assert path.is_file() or path.name == "__pycache__" or f"`{path.name}`" in house, path
+    package = {path.relative_to(TOP / "python" / "gapbeam") for path in (TOP / "python" / "gapbeam").rglob("*") if path.is_dir()}
+    for path in (TOP / "tests" / "python").rglob("test_*.py"):
+        assert path.parent.relative_to(TOP / "tests" / "python") in {*package, Path()}, path
+    for path in (TOP / "tests" / "unit").rglob("test_*.f90"):
+        assert path.parent.name in FORTRAN, path
+
+
+def test_the_oracle_imports_nothing_of_gapbeam():
+    """Nor do the scenes that it reads, nor anything else that comes with it."""
+    tests, seen = TOP / "tests", set()
+    left = set((tests / "oracle").rglob("*.py"))
+    while left:
+        path = left.pop()
+        seen.add(path)
+        for name in modules_named(path):
+            assert name.partition(".")[0] not in ("gapbeam", "python", "attack", "studies", "digests", "languages"), path
+            used = tests.joinpath(*name.split("."))
+            left |= {found for found in (used.with_suffix(".py"), used / "__init__.py") if found.exists()} - seen
+        relative = {found for found, _ in modules_of(path, tests)}
+        left |= relative - seen
+    assert {path.parent.name for path in seen} == {"oracle", "checkers", "scenes"}
 
 
 def test_dir_shows_what_users_use():

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from gapbeam.report.scheme import merged
 
-EXAMPLES = Path(__file__).resolve().parent.parent / "examples"
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 SCENES = sorted(EXAMPLES.glob("*.toml"))
 
 

@@ -10,7 +10,7 @@ import pytest
 from gapbeam.cli import main
 from gapbeam.plots import plot
 
-TOP = Path(__file__).resolve().parent.parent
+TOP = Path(__file__).resolve().parents[2]
 README = (TOP / "README.md").read_text(encoding="utf-8")
 SCENE = TOP / "examples" / "three_spans.toml"
 

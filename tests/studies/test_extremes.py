@@ -10,12 +10,13 @@ import oracle
 import pytest
 from gapbeam.studies import exact
 from scenes import INF, at, force, random_scene, scene, uniform
+
 from studies import corners as study
 from studies.command import main
 from studies.extremes import cases, in_units
 
 TOLERANCE = 1e-12
-DOCS = Path(__file__).parent.parent / "docs" / "extremes.md"
+DOCS = Path(__file__).parents[2] / "docs" / "extremes.md"
 CASES = list(cases(10**4))
 
 

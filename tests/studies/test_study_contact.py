@@ -10,6 +10,7 @@ import pytest
 from gapbeam.studies.meshes import gapped_spans, one_span
 from gapbeam.studies.methods import kernel, yardstick
 from gapbeam.studies.truth import error, solve_exactly, solve_one_span
+
 from studies import contact as study_contact
 from studies import kernel as study_kernel
 from studies.active_set import active_set

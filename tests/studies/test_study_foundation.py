@@ -8,6 +8,7 @@ from decimal import Decimal
 import numpy as np
 import pytest
 from gapbeam.plots.save import picture
+
 from studies import foundation as study
 from studies import springs
 from studies.command import main

@@ -14,16 +14,17 @@ from types import SimpleNamespace
 import gapbeam
 import numpy as np
 import pytest
-from attack import command, compare, doubled, draw, events, hinges, memory, models, mutants
-from attack.exact import Exact, NoSolution, Redundant, falls_surely, moves_freely, stands
-from attack.family import Family, Verdict
-from attack.workers import Ended, judge_all
 from oracle.forms import Reading
 from scenes import at, force, scene, uniform
 from scenes.degenerate import draw as draw_degenerate
 from scipy.optimize import linprog
 
-TOP = Path(__file__).resolve().parents[1]
+from attack import command, compare, doubled, draw, events, hinges, memory, models, mutants
+from attack.exact import Exact, NoSolution, Redundant, falls_surely, moves_freely, stands
+from attack.family import Family, Verdict
+from attack.workers import Ended, judge_all
+
+TOP = Path(__file__).resolve().parents[2]
 SMALL = {
     "events": 60, "signs": 150, "hinges": 60, "mutants": 60, "memory": 25,
     "laws": 60, "doubled": 60, "ground": 60, "trains": 12, "combinations": 25, "batches": 40,

@@ -10,7 +10,7 @@ import pytest
 from gapbeam.cli import main
 from gapbeam.plots import plot, plot_path
 
-TOP = Path(__file__).resolve().parent.parent
+TOP = Path(__file__).resolve().parents[2]
 PAGES = ["laws", "examples", "foundation", "cases", "trains", "batch"]
 PATHS = ["snap_through", "rubber_stops", "pile_head", "shaft_jack_up"]
 BEAMS = ["rail_lift_off", "strip_footing", "slab_on_mound", "seabed_pipe", "laterally_loaded_pile", "pipe_rack_states",

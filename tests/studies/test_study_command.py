@@ -11,7 +11,7 @@ import pytest
 from gapbeam.cli import main
 from gapbeam.cli.studies import MOVED
 
-TOP = Path(__file__).resolve().parents[1]
+TOP = Path(__file__).resolve().parents[2]
 STUDIES = TOP / "tests" / "studies"
 PAGES = {"batch": "batch", "contact": "contact", "corners": "extremes", "foundation": "foundation", "kernel": "kernel",
          "schemes": "schemes", "trains": "trains"}  # fmt: skip

@@ -1,6 +1,6 @@
 """Kill batches at random moments, start them again, and compare the files with those of undisturbed runs.
 
-Usage: python tests/kill_batch.py [KILLS [SEED]]     (default 50 kills; takes some minutes)
+Usage: python tests/attack/kill_batch.py [KILLS [SEED]]     (default 50 kills; takes some minutes)
 
 Half of the kills go to prepared beams in threads, half to single scenes in processes; every one comes after a new file is there.
 """
@@ -16,7 +16,7 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
-SCENE = Path(__file__).resolve().parent.parent / "examples" / "pipe_rack.toml"
+SCENE = Path(__file__).resolve().parents[2] / "examples" / "pipe_rack.toml"
 TABLES = (("supports[1].gap", 0.0, 0.01, 20_000, 500), ("beam.EI", 5011.0, 300.0, 2_500, 50))
 """A column with mean and deviation, cases, cases a file: on a prepared beam, and one by one."""
 

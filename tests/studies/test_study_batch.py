@@ -5,6 +5,7 @@ import io
 
 import numpy as np
 import pytest
+
 from studies import batch as study
 from studies import batch_limits
 from studies import batch_programs as programs

@@ -5,9 +5,10 @@ from fractions import Fraction
 import gapbeam
 import oracle
 import pytest
+from scenes import degenerate, one_sided
+
 from attack import enumeration
 from attack.command import main
-from scenes import degenerate, one_sided
 
 # Seeds of runs over 100,000 on which the program once did not agree
 ONCE_WRONG = (
