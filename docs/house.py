@@ -1,6 +1,6 @@
 """Write the lists of files in docs/house.md, or print what the files of a room do, from the heads of modules.
 
-``python docs/house.py`` rewrites the lists; ``python docs/house.py fortran/contact`` prints the first sentence of every file of a room.
+``python docs/house.py`` rewrites the lists; ``python docs/house.py fortran/contact`` prints what every file of a room does.
 """
 
 import ast
