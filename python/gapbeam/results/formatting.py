@@ -15,6 +15,8 @@ from ..scene.structs import Scene
 
 MOST_CASES = 8
 """Load cases that are named in one line."""
+DIGITS = 5
+"""Of a number in a report."""
 
 
 def support(scene: Scene, k: int) -> str:
@@ -205,6 +207,8 @@ UNITS = {one.name: one.unit for one in QUANTITIES} | {
     "uniform": "{force}/{length}", "k": "{force}/{length}^2",
 }
 """Of quantities along the beam, at supports and in scenes."""
+SMALL = ("deflection", "opening", "sag", "gap", "set")
+"""Displacements, which are small beside lengths."""
 
 
 def unit(scene: Scene, quantity: str) -> str:
@@ -257,6 +261,76 @@ def stacked(scene: Scene, quantity: str, name: str | None = None) -> str:
     """Word a heading with the unit on a second line, which keeps columns narrow."""
     label = unit(scene, quantity)
     return (name or quantity) + (f"\n{label}" if label else "")
+
+
+def shown_unit(scene: Scene, quantity: str) -> tuple[str, float]:
+    """Give the unit that a report shows, and how many of it are one of the scene: displacements in mm where lengths are in m.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene with its unit labels.
+    quantity : str
+        As for `unit`.
+
+    Returns
+    -------
+    unit : str
+        Empty where the scene has no label.
+    factor : float
+        1000 for mm, else 1.
+    """
+    label = unit(scene, quantity)
+    return ("mm", 1e3) if label == "m" and quantity in SMALL else (label, 1.0)
+
+
+def shown(scene: Scene, quantity: str, value: float) -> str:
+    """Write a value as a report shows it, without its unit.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene with its unit labels.
+    quantity : str
+        As for `unit`.
+    value : float
+        In the unit of the scene.
+
+    Returns
+    -------
+    str
+        At most 5 digits.
+    """
+    return number(shown_unit(scene, quantity)[1] * value, DIGITS)
+
+
+def shown_heading(scene: Scene, quantity: str) -> str:
+    """Word a heading such as ``deflection [mm]`` for values by `shown`."""
+    label, _ = shown_unit(scene, quantity)
+    return quantity.replace("_", " ") + (f" [{label}]" if label else "")
+
+
+def shown_column(scene: Scene, quantity: str, values: Iterable[float], digits: int = DIGITS) -> tuple[str, list[str]]:
+    """Word a column of a report: its heading with the unit on a second line, and its numbers.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene with its unit labels.
+    quantity : str
+        As for `unit`.
+    values : iterable of float
+        In the unit of the scene.
+    digits : int
+        As for `column`.
+
+    Returns
+    -------
+    heading : str
+    texts : list of str
+    """
+    label, factor = shown_unit(scene, quantity)
+    return quantity + (f"\n{label}" if label else ""), column([factor * value for value in values], digits)
 
 
 def beam_in_words(scene: Scene) -> str:

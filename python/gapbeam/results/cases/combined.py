@@ -171,7 +171,8 @@ class CombinedResult(Result):
             f"{label(self.scene.supports, i)} (taken as {before.state[i]})" for i in before.undecided
         )
         return (
-            f"the combination {shown(self.names[k])} takes the scheme of {shown(self.names[other])}, in which reaction or opening "
+            f"the combination {shown(self.names[k])} takes the contact state of {shown(self.names[other])}, "
+            f"in which reaction or opening "
             f"of support {which} is zero, so that it may be closed or open"
         )
 
