@@ -453,6 +453,16 @@ class Beam:
         return {one.name: k for k, one in enumerate(QUANTITIES) if there[one.of]}
 
     @property
+    def is_linear_between_events(self) -> bool:
+        """Whether values are linear in the loads from one event to the next: no zones of contact, and no law that is a curve."""
+        return not (self.ground_layers or self.curves)
+
+    @property
+    def beyond_one_search(self) -> str | None:
+        """What states take beyond one search for the supports that act: the ``path`` of the load, or a ``curve``; None: nothing."""
+        return "path" if self.depends_on_path else "curve" if self.curves else None
+
+    @property
     def has_one_sided_ground(self) -> bool:
         """Whether some foundation acts one way only, or by a law."""
         return bool(self.columns.foundation_sides[:-1].any()) or len(self.columns.ground_law_foundations) > 1
