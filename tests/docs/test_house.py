@@ -81,6 +81,11 @@ def modules_of(path, package=TOP / "python" / "gapbeam"):
                 yield found, node in tree.body
 
 
+def test_no_installed_file_of_python_is_long():
+    long = [path.name for path in (TOP / "python" / "gapbeam").rglob("*.py") if path.read_text().count("\n") > 400]
+    assert long == []
+
+
 def test_python_files_import_each_other_in_no_circle():
     uses = {path: {used for used, _ in modules_of(path)} for path in (TOP / "python" / "gapbeam").rglob("*.py")}
     left = set(uses)

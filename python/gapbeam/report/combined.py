@@ -177,9 +177,8 @@ def _foundations(say: Writer, result: "CombinedResult") -> None:
 
 def _factors_between(say: Writer, result: "CombinedResult") -> None:
     """Say where a factor between governs."""
-    beam = result.beam
     say.heading("Factors between")
-    if beam.ground_layers or beam.curves or beam.depends_on_path or result.scene.analysis.history != [1.0]:
+    if not result.is_linear_between_events:
         say.line("Not looked for: on foundations, with smooth laws and where the state depends on the way of the load, values are "
                  "not linear between events.")  # fmt: skip
         return
