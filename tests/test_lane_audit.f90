@@ -12,7 +12,8 @@ program test_lane_audit
     use gapbeam_lane_levels, only: least_level, best_level, take_columns_at, take_numbers_at, search_pack_at, finish_pack_at, &
         audit_pack_at
     use gapbeam_lane_spans, only: span_room_type, prepare_spans, take_spans, make_pack_links
-    use gapbeam_lane_cases, only: fits_lanes, prepare_lanes, take_supports, take_starts, units_of_supports
+    use gapbeam_lane_cases, only: fits_lanes
+    use gapbeam_lane_model, only: prepare_lanes, take_supports, take_starts, units_of_supports
     implicit none
 
     integer, parameter :: beams = 400

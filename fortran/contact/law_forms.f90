@@ -1,7 +1,8 @@
 !> Supports as other methods want them: as pairs, as stiffnesses, one for a node, or changed
 module gapbeam_law_forms
     use gapbeam_kinds, only: wp
-    use gapbeam_law, only: node_support_type, both, is_rigid, may_change
+    use gapbeam_law, only: node_support_type, both, is_rigid
+    use gapbeam_law_margins, only: may_change
     implicit none
     private
     public :: least_stiffness, stiffness_of_changing, find_pairs, find_single

@@ -1,7 +1,7 @@
 !> Which supports are wrong in a scheme, which of them a rule changes, and whether a scheme has come back
 module gapbeam_rules
     use gapbeam_kinds, only: wp
-    use gapbeam_law, only: find_margins, find_wrong_states, find_doubtful_states
+    use gapbeam_law_margins, only: find_margins, find_wrong_states, find_doubtful_states
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type
     implicit none

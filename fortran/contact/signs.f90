@@ -5,7 +5,8 @@
 module gapbeam_signs
     use gapbeam_kinds, only: wp
     use gapbeam_require, only: checked, require
-    use gapbeam_law, only: has_laws, is_rigid, may_change
+    use gapbeam_law, only: has_laws, is_rigid
+    use gapbeam_law_margins, only: may_change
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type
     implicit none

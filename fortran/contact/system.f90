@@ -2,8 +2,8 @@
 module gapbeam_system
     use gapbeam_kinds, only: wp
     use gapbeam_watch, only: is_stopped
-    use gapbeam_band, only: node_type, rhs_type, factor_chain, solve_chain, band_ok, band_mechanism, band_needs_pivoting, &
-        band_stopped
+    use gapbeam_band, only: node_type, rhs_type, factor_chain, band_ok, band_mechanism, band_needs_pivoting, band_stopped
+    use gapbeam_band_substitution, only: solve_chain
     use gapbeam_foundation_chain, only: factor_foundation_chain, solve_foundation_chain
     use gapbeam_foundation_residual, only: residual_on_ground
     use gapbeam_residual, only: residual_chain

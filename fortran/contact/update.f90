@@ -6,7 +6,8 @@
 module gapbeam_update
     use gapbeam_kinds, only: wp
     use gapbeam_require, only: checked, require
-    use gapbeam_band, only: answer_type, factor_chain, correct_chain, band_ok
+    use gapbeam_band, only: answer_type, factor_chain, band_ok
+    use gapbeam_band_substitution, only: correct_chain
     use gapbeam_residual, only: residual_chain
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, apply_scheme, method_mixed, method_pivoting

@@ -9,7 +9,7 @@ module gapbeam_zone_margin
     use gapbeam_foundation, only: stretch_load_type, stretch_ends_type
     use gapbeam_foundation_fields, only: fields_at
     use gapbeam_curved, only: curved_type, curved_fields
-    use gapbeam_law, only: margin_in_scheme
+    use gapbeam_law_margins, only: margin_in_scheme
     use gapbeam_ground_laws, only: approach_kink
     use gapbeam_workspace, only: workspace_type
     use gapbeam_ground, only: ground_type, zones_type, grounded_type, combined_load

@@ -16,7 +16,8 @@ module gapbeam_api
     use gapbeam_check, only: check_loads
     use gapbeam_words, only: shown
     use gapbeam_certificate, only: found_type => certificate_type
-    use gapbeam_state, only: event_type, solve_state, certify_state, follow_events
+    use gapbeam_state, only: solve_state, certify_state
+    use gapbeam_events, only: event_type, follow_events
     use gapbeam_support_values, only: support_values, find_undecided
     use gapbeam_query, only: fields_at_places, extremes_of_fields, motion_of_nodes, field_count
     use gapbeam_api_objects, only: prepared_type, options_type, result_type, certificate_type, require_beam, require_no_ground, &

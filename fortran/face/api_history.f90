@@ -8,7 +8,8 @@ module gapbeam_api_history
     use gapbeam_referee, only: rule_given
     use gapbeam_words, only: shown, whole
     use gapbeam_lowered, only: lowered_type
-    use gapbeam_state, only: event_type, solve_state, name_range
+    use gapbeam_state, only: solve_state, name_range
+    use gapbeam_events, only: event_type
     use gapbeam_history, only: path_type => history_type, found_type => stretch_type, follow_path_through => follow_history, &
         gapbeam_limit_stop => at_limit_stop, gapbeam_limit_jump => at_limit_jump, gapbeam_limit_follow => at_limit_follow, &
         gapbeam_limit_point => limit_point, gapbeam_bifurcation => bifurcation, gapbeam_mechanism => mechanism, &

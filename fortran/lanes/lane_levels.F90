@@ -7,7 +7,8 @@ module gapbeam_lane_levels
     use gapbeam_lane_types, only: lanes, lane_beam_type, lane_pieces_type, lane_rounding_type, pack_type, piece_pack_type, &
         lane_spans_type
     use gapbeam_lane_columns, only: take_columns, take_numbers, give_pack
-    use gapbeam_lane_search, only: search_pack, finish_pack
+    use gapbeam_lane_search, only: search_pack
+    use gapbeam_lane_finish, only: finish_pack
     use gapbeam_lane_audit, only: audit_pack
     use gapbeam_lane_extremes, only: extremes_of_pack
     use gapbeam_lane_values, only: fields_of_pack
@@ -15,7 +16,8 @@ module gapbeam_lane_levels
     use gapbeam_segment_types, only: segment_beam_type, segment_room_type
     use gapbeam_segment_finish, only: solve_long_beam, audit_long_beam
     use gapbeam_lane_links, only: make_links
-    use gapbeam_lane_search_own, only: search_pack_own => search_pack, finish_pack_own => finish_pack
+    use gapbeam_lane_search_own, only: search_pack_own => search_pack
+    use gapbeam_lane_finish_own, only: finish_pack_own => finish_pack
     use gapbeam_lane_audit_own, only: audit_pack_own => audit_pack
     use gapbeam_lane_extremes_own, only: extremes_of_pack_own => extremes_of_pack
     use gapbeam_lane_values_own, only: fields_of_pack_own => fields_of_pack
@@ -24,8 +26,10 @@ module gapbeam_lane_levels
     use gapbeam_lane_columns_v4, only: take_columns_v4 => take_columns, take_numbers_v4 => take_numbers, give_pack_v4 => give_pack
     use gapbeam_lane_links_v3, only: make_links_v3 => make_links
     use gapbeam_lane_links_v4, only: make_links_v4 => make_links
-    use gapbeam_lane_search_v3, only: search_pack_v3 => search_pack, finish_pack_v3 => finish_pack
-    use gapbeam_lane_search_v4, only: search_pack_v4 => search_pack, finish_pack_v4 => finish_pack
+    use gapbeam_lane_search_v3, only: search_pack_v3 => search_pack
+    use gapbeam_lane_finish_v3, only: finish_pack_v3 => finish_pack
+    use gapbeam_lane_search_v4, only: search_pack_v4 => search_pack
+    use gapbeam_lane_finish_v4, only: finish_pack_v4 => finish_pack
     use gapbeam_lane_audit_v3, only: audit_pack_v3 => audit_pack
     use gapbeam_lane_extremes_v3, only: extremes_of_pack_v3 => extremes_of_pack
     use gapbeam_lane_values_v3, only: fields_of_pack_v3 => fields_of_pack
@@ -36,8 +40,10 @@ module gapbeam_lane_levels
     use gapbeam_lane_certificate_v4, only: certify_pack_v4 => certify_pack
     use gapbeam_segment_finish_v3, only: solve_long_beam_v3 => solve_long_beam, audit_long_beam_v3 => audit_long_beam
     use gapbeam_segment_finish_v4, only: solve_long_beam_v4 => solve_long_beam, audit_long_beam_v4 => audit_long_beam
-    use gapbeam_lane_search_own_v3, only: search_pack_own_v3 => search_pack, finish_pack_own_v3 => finish_pack
-    use gapbeam_lane_search_own_v4, only: search_pack_own_v4 => search_pack, finish_pack_own_v4 => finish_pack
+    use gapbeam_lane_search_own_v3, only: search_pack_own_v3 => search_pack
+    use gapbeam_lane_finish_own_v3, only: finish_pack_own_v3 => finish_pack
+    use gapbeam_lane_search_own_v4, only: search_pack_own_v4 => search_pack
+    use gapbeam_lane_finish_own_v4, only: finish_pack_own_v4 => finish_pack
     use gapbeam_lane_audit_own_v3, only: audit_pack_own_v3 => audit_pack
     use gapbeam_lane_extremes_own_v3, only: extremes_of_pack_own_v3 => extremes_of_pack
     use gapbeam_lane_values_own_v3, only: fields_of_pack_own_v3 => fields_of_pack

@@ -9,7 +9,7 @@ module gapbeam_branch
     use gapbeam_kinds, only: wp => qp
     use gapbeam_error, only: error_type
     use gapbeam_polyline_quad, only: node_support_type, piece_that_acts, last_kink
-    use gapbeam_law_quad, only: margin_in_scheme, is_watched_in
+    use gapbeam_law_margins_quad, only: margin_in_scheme, is_watched_in
     use gapbeam_model_quad, only: beam_type
     use gapbeam_line_quad, only: value_at, width_at, zero_of
     use gapbeam_lines, only: lines_type, way_type, new_lines, solve_lines, are_one, turn, from_nowhere

@@ -2,7 +2,7 @@
 !> the contact levels, v1 from the live loads alone
 module gapbeam_line
     use gapbeam_kinds, only: wp
-    use gapbeam_law, only: margin_in_scheme
+    use gapbeam_law_margins, only: margin_in_scheme
     use gapbeam_law_forms, only: drop_level
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type

@@ -3,7 +3,7 @@ module gapbeam_lines
     use gapbeam_kinds, only: wp => qp
     use gapbeam_band_quad, only: band_ok
     use gapbeam_polyline_quad, only: piece_that_acts, vertical_pieces
-    use gapbeam_law_quad, only: is_watched_in
+    use gapbeam_law_margins_quad, only: is_watched_in
     use gapbeam_model_quad, only: beam_type
     use gapbeam_workspace_quad, only: workspace_type, new_workspace, set_loads
     use gapbeam_system_quad, only: solve_and_refine

@@ -3,7 +3,7 @@
 module gapbeam_stretch
     use gapbeam_kinds, only: wp
     use gapbeam_band, only: band_ok
-    use gapbeam_law, only: is_watched_in
+    use gapbeam_law_margins, only: is_watched_in
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_update, only: start_updates, update_scheme, find_groups

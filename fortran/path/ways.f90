@@ -11,7 +11,7 @@ module gapbeam_ways
     use gapbeam_kinds, only: wp => qp
     use gapbeam_error, only: error_type, fatal_error, gapbeam_not_converged
     use gapbeam_polyline_quad, only: node_support_type, coincide
-    use gapbeam_law_quad, only: margin_in_scheme, is_watched_in
+    use gapbeam_law_margins_quad, only: margin_in_scheme, is_watched_in
     use gapbeam_model_quad, only: beam_type
     use gapbeam_kinematics_quad, only: free_motions, motion_type
     use gapbeam_lines, only: lines_type, way_type, solve_lines, find_falling, find_index, is_held_twice, rise, fall, turn, &

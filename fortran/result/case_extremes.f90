@@ -15,7 +15,7 @@ module gapbeam_case_extremes
     use gapbeam_lane_levels, only: take_columns_at, take_numbers_at, extremes_of_pack_at, fields_of_pack_at, best_level
     use gapbeam_lane_pieces, only: prepare_pieces
     use gapbeam_lane_spans, only: span_room_type, prepare_spans, take_spans, make_pack_links
-    use gapbeam_lane_cases, only: prepare_lanes, take_supports, take_starts, units_of_supports
+    use gapbeam_lane_model, only: prepare_lanes, take_supports, take_starts, units_of_supports
     implicit none
     private
     public :: has_lane_extremes, extremes_of_cases

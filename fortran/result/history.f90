@@ -5,19 +5,19 @@ module gapbeam_history
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_not_converged, gapbeam_indeterminate, no_memory
     use gapbeam_words, only: shown
     use gapbeam_memory, only: for_following_closely
-    use gapbeam_polyline, only: node_support_type, last_kink
+    use gapbeam_polyline, only: node_support_type
     use gapbeam_polyline_quad, only: fine_support_type => node_support_type
     use gapbeam_model_quad, only: beam_type
     use gapbeam_line_quad, only: drop_live
     use gapbeam_scheme_quad, only: outcome_type
     use gapbeam_refined, only: refine_beam
     use gapbeam_referee, only: reserve_for
-    use gapbeam_cell, only: find_cell, cell_type
     use gapbeam_lines, only: way_type, rise, fall, turn
     use gapbeam_branch, only: branch_type, segment_type, start_branch, step_branch, goes_on, no_way_on, never_ends, not_told
-    use gapbeam_scene, only: gapbeam_elastic, gapbeam_both
+    use gapbeam_scene, only: gapbeam_elastic
     use gapbeam_lowered, only: lowered_type, point_x
     use gapbeam_state, only: detail_of
+    use gapbeam_history_start, only: find_beginning, find_movements, has_dead_loads, find_rest
     implicit none
     private
     public :: history_type, stretch_type, limit_type, other_way_type, follow_history, laws_at
@@ -155,6 +155,7 @@ contains
             integer, intent(in) :: leg
             real(qp), intent(in) :: from, to
             type(segment_type) :: segment
+            type(outcome_type) :: beginning
             integer :: way, outcome, index, direction, taken, idle
             type(way_type), allocatable :: ways(:)
             logical :: stable, moves
@@ -166,8 +167,14 @@ contains
             way = merge(rise, fall, to > from)
             beam%supports = laws
             if (history%number == 0) then
-                call find_beginning(beam, to, closed, history, error)
-                if (allocated(error) .or. history%ending /= no_limit) return
+                call find_beginning(beam, to, closed, history%solves, beginning, error)
+                if (allocated(error)) return
+                if (beginning%status /= gapbeam_solved) then
+                    history%limits = [limit_type(mechanism, 0, 0.0_wp, 0)]
+                    if (allocated(beginning%motion)) history%motion = real(beginning%motion, wp)
+                    history%ending = mechanism
+                    return
+                end if
             end if
             call start_branch(beam, unloading, settling, closed, from, way, branch, outcome, error)
             if (history%number == 0 .and. .not. allocated(error) .and. outcome == goes_on .and. branch%way%index > 0) then
@@ -337,102 +344,6 @@ contains
         end subroutine look_for_landings
 
     end subroutine follow_history
-
-    !> The scheme at the first factor above 0
-    subroutine find_beginning(beam, to, closed, history, error)
-        type(beam_type), intent(in) :: beam
-        real(qp), intent(in) :: to
-        !> Start in, scheme out
-        logical, intent(inout) :: closed(:)
-        type(history_type), intent(inout) :: history
-        type(error_type), allocatable, intent(out) :: error
-        type(beam_type) :: mirrored
-        type(cell_type) :: cell
-        type(outcome_type) :: outcome
-
-        mirrored = beam
-        if (to < 0.0_qp) call reverse_live(mirrored)
-        call find_cell(mirrored, 0.0_qp, abs(to), closed, cell, outcome, error)
-        history%solves = history%solves + cell%solves
-        if (allocated(error)) then
-            ! Only that the search does not know its way among falling forces: every combination is tried instead
-            if (error%code == gapbeam_not_converged) deallocate (error)
-            return
-        end if
-        if (outcome%status == gapbeam_solved) then
-            closed(:) = cell%closed
-        else
-            history%limits = [limit_type(mechanism, 0, 0.0_wp, 0)]
-            if (allocated(outcome%motion)) history%motion = real(outcome%motion, wp)
-            history%ending = mechanism
-        end if
-    end subroutine find_beginning
-
-    !> Settlements and lacks of fit, in the engine's units
-    pure subroutine find_movements(lowered, movement)
-        type(lowered_type), intent(in) :: lowered
-        !> Of the supports of the engine
-        real(qp), intent(out) :: movement(:)
-        integer :: k
-
-        do k = 1, size(movement)
-            associate (s => lowered%model%supports(lowered%normal(k)))
-                movement(k) = scale(s%settlement + s%side*min(s%gap, 0.0_wp), -lowered%units%deflection)
-            end associate
-        end do
-    end subroutine find_movements
-
-    !> Let the live loads act the other way
-    subroutine reverse_live(beam)
-        type(beam_type), intent(inout) :: beam
-        integer :: i
-
-        beam%force(2, :) = -beam%force(2, :)
-        beam%couple(2, :) = -beam%couple(2, :)
-        do i = 1, size(beam%links)
-            associate (link => beam%links(i))
-                link%turn_a(2) = -link%turn_a(2)
-                link%turn_b(2) = -link%turn_b(2)
-                link%shear_a(2) = -link%shear_a(2)
-                link%shear_b(2) = -link%shear_b(2)
-            end associate
-        end do
-    end subroutine reverse_live
-
-    !> Are there any dead loads
-    pure function has_dead_loads(beam) result(has)
-        type(beam_type), intent(in) :: beam
-        logical :: has
-        integer :: i
-
-        has = any(abs(beam%force(1, :)) > 0.0_qp) .or. any(abs(beam%couple(1, :)) > 0.0_qp)
-        do i = 1, size(beam%links)
-            associate (link => beam%links(i))
-                has = has .or. link%load_sum(1) > 0.0_qp .or. link%turn_sum(1) > 0.0_qp
-            end associate
-        end do
-    end function has_dead_loads
-
-    !> Where supports are before any load: on the piece on which the straight beam is
-    subroutine find_rest(lowered, closed)
-        type(lowered_type), intent(in) :: lowered
-        logical, intent(out) :: closed(:)
-        integer :: k, last, middle
-
-        k = 1
-        do while (k <= size(closed))
-            last = last_kink(lowered%beam%supports, k)
-            middle = 1
-            if (lowered%model%supports(lowered%normal(k))%side == gapbeam_both) then
-                middle = max(1, (last - k + 1)/2)
-            else if (lowered%beam%supports(k)%side*lowered%beam%supports(k)%contact > 0.0_wp) then
-                middle = 0
-            end if
-            closed(k:last) = .false.
-            closed(k:k + middle - 1) = .true.
-            k = last + 1
-        end do
-    end subroutine find_rest
 
     !> Laws in double precision
     pure function rounded(fine, like) result(laws)

@@ -4,7 +4,7 @@ module gapbeam_history_events
     use gapbeam_polyline, only: last_kink
     use gapbeam_lowered, only: lowered_type
     use gapbeam_pieces, only: acting_type, acting_piece, what_happens, nothing, gapbeam_turns, gapbeam_opens, gapbeam_closes
-    use gapbeam_state, only: event_type
+    use gapbeam_events, only: event_type
     use gapbeam_history, only: history_type, stretch_type
     implicit none
     private

@@ -4,7 +4,8 @@ module gapbeam_segment_cases
     use gapbeam_kinds, only: wp
     use gapbeam_watch, only: is_stopped
     use gapbeam_band, only: plain
-    use gapbeam_law, only: both, is_rigid, has_laws, may_change
+    use gapbeam_law, only: both, is_rigid, has_laws
+    use gapbeam_law_margins, only: may_change
     use gapbeam_units, only: moment_unit
     use gapbeam_lowered, only: lowered_type
     use gapbeam_lower_units, only: support_in_units

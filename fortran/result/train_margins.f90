@@ -4,7 +4,7 @@ module gapbeam_train_margins
     use gapbeam_kinds, only: wp
     use gapbeam_bernstein, only: sample_points, to_coefficients, halve, first_below, crossing, highest_degree
     use gapbeam_band, only: band_ok
-    use gapbeam_law, only: find_margins
+    use gapbeam_law_margins, only: find_margins
     use gapbeam_kinematics, only: work_of_loads
     use gapbeam_workspace, only: workspace_type, set_loads
     use gapbeam_rules, only: first_width

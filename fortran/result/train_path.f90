@@ -15,7 +15,7 @@ module gapbeam_train_path
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_indeterminate, &
         gapbeam_not_converged
     use gapbeam_bernstein, only: highest_degree
-    use gapbeam_law, only: may_change
+    use gapbeam_law_margins, only: may_change
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_search, only: rule_block
     use gapbeam_scheme, only: find_scheme, outcome_type

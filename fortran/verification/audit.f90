@@ -8,7 +8,8 @@ module gapbeam_audit
     use gapbeam_kinds, only: wp
     use gapbeam_nodes, only: hinge, restrained
     use gapbeam_band, only: answer_type
-    use gapbeam_law, only: is_plainly_right, force_by_spring, margin_in_scheme, is_watched_in
+    use gapbeam_law, only: is_plainly_right, force_by_spring
+    use gapbeam_law_margins, only: margin_in_scheme, is_watched_in
     use gapbeam_model, only: beam_type, softest
     use gapbeam_workspace, only: workspace_type
     use gapbeam_ledger, only: ledger_type, note, allowed, of_bending, of_equilibrium, of_supports, of_restraints, rotations, &

@@ -14,8 +14,8 @@ module gapbeam_certificate
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: plain_workspace_type => workspace_type, new_plain_workspace => new_workspace, &
         set_plain_loads => set_loads, apply_scheme
-    use gapbeam_sensitivity, only: sensitivity_type, prepare_sensitivity, largest_movement, of_deflections, of_rotations, &
-        of_moments, of_shears, of_reactions
+    use gapbeam_sensitivity, only: sensitivity_type, prepare_sensitivity, largest_movement
+    use gapbeam_functionals, only: of_deflections, of_rotations, of_moments, of_shears, of_reactions
     use gapbeam_kinematics_quad, only: held_by_ties
     use gapbeam_refined, only: detail_type, refine_loaded_beam, fine_piece, fine_load
     use gapbeam_referee, only: find_undecided

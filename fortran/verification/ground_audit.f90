@@ -8,7 +8,8 @@ module gapbeam_ground_audit
     use gapbeam_kinds, only: wp
     use gapbeam_nodes, only: hinge, restrained
     use gapbeam_element, only: field_type
-    use gapbeam_law, only: force_by_spring, margin_in_scheme, is_watched_in
+    use gapbeam_law, only: force_by_spring
+    use gapbeam_law_margins, only: margin_in_scheme, is_watched_in
     use gapbeam_ground_laws, only: approach_kink, push_of_layer
     use gapbeam_ground, only: ground_type
     use gapbeam_ground_solution, only: ground_solution_type

@@ -15,7 +15,7 @@ module gapbeam_ground_solution
     use gapbeam_curved_quad, only: curved_type, advance_curved, curved_fields
     use gapbeam_law_series_quad, only: curve_force
     use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type
-    use gapbeam_law_quad, only: find_margins, is_watched_in
+    use gapbeam_law_margins_quad, only: find_margins, is_watched_in
     implicit none
     private
     public :: ground_solution_type, take_rounded

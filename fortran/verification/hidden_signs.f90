@@ -9,7 +9,8 @@ module gapbeam_hidden_signs
     use gapbeam_band, only: band_ok
     use gapbeam_model_quad, only: beam_type, node_support_type
     use gapbeam_workspace_quad, only: workspace_type
-    use gapbeam_law_quad, only: has_laws, is_watched_in, margin_of, separate_rigid_pairs
+    use gapbeam_law_quad, only: has_laws, separate_rigid_pairs
+    use gapbeam_law_margins_quad, only: is_watched_in, margin_of
     use gapbeam_system_quad, only: solve_and_refine
     implicit none
     private

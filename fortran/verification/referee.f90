@@ -22,7 +22,7 @@ module gapbeam_referee
     use gapbeam_kinematics_quad, only: fine_held_by_ties => held_by_ties
     use gapbeam_model_quad, only: fine_beam_type => beam_type, fine_support_type => node_support_type, softest
     use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type
-    use gapbeam_law_quad, only: is_watched_in, find_margins
+    use gapbeam_law_margins_quad, only: is_watched_in, find_margins
     use gapbeam_sensitivity_quad, only: sensitivity_type, prepare_sensitivity, movement_of_support
     use gapbeam_system_quad, only: solve_and_refine_fine => solve_and_refine
     use gapbeam_search_quad, only: rule_block

@@ -5,8 +5,9 @@
 module yardstick_mixed
     use gapbeam_kinds, only: wp
     use gapbeam_link, only: link_type, piece_type, piece_load_type, condense_link
-    use gapbeam_band, only: node_type, rhs_type, pivot_type, chain_answer_type => answer_type, factor_chain, solve_chain, &
-        band_ok, plain, restrained
+    use gapbeam_band, only: node_type, rhs_type, pivot_type, chain_answer_type => answer_type, factor_chain, band_ok, plain, &
+        restrained
+    use gapbeam_band_substitution, only: solve_chain
     use gapbeam_residual, only: residual_chain, size_type
     use yardstick_beam, only: beam_type, answer_type, method_type, is_rigid, node_load, shear_reactions, solved, singular
     use yardstick_lapack, only: dgbsv, dgbtrs
