@@ -12,7 +12,7 @@ module gapbeam_ground_energy
     use gapbeam_error, only: error_type, fatal_error, out_of_range, gapbeam_solved, gapbeam_not_converged, &
         gapbeam_no_memory, gapbeam_stopped
     use gapbeam_law, only: both
-    use gapbeam_law_motions, only: find_level_forces
+    use gapbeam_law_kinematics, only: find_level_forces
     use gapbeam_model, only: beam_type, node_support_type, order_supports, softest
     use gapbeam_kinematics, only: work_of_loads
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
@@ -34,8 +34,8 @@ module gapbeam_ground_energy
     real(wp), parameter :: balanced = 1e-9_wp
     !> A slope of the energy that has fallen to this share of what it was is enough
     real(wp), parameter :: flat = 0.1_wp
-    !> Springs that ease the way where the model has no one solution, beside the softest stiffness
-    real(wp), parameter :: ease_ratio = 1e-5_wp
+    !> Weight of the springs that help where the model has no one solution, beside the softest stiffness
+    real(wp), parameter :: proximal_ratio = 1e-5_wp
     !> A motion goes so many times the length of the beam at first, and at last
     real(wp), parameter :: first_way = 1e-6_wp, last_way = 1e14_wp
 
@@ -69,7 +69,7 @@ contains
         !> Of the nodes: deflection, what the beam asks ground and supports for there, force and slope of the ground, force of the
         !> model, a step, the change of what is asked for, loads
         real(wp), allocatable, dimension(:) :: w, asked, push, slope, modelled, step, change, load
-        real(wp), allocatable :: ease
+        real(wp), allocatable :: proximal_weight
         logical, allocatable :: acting(:)
         real(wp) :: way, force
         integer(int64) :: asked_for
@@ -93,7 +93,7 @@ contains
             if (asked_for > most_asked) exit
             call solve_model()
             if (allocated(error)) then
-                if (any(error%code == [gapbeam_no_memory, gapbeam_stopped]) .or. allocated(ease)) return
+                if (any(error%code == [gapbeam_no_memory, gapbeam_stopped]) .or. allocated(proximal_weight)) return
                 deallocate (error)
             end if
             if (outcome%status /= gapbeam_solved .and. begun) then
@@ -103,8 +103,8 @@ contains
             end if
             if (.not. succeeded()) then
                 ! Held by so little that springs have to help, here or from the start
-                if (allocated(ease)) exit
-                ease = ease_ratio*softest(beam)
+                if (allocated(proximal_weight)) exit
+                proximal_weight = proximal_ratio*softest(beam)
                 cycle
             end if
             call take_model()
@@ -134,7 +134,7 @@ contains
                 return
             end if
             ! Now motions tell how far to go
-            if (.not. begun .and. allocated(ease)) deallocate (ease)
+            if (.not. begun .and. allocated(proximal_weight)) deallocate (proximal_weight)
             begun = .true.
         end do
         call fatal_error(error, gapbeam_not_converged, "the ground could not be settled, or proved too weak for the loads: "// &
@@ -153,7 +153,7 @@ contains
             supports(:m) = own
             do i = 0, n
                 stiffness = slope(i)
-                if (allocated(ease)) stiffness = stiffness + ease
+                if (allocated(proximal_weight)) stiffness = stiffness + proximal_weight
                 beam%force(1, i) = load(i) - push(i)
                 if (.not. stiffness > 0.0_wp) cycle
                 m = m + 1
@@ -184,7 +184,7 @@ contains
             closed(:) = acting(:size(closed))
             step(:) = work%answers%deflection - w
             modelled(:) = push + slope*step
-            if (allocated(ease)) modelled(:) = modelled + ease*step
+            if (allocated(proximal_weight)) modelled(:) = modelled + proximal_weight*step
             change(:) = modelled - asked
             do k = 1, size(own)
                 associate (i => own(k)%node)

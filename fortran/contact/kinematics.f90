@@ -7,7 +7,7 @@
 module gapbeam_kinematics
     use gapbeam_kinds, only: wp
     use gapbeam_band, only: hinge, restrained
-    use gapbeam_law_motions, only: mark_held, leaves_all
+    use gapbeam_law_kinematics, only: mark_held, leaves_all
     use gapbeam_model, only: beam_type
     implicit none
     private

@@ -1,5 +1,5 @@
-!> States and forces of supports: no module but this one, gapbeam_law_margins, gapbeam_polyline, gapbeam_law_motions and
-!> gapbeam_law_forms knows their laws.
+!> States and forces of supports: no module but this one, gapbeam_law_margins, gapbeam_polyline, gapbeam_law_kinematics and
+!> gapbeam_law_adapters knows their laws.
 !>
 !> The law of a support is a polyline of its reaction (positive up) over the deflection of its node, and its state is the piece on
 !> which it is:
@@ -17,13 +17,14 @@ module gapbeam_law
     use gapbeam_kinds, only: wp
     use gapbeam_require, only: checked, require
     use gapbeam_band, only: node_type, rhs_type, answer_type
-    use gapbeam_polyline, only: node_support_type, piece_that_acts, piece_force, open_beyond, go_one_piece, go_to_level
+    use gapbeam_polyline, only: node_support_type, piece_that_acts, piece_force, open_from, advance_one_segment, &
+        jump_to_plateau
     implicit none
     private
     public :: node_support_type, below, above, both, nodes_at_a_time
     public :: is_support, is_rigid, always_closed, separate_rigid_pairs
     public :: add_supports, share_forces, force_by_spring, is_plainly_right
-    public :: has_laws, open_beyond, go_one_piece, go_to_level
+    public :: has_laws, open_from, advance_one_segment, jump_to_plateau
 
     !> Sides of a support: pushes up only, pushes down only, both
     integer, parameter :: below = 1, above = -1, both = 0

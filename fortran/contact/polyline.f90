@@ -15,7 +15,7 @@ module gapbeam_polyline
     private
     public :: node_support_type, piece_that_acts, piece_force, kink_margin, is_watched
     public :: beside_level, vertical_pieces
-    public :: open_beyond, go_one_piece, go_to_level, coincide, last_kink, join_pieces
+    public :: open_from, advance_one_segment, jump_to_plateau, coincide, last_kink, join_pieces
 
     !> A support at a node, or a kink of its law
     type :: node_support_type
@@ -97,7 +97,7 @@ contains
         rounding = 0.0_wp
         by_force = .false.
         if (supports(k)%passed) return
-        call look_around(supports, closed, k, beside, from, here, there)
+        call breakpoint_slopes(supports, closed, k, beside, from, here, there)
         associate (s => supports(k))
             if (.not. beside) then
                 if (abs(here) > huge(here)) return
@@ -117,7 +117,7 @@ contains
     end subroutine kink_margin
 
     !> Is a kink beside the piece that acts, and the slopes on this side of it and beyond
-    pure subroutine look_around(supports, closed, k, beside, from, here, there)
+    pure subroutine breakpoint_slopes(supports, closed, k, beside, from, here, there)
         type(node_support_type), intent(in) :: supports(:)
         logical, intent(in) :: closed(:)
         integer, intent(in) :: k
@@ -142,7 +142,7 @@ contains
                 end if
             end if
         end associate
-    end subroutine look_around
+    end subroutine breakpoint_slopes
 
     !> By how much a node is beyond an end of the vertical piece on which a support of it is, since another one holds it elsewhere
     pure subroutine beside_level(supports, closed, k, deflection, deflection_size, beyond, rounding)
@@ -160,7 +160,7 @@ contains
         beyond = 0.0_wp
         rounding = 0.0_wp
         if (supports(k)%passed) return
-        call look_around(supports, closed, k, beside, from, here, there)
+        call breakpoint_slopes(supports, closed, k, beside, from, here, there)
         if (.not. beside .or. abs(here) <= huge(here)) return
         associate (s => supports(k))
             beyond = s%side*(deflection - s%contact)
@@ -204,12 +204,12 @@ contains
         real(wp) :: here, there
         integer :: from
 
-        call look_around(supports, closed, k, watched, from, here, there)
+        call breakpoint_slopes(supports, closed, k, watched, from, here, there)
         watched = (watched .or. abs(here) <= huge(here)) .and. .not. supports(k)%passed
     end function is_watched
 
     !> Open the kinks of a law beyond its first open one
-    pure subroutine open_beyond(supports, closed)
+    pure subroutine open_from(supports, closed)
         type(node_support_type), intent(in) :: supports(:)
         logical, intent(inout) :: closed(:)
         integer :: k
@@ -217,10 +217,10 @@ contains
         do k = 2, size(closed)
             if (supports(k)%kink > 1) closed(k) = closed(k) .and. closed(k - 1)
         end do
-    end subroutine open_beyond
+    end subroutine open_from
 
     !> Let every law go on from one scheme to another by one piece only
-    pure subroutine go_one_piece(supports, before, closed)
+    pure subroutine advance_one_segment(supports, before, closed)
         type(node_support_type), intent(in) :: supports(:)
         !> The first scheme
         logical, intent(in) :: before(:)
@@ -228,7 +228,7 @@ contains
         logical, intent(inout) :: closed(:)
         integer :: k, last, old, new
 
-        call open_beyond(supports, closed)
+        call open_from(supports, closed)
         k = 1
         do while (k <= size(closed))
             last = last_kink(supports, k)
@@ -241,10 +241,10 @@ contains
             end if
             k = last + 1
         end do
-    end subroutine go_one_piece
+    end subroutine advance_one_segment
 
     !> Let every law act by a level piece, on which it holds nothing, where it has one
-    pure subroutine go_to_level(supports, closed)
+    pure subroutine jump_to_plateau(supports, closed)
         type(node_support_type), intent(in) :: supports(:)
         !> Any scheme in, laws on their first level piece out; those that have none are on the piece before all kinks
         logical, intent(inout) :: closed(:)
@@ -262,7 +262,7 @@ contains
             end if
             k = last + 1
         end do
-    end subroutine go_to_level
+    end subroutine jump_to_plateau
 
     !> The last kink of the law that begins at a support; the support itself if it has none
     pure function last_kink(supports, k) result(last)

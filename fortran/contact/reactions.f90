@@ -169,7 +169,7 @@ contains
         last = first
         do while (last < ubound(work%nodes, 1))
             associate (node => work%nodes(last))
-                if (node%held .or. abs(node%stiffness) > work%ease(last) .or. node%kind == restrained) return
+                if (node%held .or. abs(node%stiffness) > work%proximal_weight(last) .or. node%kind == restrained) return
             end associate
             last = last + 1
         end do
@@ -265,7 +265,7 @@ contains
                 error = error + work%shear_error(i + 1)
             end if
         end if
-        reaction = (work%loads(i)%shear - (left - right)) + work%ease(i)*(work%reference(i) - work%answers(i)%deflection)
+        reaction = (work%loads(i)%shear - (left - right)) + work%proximal_weight(i)*(work%reference(i) - work%answers(i)%deflection)
     end subroutine force_at_node
 
 end module gapbeam_reactions

@@ -135,7 +135,7 @@ contains
                 k = s%support(j)
                 associate (i => s%node(j))
                     if (closed(k)) then
-                        force = work%loads(i)%shear + work%ease(i)*(work%reference(i) - a(i)%deflection)
+                        force = work%loads(i)%shear + work%proximal_weight(i)*(work%reference(i) - a(i)%deflection)
                         if (i > 0) force = force - (a(i)%moment_left - a(i - 1)%moment_right)*work%inverse(i)
                         if (i < n) force = force + (a(i + 1)%moment_left - a(i)%moment_right)*work%inverse(i + 1)
                         margin = s%side(j)*force

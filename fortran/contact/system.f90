@@ -133,7 +133,7 @@ contains
         if (.not. regular) then
             ! Singular because something moves, or because statics cannot tell reactions apart
             call free_motions(beam, acting, motions)
-            if (size(motions) > 0 .and. .not. any(work%ease > 0.0_wp)) state = band_mechanism
+            if (size(motions) > 0 .and. .not. any(work%proximal_weight > 0.0_wp)) state = band_mechanism
         end if
     end subroutine solve_deflections
 

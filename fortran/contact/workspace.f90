@@ -60,7 +60,7 @@ module gapbeam_workspace
         type(reach_type), allocatable :: reach_own(:), reach_left(:), reach_right(:)
         real(wp), allocatable :: shear_size(:), deflection_size(:)
         !> Springs towards a reference deflection that keep schemes which are mechanisms solvable; zero if unused
-        real(wp), allocatable :: ease(:), reference(:)
+        real(wp), allocatable :: proximal_weight(:), reference(:)
         !> Is every one-sided support, acting or not, a spring instead (gapbeam_interior_point), and which
         logical :: sprung = .false.
         real(wp), allocatable :: spring(:), spring_contact(:)
@@ -69,7 +69,7 @@ module gapbeam_workspace
         !> Solves after which the least-index rule, which may take very many, gives up
         integer :: most_solves = least_limit
         !> Did the paper's rule come back to a scheme that it had seen
-        logical :: came_back = .false.
+        logical :: cycled = .false.
         integer :: method = method_mixed
         !> Relative residuals of the last solve
         real(wp) :: compatibility = 0.0_wp, equilibrium = 0.0_wp
@@ -95,8 +95,8 @@ contains
         allocate (work%reach_own(0:n), work%reach_left(0:n), work%reach_right(0:n))
         allocate (work%shear_size(0:n), work%deflection_size(0:n))
         allocate (work%reaction(m), work%reaction_error(m))
-        allocate (work%ease(0:n), work%reference(0:n))
-        work%ease = 0.0_wp
+        allocate (work%proximal_weight(0:n), work%reference(0:n))
+        work%proximal_weight = 0.0_wp
         work%reference = 0.0_wp
         allocate (work%fixity(n), work%reach(n), work%inverse(n))
         work%fixity = 0.0_wp
@@ -165,9 +165,9 @@ contains
                     node%kind = beam%kind(i)
                     node%compliance = beam%compliance(i)
                     node%held = .false.
-                    node%stiffness = work%ease(i)
+                    node%stiffness = work%proximal_weight(i)
                     r = work%loads(i)
-                    r%shear = r%shear + work%ease(i)*work%reference(i)
+                    r%shear = r%shear + work%proximal_weight(i)*work%reference(i)
                     work%level(i) = 0.0_wp
                 end associate
             end do

@@ -5,7 +5,7 @@ module gapbeam_api_history
         ieee_set_rounding_mode, ieee_nearest, ieee_all, ieee_is_finite
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input, gapbeam_not_converged, gapbeam_not_prepared
-    use gapbeam_referee, only: rule_given
+    use gapbeam_extended_precision, only: rule_given
     use gapbeam_words, only: shown, whole
     use gapbeam_lowered, only: lowered_type
     use gapbeam_state, only: solve_state, name_range

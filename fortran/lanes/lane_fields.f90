@@ -12,8 +12,8 @@ module gapbeam_lane_fields
     private
     public :: recover_pack, find_rotations
 
-    !> Rounding error of a shear, relative to the largest, from which on it has too few digits; worst_digits of gapbeam_referee,
-    !> with a digit to spare
+    !> Rounding error of a shear, relative to the largest, from which on it has too few digits (worst_digits of
+    !> gapbeam_extended_precision), with a digit to spare
     real(wp), parameter :: worst_digits = 1e-9_wp
     !> Numbers beyond these leave too little room for their products
     real(wp), parameter :: greatest = 1e100_wp, smallest = 1e-100_wp

@@ -9,7 +9,7 @@ module gapbeam_lane_reactions
     private
     public :: complete, find_shears, doubt_corrections
 
-    !> As first_width of gapbeam_rules, worst_digits and worst_correction of gapbeam_referee
+    !> As first_width of gapbeam_rules, worst_digits and worst_correction of gapbeam_extended_precision
     real(wp), parameter :: width = 32.0_wp, worst_digits = 1e-8_wp, worst_correction = 1e-6_wp
 
 contains
@@ -218,7 +218,7 @@ contains
         end do
     end subroutine find_reactions
 
-    !> Are deflections known to few digits, as in digits_lost of gapbeam_referee
+    !> Are deflections known to few digits, as in digits_lost of gapbeam_extended_precision
     pure subroutine doubt_corrections(n, w, dw, room, doubtful)
         integer, intent(in) :: n
         !> Deflections and their corrections; sizes of deflections in room 2, by find_sizes

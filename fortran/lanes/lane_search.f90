@@ -1,9 +1,9 @@
 !> The search for the working schemes of eight cases side by side.
 !>
 !> The search changes every wrong support at once, and where that makes no progress those at every other node. It may take
-!> signs as they come, for what it ends with is looked at as gapbeam_referee does: the final solution is refined
+!> signs as they come, for what it ends with is looked at as gapbeam_extended_precision does: the final solution is refined
 !> (gapbeam_lane_finish), and where any sign is within its rounding error, or no scheme was found, the case is doubtful and goes to
-!> gapbeam_referee itself. A scheme without doubt is the only one there is, so it does not matter how it was found.
+!> gapbeam_extended_precision itself. A scheme without doubt is the only one there is, so it does not matter how it was found.
 module gapbeam_lane_search
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type, by_both_ends, by_three_moments, by_chain
@@ -18,7 +18,7 @@ module gapbeam_lane_search
     !> Solves before a case is given up
     integer, parameter :: most_solves = 80
     !> Solves without progress before fewer supports are changed at a time
-    real(wp), parameter :: patience = 4.5_wp
+    real(wp), parameter :: non_monotone_steps = 4.5_wp
 
 contains
 
@@ -100,7 +100,7 @@ contains
         integer, intent(out) :: solves(lanes)
         !> Which cases are given up
         logical, intent(out) :: lost(lanes)
-        real(wp), dimension(lanes) :: wrong, fewest, idle, moves, alive, looked_at, ease, count
+        real(wp), dimension(lanes) :: wrong, fewest, idle, moves, alive, looked_at, proximal_weight, count
         real(wp) :: left, longest
         integer :: solve, last, l
         logical :: is_easy
@@ -112,7 +112,7 @@ contains
         fewest(:) = huge(1.0_wp)
         idle(:) = 0.0_wp
         alive(:) = 1.0_wp
-        ease(:) = 0.0_wp
+        proximal_weight(:) = 0.0_wp
         count(:) = 0.0_wp
         do solve = 1, most_solves
             if (last > n) call join_supports(beam, n, last, pack%load, pack%turn_rest, pack%closed, pack%stiffness, pack%rigid, &
@@ -131,11 +131,11 @@ contains
                 pack%closed(:, :) = abs(pack%closed - pack%turn_rest)
                 call apply_scheme(n, pack%shear, pack%stiffness, pack%rigid, pack%contact, pack%closed, pack%held, pack%known, &
                                   pack%spring, pack%force)
-                if (any(ease > 0.0_wp)) pack%spring(:, :) = pack%spring + spread(ease, 2, n + 1)
+                if (any(proximal_weight > 0.0_wp)) pack%spring(:, :) = pack%spring + spread(proximal_weight, 2, n + 1)
                 call sweep_chain(beam, pack%links, n, pack%left, pack%right, pack%force, pack%couple, pack%held, pack%known, &
                                  pack%spring, pack%room, pack%turning, pack%w, pack%ml, pack%mr, moves)
                 ! A scheme that moves is solved once more, with weak springs, as by gapbeam_scheme
-                ease(:) = ease + moves*[(beam%ease(min(l, each)), l=1, lanes)]
+                proximal_weight(:) = proximal_weight + moves*[(beam%proximal_weight(min(l, each)), l=1, lanes)]
                 looked_at(:) = alive*(1.0_wp - moves)
                 call find_wrong(beam, n, looked_at, pack%shear, pack%stiffness, pack%contact, pack%held, pack%closed, pack%w, &
                                 pack%ml, pack%mr, pack%turn_rest, wrong)
@@ -146,9 +146,9 @@ contains
             end if
             call note_progress(wrong, alive, fewest, idle, left, longest)
             if (.not. left > 0.5_wp) exit
-            if (.not. longest > patience) cycle
+            if (.not. longest > non_monotone_steps) cycle
             call keep_every_other(n, solve, idle, pack%turn_rest)
-            if (last > n) call wait_beside(beam, last, solve, merge(1.0_wp, 0.0_wp, idle > patience), pack%turn_rest)
+            if (last > n) call wait_beside(beam, last, solve, merge(1.0_wp, 0.0_wp, idle > non_monotone_steps), pack%turn_rest)
         end do
         solves(:) = nint(count)
         lost = alive > 0.5_wp
@@ -277,7 +277,7 @@ contains
         do i = modulo(solve, 2), n, 2
             !$omp simd
             do l = 1, lanes
-                wrong(l, i) = wrong(l, i)*merge(0.0_wp, 1.0_wp, idle(l) > patience)
+                wrong(l, i) = wrong(l, i)*merge(0.0_wp, 1.0_wp, idle(l) > non_monotone_steps)
             end do
         end do
     end subroutine keep_every_other

@@ -24,7 +24,7 @@ module gapbeam_lane_types
     type :: lane_beam_type
         integer :: n = 0
         !> Stiffness of the weak springs that hold a scheme which moves, shape (1 or lanes)
-        real(wp), allocatable :: ease(:)
+        real(wp), allocatable :: proximal_weight(:)
         !> As in link_type
         real(wp), allocatable, dimension(:) :: length, inverse
         !> Numbers of the links, shape (1 or lanes, link_numbers, n)

@@ -12,7 +12,7 @@ module gapbeam_segment_finish
     private
     public :: solve_long_beam, audit_long_beam
 
-    !> As first_width of gapbeam_rules and worst_digits of gapbeam_referee
+    !> As first_width of gapbeam_rules and worst_digits of gapbeam_extended_precision
     real(wp), parameter :: width = 32.0_wp, worst_digits = 1e-8_wp
 
 contains

@@ -13,9 +13,9 @@ module gapbeam_segment_search
     public :: search_segments
 
     !> Solves at most, without progress, and with an end that is wrong
-    integer, parameter :: most_solves = 50, patience = 5, end_patience = 3
+    integer, parameter :: most_solves = 50, non_monotone_steps = 5, end_non_monotone_steps = 3
     !> Without progress so few wrong supports, or as many as there are after so many solves, are changed only where others near them
-    !> are not. Before that fronts move, which takes long step by step
+    !> are not. Before that boundaries move, which takes long step by step
     integer, parameter :: few = 16, few_solves = 2
     !> Rounds of a solve (gapbeam_segment_passes): what is not yet exact goes on with the next one
     integer, parameter :: most_rounds = 2
@@ -60,11 +60,11 @@ contains
             found = number == 0 .and. ends_are_right .and. exact
             if (found) call take_scheme(beam, room)
             with_wrong_end = merge(0, with_wrong_end + 1, ends_are_right)
-            if (number == 0 .and. exact .or. with_wrong_end == end_patience) return
+            if (number == 0 .and. exact .or. with_wrong_end == end_non_monotone_steps) return
             if (number == 0) cycle
             idle = merge(0, idle + 1, number < fewest)
             fewest = min(fewest, number)
-            if (idle > patience) return
+            if (idle > non_monotone_steps) return
             if (idle > 0 .and. (number <= few .or. idle > few_solves)) call keep_local_worst(beam, &
                 room%changed(:columns), room)
             call change(room%changed(:columns), room%wrong, room%support, room%row)

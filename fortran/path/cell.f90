@@ -125,8 +125,8 @@ contains
         call new_workspace(beam, dead)
         call new_workspace(incremental, live)
         ! A beam that stays free to move stays where it is
-        dead%ease = weaker*work%ease
-        live%ease = dead%ease
+        dead%proximal_weight = weaker*work%proximal_weight
+        live%proximal_weight = dead%proximal_weight
         dead%reference = work%answers%deflection
         call set_loads(beam, 0.0_wp, dead)
         call set_loads(incremental, 1.0_wp, live)
@@ -138,7 +138,7 @@ contains
             return
         end if
         cell%solves = cell%solves + 2
-        springs = sum(dead%ease*(abs(dead%reference - dead%answers%deflection) + abs(live%answers%deflection)))
+        springs = sum(dead%proximal_weight*(abs(dead%reference - dead%answers%deflection) + abs(live%answers%deflection)))
         do k = 1, size(cell%closed)
             cell%lines(k) = line_of(beam, incremental, cell%closed, k, dead, live)
             ! What only the weak springs press on carries nothing

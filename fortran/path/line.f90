@@ -3,7 +3,7 @@
 module gapbeam_line
     use gapbeam_kinds, only: wp
     use gapbeam_law_margins, only: margin_in_scheme
-    use gapbeam_law_forms, only: drop_level
+    use gapbeam_law_adapters, only: drop_level
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type
     use gapbeam_rules, only: first_width

@@ -25,9 +25,9 @@ module gapbeam_path
     use gapbeam_search, only: rule_block
     use gapbeam_scheme, only: find_scheme, outcome_type
     use gapbeam_line, only: line_type, value_at, width_at, falls, stays_at_zero
-    use gapbeam_redundancy, only: find_redundancy
+    use gapbeam_static_indeterminacy, only: find_indeterminacy
     use gapbeam_refined, only: detail_type, refine_beam
-    use gapbeam_referee, only: decide_scheme, reserve_for, rule_given
+    use gapbeam_extended_precision, only: decide_scheme, reserve_for, rule_given
     use gapbeam_scheme_quad, only: fine_outcome_type => outcome_type
     use gapbeam_line_quad, only: fine_value_at => value_at, fine_width_at => width_at
     use gapbeam_cell, only: find_cell
@@ -201,7 +201,7 @@ contains
         integer :: node
 
         ! Not even if the beam touched every support that is open
-        call find_redundancy(beam, closed, .not. closed, node)
+        call find_indeterminacy(beam, closed, .not. closed, node)
         if (node < 0 .or. .not. to > from) return
         middle = real(from + (to - from)/2, wp)
         allocate (acting(size(closed)))

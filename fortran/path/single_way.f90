@@ -5,7 +5,7 @@
 !> hand, as there are where supports unload, takes a few solves, not one for every choice of them.
 module gapbeam_single_way
     use gapbeam_kinds, only: wp => qp
-    use gapbeam_polyline_quad, only: node_support_type, coincide, piece_that_acts, open_beyond
+    use gapbeam_polyline_quad, only: node_support_type, coincide, piece_that_acts, open_from
     use gapbeam_model_quad, only: beam_type
     use gapbeam_lines, only: lines_type, way_type, solve_lines, find_falling, is_held_twice, rise, fall, turn
     implicit none
@@ -13,7 +13,7 @@ module gapbeam_single_way
     public :: find_single_way
 
     !> Looks at cells without progress in which all that moves the wrong way is passed, and looks in all, for the single way
-    integer, parameter :: patience = 3, most_looks = 200
+    integer, parameter :: non_monotone_steps = 3, most_looks = 200
 
 contains
 
@@ -72,10 +72,10 @@ contains
                 call solve_lines(beam, closed, lines)
             end if
             if (.not. lines%regular) then
-                if (idle > patience) return
+                if (idle > non_monotone_steps) return
                 ! One by one, from the beginning
                 closed(:) = before
-                idle = patience + 1
+                idle = non_monotone_steps + 1
                 cycle
             end if
             call find_falling(beam, closed, factor, direction, reached, lines, falling)
@@ -87,7 +87,7 @@ contains
             else
                 idle = idle + 1
             end if
-            call pass_kinks(beam%supports, falling, idle > patience, closed)
+            call pass_kinks(beam%supports, falling, idle > non_monotone_steps, closed)
         end do
     end subroutine search_way
 
@@ -132,7 +132,7 @@ contains
             end if
             begin = k + 1
         end do
-        call open_beyond(supports, closed)
+        call open_from(supports, closed)
     end subroutine pass_kinks
 
 end module gapbeam_single_way

@@ -5,7 +5,7 @@ module gapbeam_events
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved, gapbeam_no_equilibrium
     use gapbeam_polyline, only: last_kink
     use gapbeam_scheme, only: outcome_type
-    use gapbeam_referee, only: rule_given, reserve_for
+    use gapbeam_extended_precision, only: rule_given, reserve_for
     use gapbeam_path, only: follow_path, path_type, event_turns
     use gapbeam_pieces, only: acting_type, acting_piece, what_happens, nothing
     use gapbeam_words, only: shown

@@ -11,7 +11,7 @@ module gapbeam_history
     use gapbeam_line_quad, only: drop_live
     use gapbeam_scheme_quad, only: outcome_type
     use gapbeam_refined, only: refine_beam
-    use gapbeam_referee, only: reserve_for
+    use gapbeam_extended_precision, only: reserve_for
     use gapbeam_lines, only: way_type, rise, fall, turn
     use gapbeam_branch, only: branch_type, segment_type, start_branch, step_branch, goes_on, no_way_on, never_ends, not_told
     use gapbeam_scene, only: gapbeam_elastic

@@ -10,7 +10,7 @@ module gapbeam_lane_model
     use gapbeam_cases, only: case_loads_type
     use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type, link_numbers, link_faa, link_fab, link_fbb, link_sum_a, &
         link_sum_b, link_bending, link_determinant, link_fixity, link_reach
-    use gapbeam_lane_spans, only: ease_ratio
+    use gapbeam_lane_spans, only: proximal_ratio
     implicit none
     private
     public :: prepare_lanes, take_supports, take_starts, units_of_supports
@@ -37,7 +37,8 @@ contains
         m = size(loads%of_links)
         k = size(loads%of_nodes)
         lane_beam%n = n
-        allocate (lane_beam%length(n), lane_beam%inverse(n), lane_beam%links(extent, link_numbers, n), lane_beam%ease(extent), &
+        allocate (lane_beam%length(n), lane_beam%inverse(n), lane_beam%links(extent, link_numbers, n), &
+                  lane_beam%proximal_weight(extent), &
                   lane_beam%side(0:last), lane_beam%there(0:n), lane_beam%changes(0:last), &
                   lane_beam%hinge(0:n), lane_beam%number(size(lowered%beam%supports)), lane_beam%link_load(m), &
                   lane_beam%link(m), lane_beam%to_link(extent, 6, m), lane_beam%node_load(k), lane_beam%node(k), &
@@ -47,7 +48,7 @@ contains
         associate (to => lane_beam, from => lowered%beam%links)
             to%length(:) = from%length
             to%inverse(:) = from%inverse
-            to%ease(:) = ease_ratio*softest(lowered%beam)
+            to%proximal_weight(:) = proximal_ratio*softest(lowered%beam)
             do k = 1, extent
                 to%links(k, link_faa, :) = from%faa
                 to%links(k, link_fab, :) = from%fab

@@ -3,7 +3,7 @@ module gapbeam_lane_spans
     use gapbeam_kinds, only: wp
     use gapbeam_element, only: moment_integrals
     use gapbeam_link, only: piece_type, piece_load_type, along_type, next_piece, moments_about_right_end
-    use gapbeam_law_forms, only: least_stiffness
+    use gapbeam_law_adapters, only: least_stiffness
     use gapbeam_units, only: turning_unit, rotation_unit
     use gapbeam_lowered, only: lowered_type, in_bending, in_shear
     use gapbeam_cases, only: case_loads_type
@@ -12,10 +12,10 @@ module gapbeam_lane_spans
     use gapbeam_lane_pieces, only: prepare_pieces
     implicit none
     private
-    public :: span_room_type, fits_spans, prepare_spans, take_spans, make_pack_links, ease_ratio
+    public :: span_room_type, fits_spans, prepare_spans, take_spans, make_pack_links, proximal_ratio
 
     !> Weak springs relative to the softest stiffness present, as in gapbeam_scheme
-    real(wp), parameter :: ease_ratio = 1e-5_wp
+    real(wp), parameter :: proximal_ratio = 1e-5_wp
     !> Stiffnesses between 2**-100 and 2**100 in the engine's units leave room for all products, in the units of the case too
     integer, parameter :: most_power = 100
     !> Exponents of the units of stiffnesses up to which powers of two and their products with these are doubles
@@ -215,21 +215,22 @@ contains
         call make_links_at(level, room%spans, beam%length, room%stiffness, room%flexibility, room%shear_flexibility, pack%links, &
                            beam%to_link)
         do l = 1, lanes
-            beam%ease(l) = ease_of(room%spans%softest, sum(pack%links(l, link_bending, :)), sum(beam%length), beam%n)
+            beam%proximal_weight(l) = proximal_weight_of(room%spans%softest, sum(pack%links(l, link_bending, :)), &
+                                                         sum(beam%length), beam%n)
         end do
     end subroutine make_pack_links
 
     !> Stiffness of the weak springs of a case: softest of gapbeam_model
-    pure function ease_of(softest, bending, length, n) result(ease)
+    pure function proximal_weight_of(softest, bending, length, n) result(proximal_weight)
         !> Of the supports; of the beam: flexibility, length, links
         real(wp), intent(in) :: softest, bending, length
         integer, intent(in) :: n
-        real(wp) :: ease
+        real(wp) :: proximal_weight
 
-        ease = softest
-        if (bending > 0.0_wp) ease = min(ease, 1/(bending*length**2))
-        if (.not. ease < huge(ease)) ease = 1.0_wp
-        ease = ease_ratio*(ease/(n + 1))
-    end function ease_of
+        proximal_weight = softest
+        if (bending > 0.0_wp) proximal_weight = min(proximal_weight, 1/(bending*length**2))
+        if (.not. proximal_weight < huge(proximal_weight)) proximal_weight = 1.0_wp
+        proximal_weight = proximal_ratio*(proximal_weight/(n + 1))
+    end function proximal_weight_of
 
 end module gapbeam_lane_spans

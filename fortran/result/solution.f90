@@ -29,7 +29,7 @@ module gapbeam_solution
         !> Can the beam move freely without work of the loads; does it slide along its axis
         logical :: indifferent = .false., slides = .false.
         !> Did the rule single come back to a scheme
-        logical :: came_back = .false.
+        logical :: cycled = .false.
         !> The scheme: which supports act, and whose reaction or opening is zero, so that they may be closed or open
         logical, allocatable :: closed(:), undecided(:)
         !> The laws of the supports as they have become, where they are not those of the beam
@@ -107,7 +107,7 @@ contains
         state%method = 0
         state%indifferent = .false.
         state%slides = .false.
-        state%came_back = .false.
+        state%cycled = .false.
         state%has_starts = .false.
         if (allocated(state%ground)) deallocate (state%ground)
         state%undecided(:) = .false.

@@ -9,8 +9,8 @@ module gapbeam_state
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_recover, only: recover_beam
     use gapbeam_scheme, only: outcome_type
-    use gapbeam_redundancy, only: refuse_redundancy
-    use gapbeam_referee, only: rule_given, decide_scheme, detail_type, reserve_for
+    use gapbeam_static_indeterminacy, only: refuse_indeterminate
+    use gapbeam_extended_precision, only: rule_given, decide_scheme, detail_type, reserve_for
     use gapbeam_search, only: rule_block
     use gapbeam_ground, only: ground_type
     use gapbeam_ground_solver, only: solve_on_ground
@@ -94,7 +94,7 @@ contains
             if (allocated(error)) return
             state%solves = work%solves
             state%method = work%method
-            state%came_back = work%came_back
+            state%cycled = work%cycled
             if (state%slides) then
                 state%status = gapbeam_no_equilibrium
                 return
@@ -123,7 +123,7 @@ contains
             call solve_on_ground(ground, detail_of(lowered), factor, merge(rule_block, rule, rule >= rule_given), acting, &
                                  state%ground, outcome, error, near)
             if (.not. allocated(error) .and. outcome%status == gapbeam_solved) then
-                call refuse_redundancy(ground%beam, acting, state%ground%undecided, error)
+                call refuse_indeterminate(ground%beam, acting, state%ground%undecided, error)
             end if
             call name_range(lowered, error)
             if (allocated(error)) return

@@ -5,7 +5,7 @@ module gapbeam_train_influence
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_not_converged
     use gapbeam_band, only: band_ok
     use gapbeam_element, only: field_type
-    use gapbeam_law_forms, only: drop_level
+    use gapbeam_law_adapters, only: drop_level
     use gapbeam_link, only: piece_load_type
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_system, only: solve_and_refine

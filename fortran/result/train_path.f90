@@ -19,8 +19,8 @@ module gapbeam_train_path
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_search, only: rule_block
     use gapbeam_scheme, only: find_scheme, outcome_type
-    use gapbeam_redundancy, only: find_redundancy
-    use gapbeam_referee, only: decide_scheme, detail_type
+    use gapbeam_static_indeterminacy, only: find_indeterminacy
+    use gapbeam_extended_precision, only: decide_scheme, detail_type
     use gapbeam_words, only: shown
     use gapbeam_lowered, only: lowered_type
     use gapbeam_solution, only: state_type, new_state, close_all
@@ -206,7 +206,7 @@ contains
             passage%motion_of(k) = 0
             if (status == gapbeam_solved .and. changes) then
                 passage%at_zero(:, k) = are_zero(margins, degree_of(train), size(closed))
-                call find_redundancy(track%beam, closed, passage%at_zero(:, k), node)
+                call find_indeterminacy(track%beam, closed, passage%at_zero(:, k), node)
                 if (node >= 0) passage%status(k) = gapbeam_indeterminate
             end if
             now = to

@@ -21,7 +21,7 @@ module gapbeam_audit
     !> Share of the largest terms of the beam that count as terms of every sum: elimination carries their rounding everywhere, and
     !> refining leaves the square of it
     real(wp), parameter :: everywhere = 2.0_wp**(-40)
-    !> Share of the largest load up to which a reaction that is nothing but rounding is left out (gapbeam_referee)
+    !> Share of the largest load up to which a reaction that is nothing but rounding is left out (gapbeam_extended_precision)
     real(wp), parameter :: left_out = 2.0_wp**(-27)
 
 contains

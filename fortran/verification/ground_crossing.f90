@@ -33,7 +33,7 @@ module gapbeam_ground_crossing
     !> So many times farther than a secant tells it goes back over the zero, and so many times farther again
     real(wp), parameter :: back = 4.0_wp, farther = 16.0_wp
     !> So often a step may be longer than half of the one before
-    integer, parameter :: patience = 2
+    integer, parameter :: non_monotone_steps = 2
     !> Part of the way between the two factors around the place of the change in which that is looked for at last
     real(wp), parameter :: around = 2.0_wp**(-12)
 
@@ -124,7 +124,7 @@ contains
                 growth = back
                 if (abs(next - now%factor) > way/2) waited = waited + 1
                 way = abs(next - now%factor)
-                if (waited > patience) then
+                if (waited > non_monotone_steps) then
                     if (way <= rounding*now%factor) exit
                     next = near%factor
                     waited = 0

@@ -18,7 +18,7 @@ module gapbeam_ground_solver
     use gapbeam_workspace, only: workspace_type
     use gapbeam_scheme, only: outcome_type
     use gapbeam_law, only: both
-    use gapbeam_law_motions, only: is_blocked
+    use gapbeam_law_kinematics, only: is_blocked
     use gapbeam_refined, only: detail_type
     use gapbeam_refined_ground, only: refine_ground, refine_zones
     use gapbeam_layers_quad, only: has_curves

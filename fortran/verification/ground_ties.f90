@@ -6,7 +6,7 @@ module gapbeam_ground_ties
     use gapbeam_zone_fields_quad, only: fields_at_ends
     use gapbeam_workspace_quad, only: workspace_type
     use gapbeam_model_quad, only: beam_type
-    use gapbeam_law_motions_quad, only: leaves_all
+    use gapbeam_law_kinematics_quad, only: leaves_all
     use gapbeam_kinematics_quad, only: free_motions, motion_type
     implicit none
     private

@@ -1,5 +1,5 @@
 !> Supports as other methods want them: as pairs, as stiffnesses, one for a node, or changed
-module gapbeam_law_forms
+module gapbeam_law_adapters
     use gapbeam_kinds, only: wp
     use gapbeam_law, only: node_support_type, both, is_rigid
     use gapbeam_law_margins, only: may_change
@@ -99,4 +99,4 @@ contains
         support%force = 0.0_wp
     end subroutine drop_level
 
-end module gapbeam_law_forms
+end module gapbeam_law_adapters

@@ -5,7 +5,7 @@
 !> compiled in quadruple precision, searches again, from the numbers of the pieces rather than from links rounded to
 !> doubles, and its solution, rounded once, is the result. What is zero even there, but for what the last digits of the
 !> data move (gapbeam_sensitivity), is a tie: then either state is right, and the support is named (undecided).
-module gapbeam_referee
+module gapbeam_extended_precision
     use gapbeam_kinds, only: wp, qp
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_no_memory, gapbeam_stopped, gapbeam_indeterminate, &
         gapbeam_not_converged
@@ -17,7 +17,7 @@ module gapbeam_referee
     use gapbeam_system, only: solve_and_refine
     use gapbeam_band, only: band_ok
     use gapbeam_scheme, only: find_scheme, outcome_type
-    use gapbeam_redundancy, only: refuse_redundancy
+    use gapbeam_static_indeterminacy, only: refuse_indeterminate
     use gapbeam_kinematics, only: held_by_ties
     use gapbeam_kinematics_quad, only: fine_held_by_ties => held_by_ties
     use gapbeam_model_quad, only: fine_beam_type => beam_type, fine_support_type => node_support_type, softest
@@ -27,7 +27,7 @@ module gapbeam_referee
     use gapbeam_system_quad, only: solve_and_refine_fine => solve_and_refine
     use gapbeam_search_quad, only: rule_block
     use gapbeam_scheme_quad, only: find_fine_scheme => find_scheme, fine_outcome_type => outcome_type
-    use gapbeam_hidden_signs, only: turn_hidden
+    use gapbeam_ill_scaled_signs, only: flip_ill_scaled
     use gapbeam_refined, only: detail_type, refine_loaded_beam
     use gapbeam_ledger, only: ledger_type, words_for
     use gapbeam_audit, only: audit_beam
@@ -77,7 +77,7 @@ contains
         integer :: known
 
         known = min(rule, rule_given)
-        call look_for_scheme(beam, detail, factor, known, closed, work, outcome, error)
+        call find_scheme_in_doubles(beam, detail, factor, known, closed, work, outcome, error)
         if (allocated(error) .or. outcome%status /= gapbeam_solved) return
         call audit_beam(beam, closed, outcome%undecided .or. rule == rule_extended, outcome%indifferent, &
                         merge(given_leeway, 1.0_wp, known == rule_given), work%answers, work%shear, work%reaction, work, ledger)
@@ -101,11 +101,11 @@ contains
             if (present(fault)) fault = ledger
             return
         end if
-        call refuse_redundancy(beam, closed, outcome%undecided, error)
+        call refuse_indeterminate(beam, closed, outcome%undecided, error)
     end subroutine decide_scheme
 
     !> Find a working scheme and its solution
-    subroutine look_for_scheme(beam, detail, factor, rule, closed, work, outcome, error)
+    subroutine find_scheme_in_doubles(beam, detail, factor, rule, closed, work, outcome, error)
         !> As for decide_scheme
         type(beam_type), intent(in) :: beam
         type(detail_type), intent(in) :: detail
@@ -147,7 +147,7 @@ contains
         end if
         if (allocated(error) .or. outcome%status /= gapbeam_solved) return
         call move_alloc(undecided, outcome%undecided)
-    end subroutine look_for_scheme
+    end subroutine find_scheme_in_doubles
 
     !> Solve a scheme that is known from the path of the load. At the factor of an event, rounded to a double, a search could as
     !> well end on the other side of it
@@ -162,8 +162,8 @@ contains
         integer :: state, place
 
         work%solves = 0
-        work%came_back = .false.
-        work%ease = 0.0_wp
+        work%cycled = .false.
+        work%proximal_weight = 0.0_wp
         call solve_and_refine(beam, closed, work, state, place)
         if (state /= band_ok) return
         allocate (wrong(size(closed)))
@@ -303,7 +303,7 @@ contains
         end if
         if (.not. found%indifferent) then
             solves = fine_work%solves
-            call turn_hidden(fine, closed, fine_work, known)
+            call flip_ill_scaled(fine, closed, fine_work, known)
             work%solves = work%solves + fine_work%solves - solves
             if (.not. known) call fatal_error(error, gapbeam_not_converged, "stiffnesses, gaps and loads lie so far apart that "// &
                                               "rounding hides which supports act: check their numbers and units")
@@ -395,4 +395,4 @@ contains
         end do
     end subroutine find_undecided
 
-end module gapbeam_referee
+end module gapbeam_extended_precision

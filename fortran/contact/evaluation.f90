@@ -1,8 +1,8 @@
-!> A look at a scheme: solve it, and see which supports are wrong.
+!> Evaluation of a contact state: its solution, and the supports that are wrong in it.
 !>
 !> Where signs are clear deflections and moments are enough. Otherwise reactions are found, and where few supports are wrong the
 !> solution is refined; on a long beam that is not solved from both ends it is kept up to date from then on.
-module gapbeam_look
+module gapbeam_evaluation
     use gapbeam_kinds, only: wp
     use gapbeam_watch, only: is_stopped
     use gapbeam_band, only: band_ok, band_stopped
@@ -13,10 +13,10 @@ module gapbeam_look
     use gapbeam_signs, only: sign_type, prepare_signs, find_clearly_wrong
     use gapbeam_reactions, only: by_stretches
     use gapbeam_rules, only: find_wrong, first_width
-    use gapbeam_fronts, only: base_type
+    use gapbeam_contact_boundary, only: base_type
     implicit none
     private
-    public :: search_type, look, few
+    public :: search_type, evaluate_active_set, few
 
     !> So few wrong supports are looked at more closely
     integer, parameter :: few = 8
@@ -34,17 +34,17 @@ module gapbeam_look
         logical :: with_laws = .false., by_pieces = .false.
         !> Is everything refined where few are wrong
         logical :: carefully = .false.
-        !> Is this a part of the beam, so that what is found is looked at again in the whole
-        logical :: in_part = .false.
+        !> Is this a subdomain of the beam, so that what is found is looked at again in the whole
+        logical :: in_subdomain = .false.
         !> Rounding errors beyond which a sign counts
         real(wp) :: width = first_width
         !> The scheme solved last, if its solution can be kept up to date; that which nodes in work are those of, if they are of any
         logical, allocatable :: kept(:), applied(:)
         !> The supports whose signs count
         type(sign_type) :: signs
-        !> Supports by nodes, for fronts
+        !> Supports by nodes, for boundaries of contact
         type(base_type) :: base
-        !> Rounds of parts that are left, and the nodes that go with a part in the next one
+        !> Rounds of subdomains that are left, and the nodes that go with a subdomain in the next one
         integer :: rounds = 0, next_rounds = 0, margin = 0
         !> How the last solve went, and where not well
         integer :: state = 0, place = 0
@@ -52,8 +52,8 @@ module gapbeam_look
 
 contains
 
-    !> Solve and see what is wrong
-    subroutine look(beam, closed, reactions, work, search, settled)
+    !> Solve a contact state, and find what is wrong in it
+    subroutine evaluate_active_set(beam, closed, reactions, work, search, settled)
         type(beam_type), intent(in) :: beam
         logical, intent(in) :: closed(:)
         !> Are reactions needed, and not only what is wrong; a few wrong supports always have them
@@ -65,7 +65,7 @@ contains
 
         settled = .false.
         if (allocated(search%kept)) then
-            call look_around_changes(beam, closed, work, search)
+            call evaluate_changes(beam, closed, work, search)
             if (allocated(search%applied)) deallocate (search%applied)
             if (allocated(search%kept)) then
                 settled = search%wrong_now == 0 .and. search%state == band_ok
@@ -83,7 +83,7 @@ contains
         if (.not. (reactions .or. allocated(beam%ground))) then
             if (.not. allocated(search%signs%w)) call prepare_signs(beam, work, search%signs)
             call find_clearly_wrong(beam, search%signs, closed, work, search%wrong, search%wrong_now, doubtful)
-            if (.not. doubtful .and. (search%wrong_now > few .or. (work%from_both_ends .or. search%in_part) &
+            if (.not. doubtful .and. (search%wrong_now > few .or. (work%from_both_ends .or. search%in_subdomain) &
                                      .and. .not. search%carefully)) then
                 settled = search%wrong_now == 0
                 return
@@ -108,10 +108,10 @@ contains
             end if
         end if
         settled = search%wrong_now == 0
-    end subroutine look
+    end subroutine evaluate_active_set
 
     !> The same where few supports have changed since the last solve; nothing is kept any more where that does not do
-    subroutine look_around_changes(beam, closed, work, search)
+    subroutine evaluate_changes(beam, closed, work, search)
         type(beam_type), intent(in) :: beam
         logical, intent(in) :: closed(:)
         type(workspace_type), intent(inout) :: work
@@ -146,6 +146,6 @@ contains
         search%state = band_ok
         call find_wrong(beam, closed, search%width, work, search%wrong)
         search%wrong_now = count(search%wrong)
-    end subroutine look_around_changes
+    end subroutine evaluate_changes
 
-end module gapbeam_look
+end module gapbeam_evaluation

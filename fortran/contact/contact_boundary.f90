@@ -1,22 +1,22 @@
-!> Fronts: where closed supports, many and close to each other, end and the beam lifts.
+!> Boundaries of contact, where closed supports, many and close to each other, end and the beam lifts off.
 !>
-!> At a front that stands too far out only the few supports next to it pull, one up, one down, so switching the wrong ones
+!> At a boundary that stands too far out only the few supports next to it pull, one up, one down, so switching the wrong ones
 !> moves it by a few supports a solve. But on a base that the beam lies on closely the moment beyond what the shape of the
-!> base asks for has to vanish at a front, and where the lifted stretch ends in the free, statics tell at which support
-!> it does. Between two fronts, where shear and moment change as they move, this is repeated with a limit.
-module gapbeam_fronts
+!> base asks for has to vanish at a boundary, and where the lifted stretch ends in the free, statics tell at which support
+!> it does. Between two boundaries, where shear and moment change as they move, this is repeated with a limit.
+module gapbeam_contact_boundary
     use gapbeam_kinds, only: wp
     use gapbeam_band, only: plain
-    use gapbeam_law_forms, only: find_single
+    use gapbeam_law_adapters, only: find_single
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type
     implicit none
     private
-    public :: base_type, find_base, move_fronts
+    public :: base_type, find_base, move_boundaries
 
-    !> Where fronts can be
+    !> Where boundaries can be
     type :: base_type
-        !> The one-sided support of every node at which a front can be, else 0; shape (-1:n + 1)
+        !> The one-sided support of every node at which a boundary can be, else 0; shape (-1:n + 1)
         integer, allocatable :: support(:)
         !> Its side, 1 or -1, shape (0:n)
         integer, allocatable :: side(:)
@@ -28,13 +28,13 @@ module gapbeam_fronts
     type :: run_type
         integer :: first = 0, last = -1
         logical :: closed = .false.
-        !> Is any of them wrong; does it lie beside a front that moves
+        !> Is any of them wrong; does it lie beside a boundary that moves
         logical :: wrong = .false., beside = .false.
     end type run_type
 
 contains
 
-    !> Find where fronts can be: single one-sided supports at plain nodes
+    !> Find where boundaries can be: single one-sided supports at plain nodes
     pure subroutine find_base(beam, base)
         !> The beam
         type(beam_type), intent(in) :: beam
@@ -59,17 +59,17 @@ contains
         end do
     end subroutine find_base
 
-    !> See how far the fronts have to move
-    pure subroutine move_fronts(beam, closed, work, base, few, wrong)
+    !> See how far the boundaries have to move
+    pure subroutine move_boundaries(beam, closed, work, base, few, wrong)
         !> The beam and its supports by nodes
         type(beam_type), intent(in) :: beam
         type(base_type), intent(in) :: base
         !> The scheme, solved in work
         logical, intent(in) :: closed(:)
         type(workspace_type), intent(in) :: work
-        !> Supports that a front moves at least; less is left to switching
+        !> Supports that a boundary moves at least; less is left to switching
         integer, intent(in) :: few
-        !> Wrong supports in, those to be changed out: beside a front that moves all that it passes and no others
+        !> Wrong supports in, those to be changed out: beside a boundary that moves all that it passes and no others
         logical, intent(inout) :: wrong(:)
         type(run_type), allocatable :: runs(:)
         logical, allocatable :: passed(:)
@@ -103,7 +103,7 @@ contains
             end do
         end do
         wrong = wrong .or. passed
-    end subroutine move_fronts
+    end subroutine move_boundaries
 
     !> Runs from left to right, with an empty one wherever a run has no neighbour
     pure subroutine find_runs(beam, closed, base, wrong, runs)
@@ -176,4 +176,4 @@ contains
         end associate
     end function supports_to_open
 
-end module gapbeam_fronts
+end module gapbeam_contact_boundary

@@ -1,14 +1,14 @@
 !> Where the loads push a beam that may move freely while a scheme acts.
-module gapbeam_runaways
+module gapbeam_unbounded_motions
     use gapbeam_kinds, only: wp, dp
     use gapbeam_band, only: hinge, restrained
     use gapbeam_law, only: below, above
-    use gapbeam_law_motions, only: find_level_forces, outermost, is_blocked
+    use gapbeam_law_kinematics, only: find_level_forces, outermost, is_blocked
     use gapbeam_model, only: beam_type
     use gapbeam_kinematics, only: free_motions, motion_type, work_of_loads
     implicit none
     private
-    public :: runaway_type, find_runaways, prefer_tipping, no_speed
+    public :: unbounded_motion_type, find_unbounded_motions, prefer_rotation_mode, no_speed
 
     !> Work and speed, relative to the sum of their parts and to the largest, that count as none
     !> (places and loads are rounded to doubles, whatever the precision here)
@@ -18,23 +18,23 @@ module gapbeam_runaways
     real(wp), parameter :: clearly_more = 1024.0_wp
 
     !> A part of the beam that the loads move while a scheme acts: first and last node that move
-    type :: runaway_type
+    type :: unbounded_motion_type
         integer :: first, last
-    end type runaway_type
+    end type unbounded_motion_type
 
 contains
 
     !> The free motions into which the loads push the beam while a scheme acts: of each part that moves by itself the
     !> combination of its independent motions whose work is greatest for its size, the direction in which the weak springs give
     !> way
-    subroutine find_runaways(beam, factor, closed, direction, runaways, stable, in_doubt)
+    subroutine find_unbounded_motions(beam, factor, closed, direction, unbounded, stable, in_doubt)
         type(beam_type), intent(in) :: beam
         real(wp), intent(in) :: factor
         logical, intent(in) :: closed(:)
         !> Displacements of the nodes, largest 1 in every part; zero if no load does work
         real(wp), intent(out) :: direction(0:)
         !> The parts that the loads move
-        type(runaway_type), allocatable, intent(out) :: runaways(:)
+        type(unbounded_motion_type), allocatable, intent(out) :: unbounded(:)
         !> Is there no free motion at all; is work of the loads near its rounding error
         logical, intent(out) :: stable, in_doubt
         type(motion_type), allocatable :: motions(:)
@@ -46,7 +46,7 @@ contains
         stable = size(motions) == 0
         in_doubt = .false.
         direction = 0.0_wp
-        allocate (runaways(0))
+        allocate (unbounded(0))
         if (stable) return
         allocate (share(size(motions)), y(0:size(beam%links)), level(0:size(beam%links)))
         y(:) = 0.0_wp
@@ -65,8 +65,8 @@ contains
             in_doubt = in_doubt .or. (abs(share(k)) > 0.0_wp .and. abs(share(k)) <= clearly_more*no_work*parts)
             if (abs(share(k)) <= no_work*parts) share(k) = 0.0_wp
         end do
-        deallocate (runaways)
-        allocate (runaways(size(motions)))
+        deallocate (unbounded)
+        allocate (unbounded(size(motions)))
         number = 0
         begin = 1
         do while (begin <= size(motions))
@@ -89,13 +89,13 @@ contains
                 if (largest > 0.0_wp) then
                     direction(first:last) = direction(first:last)/largest
                     number = number + 1
-                    runaways(number) = runaway_type(first, last)
+                    unbounded(number) = unbounded_motion_type(first, last)
                 end if
             end associate
             begin = finish + 1
         end do
-        runaways = runaways(1:number)
-    end subroutine find_runaways
+        unbounded = unbounded(1:number)
+    end subroutine find_unbounded_motions
 
     !> Scalar products of motions and those before them that they overlap with: gram(j, k) of motions k and k - j
     pure subroutine overlaps(motions, gram)
@@ -152,7 +152,7 @@ contains
     !> Of the ways in which a beam without hinges can go, the plainest: tipping about one of its supports, or moving as a
     !> whole; the one along which the loads do most work. The motion found is kept if none of these is free. Only the
     !> outermost supports of each side can be what the beam tips about: the next ones would be in the way
-    subroutine prefer_tipping(beam, factor, direction)
+    subroutine prefer_rotation_mode(beam, factor, direction)
         type(beam_type), intent(in) :: beam
         real(wp), intent(in) :: factor
         real(wp), intent(inout) :: direction(0:)
@@ -200,6 +200,6 @@ contains
             end do
         end subroutine consider
 
-    end subroutine prefer_tipping
+    end subroutine prefer_rotation_mode
 
-end module gapbeam_runaways
+end module gapbeam_unbounded_motions

@@ -9,7 +9,7 @@
 !>
 !> An edge of a cone begins at a support, a hinge or a clamp, so its moment at places farther right has the sign that the order
 !> of the nodes gives it. Only this order matters, and numbers of nodes stand for places: all of this is exact.
-module gapbeam_redundancy
+module gapbeam_static_indeterminacy
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type
     use gapbeam_band, only: hinge, restrained, band_needs_pivoting
@@ -19,7 +19,7 @@ module gapbeam_redundancy
     use gapbeam_search, only: refuse_scheme
     implicit none
     private
-    public :: refuse_redundancy, find_redundancy
+    public :: refuse_indeterminate, find_indeterminacy
 
     !> A convex cone in the plane of moment and shear: all sums of its rays with factors that are not negative
     type :: cone_type
@@ -31,20 +31,20 @@ module gapbeam_redundancy
 contains
 
     !> Refuse a solved scheme if other reactions would do as well
-    subroutine refuse_redundancy(beam, closed, at_zero, error)
-        !> As for find_redundancy
+    subroutine refuse_indeterminate(beam, closed, at_zero, error)
+        !> As for find_indeterminacy
         type(beam_type), intent(in) :: beam
         logical, intent(in) :: closed(:), at_zero(:)
         !> gapbeam_indeterminate
         type(error_type), allocatable, intent(inout) :: error
         integer :: node
 
-        call find_redundancy(beam, closed, at_zero, node)
+        call find_indeterminacy(beam, closed, at_zero, node)
         if (node >= 0) call refuse_scheme(beam, band_needs_pivoting, node, error)
-    end subroutine refuse_redundancy
+    end subroutine refuse_indeterminate
 
     !> At which node it turns out that other reactions would do as well, -1 if there are none
-    pure subroutine find_redundancy(beam, closed, at_zero, node)
+    pure subroutine find_indeterminacy(beam, closed, at_zero, node)
         !> The beam, its scheme, and supports whose reaction or opening is zero, shape (size(beam%supports))
         type(beam_type), intent(in) :: beam
         logical, intent(in) :: closed(:), at_zero(:)
@@ -67,7 +67,7 @@ contains
             end if
             call join(here, before)
         end do
-    end subroutine find_redundancy
+    end subroutine find_indeterminacy
 
     !> From the left end of a link to its right one
     pure subroutine pass_link(beam, i, cone)
@@ -236,4 +236,4 @@ contains
         end do
     end function meet
 
-end module gapbeam_redundancy
+end module gapbeam_static_indeterminacy

@@ -1,5 +1,5 @@
 !> What supports do to motions of the beam: hold them, stand in their way, let them go on for a while
-module gapbeam_law_motions
+module gapbeam_law_kinematics
     use gapbeam_kinds, only: wp
     use gapbeam_polyline, only: node_support_type, piece_that_acts
     use gapbeam_law, only: both
@@ -162,4 +162,4 @@ contains
         end do
     end function distance_to_contact
 
-end module gapbeam_law_motions
+end module gapbeam_law_kinematics

@@ -4,7 +4,7 @@
 !> of 1e-29 swings farther than anything else, the estimates hide signs that the solution itself shows. Supports that are wrong by
 !> less than the estimates, but by more than next to nothing, are turned one at a time, the first of them first (Murty 1974, least
 !> index), and the solution tells whether that matters.
-module gapbeam_hidden_signs
+module gapbeam_ill_scaled_signs
     use gapbeam_kinds, only: qp
     use gapbeam_band, only: band_ok
     use gapbeam_model_quad, only: beam_type, node_support_type
@@ -14,7 +14,7 @@ module gapbeam_hidden_signs
     use gapbeam_system_quad, only: solve_and_refine
     implicit none
     private
-    public :: turn_hidden
+    public :: flip_ill_scaled
 
     !> Forces below this share of the largest one do not matter: they are less than doubles promise
     real(qp), parameter :: least_share = 2.0_qp**(-44)
@@ -26,7 +26,7 @@ module gapbeam_hidden_signs
 contains
 
     !> Turn the supports that are wrong by less than the estimated rounding errors, as far as that changes reactions
-    subroutine turn_hidden(beam, closed, work, known)
+    subroutine flip_ill_scaled(beam, closed, work, known)
         !> A beam without ground; where supports have laws nothing is done
         type(beam_type), intent(in) :: beam
         !> A scheme in which nothing is wrong by more than rounding errors, shape (size(beam%supports))
@@ -73,7 +73,7 @@ contains
             is_tie(k) = .true.
             ties = ties + 1
         end do
-    end subroutine turn_hidden
+    end subroutine flip_ill_scaled
 
     !> The first support that is wrong by as much as may matter, 0 where there is none
     pure function first_wrong(beam, closed, work, is_tie) result(first)
@@ -147,4 +147,4 @@ contains
         force = least_share*max(maxval(work%load_size), maxval(abs(work%reaction)))
     end function least_that_matters
 
-end module gapbeam_hidden_signs
+end module gapbeam_ill_scaled_signs

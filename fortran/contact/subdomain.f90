@@ -1,25 +1,25 @@
 !> A stretch of the beam as a beam of its own
-module gapbeam_part
+module gapbeam_subdomain
     use gapbeam_kinds, only: wp, dp
     use gapbeam_require, only: checked, require
     use gapbeam_band, only: plain
     use gapbeam_law, only: node_support_type
-    use gapbeam_law_forms, only: stiffness_of_changing, hold_both_ways
+    use gapbeam_law_adapters, only: stiffness_of_changing, hold_both_ways
     use gapbeam_model, only: beam_type, order_supports
     use gapbeam_workspace, only: workspace_type, new_workspace
     implicit none
     private
-    public :: next_stretch, cut_out, least_margin
+    public :: next_stretch, extract_subdomain, least_margin
 
     !> Nodes to be taken along on both sides of wrong supports: at least these, at least the root of all, for stretches in
     !> which the beam hardly lifts are about that long
     integer, parameter :: few = 20
-    !> How often the length over which a front is felt has to go into this margin
+    !> How often the length over which a boundary is felt has to go into this margin
     real(wp), parameter :: lengths = 3.0_wp
 
 contains
 
-    !> Nodes to be taken along with a part at first; 0 where supports are so soft that all at once are changed better
+    !> Nodes to be taken along with a subdomain at first; 0 where supports are so soft that all at once are changed better
     pure function least_margin(beam) result(margin)
         type(beam_type), intent(in) :: beam
         integer :: margin
@@ -75,7 +75,7 @@ contains
 
     !> Cut the beam at two nodes. What the rest does to the stretch becomes loads at its ends; the two outermost supports
     !> at a cut hold both ways if they are closed, so that the stretch stays in its place
-    pure subroutine cut_out(beam, closed, work, from, to, part, part_work, number)
+    pure subroutine extract_subdomain(beam, closed, work, from, to, subdomain, subdomain_work, number)
         !> The beam and a scheme solved in work
         type(beam_type), intent(in) :: beam
         logical, intent(in) :: closed(:)
@@ -83,22 +83,23 @@ contains
         !> First and last node of the stretch
         integer, intent(in) :: from, to
         !> The stretch, its loads in its own workspace
-        type(beam_type), intent(out) :: part
-        type(workspace_type), intent(out) :: part_work
+        type(beam_type), intent(out) :: subdomain
+        type(workspace_type), intent(out) :: subdomain_work
         !> Numbers of its supports in the whole beam
         integer, allocatable, intent(out) :: number(:)
         type(node_support_type), allocatable :: supports(:)
         integer :: m, j, k
 
         m = to - from
-        if (checked) call require(0 <= from .and. from < to .and. to <= size(beam%links), "cut_out: from, to")
-        allocate (part%links(m), part%kind(0:m), part%compliance(0:m), part%force(2, 0:m), part%couple(2, 0:m))
-        part%watch = beam%watch
-        part%links(:) = beam%links(from + 1:to)
-        part%kind(:) = beam%kind(from:to)
-        part%compliance(:) = beam%compliance(from:to)
-        part%force(:, :) = beam%force(:, from:to)
-        part%couple(:, :) = beam%couple(:, from:to)
+        if (checked) call require(0 <= from .and. from < to .and. to <= size(beam%links), "extract_subdomain: from, to")
+        allocate (subdomain%links(m), subdomain%kind(0:m), subdomain%compliance(0:m), subdomain%force(2, 0:m), &
+                  subdomain%couple(2, 0:m))
+        subdomain%watch = beam%watch
+        subdomain%links(:) = beam%links(from + 1:to)
+        subdomain%kind(:) = beam%kind(from:to)
+        subdomain%compliance(:) = beam%compliance(from:to)
+        subdomain%force(:, :) = beam%force(:, from:to)
+        subdomain%couple(:, :) = beam%couple(:, from:to)
         associate (there => beam%order(beam%first(from):beam%first(to + 1) - 1))
             allocate (number(size(there)))
             number(:) = there
@@ -112,44 +113,44 @@ contains
         allocate (supports(size(number)))
         supports(:) = beam%supports(number)
         supports%node = supports%node - from
-        call order_supports(supports, part)
-        call new_workspace(part, part_work)
-        part_work%loads(:) = work%loads(from:to)
-        part_work%load_size(:) = work%load_size(from:to)
-        part_work%turn_size(:) = work%turn_size(from + 1:to)
-        part_work%ease(:) = work%ease(from:to)
-        part_work%reference(:) = work%reference(from:to)
+        call order_supports(supports, subdomain)
+        call new_workspace(subdomain, subdomain_work)
+        subdomain_work%loads(:) = work%loads(from:to)
+        subdomain_work%load_size(:) = work%load_size(from:to)
+        subdomain_work%turn_size(:) = work%turn_size(from + 1:to)
+        subdomain_work%proximal_weight(:) = work%proximal_weight(from:to)
+        subdomain_work%reference(:) = work%reference(from:to)
         if (from > 0) then
-            part%kind(0) = plain
-            associate (first => part_work%loads(0))
+            subdomain%kind(0) = plain
+            associate (first => subdomain_work%loads(0))
                 first%left = 0.0_wp
                 first%couple = work%answers(from)%moment_right
                 first%shear = first%shear - work%shear(from)
             end associate
-            call hold_closed_ones(part, closed(number), 0, 1)
+            call hold_closed_ones(subdomain, closed(number), 0, 1)
         end if
         if (to < size(beam%links)) then
-            part%kind(m) = plain
-            associate (last => part_work%loads(m))
+            subdomain%kind(m) = plain
+            associate (last => subdomain_work%loads(m))
                 last%right = 0.0_wp
                 last%couple = -work%answers(to)%moment_left
                 last%shear = last%shear + work%shear(to + 1)
             end associate
-            call hold_closed_ones(part, closed(number), m - 1, m)
+            call hold_closed_ones(subdomain, closed(number), m - 1, m)
         end if
-    end subroutine cut_out
+    end subroutine extract_subdomain
 
     !> Let the closed supports of some nodes hold both ways
-    pure subroutine hold_closed_ones(part, closed, first, last)
-        type(beam_type), intent(inout) :: part
-        !> The scheme of the part
+    pure subroutine hold_closed_ones(subdomain, closed, first, last)
+        type(beam_type), intent(inout) :: subdomain
+        !> The scheme of the subdomain
         logical, intent(in) :: closed(:)
         integer, intent(in) :: first, last
         integer :: j
 
-        do j = part%first(first), part%first(last + 1) - 1
-            if (closed(part%order(j))) call hold_both_ways(part%supports(part%order(j)))
+        do j = subdomain%first(first), subdomain%first(last + 1) - 1
+            if (closed(subdomain%order(j))) call hold_both_ways(subdomain%supports(subdomain%order(j)))
         end do
     end subroutine hold_closed_ones
 
-end module gapbeam_part
+end module gapbeam_subdomain
