@@ -9,8 +9,7 @@ program test_law
     use gapbeam_law_margins, only: may_change, margin_of, margin_rates, find_margins, find_wrong_states, find_doubtful_states
     use gapbeam_law_kinematics, only: mark_held, outermost, is_blocked, leaves_all, distance_to_contact
     use gapbeam_law_adapters, only: least_stiffness, stiffness_of_changing, find_pairs, find_single, hold_both_ways, &
-        limit_stiffness, &
-        drop_level
+        limit_stiffness, drop_level
     implicit none
     integer :: status
 

@@ -10,7 +10,8 @@
 !> A support that holds both ways has the second piece only, one of stiffness 0 the first only: their states never change. A
 !> scheme is the states of all supports, kept as a logical array: `closed(k)` is true on the second piece. How far a support is
 !> from the end of its piece is its margin (gapbeam_law_margins); below zero its state is wrong, and the right one lies beyond
-!> that end: with two pieces the other one. A law with more pieces is one support for every kink between them (gapbeam_polyline).
+!> that end: with two pieces the other one. A law with more pieces is one support for every breakpoint between them
+!> (gapbeam_polyline).
 !>
 !> Loops over supports stand here as well, since procedures of other files are not inlined.
 module gapbeam_law
@@ -41,7 +42,7 @@ contains
         type(node_support_type), intent(in) :: support
         logical :: it_is
 
-        it_is = abs(support%side) <= 1 .and. (support%stiffness >= 0.0_wp .or. support%kink > 0) &
+        it_is = abs(support%side) <= 1 .and. (support%stiffness >= 0.0_wp .or. support%breakpoint > 0) &
             .and. abs(support%contact) <= huge(support%contact)
     end function is_support
 
@@ -50,7 +51,7 @@ contains
         type(node_support_type), intent(in) :: supports(:)
         logical :: any_has
 
-        any_has = any(supports%kink > 0)
+        any_has = any(supports%breakpoint > 0)
     end function has_laws
 
     !> Is a support rigid
@@ -87,7 +88,7 @@ contains
         end do
         do k = 1, size(closed)
             associate (s => supports(k))
-                if (s%side == both .or. .not. closed(k) .or. .not. is_rigid(s) .or. s%kink > 0) cycle
+                if (s%side == both .or. .not. closed(k) .or. .not. is_rigid(s) .or. s%breakpoint > 0) cycle
                 closed(k) = .not. taken(s%node)
                 taken(s%node) = .true.
             end associate
@@ -121,7 +122,7 @@ contains
                 if (sprung .and. s%side /= both) then
                     node%stiffness = node%stiffness + spring(k)
                     r%shear = r%shear + spring(k)*spring_contact(k)
-                else if (s%kink > 0) then
+                else if (s%breakpoint > 0) then
                     call piece_that_acts(supports, acting, k, acts, slope)
                     if (.not. acts) cycle
                     level(s%node) = max(level(s%node), abs(s%contact))
@@ -180,7 +181,7 @@ contains
                 k = order(j)
                 reaction(k) = 0.0_wp
                 reaction_error(k) = 0.0_wp
-                if (.not. acting(k) .and. supports(k)%kink == 0) cycle
+                if (.not. acting(k) .and. supports(k)%breakpoint == 0) cycle
                 call force_by_spring(supports, acting, k, answers(i)%deflection, deflection_size(i), acts, rigid, by_spring, &
                                      spring_error)
                 if (.not. acts) cycle
@@ -194,7 +195,7 @@ contains
             if (company == 0) cycle
             do j = first(i), first(i + 1) - 1
                 k = order(j)
-                if (.not. acting(k) .and. supports(k)%kink == 0) cycle
+                if (.not. acting(k) .and. supports(k)%breakpoint == 0) cycle
                 call force_by_spring(supports, acting, k, answers(i)%deflection, deflection_size(i), acts, rigid, by_spring, &
                                      spring_error)
                 if (.not. acts) cycle
@@ -230,7 +231,7 @@ contains
         rounding = 0.0_wp
         rigid = .false.
         associate (s => supports(k))
-            if (s%kink > 0) then
+            if (s%breakpoint > 0) then
                 call piece_that_acts(supports, acting, k, acts, slope)
                 if (.not. acts) return
                 rigid = abs(slope) > huge(slope)
@@ -246,7 +247,7 @@ contains
         end associate
     end subroutine force_by_spring
 
-    !> Is a support without kinks on its law, in the right state, but for rounding. What is not so at a glance may still be so
+    !> Is a support without breakpoints on its law, in the right state, but for rounding. What is not so at a glance may still be so
     pure function is_plainly_right(support, closed, deflection, deflection_size, reaction, force_size, limit) result(right)
         type(node_support_type), intent(in) :: support
         logical, intent(in) :: closed
@@ -259,7 +260,7 @@ contains
         logical :: right
 
         right = .false.
-        if (support%kink > 0) return
+        if (support%breakpoint > 0) return
         if (.not. closed) then
             right = .not. abs(reaction) > 0.0_wp .and. support%side*(support%contact - deflection) >= 0.0_wp
         else if (support%side*reaction >= 0.0_wp) then

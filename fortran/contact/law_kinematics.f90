@@ -20,7 +20,7 @@ contains
         integer :: k
 
         do k = 1, size(supports)
-            if (supports(k)%kink > 0) then
+            if (supports(k)%breakpoint > 0) then
                 call piece_that_acts(supports, acting, k, acts, slope)
                 if (acts .and. abs(slope) > 0.0_wp) held(supports(k)%node) = .true.
             else if (acting(k) .and. supports(k)%stiffness > 0.0_wp) then
@@ -41,7 +41,7 @@ contains
 
         force(:) = 0.0_wp
         do k = 1, size(supports)
-            if (supports(k)%kink == 0) cycle
+            if (supports(k)%breakpoint == 0) cycle
             call piece_that_acts(supports, acting, k, acts, slope)
             if (.not. acts .or. abs(slope) > 0.0_wp) cycle
             associate (s => supports(k))
@@ -66,7 +66,8 @@ contains
         there_is = .false.
         do k = 1, size(supports)
             associate (s => supports(k))
-                if (s%kink > 0 .or. (s%side == both .and. s%stiffness > 0.0_wp) .or. s%side == -side .and. side /= both) return
+                if (s%breakpoint > 0 .or. (s%side == both .and. s%stiffness > 0.0_wp) .or. s%side == -side &
+                    .and. side /= both) return
                 if (.not. s%stiffness > 0.0_wp) cycle
                 side = s%side
                 nearest = min(nearest, side*s%contact)
@@ -106,7 +107,7 @@ contains
             associate (s => supports(k), y => displacement(supports(k)%node))
                 blocked = s%stiffness > 0.0_wp .and. (s%side*y > 0.0_wp .or. (s%side == both .and. abs(y) > 0.0_wp))
                 ! A law that holds both ways begins with a piece without end
-                blocked = blocked .or. (s%kink == 1 .and. s%before > 0.0_wp .and. s%side*y < 0.0_wp)
+                blocked = blocked .or. (s%breakpoint == 1 .and. s%before > 0.0_wp .and. s%side*y < 0.0_wp)
             end associate
             if (blocked) return
         end do
@@ -149,7 +150,7 @@ contains
         do j = 1, size(numbers)
             associate (s => supports(numbers(j)))
                 speed = s%side*direction(s%node)
-                if (closed(numbers(j)) .and. s%kink > 0) then
+                if (closed(numbers(j)) .and. s%breakpoint > 0) then
                     ! Back to where the piece before takes more force
                     if (-speed > least_speed .and. s%before > 0.0_wp) then
                         way = min(way, max(0.0_wp, s%side*(s%contact - deflection(s%node))/speed))

@@ -5,7 +5,7 @@
 module gapbeam_law_margins
     use gapbeam_kinds, only: wp
     use gapbeam_band, only: answer_type
-    use gapbeam_polyline, only: node_support_type, kink_margin, is_watched, beside_level
+    use gapbeam_polyline, only: node_support_type, breakpoint_margin, is_watched, beside_level
     use gapbeam_law, only: both
     implicit none
     private
@@ -19,12 +19,12 @@ contains
         type(node_support_type), intent(in) :: support
         logical :: may
 
-        may = support%side /= both .and. (support%stiffness > 0.0_wp .or. support%kink > 0)
+        may = support%side /= both .and. (support%stiffness > 0.0_wp .or. support%breakpoint > 0)
     end function may_change
 
     ! Margins
 
-    !> The same of any support in a scheme; of a law with which of its kinks something is wrong
+    !> The same of any support in a scheme; of a law with which of its breakpoints something is wrong
     pure subroutine margin_in_scheme(supports, closed, k, deflection, deflection_size, reaction, reaction_error, margin, rounding, &
                                      by_force)
         !> All supports, the scheme, and the number of one of them
@@ -41,8 +41,9 @@ contains
         logical, intent(out), optional :: by_force
         logical :: is_force
 
-        if (supports(k)%kink > 0) then
-            call kink_margin(supports, closed, k, deflection, deflection_size, reaction, reaction_error, margin, rounding, is_force)
+        if (supports(k)%breakpoint > 0) then
+            call breakpoint_margin(supports, closed, k, deflection, deflection_size, reaction, reaction_error, margin, rounding, &
+                                   is_force)
         else
             call margin_of(supports(k), closed(k), deflection, deflection_size, reaction(k), reaction_error(k), margin, rounding)
             is_force = closed(k)
@@ -102,7 +103,7 @@ contains
         logical :: watched
 
         watched = may_change(supports(k))
-        if (supports(k)%kink > 0) watched = is_watched(supports, closed, k)
+        if (supports(k)%breakpoint > 0) watched = is_watched(supports, closed, k)
     end function is_watched_in
 
     !> The margins of all supports
@@ -143,7 +144,7 @@ contains
 
         do k = 1, size(closed)
             associate (i => supports(k)%node)
-                if (supports(k)%kink == 0) then
+                if (supports(k)%breakpoint == 0) then
                     call margin_of(supports(k), closed(k), answers(i)%deflection, deflection_size(i), reaction(k), &
                                    reaction_error(k), margin, rounding)
                 else
@@ -179,7 +180,7 @@ contains
             doubtful(k) = .false.
             if (.not. is_watched_in(supports, closed, k)) cycle
             associate (i => supports(k)%node)
-                if (supports(k)%kink == 0) then
+                if (supports(k)%breakpoint == 0) then
                     call margin_of(supports(k), closed(k), answers(i)%deflection, deflection_size(i), reaction(k), &
                                    reaction_error(k), margin, rounding)
                 else

@@ -2,9 +2,10 @@
 !> it needs.
 !>
 !> Elastic parts have one state of forces only, since their energy is strictly convex. So the difference of two right states is
-!> a moment that no load balances, in parts without flexibility: linear between nodes, with a kink up or down at rigid supports
-!> that may push more or less, zero at hinges, and zero where such a part ends. The scheme is right for one reaction only if there
-!> is no such moment but zero. From the left, moment and shear that such a difference may have at a node are a cone in the plane,
+!> a moment that no load balances, in parts without flexibility: linear between nodes, with a kink up or down at rigid
+!> supports that may push more or less, zero at hinges, and zero where such a part ends. The scheme is right for one reaction only
+!> if there is no such moment but zero. From the left, moment and shear that such a difference may have at a node are a cone in the
+!> plane,
 !> and there is one if it ever comes back to zero.
 !>
 !> An edge of a cone begins at a support, a hinge or a clamp, so its moment at places farther right has the sign that the order
@@ -54,7 +55,7 @@ contains
 
         node = -1
         ! A scheme that is solved is statically sound: others come from supports that touch without force
-        if (.not. any(at_zero .and. (beam%supports%kink > 0 .or. .not. closed))) return
+        if (.not. any(at_zero .and. (beam%supports%breakpoint > 0 .or. .not. closed))) return
         if (all(beam%links%bending > 0.0_wp)) return
         before = cone_type()
         do i = 0, size(beam%links)
@@ -121,7 +122,7 @@ contains
         logical :: acts
 
         associate (s => beam%supports(k))
-            if (s%kink == 0) then
+            if (s%breakpoint == 0) then
                 more = is_rigid(s) .and. (s%side == both .or. closed(k) .or. at_zero(k))
                 less = more .and. (s%side == both .or. (closed(k) .and. .not. at_zero(k)))
                 return
@@ -130,7 +131,7 @@ contains
             less = .false.
             if (s%passed) return
             if (at_zero(k)) then
-                ! At the kink: on along a rigid piece that begins here, or back along one that ends here
+                ! At the breakpoint: on along a rigid piece that begins here, or back along one that ends here
                 more = is_rigid(s)
                 less = s%before > huge(slope)
             else

@@ -10,7 +10,7 @@ module gapbeam_zone_margin
     use gapbeam_foundation_fields, only: fields_at
     use gapbeam_curved, only: curved_type, curved_fields
     use gapbeam_law_margins, only: margin_in_scheme
-    use gapbeam_ground_laws, only: approach_kink
+    use gapbeam_ground_laws, only: distance_to_breakpoint
     use gapbeam_workspace, only: workspace_type
     use gapbeam_ground, only: ground_type, zones_type, grounded_type, combined_load
     use gapbeam_zone_fields, only: ends_of, take_curved
@@ -140,8 +140,8 @@ contains
                 else
                     call fields_at(s, load, ends, share, w, psi, moment, shear)
                 end if
-                call approach_kink(ground%laws, ground%layers(k), change%branch, w, psi + s%shear_flexibility*shear, &
-                                   (left - begin) + share*s%length, ground%pieces(j)%length, way, slope)
+                call distance_to_breakpoint(ground%laws, ground%layers(k), change%branch, w, psi + s%shear_flexibility*shear, &
+                                            (left - begin) + share*s%length, ground%pieces(j)%length, way, slope)
                 if (merge(way > margin, way < margin, change%greatest)) then
                     margin = way
                     place = left + share*s%length

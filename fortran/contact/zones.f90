@@ -11,7 +11,7 @@ module gapbeam_zones
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_not_converged
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_scheme, only: find_scheme, outcome_type
-    use gapbeam_ground_laws, only: approach_kink
+    use gapbeam_ground_laws, only: distance_to_breakpoint
     use gapbeam_ground, only: ground_type, zones_type, grounded_type, place_stretches
     use gapbeam_zone_fields, only: fields_at_ends, take_fields, way_of_fields
     use gapbeam_find_zones, only: find_zones
@@ -180,8 +180,8 @@ contains
             associate (layer => ground%layers(ground%first(zones%piece(i)) + k - 1), at => zones%to(i), &
                        length => ground%pieces(zones%piece(i))%length, s => grounded%stretches(i))
                 call fields_at_ends(grounded, factor, work, i, rotation, shear)
-                call approach_kink(ground%laws, layer, law, work%answers(i)%deflection, &
-                                   rotation(2) + s%shear_flexibility*shear(2), at, length, away, slope)
+                call distance_to_breakpoint(ground%laws, layer, law, work%answers(i)%deflection, &
+                                            rotation(2) + s%shear_flexibility*shear(2), at, length, away, slope)
                 if (.not. abs(away) < abs(slope)*min(s%length, grounded%stretches(i + 1)%length)) then
                     others = others .or. abs(away) > 0.0_wp
                     cycle

@@ -10,7 +10,7 @@ module gapbeam_api_cases
     use gapbeam_refusal, only: named, of_supports, of_loads
     use gapbeam_scene, only: gapbeam_axial, gapbeam_both
     use gapbeam_lowered, only: lowered_type
-    use gapbeam_polyline, only: last_kink
+    use gapbeam_polyline, only: last_breakpoint
     use gapbeam_solution, only: close_all
     use gapbeam_pieces, only: acting_type, acting_piece, gapbeam_open, gapbeam_bilateral
     use gapbeam_cases, only: case_loads_type, split_loads
@@ -331,7 +331,7 @@ contains
         do k = 1, size(lowered%model%supports)
             j = lowered%beam_support(k)
             if (j > 0) then
-                last = last_kink(lowered%beam%supports, j)
+                last = last_breakpoint(lowered%beam%supports, j)
                 do i = 1, size(status)
                     reaction(k, i) = sum(found(j:last, i))
                 end do
@@ -356,7 +356,7 @@ contains
             associate (side => lowered%model%supports(k)%side)
                 j = lowered%beam_support(k)
                 if (j > 0) then
-                    last = last_kink(lowered%beam%supports, j)
+                    last = last_breakpoint(lowered%beam%supports, j)
                     do i = 1, size(status)
                         acting = acting_piece(lowered%beam%supports(j:last), side, closed(j:last, i) /= 0)
                         condition(k, i) = acting%condition

@@ -295,7 +295,7 @@ contains
                 call exchange(tape, s%side)
                 call exchange(tape, s%stiffness)
                 call exchange(tape, s%contact)
-                call exchange(tape, s%kink)
+                call exchange(tape, s%breakpoint)
                 call exchange(tape, s%more)
                 call exchange(tape, s%passed)
                 call exchange(tape, s%force)

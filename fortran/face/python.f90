@@ -260,7 +260,7 @@ subroutine gblaws(beam, ns, laws, copy, status, message)
         s%force = laws(2, :ns - 1)
         s%stiffness = laws(3, :ns - 1)
         s%before = laws(4, :ns - 1)
-        s%passed = s%kink > 0 .and. .not. abs(s%stiffness - s%before) > 0.0d0
+        s%passed = s%breakpoint > 0 .and. .not. abs(s%stiffness - s%before) > 0.0d0
     end associate
     handle%lowered%depends_on_path = depends_on_path(handle%lowered)
 end subroutine gblaws

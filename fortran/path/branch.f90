@@ -1,14 +1,14 @@
-!> The path of a beam whose supports may soften, break or unload otherwise than along their law: from kink to kink, through limit
-!> points, in quadruple precision.
+!> The path of a beam whose supports may soften, break or unload otherwise than along their law: from breakpoint to breakpoint,
+!> through limit points, in quadruple precision.
 !>
 !> The solution is followed along itself (gapbeam_ways), so the load factor may fall; nothing is stepped and nothing iterates.
 !> As no cell is crossed twice, a path of laws without memory has finitely many segments (docs/method.md 11). A support that
-!> unloads in a way of its own has its law written anew from the point where it is: its kinks up to there become one, at
+!> unloads in a way of its own has its law written anew from the point where it is: its breakpoints up to there become one, at
 !> that point, before which lies a line with the slope of the first piece, down to its set.
 module gapbeam_branch
     use gapbeam_kinds, only: wp => qp
     use gapbeam_error, only: error_type
-    use gapbeam_polyline_quad, only: node_support_type, piece_that_acts, last_kink
+    use gapbeam_polyline_quad, only: node_support_type, piece_that_acts, last_breakpoint
     use gapbeam_law_margins_quad, only: margin_in_scheme, is_watched_in
     use gapbeam_model_quad, only: beam_type
     use gapbeam_line_quad, only: value_at, width_at, zero_of
@@ -21,8 +21,8 @@ module gapbeam_branch
 
     !> How a support unloads
     integer, parameter :: along_law = 0, parallel = 1, stays_broken = 2
-    !> What a step came to: the next kink; the factor asked for; the end of the path; no further kink, whatever the load; supports
-    !> of which nothing tells how they share a change of load
+    !> What a step came to: the next breakpoint; the factor asked for; the end of the path; no further breakpoint, whatever the
+    !> load; supports of which nothing tells how they share a change of load
     integer, parameter :: goes_on = 0, arrived = 1, no_way_on = 2, never_ends = 3, not_told = 4
 
     !> A path on its way
@@ -37,7 +37,7 @@ module gapbeam_branch
         type(way_type) :: way
         !> Deflections of the nodes, shape (0:n)
         real(wp), allocatable :: deflection(:)
-        !> Ways on there were at the last kink, and which is taken
+        !> Ways on there were at the last breakpoint, and which is taken
         type(way_type), allocatable :: ways(:)
         integer :: taken = 0
         !> Direction of the load times (-1)**index: it stays along the path (Eaves and Scarf 1976)
@@ -85,7 +85,7 @@ contains
         call go_on(branch, direction, direction, spread(.false., 1, size(closed)), outcome, error)
     end subroutine start_branch
 
-    !> Go on to the next kink, or to a factor
+    !> Go on to the next breakpoint, or to a factor
     subroutine step_branch(branch, target, leg, segment, outcome, error)
         type(branch_type), intent(inout) :: branch
         !> The factor at which the path ends, if it comes there in the direction of the leg (rise or fall)
@@ -129,7 +129,7 @@ contains
     subroutine go_on(branch, leg, wanted, at_hand, outcome, error)
         type(branch_type), intent(inout) :: branch
         integer, intent(in) :: leg, wanted
-        !> Kinks that are reached
+        !> Breakpoints that are reached
         logical, intent(in) :: at_hand(:)
         integer, intent(out) :: outcome
         type(error_type), allocatable, intent(out) :: error
@@ -207,7 +207,7 @@ contains
                 associate (s => beam%supports(k))
                     acts = closed(k)
                     slope = s%stiffness
-                    if (s%kink > 0) call piece_that_acts(beam%supports, closed, k, acts, slope)
+                    if (s%breakpoint > 0) call piece_that_acts(beam%supports, closed, k, acts, slope)
                     if (.not. (acts .and. slope > huge(slope))) cycle
                     rate = branch%way%direction*s%side*branch%lines%live%reaction(k)
                     do i = beam%first(s%node), beam%first(s%node + 1) - 1
@@ -216,7 +216,8 @@ contains
                             if (branch%unloading(j) /= parallel .or. other%passed .or. other%side /= s%side) cycle
                             if (abs(other%contact - s%contact) > 64*epsilon(rate)*abs(s%contact)) cycle
                             rigid = rate < 0.0_wp .and. ends_at(beam%supports, closed, j) .and. other%before > huge(rate)
-                            if (other%kink == 1 .and. .not. closed(j)) rigid = rate > 0.0_wp .and. other%stiffness > huge(rate)
+                            if (other%breakpoint == 1 .and. .not. closed(j)) rigid = rate > 0.0_wp &
+                                .and. other%stiffness > huge(rate)
                             if (rigid) branch%shared = [k, j]
                         end associate
                     end do
@@ -225,7 +226,7 @@ contains
         end associate
     end subroutine find_shared
 
-    !> Is a closed kink the last one that is not passed before the piece that acts
+    !> Is a closed breakpoint the last one that is not passed before the piece that acts
     pure function ends_at(supports, closed, k) result(last)
         type(node_support_type), intent(in) :: supports(:)
         logical, intent(in) :: closed(:)
@@ -242,14 +243,14 @@ contains
         if (supports(j)%more) last = last .and. .not. closed(j + 1)
     end function ends_at
 
-    !> The next kink along a line
+    !> The next breakpoint along a line
     subroutine look_ahead(branch, target, next, at_hand)
         type(branch_type), intent(in) :: branch
         !> What is there but for rounding is there, and so it is at 0
         real(wp), intent(in) :: target
         !> Its load factor; huge if there is none
         real(wp), intent(out) :: next
-        !> The kinks there
+        !> The breakpoints there
         logical, allocatable, intent(out) :: at_hand(:)
         real(wp), allocatable :: zeros(:)
         real(wp) :: passed, slack
@@ -325,7 +326,7 @@ contains
     !> Break supports that stay broken at the end of a drop of their force: what lies before it is gone
     subroutine break_supports(branch, at_hand, broken)
         type(branch_type), intent(inout) :: branch
-        !> Kinks that are reached in, without those out
+        !> Breakpoints that are reached in, without those out
         logical, intent(inout) :: at_hand(:)
         !> Those of them at which supports break
         logical, intent(out) :: broken(:)
@@ -339,8 +340,8 @@ contains
                 broken(k) = .true.
                 at_hand(k) = .false.
                 branch%way%closed(k) = .true.
-                ! One line, on both sides of its kinks
-                first = k - s(k)%kink + 1
+                ! One line, on both sides of its breakpoints
+                first = k - s(k)%breakpoint + 1
                 s(first:k)%contact = s(k)%contact
                 s(first:k)%force = s(k)%force
                 s(first:k)%before = s(k)%stiffness
@@ -359,7 +360,7 @@ contains
 
         k = 1
         do while (k <= size(branch%way%closed))
-            last = last_kink(branch%beam%supports, k)
+            last = last_breakpoint(branch%beam%supports, k)
             top = k - 1 + count(branch%way%closed(k:last))
             if (branch%unloading(k) == parallel .and. top > k) then
                 associate (s => branch%beam%supports, work => branch%lines)

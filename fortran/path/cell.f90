@@ -143,7 +143,7 @@ contains
             cell%lines(k) = line_of(beam, incremental, cell%closed, k, dead, live)
             ! What only the weak springs press on carries nothing
             associate (line => cell%lines(k))
-                if (beam%supports(k)%kink > 0) cycle
+                if (beam%supports(k)%breakpoint > 0) cycle
                 if (cell%closed(k) .and. max(abs(line%v0), abs(line%v1)) <= 2*springs) line = line_type()
             end associate
         end do

@@ -18,7 +18,7 @@ module gapbeam_lines
     integer, parameter :: rise = 1, fall = -1, turn = 0
     !> Instead of the direction in which the path came: no way leads back
     integer, parameter :: from_nowhere = 2
-    !> Rounding errors within which another kink is at zero too
+    !> Rounding errors within which another breakpoint is at zero too
     real(wp), parameter :: near = 2.0_wp**10
     !> Share of the rates beside it below which a rate is none
     real(wp), parameter :: no_rate = 2.0_wp**(-70)
@@ -44,7 +44,7 @@ module gapbeam_lines
         integer :: direction = rise
         !> Number of ways in which the beam gives way by itself: stable if 0
         integer :: index = 0
-        !> Kinks that do not move along it, shape (size(supports))
+        !> Breakpoints that do not move along it, shape (size(supports))
         logical, allocatable :: still(:)
         !> Where the beam turns: displacements of the nodes, shape (0:n)
         real(wp), allocatable :: motion(:)
@@ -92,7 +92,7 @@ contains
         end do
     end subroutine solve_lines
 
-    !> Which kinks that are at zero fall along the line of a cell
+    !> Which breakpoints that are at zero fall along the line of a cell
     subroutine find_falling(beam, closed, factor, direction, at_hand, lines, falling)
         type(beam_type), intent(in) :: beam
         logical, intent(in) :: closed(:)
@@ -114,7 +114,7 @@ contains
         end do
     end subroutine find_falling
 
-    !> Are two ways one and the same: their cells differ by kinks only that do not move
+    !> Are two ways one and the same: their cells differ by breakpoints only that do not move
     pure function are_one(way, other) result(one)
         type(way_type), intent(in) :: way, other
         logical :: one
@@ -153,7 +153,7 @@ contains
         index = 0
         if (any(lines%dead%nodes%stiffness < 0.0_wp)) call count_unstable(lines%dead%nodes, beam%links, index)
         do k = 1, size(closed)
-            if (beam%supports(k)%kink == 0) cycle
+            if (beam%supports(k)%breakpoint == 0) cycle
             call piece_that_acts(beam%supports, closed, k, acts, slope)
             ! A vertical drop holds its node, so it is none of the system's stiffnesses
             if (acts .and. slope < -huge(slope)) index = index + 1

@@ -233,7 +233,7 @@ contains
         call change_supports(beam, moving, factor, closed, stretch)
         if (stretch%current) done = .not. any([(falls(line_in(beam, closed, at_zero(j), stretch)), j=1, size(at_zero))])
         do j = 1, size(moving)
-            if (beam%supports(moving(j))%kink == 0) cycle
+            if (beam%supports(moving(j))%breakpoint == 0) cycle
             associate (i => beam%supports(moving(j))%node)
                 ! Two that hold a node share what is there as nothing tells
                 associate (numbers => beam%order(beam%first(i):beam%first(i + 1) - 1))

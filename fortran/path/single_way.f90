@@ -1,8 +1,8 @@
 !> The way on from a state at which supports are at the end of their piece, where no force falls.
 !>
-!> There is one then, and the rates at the kinks at hand are a linear complementarity problem with a P-matrix: kinks that move the
-!> wrong way are passed until none does, all at once, then the one of least index (Murty 1974). So a state with many kinks at
-!> hand, as there are where supports unload, takes a few solves, not one for every choice of them.
+!> There is one then, and the rates at the breakpoints at hand are a linear complementarity problem with a P-matrix: breakpoints
+!> that move the wrong way are passed until none does, all at once, then the one of least index (Murty 1974). So a state with many
+!> breakpoints at hand, as there are where supports unload, takes a few solves, not one for every choice of them.
 module gapbeam_single_way
     use gapbeam_kinds, only: wp => qp
     use gapbeam_polyline_quad, only: node_support_type, coincide, piece_that_acts, open_from
@@ -44,7 +44,7 @@ contains
         end do
     end subroutine find_single_way
 
-    !> Pass kinks that move the wrong way until none does
+    !> Pass breakpoints that move the wrong way until none does
     subroutine search_way(beam, factor, before, direction, at_hand, lines, closed, found)
         type(beam_type), intent(in) :: beam
         real(wp), intent(in) :: factor
@@ -87,11 +87,11 @@ contains
             else
                 idle = idle + 1
             end if
-            call pass_kinks(beam%supports, falling, idle > non_monotone_steps, closed)
+            call pass_breakpoints(beam%supports, falling, idle > non_monotone_steps, closed)
         end do
     end subroutine search_way
 
-    !> Do forces fall on the pieces that act, or beside kinks that are reached
+    !> Do forces fall on the pieces that act, or beside breakpoints that are reached
     pure function any_falls(supports, closed, reached) result(falls)
         type(node_support_type), intent(in) :: supports(:)
         logical, intent(in) :: closed(:), reached(:)
@@ -102,7 +102,7 @@ contains
 
         falls = .true.
         do k = 1, size(closed)
-            if (supports(k)%kink == 0) cycle
+            if (supports(k)%breakpoint == 0) cycle
             if (reached(k) .and. min(supports(k)%before, supports(k)%stiffness) < 0.0_wp) return
             call piece_that_acts(supports, closed, k, acts, slope)
             if (acts .and. slope < 0.0_wp) return
@@ -110,8 +110,8 @@ contains
         falls = .false.
     end function any_falls
 
-    !> Pass kinks, those at one point of a law together
-    pure subroutine pass_kinks(supports, falling, first_only, closed)
+    !> Pass breakpoints, those at one point of a law together
+    pure subroutine pass_breakpoints(supports, falling, first_only, closed)
         type(node_support_type), intent(in) :: supports(:)
         logical, intent(in) :: falling(:)
         !> Only the first of them
@@ -133,6 +133,6 @@ contains
             begin = k + 1
         end do
         call open_from(supports, closed)
-    end subroutine pass_kinks
+    end subroutine pass_breakpoints
 
 end module gapbeam_single_way

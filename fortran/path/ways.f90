@@ -1,9 +1,9 @@
 !> The ways on from a state at which some supports are at the end of their piece.
 !>
 !> While the pieces of all laws stay the same (in one cell), the solutions lie on a straight line over the load factor. At its end
-!> one kink or more are reached, and those beyond which the solution goes on are passed. A choice of passed kinks is a way on if
-!> the line of its cell leads into the cell: then every kink at hand moves away from zero in the direction taken, with the
-!> load rising or falling. Mostly there is one way. There is none where the path ends, and there are several at a
+!> one breakpoint or more are reached, and those beyond which the solution goes on are passed. A choice of passed breakpoints is a
+!> way on if the line of its cell leads into the cell: then every breakpoint at hand moves away from zero in the direction taken,
+!> with the load rising or falling. Mostly there is one way. There is none where the path ends, and there are several at a
 !> bifurcation. Where the loads do work on a free motion the load stays, and the beam turns until something holds it.
 !> (Katzenelson 1965; Chien and Kuh 1977; docs/method.md 11.)
 !> Where no force falls there is one way (gapbeam_single_way); elsewhere all choices are tried.
@@ -23,7 +23,7 @@ module gapbeam_ways
     ! Of gapbeam_lines, for those who ask for ways
     public :: way_type, rise, fall, turn, from_nowhere
 
-    !> Of more kinks at one factor than these not all combinations are tried
+    !> Of more breakpoints at one factor than these not all combinations are tried
     integer, parameter :: most_at_once = 12
 contains
 
@@ -39,14 +39,14 @@ contains
         integer, intent(in) :: wanted
         !> Of the nodes, shape (0:n)
         real(wp), intent(in) :: deflection(0:)
-        !> Kinks at which supports have just broken: a beam that turns goes on there
+        !> Breakpoints at which supports have just broken: a beam that turns goes on there
         logical, intent(in) :: broken(:)
-        !> Kinks that are reached in, and those that follow from them out
+        !> Breakpoints that are reached in, and those that follow from them out
         logical, intent(inout) :: at_hand(:)
         !> Solves are counted there
         type(lines_type), intent(inout) :: lines
         type(way_type), allocatable, intent(out) :: ways(:)
-        !> Too many kinks at once
+        !> Too many breakpoints at once
         type(error_type), allocatable, intent(out) :: error
         logical, allocatable :: closed(:), more(:)
         integer, allocatable :: first(:), last(:)
@@ -61,7 +61,8 @@ contains
             call find_units(beam, before, at_hand, first, last)
             number = size(first)
             if (number > most_at_once) then
-                call fatal_error(error, gapbeam_not_converged, "so many supports reach a kink of their law at once that not "// &
+                call fatal_error(error, gapbeam_not_converged, &
+                                 "so many supports reach a kink of their law at once that not "// &
                                  "all ways on can be tried: give their laws kinks that differ a little")
                 return
             end if
@@ -189,7 +190,7 @@ contains
         way%motion = y
     end subroutine try_motion
 
-    !> Kinks that are passed together: first and last of each unit
+    !> Breakpoints that are passed together: first and last of each unit
     pure subroutine find_units(beam, closed, at_hand, first, last)
         type(beam_type), intent(in) :: beam
         logical, intent(in) :: closed(:), at_hand(:)
@@ -210,7 +211,7 @@ contains
         end do
     end subroutine find_units
 
-    !> Are the kinks of every law closed up to one
+    !> Are the breakpoints of every law closed up to one
     pure function is_nested(supports, closed) result(nested)
         type(node_support_type), intent(in) :: supports(:)
         logical, intent(in) :: closed(:)
@@ -219,7 +220,7 @@ contains
 
         nested = .true.
         do k = 2, size(closed)
-            if (supports(k)%kink > 1) nested = nested .and. (closed(k - 1) .or. .not. closed(k))
+            if (supports(k)%breakpoint > 1) nested = nested .and. (closed(k - 1) .or. .not. closed(k))
         end do
     end function is_nested
 

@@ -3,7 +3,7 @@ module gapbeam_events
     use gapbeam_kinds, only: wp
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved, gapbeam_no_equilibrium
-    use gapbeam_polyline, only: last_kink
+    use gapbeam_polyline, only: last_breakpoint
     use gapbeam_scheme, only: outcome_type
     use gapbeam_extended_precision, only: rule_given, reserve_for
     use gapbeam_path, only: follow_path, path_type, event_turns
@@ -114,7 +114,7 @@ contains
             if (what /= event_turns) now(which) = .not. now(which)
             after = now_acts(which)
             change = what
-            if (lowered%beam%supports(which)%kink > 0 .and. what /= event_turns) change = what_happens(before, after)
+            if (lowered%beam%supports(which)%breakpoint > 0 .and. what /= event_turns) change = what_happens(before, after)
             if (change == nothing .or. (.not. when > 0.0_wp .and. what /= event_turns)) return
             if (number == size(events)) then
                 allocate (longer(2*number), stat=stat)
@@ -129,15 +129,15 @@ contains
             events(number) = event_type(when, lowered%normal(which), merge(what, after%condition, what == event_turns), change)
         end subroutine note
 
-        !> What acts of a support of the beam, which may be a kink of a law
+        !> What acts of a support of the beam, which may be a breakpoint of a law
         pure function now_acts(which) result(acting)
             integer, intent(in) :: which
             type(acting_type) :: acting
             integer :: first
 
             associate (supports => lowered%beam%supports)
-                first = which - max(supports(which)%kink - 1, 0)
-                associate (last => last_kink(supports, which))
+                first = which - max(supports(which)%breakpoint - 1, 0)
+                associate (last => last_breakpoint(supports, which))
                     acting = acting_piece(supports(first:last), lowered%model%supports(lowered%normal(which))%side, &
                                           now(first:last))
                 end associate

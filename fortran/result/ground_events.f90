@@ -2,7 +2,7 @@
 module gapbeam_ground_events
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
-    use gapbeam_polyline, only: last_kink
+    use gapbeam_polyline, only: last_breakpoint
     use gapbeam_lowered, only: lowered_type, point_x
     use gapbeam_pieces, only: acting_type, acting_piece, what_happens, nothing, gapbeam_merges, gapbeam_splits
     use gapbeam_zone_margin, only: change_type
@@ -87,7 +87,7 @@ contains
             k = 1
             do while (k <= size(supports))
                 last = k
-                if (supports(k)%kink > 0) last = last_kink(supports, k)
+                if (supports(k)%breakpoint > 0) last = last_breakpoint(supports, k)
                 what = change_of(lowered, k, last, before, after)
                 if (what /= nothing) then
                     associate (s => lowered%normal(k), point => lowered%support_point(lowered%normal(k)))
@@ -136,7 +136,7 @@ contains
         end do
     end subroutine list_changes
 
-    !> What happens to a support, one entry of the engine or the kinks of a law
+    !> What happens to a support, one entry of the engine or the breakpoints of a law
     function change_of(lowered, first, last, before, after) result(change)
         type(lowered_type), intent(in) :: lowered
         integer, intent(in) :: first, last
@@ -144,9 +144,9 @@ contains
         integer :: change
         type(acting_type) :: was, is
 
-        associate (kinks => lowered%beam%supports(first:last), side => lowered%model%supports(lowered%normal(first))%side)
-            was = acting_piece(kinks, side, before%closed(first:last))
-            is = acting_piece(kinks, side, after%closed(first:last))
+        associate (breakpoints => lowered%beam%supports(first:last), side => lowered%model%supports(lowered%normal(first))%side)
+            was = acting_piece(breakpoints, side, before%closed(first:last))
+            is = acting_piece(breakpoints, side, after%closed(first:last))
         end associate
         change = what_happens(was, is)
     end function change_of

@@ -26,10 +26,10 @@ module gapbeam_history
 
     !> What to do where the load cannot go on: end there; go on from the next stable state at the same factor; follow the path
     integer, parameter :: at_limit_stop = 0, at_limit_jump = 1, at_limit_follow = 2
-    !> Kinds of limit. A path may also have ended without an end in sight: no further kink, whatever the load; or after so many
-    !> stretches
+    !> Kinds of limit. A path may also have ended without an end in sight: no further breakpoint, whatever the load; or after so
+    !> many stretches
     integer, parameter :: no_limit = 0, limit_point = 1, bifurcation = 2, mechanism = 3, ended = 4, cut_off = 5
-    !> Stretches without length in turn, beyond four for every kink, after which the path is given up
+    !> Stretches without length in turn, beyond four for every breakpoint, after which the path is given up
     integer, parameter :: most_idle = 1000
 
     !> A stretch of the path on which all pieces of all laws stay the same
@@ -356,7 +356,7 @@ contains
         laws%before = real(fine%before, wp)
         laws%contact = real(fine%contact, wp)
         laws%force = real(fine%force, wp)
-        laws%passed = like%kink > 0 .and. .not. (laws%stiffness < laws%before .or. laws%stiffness > laws%before)
+        laws%passed = like%breakpoint > 0 .and. .not. (laws%stiffness < laws%before .or. laws%stiffness > laws%before)
     end function rounded
 
     !> The laws of a stretch

@@ -1,7 +1,7 @@
 !> What happens to the supports on the way of the load, from stretch to stretch
 module gapbeam_history_events
     use gapbeam_kinds, only: wp
-    use gapbeam_polyline, only: last_kink
+    use gapbeam_polyline, only: last_breakpoint
     use gapbeam_lowered, only: lowered_type
     use gapbeam_pieces, only: acting_type, acting_piece, what_happens, nothing, gapbeam_turns, gapbeam_opens, gapbeam_closes
     use gapbeam_events, only: event_type
@@ -74,13 +74,13 @@ contains
                 do i = 1, size(lowered%model%supports)
                     first = lowered%beam_support(i)
                     if (first == 0) cycle
-                    associate (last => last_kink(lowered%beam%supports, first))
+                    associate (last => last_breakpoint(lowered%beam%supports, first))
                         if (all(a%closed(first:last) .eqv. b%closed(first:last))) cycle
                     end associate
                     before = acts_on(a, i)
                     after = acts_on(b, i)
                     change = nothing
-                    if (lowered%beam%supports(first)%kink > 0) then
+                    if (lowered%beam%supports(first)%breakpoint > 0) then
                         change = what_happens(before, after)
                     else
                         change = merge(gapbeam_closes, gapbeam_opens, b%closed(first))
@@ -100,7 +100,7 @@ contains
             integer :: first, last
 
             first = lowered%beam_support(support)
-            last = last_kink(lowered%beam%supports, first)
+            last = last_breakpoint(lowered%beam%supports, first)
             associate (side => lowered%model%supports(support)%side)
                 if (allocated(stretch%laws)) then
                     acting = acting_piece(stretch%laws(first:last), side, stretch%closed(first:last))

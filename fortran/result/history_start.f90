@@ -2,7 +2,7 @@
 module gapbeam_history_start
     use gapbeam_kinds, only: wp, qp
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_not_converged
-    use gapbeam_polyline, only: last_kink
+    use gapbeam_polyline, only: last_breakpoint
     use gapbeam_model_quad, only: beam_type
     use gapbeam_scheme_quad, only: outcome_type
     use gapbeam_cell, only: find_cell, cell_type
@@ -94,7 +94,7 @@ contains
 
         k = 1
         do while (k <= size(closed))
-            last = last_kink(lowered%beam%supports, k)
+            last = last_breakpoint(lowered%beam%supports, k)
             middle = 1
             if (lowered%model%supports(lowered%normal(k))%side == gapbeam_both) then
                 middle = max(1, (last - k + 1)/2)

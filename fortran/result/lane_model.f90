@@ -38,8 +38,7 @@ contains
         k = size(loads%of_nodes)
         lane_beam%n = n
         allocate (lane_beam%length(n), lane_beam%inverse(n), lane_beam%links(extent, link_numbers, n), &
-                  lane_beam%proximal_weight(extent), &
-                  lane_beam%side(0:last), lane_beam%there(0:n), lane_beam%changes(0:last), &
+                  lane_beam%proximal_weight(extent), lane_beam%side(0:last), lane_beam%there(0:n), lane_beam%changes(0:last), &
                   lane_beam%hinge(0:n), lane_beam%number(size(lowered%beam%supports)), lane_beam%link_load(m), &
                   lane_beam%link(m), lane_beam%to_link(extent, 6, m), lane_beam%node_load(k), lane_beam%node(k), &
                   lane_beam%to_node(2, k), stat=stat)

@@ -40,9 +40,9 @@ module gapbeam_pieces
 contains
 
     !> What acts of a support
-    pure function acting_piece(kinks, side, closed) result(acting)
-        !> The support as the engine has it: the kinks of its law, or one entry
-        type(node_support_type), intent(in) :: kinks(:)
+    pure function acting_piece(breakpoints, side, closed) result(acting)
+        !> The support as the engine has it: the breakpoints of its law, or one entry
+        type(node_support_type), intent(in) :: breakpoints(:)
         !> Its side, and its part of the scheme
         integer, intent(in) :: side
         logical, intent(in) :: closed(:)
@@ -50,22 +50,22 @@ contains
         integer :: middle, number
 
         acting = acting_type(gapbeam_bilateral, 0.0_wp, 0)
-        if (kinks(1)%kink == 0) then
+        if (breakpoints(1)%breakpoint == 0) then
             if (side /= both) acting%condition = merge(gapbeam_closed, gapbeam_open, closed(1))
             return
         end if
         middle = 0
-        if (side == both) middle = size(kinks)/2
+        if (side == both) middle = size(breakpoints)/2
         number = abs(count(closed) - middle)
         if (side == both) then
-            if (abs(kinks(middle)%stiffness) > 0.0_wp) number = number + 1
+            if (abs(breakpoints(middle)%stiffness) > 0.0_wp) number = number + 1
         end if
         acting%condition = gapbeam_open
         acting%way = merge(1, -1, count(closed) >= middle)
         if (number == 0) return
         acting%condition = gapbeam_branch + number
-        acting%slope = kinks(1)%before
-        if (any(closed)) acting%slope = kinks(count(closed))%stiffness
+        acting%slope = breakpoints(1)%before
+        if (any(closed)) acting%slope = breakpoints(count(closed))%stiffness
     end function acting_piece
 
     !> The event between two pieces of a law, or none

@@ -3,7 +3,7 @@ module gapbeam_solution
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_element, only: field_type
-    use gapbeam_polyline, only: node_support_type, last_kink
+    use gapbeam_polyline, only: node_support_type, last_breakpoint
     use gapbeam_words, only: shown
     use gapbeam_refusal, only: refuse_range
     use gapbeam_ground_solver, only: ground_solution_type
@@ -89,8 +89,8 @@ contains
         closed(:) = .true.
         associate (supports => lowered%beam%supports)
             do k = 1, size(closed)
-                if (supports(k)%kink /= 1) cycle
-                last = last_kink(supports, k)
+                if (supports(k)%breakpoint /= 1) cycle
+                last = last_breakpoint(supports, k)
                 first_piece = 1
                 if (lowered%model%supports(lowered%normal(k))%side == 0) first_piece = max(1, (last - k + 1)/2)
                 closed(k + first_piece:last) = .false.
@@ -142,7 +142,7 @@ contains
             do k = 1, size(lowered%model%supports)
                 j = lowered%beam_support(k)
                 associate (point => lowered%support_point(k))
-                    if (j > 0) call look(sum(state%reaction(j:last_kink(lowered%beam%supports, j))), units%force, &
+                    if (j > 0) call look(sum(state%reaction(j:last_breakpoint(lowered%beam%supports, j))), units%force, &
                                          "reaction of the support", "force", point)
                     if (lowered%model%supports(k)%side == 0) cycle
                     call look(way_to_contact(lowered, state, k), units%deflection, "opening of the support", "length", point)

@@ -2,7 +2,7 @@
 module gapbeam_support_values
     use gapbeam_kinds, only: wp
     use gapbeam_model, only: node_support_type, both
-    use gapbeam_polyline, only: last_kink
+    use gapbeam_polyline, only: last_breakpoint
     use gapbeam_scene, only: gapbeam_axial
     use gapbeam_units, only: moment_unit
     use gapbeam_lowered, only: lowered_type
@@ -54,9 +54,9 @@ contains
                     last = j
                     has_law = .false.
                     if (j > 0) then
-                        last = last_kink(beam%supports, j)
-                        has_law = beam%supports(j)%kink > 0
-                        ! Of a law the kink whose piece acts has the force
+                        last = last_breakpoint(beam%supports, j)
+                        has_law = beam%supports(j)%breakpoint > 0
+                        ! Of a law the breakpoint whose piece acts has the force
                         reaction(k) = scale(sum(state%reaction(j:last)), units%force)
                     end if
                     if (has_law) then
@@ -83,9 +83,9 @@ contains
     end subroutine support_values
 
     !> Which piece of a law acts, as a condition, and how far it is open
-    pure subroutine look_at_law(kinks, side, closed, deflection, condition, opening)
-        type(node_support_type), intent(in) :: kinks(:)
-        !> Side of the support, and the scheme of its kinks
+    pure subroutine look_at_law(breakpoints, side, closed, deflection, condition, opening)
+        type(node_support_type), intent(in) :: breakpoints(:)
+        !> Side of the support, and the scheme of its breakpoints
         integer, intent(in) :: side
         logical, intent(in) :: closed(:)
         !> Of its node
@@ -94,24 +94,24 @@ contains
         real(wp), intent(out) :: opening
         type(acting_type) :: acting
 
-        acting = acting_piece(kinks, side, closed)
+        acting = acting_piece(breakpoints, side, closed)
         condition = acting%condition
         opening = 0.0_wp
-        if (condition == gapbeam_open) opening = way_to_law(kinks, side, deflection)
+        if (condition == gapbeam_open) opening = way_to_law(breakpoints, side, deflection)
     end subroutine look_at_law
 
     !> How far a law is open
-    pure function way_to_law(kinks, side, deflection) result(way)
-        type(node_support_type), intent(in) :: kinks(:)
+    pure function way_to_law(breakpoints, side, deflection) result(way)
+        type(node_support_type), intent(in) :: breakpoints(:)
         integer, intent(in) :: side
         real(wp), intent(in) :: deflection
         real(wp) :: way
 
-        associate (middle => size(kinks)/2)
+        associate (middle => size(breakpoints)/2)
             if (side == both) then
-                way = min(kinks(middle + 1)%contact - deflection, deflection - kinks(middle)%contact)
+                way = min(breakpoints(middle + 1)%contact - deflection, deflection - breakpoints(middle)%contact)
             else
-                way = side*(kinks(1)%contact - deflection)
+                way = side*(breakpoints(1)%contact - deflection)
             end if
         end associate
         way = max(0.0_wp, way)

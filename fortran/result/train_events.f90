@@ -2,7 +2,7 @@
 module gapbeam_train_events
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved
-    use gapbeam_polyline, only: last_kink
+    use gapbeam_polyline, only: last_breakpoint
     use gapbeam_lowered, only: lowered_type
     use gapbeam_pieces, only: acting_type, acting_piece, what_happens, nothing
     use gapbeam_train_passage, only: passage_type
@@ -50,7 +50,7 @@ contains
             if (all(passage%closed(:, i) .eqv. now)) cycle
             k = 1
             do while (k <= size(now))
-                last = last_kink(lowered%beam%supports, k)
+                last = last_breakpoint(lowered%beam%supports, k)
                 associate (there => passage%closed(k:last, i), supports => lowered%beam%supports(k:last))
                     if (any((now(k:last) .neqv. there) .and. .not. passage%at_zero(k:last, i))) then
                         before = acting_piece(supports, lowered%model%supports(lowered%normal(k))%side, now(k:last))

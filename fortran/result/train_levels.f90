@@ -23,7 +23,7 @@ contains
         if (node < 0) return
         do j = beam%first(node), beam%first(node + 1) - 1
             associate (s => beam%supports(beam%order(j)))
-                if (s%kink > 0 .or. .not. is_rigid(s)) cycle
+                if (s%breakpoint > 0 .or. .not. is_rigid(s)) cycle
                 if (abs(deflection - s%contact) <= rounding) deflection = s%contact
             end associate
         end do

@@ -52,7 +52,7 @@ contains
                 else if (.not. model%supports(k)%stiffness > huge(1.0_wp)) then
                     call say("it stands instead of a stiffness; leave that out")
                 else if (model%supports(k)%side == gapbeam_both .and. model%supports(k)%gap < 0.0_wp) then
-                    ! Its two halves would act at once where they meet, and its kinks stand in no order
+                    ! Its two halves would act at once where they meet, and its breakpoints stand in no order
                     call refuse(error, of_supports, k, size(model%supports), bad_law, "gap", "expected 0 or more of a support "// &
                                 "that holds both ways, got "//trim(shown(model%supports(k)%gap))// &
                                 "; put one below and one above at this place instead")

@@ -1,4 +1,4 @@
-!> Laws of supports: from the points that the user gave to kinks, in the user's units (gapbeam_polyline)
+!> Laws of supports: from the points that the user gave to breakpoints, in the user's units (gapbeam_polyline)
 module gapbeam_lower_laws
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type
@@ -13,7 +13,7 @@ module gapbeam_lower_laws
     use gapbeam_refusal, only: refuse, of_supports, twice
     implicit none
     private
-    public :: find_laws, count_kinks, make_kinks, check_rigid_pieces, depends_on_path
+    public :: find_laws, count_breakpoints, make_breakpoints, check_rigid_pieces, depends_on_path
 
 contains
 
@@ -56,7 +56,7 @@ contains
 
     contains
 
-        !> Compare two supports or kinks of a place
+        !> Compare two supports or breakpoints of a place
         subroutine look(j, k)
             integer, intent(in) :: j, k
             type(node_support_type) :: a, b
@@ -77,7 +77,7 @@ contains
             end associate
         end subroutine look
 
-        !> The piece that begins at a kink, or that of a support without a law, which has no numbers yet
+        !> The piece that begins at a breakpoint, or that of a support without a law, which has no numbers yet
         pure function rise_of(k) result(made)
             integer, intent(in) :: k
             type(node_support_type) :: made
@@ -99,7 +99,7 @@ contains
         type(motion_type), allocatable :: motions(:)
 
         associate (s => lowered%beam%supports)
-            depends = any(s%kink > 0 .and. (s%stiffness < 0.0_wp .or. s%before < 0.0_wp))
+            depends = any(s%breakpoint > 0 .and. (s%stiffness < 0.0_wp .or. s%before < 0.0_wp))
         end associate
         if (.not. allocated(lowered%model%law)) return
         if (size(lowered%model%law) == 0) return
@@ -107,69 +107,70 @@ contains
         if (depends) return
         ! What yields may let go of a beam that nothing else holds: only its path tells at which load
         associate (s => lowered%beam%supports)
-            if (.not. any(s%kink > 0 .and. abs(s%force) > 0.0_wp .and. &
+            if (.not. any(s%breakpoint > 0 .and. abs(s%force) > 0.0_wp .and. &
                           .not. (abs(s%stiffness) > 0.0_wp .and. abs(s%before) > 0.0_wp))) return
         end associate
         call free_motions(lowered%beam, always_closed(lowered%beam%supports), motions)
         depends = size(motions) > 0
     end function depends_on_path
 
-    !> Number of kinks of a support: those of its law, or one
-    pure function count_kinks(support, points) result(kinks)
+    !> Number of breakpoints of a support: those of its law, or one
+    pure function count_breakpoints(support, points) result(breakpoints)
         type(support_type), intent(in) :: support
         !> Its law
         type(law_point_type), intent(in) :: points(:)
-        integer :: kinks
+        integer :: breakpoints
 
-        kinks = max(1, size(points))
+        breakpoints = max(1, size(points))
         if (support%side /= gapbeam_both .or. size(points) == 0) return
-        ! Mirrored; without a gap the law goes through the origin without a kink
-        kinks = 2*(size(points) - merge(0, 1, abs(support%gap) > 0.0_wp))
+        ! Mirrored; without a gap the law goes through the origin without a breakpoint
+        breakpoints = 2*(size(points) - merge(0, 1, abs(support%gap) > 0.0_wp))
         ! One piece both ways is a spring
-        kinks = max(1, kinks)
-    end function count_kinks
+        breakpoints = max(1, breakpoints)
+    end function count_breakpoints
 
-    !> The kinks of a law
-    pure subroutine make_kinks(support, points, node, kinks)
+    !> The breakpoints of a law
+    pure subroutine make_breakpoints(support, points, node, breakpoints)
         type(support_type), intent(in) :: support
         !> Its law, one point at least
         type(law_point_type), intent(in) :: points(:)
         !> Its node
         integer, intent(in) :: node
-        !> In ascending order of the displacement towards the support, shape (count_kinks)
-        type(node_support_type), intent(out) :: kinks(:)
+        !> In ascending order of the displacement towards the support, shape (count_breakpoints)
+        type(node_support_type), intent(out) :: breakpoints(:)
         integer :: i, m, n
 
         n = size(points)
-        m = size(kinks)
+        m = size(breakpoints)
         if (support%side /= gapbeam_both) then
-            kinks(1) = kink(1, 0.0_wp, 0.0_wp, 0.0_wp, slope(1))
+            breakpoints(1) = breakpoint(1, 0.0_wp, 0.0_wp, 0.0_wp, slope(1))
             do i = 2, n
-                kinks(i) = kink(i, points(i - 1)%displacement, points(i - 1)%force, slope(i - 1), slope(i))
+                breakpoints(i) = breakpoint(i, points(i - 1)%displacement, points(i - 1)%force, slope(i - 1), slope(i))
             end do
         else if (n == 1 .and. m == 1) then
-            kinks(1) = node_support_type(node, gapbeam_both, slope(1), support%settlement)
+            breakpoints(1) = node_support_type(node, gapbeam_both, slope(1), support%settlement)
             return
         else
             do i = 1, m/2
-                ! From the last kink of the pushing side down
+                ! From the last breakpoint of the pushing side down
                 associate (j => n - i)
                     if (j > 0) then
-                        kinks(i) = kink(i, -points(j)%displacement, -points(j)%force, slope(j + 1), slope(j))
-                        kinks(m + 1 - i) = kink(m + 1 - i, points(j)%displacement, points(j)%force, slope(j), slope(j + 1))
+                        breakpoints(i) = breakpoint(i, -points(j)%displacement, -points(j)%force, slope(j + 1), slope(j))
+                        breakpoints(m + 1 - i) = breakpoint(m + 1 - i, points(j)%displacement, points(j)%force, slope(j), &
+                                                            slope(j + 1))
                     else
-                        kinks(i) = kink(i, -0.0_wp, 0.0_wp, slope(1), 0.0_wp)
-                        kinks(m + 1 - i) = kink(m + 1 - i, 0.0_wp, 0.0_wp, 0.0_wp, slope(1))
+                        breakpoints(i) = breakpoint(i, -0.0_wp, 0.0_wp, slope(1), 0.0_wp)
+                        breakpoints(m + 1 - i) = breakpoint(m + 1 - i, 0.0_wp, 0.0_wp, 0.0_wp, slope(1))
                     end if
                 end associate
             end do
         end if
-        kinks(:m - 1)%more = .true.
+        breakpoints(:m - 1)%more = .true.
 
     contains
 
-        !> A kink at a displacement past the gap
-        pure function kink(number, displacement, force, before, after) result(made)
+        !> A breakpoint at a displacement past the gap
+        pure function breakpoint(number, displacement, force, before, after) result(made)
             integer, intent(in) :: number
             real(wp), intent(in) :: displacement, force, before, after
             type(node_support_type) :: made
@@ -178,9 +179,9 @@ contains
             side = merge(gapbeam_below, support%side, support%side == gapbeam_both)
             way = side
             if (support%side == gapbeam_both .and. 2*number <= m) way = -1
-            made = node_support_type(node, side, after, support%settlement + (way*support%gap + side*displacement), kink=number, &
-                                     force=force, before=before)
-        end function kink
+            made = node_support_type(node, side, after, support%settlement + (way*support%gap + side*displacement), &
+                                     breakpoint=number, force=force, before=before)
+        end function breakpoint
 
         !> Slope of the piece that ends at a point; a vertical one is infinite
         pure function slope(i)
@@ -200,6 +201,6 @@ contains
             end if
         end function slope
 
-    end subroutine make_kinks
+    end subroutine make_breakpoints
 
 end module gapbeam_lower_laws

@@ -8,7 +8,7 @@ module gapbeam_lower_supports
     use gapbeam_model, only: node_support_type, order_supports
     use gapbeam_words, only: shown, whole
     use gapbeam_lowered, only: lowered_type
-    use gapbeam_lower_laws, only: find_laws, count_kinks, make_kinks, check_rigid_pieces
+    use gapbeam_lower_laws, only: find_laws, count_breakpoints, make_breakpoints, check_rigid_pieces
     use gapbeam_places, only: position_tolerance
     use gapbeam_refusal, only: refuse, refuse_range, named, of_supports, twice, no_room, at_hinge
     implicit none
@@ -205,7 +205,7 @@ contains
             call find_laws(lowered%model, first, last)
             m = 0
             do k = 1, size(given)
-                if (can_carry(given(k))) m = m + count_kinks(given(k), law(first(k):last(k)))
+                if (can_carry(given(k))) m = m + count_breakpoints(given(k), law(first(k):last(k)))
             end do
             allocate (beam%links(n), beam%kind(0:n), beam%compliance(0:n), beam%force(2, 0:n), beam%couple(2, 0:n), &
                       lowered%normal(m), lowered%beam_support(size(given)), lowered%couple_share(size(given)), &
@@ -230,8 +230,8 @@ contains
                     lowered%beam_support(k) = j + 1
                     m = 1
                     if (lowered%with_law(k)) then
-                        m = count_kinks(given(k), law(first(k):last(k)))
-                        call make_kinks(given(k), law(first(k):last(k)), node, supports(j + 1:j + m))
+                        m = count_breakpoints(given(k), law(first(k):last(k)))
+                        call make_breakpoints(given(k), law(first(k):last(k)), node, supports(j + 1:j + m))
                     else
                         supports(j + 1) = node_support_type(node, given(k)%side, 0.0_wp, 0.0_wp)
                     end if

@@ -227,8 +227,8 @@ contains
                     call hold(of_supports, forces, r - force, merge(of_force, 0.0_wp, acts))
                 end if
                 if (undecided(k) .or. .not. is_watched_in(supports, closed, k)) return
-                ! A kink that is none: either state is right
-                if (supports(k)%kink > 0 .and. .not. abs(supports(k)%stiffness - supports(k)%before) > 0.0_wp) return
+                ! A breakpoint that is none: either state is right
+                if (supports(k)%breakpoint > 0 .and. .not. abs(supports(k)%stiffness - supports(k)%before) > 0.0_wp) return
                 call margin_in_scheme(supports, closed, k, w, farthest, reaction, reaction, margin, rounding, by_force)
                 if (margin >= 0.0_wp) return
                 call hold(of_supports, merge(pulls, beyond, by_force), margin, &

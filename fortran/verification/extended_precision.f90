@@ -375,12 +375,12 @@ contains
         do k = 1, size(closed)
             undecided(k) = .false.
             if (.not. is_watched_in(fine%supports, closed, k)) cycle
-            if (.not. closed(k) .and. fine%supports(k)%kink == 0) rounding(k) = max(rounding(k), least_way/fine_width)
+            if (.not. closed(k) .and. fine%supports(k)%breakpoint == 0) rounding(k) = max(rounding(k), least_way/fine_width)
             ! What is held stiffly beside a soft spring may move it by rounding
             least_force = epsilon(1.0_qp)*work%shear_size(fine%supports(k)%node)
             if (closed(k)) rounding(k) = max(rounding(k), least_force)
             undecided(k) = abs(margin(k)) <= first_width*rounding(k)*(epsilon(1.0_wp)/epsilon(1.0_qp))
-            ! At a kink of a law the margin may be zero, and the reaction is not
+            ! At a breakpoint of a law the margin may be zero, and the reaction is not
             if (closed(k) .and. abs(work%reaction(k)) <= fine_width*max(work%reaction_error(k), least_force)) then
                 work%reaction(k) = 0.0_qp
             end if

@@ -10,13 +10,13 @@ module gapbeam_ground_audit
     use gapbeam_element, only: field_type
     use gapbeam_law, only: force_by_spring
     use gapbeam_law_margins, only: margin_in_scheme, is_watched_in
-    use gapbeam_ground_laws, only: approach_kink, push_of_layer
+    use gapbeam_ground_laws, only: distance_to_breakpoint, push_of_layer
     use gapbeam_ground, only: ground_type
     use gapbeam_ground_solution, only: ground_solution_type
     use gapbeam_ground_fields, only: field_at_end, find_sizes, lost
     use gapbeam_ledger, only: ledger_type, note, of_bending, of_equilibrium, of_parts, of_zone_ends, of_supports, &
         of_restraints, of_places, deflections, rotations, moments, forces, beyond, pulls
-    use gapbeam_stretch_audit, only: sums_type, audit_stretch, kink_terms, pressure_terms
+    use gapbeam_stretch_audit, only: sums_type, audit_stretch, breakpoint_terms, pressure_terms
     implicit none
     private
     public :: audit_ground
@@ -217,7 +217,7 @@ contains
             integer, intent(in) :: i
             type(field_type) :: a, b
             real(wp) :: past, change, push(2), length, terms, steepness, incline
-            integer :: k, kink
+            integer :: k, breakpoint
 
             a = field_at_end(solution, i, 2)
             b = field_at_end(solution, i + 1, 1)
@@ -233,9 +233,10 @@ contains
                 do k = 1, ground%first(piece + 1) - ground%first(piece)
                     if (before(k) == after(k)) cycle
                     associate (layer => ground%layers(ground%first(piece) + k - 1))
-                        do kink = min(before(k), after(k)) + 1, max(before(k), after(k))
-                            call approach_kink(ground%laws, layer, kink, a%deflection, incline, at, length, past, change)
-                            call kink_terms(layer, ground%laws, kink, sizes%deflection, steepness, terms)
+                        do breakpoint = min(before(k), after(k)) + 1, max(before(k), after(k))
+                            call distance_to_breakpoint(ground%laws, layer, breakpoint, a%deflection, incline, at, length, past, &
+                                                        change)
+                            call breakpoint_terms(layer, ground%laws, breakpoint, sizes%deflection, steepness, terms)
                             terms = terms + length*abs(change)
                             if (.not. steepness > 0.0_wp) steepness = 1.0_wp
                             call note(ledger, of_zone_ends, beyond, past/steepness, terms/steepness, piece, at)

@@ -2,7 +2,7 @@
 module gapbeam_ground_ties
     use gapbeam_kinds, only: wp, qp
     use gapbeam_ground_quad, only: ground_type, zones_type, grounded_type
-    use gapbeam_ground_laws_quad, only: line_of_kink
+    use gapbeam_ground_laws_quad, only: line_of_breakpoint
     use gapbeam_zone_fields_quad, only: fields_at_ends
     use gapbeam_workspace_quad, only: workspace_type
     use gapbeam_model_quad, only: beam_type
@@ -80,8 +80,9 @@ contains
             do k = ground%first(j), ground%first(j + 1) - 1
                 associate (layer => ground%layers(k), length => ground%pieces(j)%length)
                     if (layer%side == 0 .or. zones%acts(k - ground%first(j) + 1, i) == 0) cycle
-                    depth = max(depth, layer%side*(a%deflection - line_of_kink(ground%laws, layer, 1, zones%from(i), length)), &
-                                layer%side*(b%deflection - line_of_kink(ground%laws, layer, 1, zones%to(i), length)))
+                    depth = max(depth, layer%side*(a%deflection - line_of_breakpoint(ground%laws, layer, 1, zones%from(i), &
+                                                                                         length)), &
+                                layer%side*(b%deflection - line_of_breakpoint(ground%laws, layer, 1, zones%to(i), length)))
                 end associate
             end do
         end associate

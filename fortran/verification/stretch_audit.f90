@@ -6,7 +6,7 @@ module gapbeam_stretch_audit
     use gapbeam_element, only: field_type
     use gapbeam_layers, only: layer_type, law_piece_type, law_piece, pieces_of_law, is_curve, has_points, law_cubic, &
         parameters_of_law
-    use gapbeam_ground_laws, only: along, approach_kink, push_of_layer
+    use gapbeam_ground_laws, only: along, distance_to_breakpoint, push_of_layer
     use gapbeam_curved, only: curved_type, advance_curved
     use gapbeam_link, only: piece_load_type, combine_loads
     use gapbeam_ground, only: ground_type
@@ -17,7 +17,7 @@ module gapbeam_stretch_audit
         moments, forces, beyond
     implicit none
     private
-    public :: sums_type, audit_stretch, kink_terms, pressure_terms
+    public :: sums_type, audit_stretch, breakpoint_terms, pressure_terms
 
     !> Samples of stretches in which ground acts by curves: their series are taken from end to end, not integrated by points
     integer, parameter :: samples = 3
@@ -268,7 +268,7 @@ contains
             type(look_type), intent(out), optional :: found
             real(wp) :: place, steepness, terms_of_it, incline, past, change
             type(look_type) :: now
-            integer :: side, kink
+            integer :: side, breakpoint
 
             now%xi = xi
             associate (j => solution%piece(i), s => solution%stretches(i))
@@ -276,14 +276,14 @@ contains
                 incline = field%rotation + s%shear_flexibility*field%shear
                 associate (layer => ground%layers(ground%first(j) + k - 1))
                     do side = 1, 2
-                        kink = solution%acts(k, i) + side - 1
-                        if (kink < 1 .or. kink > pieces_of_law(layer)) cycle
-                        call approach_kink(ground%laws, layer, kink, field%deflection, incline, place, ground%pieces(j)%length, &
-                                           past, change)
+                        breakpoint = solution%acts(k, i) + side - 1
+                        if (breakpoint < 1 .or. breakpoint > pieces_of_law(layer)) cycle
+                        call distance_to_breakpoint(ground%laws, layer, breakpoint, field%deflection, incline, place, &
+                                                    ground%pieces(j)%length, past, change)
                         now%away(side) = merge(past, -past, side == 1)
                         now%change(side) = merge(change, -change, side == 1)*s%length
                         if (now%away(side) >= 0.0_wp) cycle
-                        call kink_terms(layer, ground%laws, kink, wsize, steepness, terms_of_it)
+                        call breakpoint_terms(layer, ground%laws, breakpoint, wsize, steepness, terms_of_it)
                         if (at_end) terms_of_it = terms_of_it + ground%pieces(j)%length*abs(change)
                         if (steepness > 0.0_wp) then
                             call note(ledger, of_contact, beyond, now%away(side)/steepness, terms_of_it/steepness, j, place)
@@ -332,26 +332,26 @@ contains
         t = min(1.0_wp, max(0.0_wp, 1 - (slope_b + root - z)/max(slope_b - slope_a + 2*root, tiny(t))))
     end function lowest
 
-    !> How a line at which a law goes on to another piece is approached (approach_kink): the change of the measure with the
+    !> How a line at which a law goes on to another piece is approached (distance_to_breakpoint): the change of the measure with the
     !> deflection, and the sizes of its terms
-    pure subroutine kink_terms(layer, laws, kink, deflection, steepness, sizes)
+    pure subroutine breakpoint_terms(layer, laws, breakpoint, deflection, steepness, sizes)
         type(layer_type), intent(in) :: layer
         type(law_piece_type), intent(in) :: laws(:)
         !> The piece that begins there
-        integer, intent(in) :: kink
+        integer, intent(in) :: breakpoint
         !> Size of the deflection
         real(wp), intent(in) :: deflection
         real(wp), intent(out) :: steepness, sizes
         type(law_piece_type) :: piece
 
-        piece = law_piece(layer, laws, kink)
+        piece = law_piece(layer, laws, breakpoint)
         steepness = 1.0_wp
         sizes = deflection + abs(layer%contact_a) + abs(layer%contact_b) &
             + max(abs(piece%displacement_a), abs(piece%displacement_b))
-        if (kink == 1 .or. has_points(layer)) return
+        if (breakpoint == 1 .or. has_points(layer)) return
         steepness = max(layer%parameter_a(1), layer%parameter_b(1))
         sizes = steepness*sizes + max(layer%parameter_a(2), layer%parameter_b(2))
-    end subroutine kink_terms
+    end subroutine breakpoint_terms
 
     !> Size of the terms of a layer's pressure
     pure function pressure_terms(layer, laws, acts, deflection) result(sizes)
