@@ -5,8 +5,8 @@ program test_train
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_equilibrium
     use gapbeam_scene, only: model_type, span_type, support_type, uniform_load, gapbeam_below, gapbeam_dead
-    use gapbeam_lowered, only: lowered_type, copy_model
-    use gapbeam_lower, only: lower_model
+    use gapbeam_assembled_model, only: assembled_type, copy_model
+    use gapbeam_assemble, only: assemble_model
     use gapbeam_train, only: train_type, uniform_type, track_type, new_track
     use gapbeam_train_passage, only: passage_type
     use gapbeam_train_path, only: pass_train
@@ -34,7 +34,7 @@ contains
     !> A beam with own weight on supports from below at its span ends, made ready with all traps off, as the interfaces do
     subroutine make(lengths, at, weight, lowered, track)
         real(wp), intent(in) :: lengths(:), at(:), weight
-        type(lowered_type), intent(out) :: lowered
+        type(assembled_type), intent(out) :: lowered
         type(track_type), intent(out) :: track
         type(model_type) :: model
         type(ieee_status_type) :: environment
@@ -52,7 +52,7 @@ contains
         call ieee_get_status(environment)
         call ieee_set_halting_mode(ieee_all, .false.)
         call copy_model(model, lowered%model, stat)
-        call lower_model(lowered, error)
+        call assemble_model(lowered, error)
         call ieee_set_status(environment)
         call check(.not. allocated(error), "a model")
         call new_track(lowered, track, error)
@@ -61,7 +61,7 @@ contains
 
     !> Reference problem D1
     subroutine an_end_lifts()
-        type(lowered_type) :: lowered
+        type(assembled_type) :: lowered
         type(track_type) :: track
         type(train_type) :: train
         type(passage_type) :: passage
@@ -106,7 +106,7 @@ contains
 
     !> The weight cannot hold the train on the overhang
     subroutine a_plank_tips()
-        type(lowered_type) :: lowered
+        type(assembled_type) :: lowered
         type(track_type) :: track
         type(passage_type) :: passage
         type(error_type), allocatable :: error
@@ -123,7 +123,7 @@ contains
 
     !> Of a simple beam: the greatest moment under a force with a load behind it, at the ends of the range nothing
     subroutine a_train_with_a_uniform_load()
-        type(lowered_type) :: lowered
+        type(assembled_type) :: lowered
         type(track_type) :: track
         type(train_type) :: train
         type(passage_type) :: passage
@@ -143,7 +143,7 @@ contains
 
     !> Two axles at a distance of the length of the beam: both act at one position only
     subroutine a_train_as_long_as_the_beam()
-        type(lowered_type) :: lowered
+        type(assembled_type) :: lowered
         type(track_type) :: track
         type(train_type) :: train
         type(passage_type) :: passage
@@ -166,7 +166,7 @@ contains
 
     !> What bounds rest on: the same fields at the end of every stretch as by solving there
     subroutine coefficients_give_the_state()
-        type(lowered_type) :: lowered
+        type(assembled_type) :: lowered
         type(track_type) :: track
         type(train_type) :: train
         type(passage_type) :: passage

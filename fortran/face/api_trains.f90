@@ -17,7 +17,7 @@ module gapbeam_api_trains
         gapbeam_bad_input, gapbeam_not_prepared
     use gapbeam_words, only: shown, whole
     use gapbeam_scene, only: gapbeam_unchanged
-    use gapbeam_lowered, only: lowered_type, point_x
+    use gapbeam_assembled_model, only: assembled_type, point_x
     use gapbeam_query, only: find_pieces
     use gapbeam_train, only: train_type, uniform_type, track_type, new_track
     use gapbeam_train_passage, only: passage_type, gapbeam_moves_freely => not_unique
@@ -190,7 +190,7 @@ contains
 
     !> Refuse beams over which no train is followed
     subroutine require_no_more(lowered, error)
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: lowered
         type(error_type), allocatable, intent(out) :: error
 
         if (allocated(lowered%layers)) then
@@ -201,7 +201,7 @@ contains
 
     !> Refuse a train that makes no sense, and find its positions
     subroutine check_train(lowered, train, from, to, error)
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: lowered
         type(moving_train_type), intent(in) :: train
         real(wp), intent(out) :: from, to
         type(error_type), allocatable, intent(out) :: error

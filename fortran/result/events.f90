@@ -9,7 +9,7 @@ module gapbeam_events
     use gapbeam_path, only: follow_path, path_type, event_turns
     use gapbeam_pieces, only: acting_type, acting_piece, what_happens, nothing
     use gapbeam_words, only: shown
-    use gapbeam_lowered, only: lowered_type
+    use gapbeam_assembled_model, only: assembled_type
     use gapbeam_solution, only: state_type, close_all, forget
     use gapbeam_state, only: solve_state, detail_of, name_range
     use gapbeam_memory, only: for_following
@@ -40,9 +40,9 @@ contains
 
     !> Follow the load from factor 0 to `factor`: every change of the working scheme at its load factor. The state is that at
     !> the end, or at the factor above which there is no equilibrium, with the motion that begins there
-    subroutine follow_events(lowered, factor, rule, state, events, number, error)
+    subroutine follow_events(assembled, factor, rule, state, events, number, error)
         !> The beam
-        type(lowered_type), intent(in), target :: lowered
+        type(assembled_type), intent(in), target :: assembled
         !> End of the path, above 0
         real(wp), intent(in) :: factor
         !> rule_block or rule_single
@@ -66,19 +66,19 @@ contains
             call no_memory(error)
             return
         end if
-        call close_all(lowered, state%closed)
-        call solve_state(lowered, 0.0_wp, rule, state, error)
+        call close_all(assembled, state%closed)
+        call solve_state(assembled, 0.0_wp, rule, state, error)
         if (allocated(error) .or. state%status /= gapbeam_solved) return
         at = 0.0_wp
         now(:) = state%closed
         solves = state%solves
         do while (at < factor)
-            call reserve_for(for_following, lowered%beam, detail_of(lowered), error)
+            call reserve_for(for_following, assembled%beam, detail_of(assembled), error)
             if (allocated(error)) return
-            call follow_path(lowered%beam, detail_of(lowered), factor, changes_at_a_time, at, state%closed, state%undecided, &
+            call follow_path(assembled%beam, detail_of(assembled), factor, changes_at_a_time, at, state%closed, state%undecided, &
                              path, outcome, error)
-            call end_if_stopped(lowered%beam%watch, error)
-            call name_range(lowered, error)
+            call end_if_stopped(assembled%beam%watch, error)
+            call name_range(assembled, error)
             if (allocated(error)) then
                 error%message = "at load factor "//trim(shown(at))//": "//error%message
                 return
@@ -97,7 +97,7 @@ contains
                 return
             end if
         end do
-        call solve_state(lowered, factor, rule_given, state, error)
+        call solve_state(assembled, factor, rule_given, state, error)
         if (.not. allocated(error)) state%solves = state%solves + solves
 
     contains
@@ -114,7 +114,7 @@ contains
             if (what /= event_turns) now(which) = .not. now(which)
             after = now_acts(which)
             change = what
-            if (lowered%beam%supports(which)%breakpoint > 0 .and. what /= event_turns) change = what_happens(before, after)
+            if (assembled%beam%supports(which)%breakpoint > 0 .and. what /= event_turns) change = what_happens(before, after)
             if (change == nothing .or. (.not. when > 0.0_wp .and. what /= event_turns)) return
             if (number == size(events)) then
                 allocate (longer(2*number), stat=stat)
@@ -126,7 +126,7 @@ contains
                 call move_alloc(longer, events)
             end if
             number = number + 1
-            events(number) = event_type(when, lowered%normal(which), merge(what, after%condition, what == event_turns), change)
+            events(number) = event_type(when, assembled%normal(which), merge(what, after%condition, what == event_turns), change)
         end subroutine note
 
         !> What acts of a support of the beam, which may be a breakpoint of a law
@@ -135,10 +135,10 @@ contains
             type(acting_type) :: acting
             integer :: first
 
-            associate (supports => lowered%beam%supports)
+            associate (supports => assembled%beam%supports)
                 first = which - max(supports(which)%breakpoint - 1, 0)
                 associate (last => last_breakpoint(supports, which))
-                    acting = acting_piece(supports(first:last), lowered%model%supports(lowered%normal(which))%side, &
+                    acting = acting_piece(supports(first:last), assembled%model%supports(assembled%normal(which))%side, &
                                           now(first:last))
                 end associate
             end associate

@@ -3,7 +3,7 @@ module gapbeam_ground_events
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_polyline, only: last_breakpoint
-    use gapbeam_lowered, only: lowered_type, point_x
+    use gapbeam_assembled_model, only: assembled_type, point_x
     use gapbeam_pieces, only: acting_type, acting_piece, what_happens, nothing, gapbeam_merges, gapbeam_splits
     use gapbeam_zone_margin, only: change_type
     use gapbeam_ground_start, only: ground_start_type
@@ -69,8 +69,8 @@ contains
     end subroutine new_path
 
     !> The events between two factors in the order of their factors; at the same one of supports, then of zones
-    subroutine note_changes(lowered, before, after, factor, place, path, error)
-        type(lowered_type), intent(in) :: lowered
+    subroutine note_changes(assembled, before, after, factor, place, path, error)
+        type(assembled_type), intent(in) :: assembled
         type(held_type), intent(in) :: before, after
         !> Of the changes as listed by list_changes: load factor, and place in the user's units; that of a zone below zero: where it
         !> is between the zones before and after
@@ -83,15 +83,15 @@ contains
 
         begin = path%number
         n = 0
-        associate (supports => lowered%beam%supports, changed => before%closed .neqv. after%closed)
+        associate (supports => assembled%beam%supports, changed => before%closed .neqv. after%closed)
             k = 1
             do while (k <= size(supports))
                 last = k
                 if (supports(k)%breakpoint > 0) last = last_breakpoint(supports, k)
-                what = change_of(lowered, k, last, before, after)
+                what = change_of(assembled, k, last, before, after)
                 if (what /= nothing) then
-                    associate (s => lowered%normal(k), point => lowered%support_point(lowered%normal(k)))
-                        call add_event(ground_event_type(factor(n + 1), point_x(lowered, point), support=s, change=what), begin, &
+                    associate (s => assembled%normal(k), point => assembled%support_point(assembled%normal(k)))
+                        call add_event(ground_event_type(factor(n + 1), point_x(assembled, point), support=s, change=what), begin, &
                                        path, error)
                     end associate
                     if (allocated(error)) return
@@ -111,8 +111,8 @@ contains
     end subroutine note_changes
 
     !> The changes between two factors as the engine looks for them
-    subroutine list_changes(lowered, before, after, list)
-        type(lowered_type), intent(in) :: lowered
+    subroutine list_changes(assembled, before, after, list)
+        type(assembled_type), intent(in) :: assembled
         type(held_type), intent(in) :: before, after
         !> Of supports, then of zones
         type(change_type), allocatable, intent(out) :: list(:)
@@ -128,7 +128,7 @@ contains
             list(n) = change_type(support=k, closed=before%closed(k))
         end do
         do k = 1, number
-            associate (c => changes(k), power => -lowered%units%length)
+            associate (c => changes(k), power => -assembled%units%length)
                 list(n + k) = change_type(foundation=c%foundation, side=c%side, branch=c%branch, from=scale(c%from, power), &
                                           to=scale(c%to, power), &
                                           greatest=c%change /= gapbeam_merges .and. c%change /= gapbeam_splits)
@@ -137,14 +137,15 @@ contains
     end subroutine list_changes
 
     !> What happens to a support, one entry of the engine or the breakpoints of a law
-    function change_of(lowered, first, last, before, after) result(change)
-        type(lowered_type), intent(in) :: lowered
+    function change_of(assembled, first, last, before, after) result(change)
+        type(assembled_type), intent(in) :: assembled
         integer, intent(in) :: first, last
         type(held_type), intent(in) :: before, after
         integer :: change
         type(acting_type) :: was, is
 
-        associate (breakpoints => lowered%beam%supports(first:last), side => lowered%model%supports(lowered%normal(first))%side)
+        associate (breakpoints => assembled%beam%supports(first:last), &
+                   side => assembled%model%supports(assembled%normal(first))%side)
             was = acting_piece(breakpoints, side, before%closed(first:last))
             is = acting_piece(breakpoints, side, after%closed(first:last))
         end associate

@@ -15,7 +15,7 @@ module gapbeam_history
     use gapbeam_lines, only: way_type, rise, fall, turn
     use gapbeam_branch, only: branch_type, segment_type, start_branch, step_branch, goes_on, no_way_on, never_ends, not_told
     use gapbeam_scene, only: gapbeam_elastic
-    use gapbeam_lowered, only: lowered_type, point_x
+    use gapbeam_assembled_model, only: assembled_type, point_x
     use gapbeam_state, only: detail_of
     use gapbeam_history_start, only: find_beginning, find_movements, has_dead_loads, find_rest
     implicit none
@@ -90,9 +90,9 @@ module gapbeam_history
 contains
 
     !> Put on the dead loads, and with them settlements and lacks of fit, then go through load factors in turn
-    subroutine follow_history(lowered, factors, at_limit, most, history, error)
+    subroutine follow_history(assembled, factors, at_limit, most, history, error)
         !> The beam
-        type(lowered_type), intent(in), target :: lowered
+        type(assembled_type), intent(in), target :: assembled
         !> Load factors to go to
         real(wp), intent(in) :: factors(:)
         !> at_limit_stop, at_limit_jump or at_limit_follow
@@ -111,16 +111,16 @@ contains
         real(qp) :: factor
         integer :: leg
 
-        call reserve_for(for_following_closely, lowered%beam, detail_of(lowered), error)
+        call reserve_for(for_following_closely, assembled%beam, detail_of(assembled), error)
         if (allocated(error)) return
-        call refine_beam(lowered%beam, detail_of(lowered), beam)
+        call refine_beam(assembled%beam, detail_of(assembled), beam)
         allocate (history%stretches(16), history%limits(0), history%others(0))
         allocate (unloading(size(beam%supports)), closed(size(beam%supports)))
-        unloading(:) = lowered%model%supports(lowered%normal)%unloading
+        unloading(:) = assembled%model%supports(assembled%normal)%unloading
         laws = beam%supports
-        call find_rest(lowered, closed)
+        call find_rest(assembled, closed)
         allocate (settling(size(laws)))
-        call find_movements(lowered, settling)
+        call find_movements(assembled, settling)
         if (has_dead_loads(beam) .or. any(abs(settling) > 0.0_qp)) then
             call drop_live(beam, dead)
             laws%contact = laws%contact - settling
@@ -179,7 +179,7 @@ contains
             call start_branch(beam, unloading, settling, closed, from, way, branch, outcome, error)
             if (history%number == 0 .and. .not. allocated(error) .and. outcome == goes_on .and. branch%way%index > 0) then
                 ! No force falls in a beam without load: the search has gone too far
-                call find_rest(lowered, closed)
+                call find_rest(assembled, closed)
                 call start_branch(beam, unloading, settling, closed, from, way, branch, outcome, error)
                 if (.not. allocated(error) .and. outcome == goes_on .and. branch%way%index > 0) outcome = no_way_on
                 if (.not. allocated(error) .and. outcome == no_way_on) then
@@ -257,7 +257,7 @@ contains
             real(wp) :: x
 
             if (allocated(error) .or. outcome /= not_told) return
-            x = point_x(lowered, lowered%support_point(lowered%normal(branch%shared(1))))
+            x = point_x(assembled, assembled%support_point(assembled%normal(branch%shared(1))))
             call fatal_error(error, gapbeam_indeterminate, "two supports at x = "//trim(shown(x))//" have yielded to the same "// &
                              "deflection and unload rigidly from there at load factor "//trim(shown(real(branch%factor, wp)))// &
                              ", so statics cannot tell what each of them takes: give one of them a finite stiffness")
@@ -287,7 +287,7 @@ contains
                 ! No negative zeros
                 s = stretch_type(leg, real(segment%from, wp) + 0.0_wp, real(segment%to, wp) + 0.0_wp, direction, index, ways, &
                                  .false., acting)
-                if (any(unloading /= gapbeam_elastic)) s%laws = rounded(now, lowered%beam%supports)
+                if (any(unloading /= gapbeam_elastic)) s%laws = rounded(now, assembled%beam%supports)
             end associate
         end subroutine add
 
@@ -360,12 +360,12 @@ contains
     end function rounded
 
     !> The laws of a stretch
-    pure function laws_at(lowered, stretch) result(laws)
-        type(lowered_type), intent(in) :: lowered
+    pure function laws_at(assembled, stretch) result(laws)
+        type(assembled_type), intent(in) :: assembled
         type(stretch_type), intent(in) :: stretch
         type(node_support_type), allocatable :: laws(:)
 
-        laws = lowered%beam%supports
+        laws = assembled%beam%supports
         if (allocated(stretch%laws)) laws = stretch%laws
     end function laws_at
 

@@ -7,7 +7,7 @@ module gapbeam_history_start
     use gapbeam_scheme_quad, only: outcome_type
     use gapbeam_cell, only: find_cell, cell_type
     use gapbeam_scene, only: gapbeam_both
-    use gapbeam_lowered, only: lowered_type
+    use gapbeam_assembled_model, only: assembled_type
     implicit none
     private
     public :: find_beginning, find_movements, has_dead_loads, find_rest
@@ -42,15 +42,15 @@ contains
     end subroutine find_beginning
 
     !> Settlements and lacks of fit, in the engine's units
-    pure subroutine find_movements(lowered, movement)
-        type(lowered_type), intent(in) :: lowered
+    pure subroutine find_movements(assembled, movement)
+        type(assembled_type), intent(in) :: assembled
         !> Of the supports of the engine
         real(qp), intent(out) :: movement(:)
         integer :: k
 
         do k = 1, size(movement)
-            associate (s => lowered%model%supports(lowered%normal(k)))
-                movement(k) = scale(s%settlement + s%side*min(s%gap, 0.0_wp), -lowered%units%deflection)
+            associate (s => assembled%model%supports(assembled%normal(k)))
+                movement(k) = scale(s%settlement + s%side*min(s%gap, 0.0_wp), -assembled%units%deflection)
             end associate
         end do
     end subroutine find_movements
@@ -87,18 +87,18 @@ contains
     end function has_dead_loads
 
     !> Where supports are before any load: on the piece on which the straight beam is
-    subroutine find_rest(lowered, closed)
-        type(lowered_type), intent(in) :: lowered
+    subroutine find_rest(assembled, closed)
+        type(assembled_type), intent(in) :: assembled
         logical, intent(out) :: closed(:)
         integer :: k, last, middle
 
         k = 1
         do while (k <= size(closed))
-            last = last_breakpoint(lowered%beam%supports, k)
+            last = last_breakpoint(assembled%beam%supports, k)
             middle = 1
-            if (lowered%model%supports(lowered%normal(k))%side == gapbeam_both) then
+            if (assembled%model%supports(assembled%normal(k))%side == gapbeam_both) then
                 middle = max(1, (last - k + 1)/2)
-            else if (lowered%beam%supports(k)%side*lowered%beam%supports(k)%contact > 0.0_wp) then
+            else if (assembled%beam%supports(k)%side*assembled%beam%supports(k)%contact > 0.0_wp) then
                 middle = 0
             end if
             closed(k:last) = .false.

@@ -6,7 +6,7 @@ module gapbeam_lane_cases
     use gapbeam_error, only: error_type
     use gapbeam_law, only: has_laws
     use gapbeam_units, only: moment_unit, stiffness_unit
-    use gapbeam_lowered, only: lowered_type
+    use gapbeam_assembled_model, only: assembled_type
     use gapbeam_cases, only: case_loads_type, split_loads, leave_room, give_case
     use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type, new_pack
     use gapbeam_lane_levels, only: take_columns_at, take_numbers_at, give_pack_at, search_pack_at, finish_pack_at, &
@@ -50,12 +50,12 @@ module gapbeam_lane_cases
 contains
 
     !> Do lanes hold a beam: several links that bend, no ground and laws
-    pure function fits_lanes(lowered) result(fits)
-        type(lowered_type), intent(in) :: lowered
+    pure function fits_lanes(assembled) result(fits)
+        type(assembled_type), intent(in) :: assembled
         logical :: fits
         integer :: n
 
-        associate (beam => lowered%beam, units => lowered%units)
+        associate (beam => assembled%beam, units => assembled%units)
             n = size(beam%links)
             fits = n > 1 .and. n <= most_links .and. .not. allocated(beam%ground)
             if (.not. fits) return
@@ -66,8 +66,8 @@ contains
     end function fits_lanes
 
     !> Solve cases of a beam that fits
-    subroutine solve_in_lanes(lowered, loads, factors, values, spans, room, closed, w, ml, mr, reaction, solves, done, level)
-        type(lowered_type), intent(in) :: lowered
+    subroutine solve_in_lanes(assembled, loads, factors, values, spans, room, closed, w, ml, mr, reaction, solves, done, level)
+        type(assembled_type), intent(in) :: assembled
         !> By split_loads, and the factor of every load, shape (at least nload, ncase)
         type(case_loads_type), intent(in) :: loads
         real(wp), intent(in), contiguous :: factors(:, :)
@@ -95,22 +95,23 @@ contains
         at_level = best_level()
         if (present(level)) at_level = level
         ! As many factors in every call for the beam
-        if (.not. room%made) call make_room(lowered, loads, size(factors, 1), size(spans, 2) > 0, room)
+        if (.not. room%made) call make_room(assembled, loads, size(factors, 1), size(spans, 2) > 0, room)
         if (.not. room%made) return
         if (size(values, 2) > 0) room%with_own_supports = .false.
-        if (.not. room%with_own_supports) call take_supports(lowered, room%beam%place, room%pack)
+        if (.not. room%with_own_supports) call take_supports(assembled, room%beam%place, room%pack)
         room%with_own_supports = size(values, 2) == 0
         outside(:) = .false.
-        units = scale(1.0_wp, [lowered%units%deflection, moment_unit(lowered%units), lowered%units%force])
+        units = scale(1.0_wp, [assembled%units%deflection, moment_unit(assembled%units), assembled%units%force])
         do first = 1, size(done), lanes
-            if (is_stopped(lowered%beam%watch)) exit
+            if (is_stopped(assembled%beam%watch)) exit
             ! The last lanes repeat the last case
             case_of = [(min(first + l, size(done)), l=0, lanes - 1)]
             call take_columns_at(at_level, size(factors, 1), size(factors, 2), factors, case_of, room%factors)
             if (size(values, 2) > 0) then
-                call take_numbers_at(at_level, room%beam, units_of_supports(lowered), values, case_of, room%turned, room%pack, lost)
+                call take_numbers_at(at_level, room%beam, units_of_supports(assembled), values, case_of, room%turned, room%pack, &
+                                     lost)
                 do l = 1, merge(lanes, 0, size(room%beam%shared) > 0)
-                    if (.not. lost) lost = .not. leave_room(lowered, values(:, :, case_of(l)))
+                    if (.not. lost) lost = .not. leave_room(assembled, values(:, :, case_of(l)))
                 end do
                 if (lost) cycle
             end if
@@ -120,7 +121,7 @@ contains
                 end do
                 call make_pack_links(at_level, room%spans, room%beam, room%pack)
             end if
-            call take_starts(lowered, room%beam%place, closed, case_of, room%pack)
+            call take_starts(assembled, room%beam%place, closed, case_of, room%pack)
             call search_pack_at(at_level, room%beam, room%factors, room%pack, solves_of, method)
             where (outside) method = 0
             solves(case_of) = solves_of
@@ -199,8 +200,8 @@ contains
 
     !> Find the working schemes of many combinations (gapbeam_combinations) of a beam that fits. Those that are doubtful are left to
     !> their own searches, with the start that they have
-    subroutine find_schemes(lowered, factors, settlements, supports, closed, solves)
-        type(lowered_type), intent(in) :: lowered
+    subroutine find_schemes(assembled, factors, settlements, supports, closed, solves)
+        type(assembled_type), intent(in) :: assembled
         !> As for combine, shape (nload, ncase), (nsupport, ncase), (3, nsupport, ncase); nsupport 0: their own
         real(wp), intent(in) :: factors(:, :), settlements(:, :), supports(:, :, :)
         !> Starts in, schemes out where they have been found, shape (at least size(beam%supports), ncase)
@@ -216,7 +217,7 @@ contains
         integer :: i, m, stat
 
         solves(:) = 0
-        call split_loads(lowered, loads, error)
+        call split_loads(assembled, loads, error)
         if (allocated(error)) return
         m = size(solves)
         allocate (not_wanted(0, m), done(m), stat=stat)
@@ -228,21 +229,21 @@ contains
                 if (size(supports, 2) > 0) then
                     values(:, :, i) = supports(:, :, i)
                 else
-                    values(1, :, i) = lowered%model%supports%settlement
-                    values(2, :, i) = lowered%model%supports%gap
-                    values(3, :, i) = lowered%model%supports%stiffness
+                    values(1, :, i) = assembled%model%supports%settlement
+                    values(2, :, i) = assembled%model%supports%gap
+                    values(3, :, i) = assembled%model%supports%stiffness
                 end if
                 values(1, :, i) = values(1, :, i) + settlements(:, i)
             end do
         end if
-        call solve_in_lanes(lowered, loads, factors, values, own_spans, room, closed, not_wanted, not_wanted, not_wanted, &
+        call solve_in_lanes(assembled, loads, factors, values, own_spans, room, closed, not_wanted, not_wanted, not_wanted, &
                             not_wanted, solves, done)
         where (.not. done) solves = 0
     end subroutine find_schemes
 
     !> Room for cases of a beam
-    subroutine make_room(lowered, loads, number, with_own_spans, room)
-        type(lowered_type), intent(in) :: lowered
+    subroutine make_room(assembled, loads, number, with_own_spans, room)
+        type(assembled_type), intent(in) :: assembled
         type(case_loads_type), intent(in) :: loads
         !> How many factors a case has
         integer, intent(in) :: number
@@ -250,12 +251,12 @@ contains
         type(lane_room_type), intent(inout) :: room
         integer :: stat
 
-        call prepare_lanes(lowered, loads, with_own_spans, room%beam, room%made)
-        if (room%made .and. with_own_spans) call prepare_spans(lowered, loads, room%spans, room%made)
+        call prepare_lanes(assembled, loads, with_own_spans, room%beam, room%made)
+        if (room%made .and. with_own_spans) call prepare_spans(assembled, loads, room%spans, room%made)
         if (room%made) call new_pack(room%beam, room%pack, room%made)
         if (.not. room%made) return
         allocate (room%factors(lanes, number), &
-                  room%turned(lanes, max(3*size(lowered%model%supports) + 3, size(lowered%beam%supports))), stat=stat)
+                  room%turned(lanes, max(3*size(assembled%model%supports) + 3, size(assembled%beam%supports))), stat=stat)
         room%made = stat == 0
     end subroutine make_room
 

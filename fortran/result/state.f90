@@ -21,8 +21,8 @@ module gapbeam_state
     use gapbeam_certificate, only: certificate_type, certify
     use gapbeam_axial, only: solve_axial, axial_ok, axial_slides, axial_indeterminate
     use gapbeam_words, only: shown
-    use gapbeam_lowered, only: lowered_type, point_x, find_length_errors
-    use gapbeam_lower_units, only: name_farthest
+    use gapbeam_assembled_model, only: assembled_type, point_x, find_length_errors
+    use gapbeam_assemble_units, only: name_farthest
     use gapbeam_solution, only: state_type, forget, check_range
     use gapbeam_memory, only: for_solving, for_certifying
     implicit none
@@ -32,9 +32,9 @@ module gapbeam_state
 contains
 
     !> Solve at one load factor; the search starts from the scheme the state holds
-    subroutine solve_state(lowered, factor, rule, state, error, near)
+    subroutine solve_state(assembled, factor, rule, state, error, near)
         !> The beam
-        type(lowered_type), intent(in), target :: lowered
+        type(assembled_type), intent(in), target :: assembled
         !> Factor of the live loads
         real(wp), intent(in) :: factor
         !> rule_block, rule_single, rule_given or rule_extended
@@ -53,8 +53,8 @@ contains
 
         call forget(state)
         state%factor = factor
-        state%fingerprint = lowered%fingerprint
-        call reserve_for(for_solving, lowered%beam, detail_of(lowered), error)
+        state%fingerprint = assembled%fingerprint
+        call reserve_for(for_solving, assembled%beam, detail_of(assembled), error)
         if (allocated(error)) return
         allocate (acting(size(state%closed)), stat=stat)
         if (stat /= 0) then
@@ -62,19 +62,19 @@ contains
             return
         end if
         acting(:) = state%closed
-        call solve_along_axis(lowered, state, error)
+        call solve_along_axis(assembled, state, error)
         if (allocated(error)) return
-        if (allocated(lowered%layers)) then
-            call settle_on_ground(ground_of(lowered))
+        if (allocated(assembled%layers)) then
+            call settle_on_ground(ground_of(assembled))
         else if (allocated(state%laws)) then
-            changed = lowered%beam
+            changed = assembled%beam
             changed%supports(:) = state%laws
             call settle(changed)
         else
-            call settle(lowered%beam)
+            call settle(assembled%beam)
         end if
-        if (.not. allocated(error) .and. state%status == gapbeam_solved) call check_range(lowered, state, error)
-        call end_if_stopped(lowered%beam%watch, error)
+        if (.not. allocated(error) .and. state%status == gapbeam_solved) call check_range(assembled, state, error)
+        call end_if_stopped(assembled%beam%watch, error)
 
     contains
 
@@ -85,12 +85,12 @@ contains
 
             call new_workspace(beam, work)
             call set_loads(beam, factor, work)
-            call decide_scheme(beam, detail_of(lowered), factor, rule, acting, work, outcome, error, fault)
+            call decide_scheme(beam, detail_of(assembled), factor, rule, acting, work, outcome, error, fault)
             if (fault%wrong /= 0) then
-                fault%piece = lowered%node_point(fault%piece) + 1
-                call name_fault(lowered, fault, error)
+                fault%piece = assembled%node_point(fault%piece) + 1
+                call name_fault(assembled, fault, error)
             end if
-            call name_range(lowered, error)
+            call name_range(assembled, error)
             if (allocated(error)) return
             state%solves = work%solves
             state%method = work%method
@@ -120,12 +120,12 @@ contains
             type(ledger_type) :: ledger
 
             allocate (state%ground)
-            call solve_on_ground(ground, detail_of(lowered), factor, merge(rule_block, rule, rule >= rule_given), acting, &
+            call solve_on_ground(ground, detail_of(assembled), factor, merge(rule_block, rule, rule >= rule_given), acting, &
                                  state%ground, outcome, error, near)
             if (.not. allocated(error) .and. outcome%status == gapbeam_solved) then
                 call refuse_indeterminate(ground%beam, acting, state%ground%undecided, error)
             end if
-            call name_range(lowered, error)
+            call name_range(assembled, error)
             if (allocated(error)) return
             state%solves = state%ground%solves
             state%status = merge(gapbeam_no_equilibrium, outcome%status, state%slides)
@@ -142,56 +142,56 @@ contains
             state%moment_right(:) = state%ground%moment_right
             state%reaction(:) = state%ground%reaction
             call audit_ground(ground, factor, acting, state%ground, ledger, state%ground%residuals)
-            call name_fault(lowered, ledger, error)
+            call name_fault(assembled, ledger, error)
         end subroutine settle_on_ground
 
     end subroutine solve_state
 
     !> The beam with the ground under it
-    function ground_of(lowered) result(ground)
-        type(lowered_type), intent(in) :: lowered
+    function ground_of(assembled) result(ground)
+        type(assembled_type), intent(in) :: assembled
         type(ground_type) :: ground
 
-        ground%beam = lowered%beam
-        associate (n => size(lowered%pieces))
-            allocate (ground%pieces(n), ground%dead(n), ground%live(n), ground%layers(size(lowered%layers)), ground%first(n + 1), &
-                      ground%laws(size(lowered%law_pieces)))
+        ground%beam = assembled%beam
+        associate (n => size(assembled%pieces))
+            allocate (ground%pieces(n), ground%dead(n), ground%live(n), ground%layers(size(assembled%layers)), &
+                      ground%first(n + 1), ground%laws(size(assembled%law_pieces)))
         end associate
-        ground%pieces(:) = lowered%pieces
-        ground%dead(:) = lowered%dead
-        ground%live(:) = lowered%live
-        ground%layers(:) = lowered%layers
-        ground%first(:) = lowered%layer_first
-        ground%laws(:) = lowered%law_pieces
+        ground%pieces(:) = assembled%pieces
+        ground%dead(:) = assembled%dead
+        ground%live(:) = assembled%live
+        ground%layers(:) = assembled%layers
+        ground%first(:) = assembled%layer_first
+        ground%laws(:) = assembled%law_pieces
     end function ground_of
 
     !> Say what it was where the engine left the range of double precision
-    subroutine name_range(lowered, error)
-        type(lowered_type), intent(in) :: lowered
+    subroutine name_range(assembled, error)
+        type(assembled_type), intent(in) :: assembled
         !> The engine's error, if there is one
         type(error_type), allocatable, intent(inout) :: error
 
         if (.not. allocated(error)) return
-        if (error%code == gapbeam_not_finite) call name_farthest(lowered, error)
+        if (error%code == gapbeam_not_finite) call name_farthest(assembled, error)
     end subroutine name_range
 
     !> Refuse a state that does not stand its audit, in the user's words
-    subroutine name_fault(lowered, ledger, error)
-        type(lowered_type), intent(in) :: lowered
+    subroutine name_fault(assembled, ledger, error)
+        type(assembled_type), intent(in) :: assembled
         type(ledger_type), intent(in) :: ledger
         !> What is wrong, and where
         type(error_type), allocatable, intent(out) :: error
 
         if (ledger%wrong == 0) return
         call fatal_error(error, gapbeam_not_converged, "the result does not stand its own audit: at x = " &
-                         //trim(shown(point_x(lowered, ledger%piece - 1) + scale(ledger%distance, lowered%units%length))) &
+                         //trim(shown(point_x(assembled, ledger%piece - 1) + scale(ledger%distance, assembled%units%length))) &
                          //" "//trim(words_for(ledger%wrong))//", by "//trim(shown(real(nint(min(ledger%excess, 1e9_wp)), wp))) &
                          //" roundings or more; look for stiffnesses or lengths that lie far apart, and report the scene")
     end subroutine name_fault
 
     !> Solve the axial system, if there is one
-    subroutine solve_along_axis(lowered, state, error)
-        type(lowered_type), intent(in) :: lowered
+    subroutine solve_along_axis(assembled, state, error)
+        type(assembled_type), intent(in) :: assembled
         !> With its load factor in, displacements and forces along the axis out, or that the beam slides
         type(state_type), intent(inout) :: state
         !> Supports that hold a rigid stretch at both ends
@@ -199,8 +199,8 @@ contains
         type(ledger_type) :: ledger
         integer :: found, place
 
-        if (.not. allocated(lowered%axial%point)) return
-        associate (axial => lowered%axial)
+        if (.not. allocated(assembled%axial%point)) return
+        associate (axial => assembled%axial)
             call solve_axial(axial%flexibility, axial%force(1, :) + state%factor*axial%force(2, :), axial%stiffness, &
                              axial%settlement, state%displacement, state%tension, state%axial_reaction, found, place)
             state%slides = found == axial_slides
@@ -208,12 +208,12 @@ contains
                 call audit_axial(axial%flexibility, axial%force(1, :) + state%factor*axial%force(2, :), axial%stiffness, &
                                  axial%settlement, state%displacement, state%tension, state%axial_reaction, ledger)
                 ledger%piece = axial%point(ledger%piece) + 1
-                call name_fault(lowered, ledger, error)
+                call name_fault(assembled, ledger, error)
             end if
             if (found /= axial_indeterminate) return
             associate (point => axial%point(place))
                 call fatal_error(error, gapbeam_indeterminate, "the axial support at x = " &
-                                 //trim(shown(point_x(lowered, point)))// &
+                                 //trim(shown(point_x(assembled, point)))// &
                                  " and another one hold a stretch with infinite EA at both ends, so their forces cannot "// &
                                  "be told apart: give the beam a finite EA")
             end associate
@@ -221,35 +221,35 @@ contains
     end subroutine solve_along_axis
 
     !> What the links of a beam are made of
-    function detail_of(lowered) result(detail)
-        type(lowered_type), intent(in), target :: lowered
+    function detail_of(assembled) result(detail)
+        type(assembled_type), intent(in), target :: assembled
         type(detail_type) :: detail
 
-        detail%pieces => lowered%pieces
-        detail%dead => lowered%dead
-        detail%live => lowered%live
-        detail%last => lowered%node_point(1:)
+        detail%pieces => assembled%pieces
+        detail%dead => assembled%dead
+        detail%live => assembled%live
+        detail%last => assembled%node_point(1:)
     end function detail_of
 
     !> Fields of a solved state at the left ends of all pieces
-    pure subroutine recover_state(lowered, state, starts)
+    pure subroutine recover_state(assembled, state, starts)
         !> The beam and the state
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: assembled
         type(state_type), intent(in) :: state
         !> The fields, shape (npiece)
         type(field_type), intent(out) :: starts(:)
 
-        associate (n => size(lowered%beam%links))
-            call recover_beam(lowered%pieces, lowered%dead, lowered%live, state%factor, lowered%beam%links, &
-                              lowered%node_point(1:n), lowered%beam%kind, state%deflection, state%moment_left, &
+        associate (n => size(assembled%beam%links))
+            call recover_beam(assembled%pieces, assembled%dead, assembled%live, state%factor, assembled%beam%links, &
+                              assembled%node_point(1:n), assembled%beam%kind, state%deflection, state%moment_left, &
                               state%moment_right, state%shear, starts)
         end associate
     end subroutine recover_state
 
     !> Residuals of a solved state, and bounds for its errors in the engine's units
-    subroutine certify_state(lowered, state, certificate, error)
+    subroutine certify_state(assembled, state, certificate, error)
         !> The beam
-        type(lowered_type), intent(in), target :: lowered
+        type(assembled_type), intent(in), target :: assembled
         !> Solved
         type(state_type), intent(in) :: state
         !> How good it is
@@ -272,21 +272,21 @@ contains
             end associate
             return
         end if
-        call reserve_for(for_certifying, lowered%beam, detail_of(lowered), error)
+        call reserve_for(for_certifying, assembled%beam, detail_of(assembled), error)
         if (allocated(error)) return
-        allocate (starts(size(lowered%pieces)), length_error(size(lowered%beam%links)))
-        call recover_state(lowered, state, starts)
-        call find_length_errors(lowered, length_error)
+        allocate (starts(size(assembled%pieces)), length_error(size(assembled%beam%links)))
+        call recover_state(assembled, state, starts)
+        call find_length_errors(assembled, length_error)
         if (allocated(state%laws)) then
-            changed = lowered%beam
+            changed = assembled%beam
             changed%supports(:) = state%laws
-            call certify(changed, detail_of(lowered), state%factor, state%closed, state%deflection, state%moment_left, &
+            call certify(changed, detail_of(assembled), state%factor, state%closed, state%deflection, state%moment_left, &
                          state%moment_right, state%reaction, starts, length_error, certificate, error)
         else
-            call certify(lowered%beam, detail_of(lowered), state%factor, state%closed, state%deflection, state%moment_left, &
+            call certify(assembled%beam, detail_of(assembled), state%factor, state%closed, state%deflection, state%moment_left, &
                          state%moment_right, state%reaction, starts, length_error, certificate, error)
         end if
-        call end_if_stopped(lowered%beam%watch, error)
+        call end_if_stopped(assembled%beam%watch, error)
     end subroutine certify_state
 
 end module gapbeam_state

@@ -12,7 +12,7 @@ module gapbeam_train_bounds
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved
     use gapbeam_nodes, only: hinge
-    use gapbeam_lowered, only: lowered_type
+    use gapbeam_assembled_model, only: assembled_type
     use gapbeam_train, only: train_type, track_type
     use gapbeam_train_reaches, only: reach_type
     use gapbeam_train_passage, only: passage_type
@@ -59,8 +59,8 @@ module gapbeam_train_bounds
 contains
 
     !> Find bounds of the fields on all stretches of a train's way
-    subroutine find_bounds(lowered, track, train, passage, bounds, error)
-        type(lowered_type), intent(in) :: lowered
+    subroutine find_bounds(assembled, track, train, passage, bounds, error)
+        type(assembled_type), intent(in) :: assembled
         type(track_type), intent(in) :: track
         type(train_type), intent(in) :: train
         !> By pass_train
@@ -77,8 +77,8 @@ contains
         integer :: count, i, k, n, stat
 
         n = size(track%beam%links)
-        call new_view(lowered, track, train, bounds%view, stat)
-        if (stat == 0) call new_support_bounds(lowered, bounds%supports, stat)
+        call new_view(assembled, track, train, bounds%view, stat)
+        if (stat == 0) call new_support_bounds(assembled, bounds%supports, stat)
         if (stat == 0) allocate (bounds%at_most(2, 4, passage%number), bounds%of_supports(passage%number), parts(256), &
                                  start(n), begin(n), touched(n), first_look(n), slopes(n), stat=stat)
         if (stat /= 0) then
@@ -100,7 +100,7 @@ contains
                 start(:) = 0
                 cycle
             end if
-            if (bounds%view%new_scheme) call watch_scheme(lowered, passage%closed(:, k), bounds%view%columns, bounds%supports)
+            if (bounds%view%new_scheme) call watch_scheme(assembled, passage%closed(:, k), bounds%view%columns, bounds%supports)
             call look_at_supports(track, k, bounds%view%columns, bounds%supports, stat)
             if (stat /= 0) then
                 call no_memory(error)
@@ -201,13 +201,13 @@ contains
                     start(i) = k
                     begin(i) = view%ends(1)
                     slopes(i) = slopes_type()
-                    call look_at_link(lowered, track, view, i, 0.0_wp, first_look(i))
+                    call look_at_link(assembled, track, view, i, 0.0_wp, first_look(i))
                     call reach_values(first_look(i), k)
                 end if
                 slopes(i) = greater(slopes(i), slopes_in_link(view, i))
                 way = (view%ends(2) - begin(i))*view%columns%to_length
                 if (.not. touched(i) .and. way < longest_way*track%beam%links(i)%length) return
-                call look_at_link(lowered, track, view, i, 1.0_wp, look)
+                call look_at_link(assembled, track, view, i, 1.0_wp, look)
                 call reach_values(look, k)
                 call keep_part(part_type(i, start(i), k, bound_of(i, way, slopes(i), first_look(i), look)))
                 start(i) = 0
@@ -307,9 +307,9 @@ contains
             type(look_type) :: first, last
 
             call show_stretch(track, train, passage, k, bounds%view)
-            call look_at_link(lowered, track, bounds%view, i, 0.0_wp, first)
+            call look_at_link(assembled, track, bounds%view, i, 0.0_wp, first)
             call reach_values(first, k)
-            call look_at_link(lowered, track, bounds%view, i, 1.0_wp, last)
+            call look_at_link(assembled, track, bounds%view, i, 1.0_wp, last)
             call reach_values(last, k)
             call look_between(i, k, slopes_in_link(bounds%view, i), 0.0_wp, 1.0_wp, first, last, most_halves)
         end subroutine look_closely
@@ -331,7 +331,7 @@ contains
             high(:, :) = .not. bound < bounds%reached - slack*spread(bounds%size, 1, 2)
             if (.not. any(high)) return
             if (halves > 0 .and. any(high .and. bound > bounds%reached + slack*spread(bounds%size, 1, 2))) then
-                call look_at_link(lowered, track, bounds%view, i, from + (to - from)/2, middle)
+                call look_at_link(assembled, track, bounds%view, i, from + (to - from)/2, middle)
                 call reach_values(middle, k)
                 call look_between(i, k, slopes, from, from + (to - from)/2, first, middle, halves - 1)
                 call look_between(i, k, slopes, from + (to - from)/2, to, middle, last, halves - 1)

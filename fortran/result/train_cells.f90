@@ -6,7 +6,7 @@ module gapbeam_train_cells
     use gapbeam_link, only: piece_type, piece_load_type, combine_loads
     use gapbeam_recover, only: recover_beam
     use gapbeam_workspace, only: workspace_type
-    use gapbeam_lowered, only: lowered_type
+    use gapbeam_assembled_model, only: assembled_type
     use gapbeam_train, only: train_type, track_type
     use gapbeam_train_reaches, only: reach_type
     implicit none
@@ -186,8 +186,8 @@ contains
     end subroutine cell_ends
 
     !> Make pieces and loads of the cells
-    subroutine fill_cells(lowered, track, s, cells)
-        type(lowered_type), intent(in) :: lowered
+    subroutine fill_cells(assembled, track, s, cells)
+        type(assembled_type), intent(in) :: assembled
         type(track_type), intent(in) :: track
         !> Place of the train
         real(wp), intent(in) :: s
@@ -201,9 +201,9 @@ contains
             associate (cell => cells%cells(k), load => cells%loads(k), p => cells%pieces(k))
                 if (cell%piece /= j) then
                     j = cell%piece
-                    whole = combine_loads(lowered%dead(j), lowered%live(j), 1.0_wp)
+                    whole = combine_loads(assembled%dead(j), assembled%live(j), 1.0_wp)
                 end if
-                p = lowered%pieces(j)
+                p = assembled%pieces(j)
                 load = whole
                 if (cell%left > 0 .or. cell%right > 0) then
                     call cell_ends(track, cells, cell, s, from, to)
@@ -211,8 +211,8 @@ contains
                     to = scale(to - track%x(j - 1), -track%length_unit)
                     if (cell%right == 0) to = p%length
                     p%length = max(0.0_wp, to - from)
-                    load%qa = whole%qa + (whole%qb - whole%qa)*(from/lowered%pieces(j)%length)
-                    load%qb = whole%qa + (whole%qb - whole%qa)*(to/lowered%pieces(j)%length)
+                    load%qa = whole%qa + (whole%qb - whole%qa)*(from/assembled%pieces(j)%length)
+                    load%qb = whole%qa + (whole%qb - whole%qa)*(to/assembled%pieces(j)%length)
                 end if
                 if (cell%right > 0) then
                     load%force = cells%force(cell%right)

@@ -8,7 +8,7 @@ module gapbeam_train_curves
     use gapbeam_element, only: field_type, fields_at
     use gapbeam_link, only: piece_load_type, combine_loads
     use gapbeam_units, only: moment_unit, rotation_unit
-    use gapbeam_lowered, only: lowered_type
+    use gapbeam_assembled_model, only: assembled_type
     use gapbeam_train, only: train_type, track_type, degree_of, least_distance
     use gapbeam_train_cells, only: cells_type, cell_ends
     use gapbeam_train_passage, only: passage_type
@@ -30,8 +30,8 @@ module gapbeam_train_curves
 contains
 
     !> Largest and smallest values of the fields at given places, over all positions
-    subroutine find_curves(lowered, track, train, passage, piece, distance, value, position, error)
-        type(lowered_type), intent(in) :: lowered
+    subroutine find_curves(assembled, track, train, passage, piece, distance, value, position, error)
+        type(assembled_type), intent(in) :: assembled
         type(track_type), intent(inout) :: track
         type(train_type), intent(in) :: train
         !> By pass_train
@@ -58,10 +58,10 @@ contains
         value(1, :, :) = -huge(1.0_wp)
         value(2, :, :) = huge(1.0_wp)
         position(:, :, :) = 0.0_wp
-        call new_samples(lowered, track, train, samples, error)
+        call new_samples(assembled, track, train, samples, error)
         if (allocated(error)) return
         n = samples%degree
-        call new_view(lowered, track, train, view, stat)
+        call new_view(assembled, track, train, view, stat)
         if (stat == 0) allocate (starts(0:n, 4, size(samples%starts, 2)), matrix(0:n, 0:n), seen(size(samples%starts, 2), 3), &
                                  reached(2, 4, size(piece)), curvature(4, size(track%beam%links)), wanted(size(piece)), stat=stat)
         if (stat /= 0) then
@@ -69,7 +69,7 @@ contains
             return
         end if
         matrix(:, :) = to_coefficients(n)
-        loads = combine_loads(lowered%dead, lowered%live, 1.0_wp)
+        loads = combine_loads(assembled%dead, assembled%live, 1.0_wp)
         d = degree_of(train)
         points(:) = sample_points(d)
         at_place(:, :) = to_coefficients(d)
@@ -104,7 +104,7 @@ contains
                 call keep_level(track%beam, node_of_place(q), equal*sizes(1), value(k, 1, q))
             end do
         end do
-        associate (units => lowered%units)
+        associate (units => assembled%units)
             powers(:) = [units%deflection, rotation_unit(units), moment_unit(units), units%force]
         end associate
         do f = 1, 4
@@ -121,9 +121,9 @@ contains
 
             node = -1
             if (distance(q) <= 0.0_wp) then
-                node = lowered%node_of_point(piece(q) - 1)
-            else if (distance(q)*view%columns%to_length >= lowered%pieces(piece(q))%length) then
-                node = lowered%node_of_point(piece(q))
+                node = assembled%node_of_point(piece(q) - 1)
+            else if (distance(q)*view%columns%to_length >= assembled%pieces(piece(q))%length) then
+                node = assembled%node_of_point(piece(q))
             end if
         end function node_of_place
 
@@ -135,9 +135,9 @@ contains
             call show_stretch(track, train, passage, k, view)
             if (.not. view%clear) return
             do i = 1, size(track%beam%links)
-                call look_at_link(lowered, track, view, i, 0.0_wp, look, seen(:, 1))
+                call look_at_link(assembled, track, view, i, 0.0_wp, look, seen(:, 1))
                 sizes(:) = max(sizes, abs(look%high), abs(look%low))
-                call look_at_link(lowered, track, view, i, 1.0_wp, look, seen(:, 2))
+                call look_at_link(assembled, track, view, i, 1.0_wp, look, seen(:, 2))
                 sizes(:) = max(sizes, abs(look%high), abs(look%low))
                 curvature(:, i) = greatest_curvature(track, view, i, slopes_in_link(view, i), 0.0_wp, 0.0_wp, look%high, look%low)
             end do
@@ -159,7 +159,7 @@ contains
                     end do
                 end if
                 if (.not. any(wanted)) cycle
-                call sample_stretch(lowered, track, train, passage, k, samples, error)
+                call sample_stretch(assembled, track, train, passage, k, samples, error)
                 if (allocated(error)) return
                 if (told .and. view%clear) then
                     do c = 1, samples%cells%number
@@ -265,9 +265,9 @@ contains
             i = 3
             if (s >= view%ends(2)) i = 2
             if (s <= view%ends(1)) i = 1
-            if (i == 3) call look_at_link(lowered, track, view, track%link(piece(q)), &
+            if (i == 3) call look_at_link(assembled, track, view, track%link(piece(q)), &
                                           (s - view%ends(1))/(view%ends(2) - view%ends(1)), look, seen(:, 3))
-            associate (p => lowered%pieces(piece(q)), load => view%loads(piece(q)), there => view%cells%cells(cell))
+            associate (p => assembled%pieces(piece(q)), load => view%loads(piece(q)), there => view%cells%cells(cell))
                 t = 0.0_wp
                 if (there%left > 0) t = at_distance(track, view%columns, piece(q), s + view%cells%offset(there%left))
                 slope = load%qb - load%qa
@@ -305,7 +305,7 @@ contains
                 call cell_ends(track, samples%cells, samples%cells%cells(cell), s, left, right)
                 left = left - track%x(j - 1)
                 load = loads(j)
-                associate (piece => lowered%pieces(j), begin => scale(left, -track%length_unit), &
+                associate (piece => assembled%pieces(j), begin => scale(left, -track%length_unit), &
                            distance => scale(max(0.0_wp, t - left), -track%length_unit), slope => loads(j)%qb - loads(j)%qa)
                     load%qa = load%qa + slope*(begin/piece%length)
                     load%qa = load%qa + samples%cells%cells(cell)%q

@@ -11,7 +11,7 @@ module gapbeam_train_envelope
     use gapbeam_patch, only: patch_type, greatest_on_patch, most_along
     use gapbeam_element, only: field_type
     use gapbeam_units, only: moment_unit, rotation_unit
-    use gapbeam_lowered, only: lowered_type
+    use gapbeam_assembled_model, only: assembled_type
     use gapbeam_train, only: train_type, track_type, degree_of
     use gapbeam_train_cells, only: cell_type
     use gapbeam_train_passage, only: passage_type
@@ -43,8 +43,8 @@ module gapbeam_train_envelope
 contains
 
     !> Find the extremes of all fields and supports
-    subroutine find_envelope(lowered, track, train, passage, envelope, error)
-        type(lowered_type), intent(in) :: lowered
+    subroutine find_envelope(assembled, track, train, passage, envelope, error)
+        type(assembled_type), intent(in) :: assembled
         type(track_type), intent(inout) :: track
         type(train_type), intent(in) :: train
         !> By pass_train
@@ -59,8 +59,8 @@ contains
         logical :: told, renewed
         integer :: powers(4), c, f, i, k, last, m, n, sampled, stat
 
-        m = size(lowered%model%supports)
-        call new_samples(lowered, track, train, samples, error)
+        m = size(assembled%model%supports)
+        call new_samples(assembled, track, train, samples, error)
         if (allocated(error)) return
         n = samples%degree
         allocate (of_fields(2, 4), of_supports(2, 4, m), envelope%supports(2, 4, m), matrix(0:n, 0:n), &
@@ -73,7 +73,7 @@ contains
         matrix(:, :) = to_coefficients(n)
         of_nodes(:, :) = to_coefficients(degree_of(train))
         sampled = 0
-        call find_bounds(lowered, track, train, passage, bounds, error)
+        call find_bounds(assembled, track, train, passage, bounds, error)
         if (.not. allocated(error)) call try_bounds()
         if (allocated(error)) return
         do k = 1, passage%number
@@ -97,7 +97,7 @@ contains
                 if (allocated(error)) return
             end if
             if (.not. told .or. bounds%of_supports(k) .or. any(bounds%supports%always)) then
-                call sample_supports(lowered, track, train, passage, k, samples, error)
+                call sample_supports(assembled, track, train, passage, k, samples, error)
                 if (allocated(error)) return
                 do i = 1, m
                     do f = 1, 4
@@ -112,22 +112,22 @@ contains
                 call add_cell(c)
             end do
         end do
-        associate (units => lowered%units)
+        associate (units => assembled%units)
             powers(:) = [units%deflection, rotation_unit(units), moment_unit(units), units%force]
         end associate
         do f = 1, 4
             do i = 1, 2
                 call end_if_stopped(track%beam%watch, error)
                 if (allocated(error)) return
-                call find_extreme(lowered, track, train, passage, samples%cells, of_fields(i, f), i, powers(f), f == 1, &
+                call find_extreme(assembled, track, train, passage, samples%cells, of_fields(i, f), i, powers(f), f == 1, &
                                   envelope%fields(i, f))
                 do c = 1, m
-                    call find_extreme(lowered, track, train, passage, samples%cells, of_supports(i, f, c), i, 0, .false., &
+                    call find_extreme(assembled, track, train, passage, samples%cells, of_supports(i, f, c), i, 0, .false., &
                                       envelope%supports(i, f, c))
-                    if (f <= 2) call drop_rounding(f == 1, lowered%model%supports(c)%side, &
+                    if (f <= 2) call drop_rounding(f == 1, assembled%model%supports(c)%side, &
                                                    equal*of_supports(i, f, c)%largest, envelope%supports(i, f, c))
-                    if (f == 3) call keep_levels(track%beam, lowered%node_of_point(lowered%support_point(c)), &
-                                                 lowered%units%deflection, equal*of_supports(i, f, c)%largest, &
+                    if (f == 3) call keep_levels(track%beam, assembled%node_of_point(assembled%support_point(c)), &
+                                                 assembled%units%deflection, equal*of_supports(i, f, c)%largest, &
                                                  envelope%supports(i, f, c))
                 end do
             end do
@@ -141,7 +141,7 @@ contains
 
             if (sampled == k) return
             sampled = k
-            call sample_stretch(lowered, track, train, passage, k, samples, error)
+            call sample_stretch(assembled, track, train, passage, k, samples, error)
             if (allocated(error)) return
             do j = 1, samples%cells%number
                 associate (a => samples%starts(:, j))
@@ -191,7 +191,7 @@ contains
             call sample_fields()
             if (allocated(error)) return
             do link = 1, size(track%beam%links)
-                call look_at_link(lowered, track, bounds%view, link, 1.0_wp, look, seen)
+                call look_at_link(assembled, track, bounds%view, link, 1.0_wp, look, seen)
             end do
             do j = 1, samples%cells%number
                 told = told .and. all(abs([seen(j)%deflection, seen(j)%rotation, seen(j)%moment, seen(j)%shear] - starts(n, :, j)) &
@@ -233,7 +233,7 @@ contains
             if (.not. told .or. m == 0) return
             call set_scheme(track%beam, passage%closed(:, k), bounds%view%columns)
             if (.not. bounds%view%columns%usable) return
-            call watch_scheme(lowered, passage%closed(:, k), bounds%view%columns, bounds%supports)
+            call watch_scheme(assembled, passage%closed(:, k), bounds%view%columns, bounds%supports)
             stays(:, :) = bounds%supports%stays
             if (.not. any(stays)) return
             last = k
@@ -242,7 +242,7 @@ contains
                 if (any(passage%closed(:, last + 1) .neqv. passage%closed(:, k))) exit
                 last = last + 1
             end do
-            call sample_supports(lowered, track, train, passage, k, samples, error)
+            call sample_supports(assembled, track, train, passage, k, samples, error)
             if (allocated(error)) return
             patch%along = 0
             patch%across = degree_of(train)

@@ -3,7 +3,7 @@ module gapbeam_train_events
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved
     use gapbeam_polyline, only: last_breakpoint
-    use gapbeam_lowered, only: lowered_type
+    use gapbeam_assembled_model, only: assembled_type
     use gapbeam_pieces, only: acting_type, acting_piece, what_happens, nothing
     use gapbeam_train_passage, only: passage_type
     implicit none
@@ -20,8 +20,8 @@ module gapbeam_train_events
 contains
 
     !> The events on the way of a train. What changes though it is zero all the way is none
-    subroutine find_events(lowered, passage, backwards, events, error)
-        type(lowered_type), intent(in) :: lowered
+    subroutine find_events(assembled, passage, backwards, events, error)
+        type(assembled_type), intent(in) :: assembled
         !> By pass_train
         type(passage_type), intent(in) :: passage
         !> Does the train go towards smaller positions
@@ -35,7 +35,7 @@ contains
         type(acting_type) :: before, after
         integer :: first, i, k, last, number, stat, step
 
-        allocate (events(64), now(size(lowered%beam%supports)), stat=stat)
+        allocate (events(64), now(size(assembled%beam%supports)), stat=stat)
         if (stat /= 0) then
             call no_memory(error)
             return
@@ -50,13 +50,13 @@ contains
             if (all(passage%closed(:, i) .eqv. now)) cycle
             k = 1
             do while (k <= size(now))
-                last = last_breakpoint(lowered%beam%supports, k)
-                associate (there => passage%closed(k:last, i), supports => lowered%beam%supports(k:last))
+                last = last_breakpoint(assembled%beam%supports, k)
+                associate (there => passage%closed(k:last, i), supports => assembled%beam%supports(k:last))
                     if (any((now(k:last) .neqv. there) .and. .not. passage%at_zero(k:last, i))) then
-                        before = acting_piece(supports, lowered%model%supports(lowered%normal(k))%side, now(k:last))
-                        after = acting_piece(supports, lowered%model%supports(lowered%normal(k))%side, there)
+                        before = acting_piece(supports, assembled%model%supports(assembled%normal(k))%side, now(k:last))
+                        after = acting_piece(supports, assembled%model%supports(assembled%normal(k))%side, there)
                         now(k:last) = there
-                        call note(merge(passage%to(i), passage%from(i), backwards), lowered%normal(k), before, after)
+                        call note(merge(passage%to(i), passage%from(i), backwards), assembled%normal(k), before, after)
                         if (allocated(error)) return
                     end if
                 end associate
@@ -74,7 +74,7 @@ contains
             type(acting_type), intent(in) :: before, after
             integer :: change
 
-            if (lowered%with_law(support)) then
+            if (assembled%with_law(support)) then
                 change = what_happens(before, after)
             else
                 change = after%condition

@@ -3,7 +3,7 @@ module gapbeam_train_extremes
     use gapbeam_kinds, only: wp
     use gapbeam_bernstein, only: value_of
     use gapbeam_patch, only: greatest_on_patch
-    use gapbeam_lowered, only: lowered_type
+    use gapbeam_assembled_model, only: assembled_type
     use gapbeam_train, only: train_type, track_type, least_distance
     use gapbeam_train_cells, only: cell_type, cells_type, cell_ends, x_in_cell
     use gapbeam_train_passage, only: passage_type
@@ -22,9 +22,9 @@ module gapbeam_train_extremes
 contains
 
     !> The largest value among candidates, and where it is
-    subroutine find_extreme(lowered, track, train, passage, cells, candidates, which, power, of_deflection, extreme)
+    subroutine find_extreme(assembled, track, train, passage, cells, candidates, which, power, of_deflection, extreme)
         !> The beam, the train and its way
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: assembled
         type(track_type), intent(in) :: track
         type(train_type), intent(in) :: train
         type(passage_type), intent(in) :: passage
@@ -92,8 +92,8 @@ contains
             integer :: node
 
             node = -1
-            if (v <= 0.0_wp .and. cell%left == 0) node = lowered%node_of_point(cell%piece - 1)
-            if (v >= 1.0_wp .and. cell%right == 0) node = lowered%node_of_point(cell%piece)
+            if (v <= 0.0_wp .and. cell%left == 0) node = assembled%node_of_point(cell%piece - 1)
+            if (v >= 1.0_wp .and. cell%right == 0) node = assembled%node_of_point(cell%piece)
         end function node_at
 
         !> Where a value is

@@ -10,7 +10,7 @@ module gapbeam_train_influence
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_system, only: solve_and_refine
     use gapbeam_units, only: moment_unit, rotation_unit
-    use gapbeam_lowered, only: lowered_type
+    use gapbeam_assembled_model, only: assembled_type
     use gapbeam_train, only: train_type, track_type
     use gapbeam_train_reaches, only: reach_type, find_reaches, enter_reach
     use gapbeam_train_loads, only: place_train
@@ -23,8 +23,8 @@ module gapbeam_train_influence
 contains
 
     !> Influence line of a scheme: what a unit force at each place adds, while the same supports act
-    subroutine find_influence(lowered, track, closed, support, piece, distance, places, value, error)
-        type(lowered_type), intent(in) :: lowered
+    subroutine find_influence(assembled, track, closed, support, piece, distance, places, value, error)
+        type(assembled_type), intent(in) :: assembled
         type(track_type), intent(in) :: track
         !> The scheme
         logical, intent(in) :: closed(:)
@@ -43,7 +43,7 @@ contains
         type(track_type) :: bare
         type(train_type) :: unit
         type(cells_type) :: cells
-        type(lowered_type) :: empty
+        type(assembled_type) :: empty
         type(reach_type), allocatable :: reaches(:)
         type(reach_type) :: reach
         type(workspace_type) :: work
@@ -52,7 +52,7 @@ contains
         integer :: powers(4), c, j, k, state, place, stat
 
         bare = track
-        empty = lowered
+        empty = assembled
         empty%dead(:) = piece_load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
         empty%live(:) = empty%dead
         call drop_level(bare%beam%supports)
@@ -79,7 +79,7 @@ contains
             call no_memory(error)
             return
         end if
-        associate (units => lowered%units)
+        associate (units => assembled%units)
             powers(:) = [units%deflection, rotation_unit(units), moment_unit(units), units%force]
         end associate
         do k = 1, size(places)
@@ -104,7 +104,7 @@ contains
             value(1:4, k) = scale([at%deflection, at%rotation, at%moment, at%shear], powers)
             value(5, k) = 0.0_wp
             do j = 1, size(closed)
-                if (support(lowered%normal(j))) value(5, k) = value(5, k) + scale(work%reaction(j), powers(4))
+                if (support(assembled%normal(j))) value(5, k) = value(5, k) + scale(work%reaction(j), powers(4))
             end do
         end do
     end subroutine find_influence

@@ -22,7 +22,7 @@ module gapbeam_train_path
     use gapbeam_static_indeterminacy, only: find_indeterminacy
     use gapbeam_extended_precision, only: decide_scheme, detail_type
     use gapbeam_words, only: shown
-    use gapbeam_lowered, only: lowered_type
+    use gapbeam_assembled_model, only: assembled_type
     use gapbeam_solution, only: state_type, new_state, close_all
     use gapbeam_state, only: solve_along_axis
     use gapbeam_train, only: train_type, track_type, degree_of, least_distance
@@ -45,9 +45,9 @@ module gapbeam_train_path
 contains
 
     !> Move a train over a beam
-    subroutine pass_train(lowered, track, train, from, to, passage, error)
+    subroutine pass_train(assembled, track, train, from, to, passage, error)
         !> The beam, and the same ready for trains
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: assembled
         type(track_type), intent(inout) :: track
         !> The train, and its places
         type(train_type), intent(in) :: train
@@ -73,11 +73,11 @@ contains
             call no_memory(error)
             return
         end if
-        call close_all(lowered, closed)
-        call new_state(lowered, along, error)
+        call close_all(assembled, closed)
+        call new_state(assembled, along, error)
         if (allocated(error)) return
         along%factor = 1.0_wp
-        call solve_along_axis(lowered, along, error)
+        call solve_along_axis(assembled, along, error)
         if (allocated(error)) return
         if (along%slides) then
             passage%number = 1

@@ -15,7 +15,7 @@ module gapbeam_train_samples
     use gapbeam_link, only: piece_type, piece_load_type
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_system, only: solve_and_refine
-    use gapbeam_lowered, only: lowered_type
+    use gapbeam_assembled_model, only: assembled_type
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_state, only: solve_along_axis
     use gapbeam_support_values, only: support_values
@@ -62,8 +62,8 @@ contains
     end function degree_in_position
 
     !> Room for samples
-    subroutine new_samples(lowered, track, train, samples, error)
-        type(lowered_type), intent(in) :: lowered
+    subroutine new_samples(assembled, track, train, samples, error)
+        type(assembled_type), intent(in) :: assembled
         type(track_type), intent(in) :: track
         type(train_type), intent(in) :: train
         type(samples_type), intent(out) :: samples
@@ -76,23 +76,24 @@ contains
         most = size(track%link) + size(train%offset) + 2*size(train%uniform)
         call new_cells(track, train, samples%cells, stat)
         if (stat == 0) allocate (samples%position(0:d), samples%starts(0:d, most), samples%pieces(0:d, most), &
-                                 samples%loads(0:d, most), samples%supports(0:degree_of(train), 4, size(lowered%model%supports)), &
+                                 samples%loads(0:d, most), samples%supports(0:degree_of(train), 4, &
+                                                                            size(assembled%model%supports)), &
                                  stat=stat)
         if (stat /= 0) then
             call no_memory(error)
             return
         end if
         call new_workspace(track%beam, samples%work)
-        call new_state(lowered, samples%state, error)
+        call new_state(assembled, samples%state, error)
         if (allocated(error)) return
         ! No train moves what is along the axis
         samples%state%factor = 1.0_wp
-        call solve_along_axis(lowered, samples%state, error)
+        call solve_along_axis(assembled, samples%state, error)
     end subroutine new_samples
 
     !> Sample the fields on a stretch that is solved
-    subroutine sample_stretch(lowered, track, train, passage, k, samples, error)
-        type(lowered_type), intent(in) :: lowered
+    subroutine sample_stretch(assembled, track, train, passage, k, samples, error)
+        type(assembled_type), intent(in) :: assembled
         type(track_type), intent(inout) :: track
         type(train_type), intent(in) :: train
         type(passage_type), intent(in) :: passage
@@ -112,7 +113,7 @@ contains
                 samples%position(p) = passage%from(k) + points(p)*(passage%to(k) - passage%from(k))
                 call solve_at(track, train, passage%closed(:, k), samples%position(p), samples, error)
                 if (allocated(error)) return
-                call fill_cells(lowered, track, samples%position(p), samples%cells)
+                call fill_cells(assembled, track, samples%position(p), samples%cells)
                 call recover_cells(track, samples%work, samples%cells)
                 samples%starts(p, :n) = samples%cells%starts(:n)
                 samples%pieces(p, :n) = samples%cells%pieces(:n)
@@ -122,9 +123,9 @@ contains
     end subroutine sample_stretch
 
     !> Sample the supports on a stretch that is solved
-    subroutine sample_supports(lowered, track, train, passage, k, samples, error)
+    subroutine sample_supports(assembled, track, train, passage, k, samples, error)
         !> As for sample_stretch
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: assembled
         type(track_type), intent(inout) :: track
         type(train_type), intent(in) :: train
         type(passage_type), intent(in) :: passage
@@ -132,7 +133,7 @@ contains
         type(samples_type), intent(inout) :: samples
         type(error_type), allocatable, intent(out) :: error
         real(wp) :: points(0:degree_of(train))
-        integer :: condition(size(lowered%model%supports))
+        integer :: condition(size(assembled%model%supports))
         integer :: p
 
         points(:) = sample_points(degree_of(train))
@@ -147,7 +148,7 @@ contains
                 s%moment_left(:) = work%answers%moment_left
                 s%moment_right(:) = work%answers%moment_right
                 s%reaction(:) = work%reaction
-                call support_values(lowered, s, samples%supports(p, 1, :), samples%supports(p, 3, :), &
+                call support_values(assembled, s, samples%supports(p, 1, :), samples%supports(p, 3, :), &
                                     samples%supports(p, 2, :), samples%supports(p, 4, :), condition)
             end associate
         end do

@@ -4,7 +4,7 @@ module gapbeam_train_support_bounds
     use gapbeam_kinds, only: wp
     use gapbeam_law, only: both
     use gapbeam_scene, only: gapbeam_axial
-    use gapbeam_lowered, only: lowered_type
+    use gapbeam_assembled_model, only: assembled_type
     use gapbeam_train, only: track_type
     use gapbeam_train_columns, only: columns_type, most_columns, value_of_column
     implicit none
@@ -42,14 +42,14 @@ module gapbeam_train_support_bounds
 contains
 
     !> Room
-    subroutine new_support_bounds(lowered, bounds, stat)
-        type(lowered_type), intent(in) :: lowered
+    subroutine new_support_bounds(assembled, bounds, stat)
+        type(assembled_type), intent(in) :: assembled
         type(support_bounds_type), intent(out) :: bounds
         !> 0, or what allocate says where memory is at an end
         integer, intent(out) :: stat
         integer :: m
 
-        m = size(lowered%model%supports)
+        m = size(assembled%model%supports)
         allocate (bounds%watches(4*m), bounds%stays(4, m), bounds%always(m), bounds%reached(2, 4, m), bounds%stretch(256), &
                   bounds%which(3, 256), bounds%bound(256), stat=stat)
         if (stat /= 0) return
@@ -58,8 +58,8 @@ contains
     end subroutine new_support_bounds
 
     !> Find what changes of the supports in a scheme
-    subroutine watch_scheme(lowered, closed, columns, bounds)
-        type(lowered_type), intent(in) :: lowered
+    subroutine watch_scheme(assembled, closed, columns, bounds)
+        type(assembled_type), intent(in) :: assembled
         logical, intent(in) :: closed(:)
         !> Of the scheme
         type(columns_type), intent(in) :: columns
@@ -70,10 +70,10 @@ contains
 
         acting(:) = 0
         do k = 1, size(bounds%always)
-            j = lowered%beam_support(k)
+            j = assembled%beam_support(k)
             if (j == 0) cycle
-            node = lowered%node_of_point(lowered%support_point(k))
-            if (lowered%with_law(k)) then
+            node = assembled%node_of_point(assembled%support_point(k))
+            if (assembled%with_law(k)) then
                 acting(node) = acting(node) + 2
             else if (closed(j)) then
                 acting(node) = acting(node) + 1
@@ -82,23 +82,23 @@ contains
         bounds%number = 0
         do k = 1, size(bounds%always)
             bounds%stays(:, k) = .true.
-            if (lowered%model%supports(k)%direction == gapbeam_axial) cycle
-            j = lowered%beam_support(k)
-            node = lowered%node_of_point(lowered%support_point(k))
+            if (assembled%model%supports(k)%direction == gapbeam_axial) cycle
+            j = assembled%beam_support(k)
+            node = assembled%node_of_point(assembled%support_point(k))
             ! Who carries what at a node is told by the laws of all of them
-            bounds%always(k) = acting(node) > 1 .or. lowered%with_law(k)
+            bounds%always(k) = acting(node) > 1 .or. assembled%with_law(k)
             if (bounds%always(k)) then
                 bounds%stays(:, k) = .false.
                 cycle
             end if
             acts = j > 0
             if (acts) acts = closed(j)
-            associate (side => lowered%model%supports(k)%side)
+            associate (side => assembled%model%supports(k)%side)
                 if (acts) call watch(1, force, 1.0_wp)
                 if (side /= both .and. .not. acts) call watch(2, deflection, -real(side, wp))
             end associate
             if (.not. columns%work%nodes(node)%held) call watch(3, deflection, 1.0_wp)
-            if (lowered%couple_share(k) > 0.0_wp) call watch(4, couple, 1.0_wp)
+            if (assembled%couple_share(k) > 0.0_wp) call watch(4, couple, 1.0_wp)
         end do
 
     contains

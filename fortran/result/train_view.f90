@@ -4,7 +4,7 @@ module gapbeam_train_view
     use gapbeam_kinds, only: wp
     use gapbeam_element, only: field_type
     use gapbeam_link, only: piece_load_type, combine_loads
-    use gapbeam_lowered, only: lowered_type
+    use gapbeam_assembled_model, only: assembled_type
     use gapbeam_train, only: train_type, track_type
     use gapbeam_train_reaches, only: reach_type, enter_reach
     use gapbeam_train_cells, only: cells_type, new_cells, find_cells
@@ -58,8 +58,8 @@ module gapbeam_train_view
 contains
 
     !> Make ready to look
-    subroutine new_view(lowered, track, train, view, stat)
-        type(lowered_type), intent(in) :: lowered
+    subroutine new_view(assembled, track, train, view, stat)
+        type(assembled_type), intent(in) :: assembled
         type(track_type), intent(in) :: track
         type(train_type), intent(in) :: train
         type(view_type), intent(out) :: view
@@ -74,9 +74,9 @@ contains
         if (stat /= 0) return
         view%worst(:) = worst_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
         do j = 1, size(track%link)
-            view%loads(j) = combine_loads(lowered%dead(j), lowered%live(j), 1.0_wp)
+            view%loads(j) = combine_loads(assembled%dead(j), assembled%live(j), 1.0_wp)
             i = track%link(j)
-            associate (worst => view%worst(i), p => lowered%pieces(j), q => view%loads(j))
+            associate (worst => view%worst(i), p => assembled%pieces(j), q => view%loads(j))
                 worst%flexibility = max(worst%flexibility, p%flexibility)
                 worst%shear_flexibility = max(worst%shear_flexibility, p%shear_flexibility)
                 worst%load = max(worst%load, abs(q%qa), abs(q%qb))
@@ -150,8 +150,8 @@ contains
     end subroutine look_ahead
 
     !> Look at a link at a position in the stretch
-    subroutine look_at_link(lowered, track, view, i, share, look, starts)
-        type(lowered_type), intent(in) :: lowered
+    subroutine look_at_link(assembled, track, view, i, share, look, starts)
+        type(assembled_type), intent(in) :: assembled
         type(track_type), intent(in) :: track
         type(view_type), intent(in) :: view
         !> Number of the link, and the position as a share of the stretch
@@ -184,7 +184,7 @@ contains
         if (i > 1) first = view%cells%last(i - 1) + 1
         t = 0.0_wp
         do c = first, view%cells%last(i)
-            associate (cell => view%cells%cells(c), p => lowered%pieces(view%cells%cells(c)%piece), &
+            associate (cell => view%cells%cells(c), p => assembled%pieces(view%cells%cells(c)%piece), &
                        load => view%loads(view%cells%cells(c)%piece))
                 if (cell%left > 0) then
                     v = v - view%cells%force(cell%left)

@@ -5,7 +5,7 @@ module gapbeam_check_laws
     use gapbeam_words, only: shown, pair
     use gapbeam_scene, only: model_type, law_point_type, gapbeam_both, gapbeam_axial, gapbeam_elastic, gapbeam_plastic, &
         gapbeam_broken
-    use gapbeam_refusal, only: refuse, of_supports, bad_law
+    use gapbeam_input_error, only: refuse, of_supports, bad_law
     implicit none
     private
     public :: check_laws, have_laws

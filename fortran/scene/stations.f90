@@ -5,12 +5,12 @@
 !> else the nearest support or hinge, else the first of the loads' ends to its left. What is near is near to the point itself,
 !> not to another place near it, so no chain of places can become one: no place is moved by more than the tolerance, and no
 !> two points of a span are nearer to each other than that. python/gapbeam/places.py does the same for scenes.
-module gapbeam_places
+module gapbeam_stations
     use gapbeam_kinds, only: wp
     use gapbeam_scene, only: span_type
     implicit none
     private
-    public :: place_span_ends, locate, merge_places, position_tolerance, end_tolerance
+    public :: place_span_ends, locate, merge_stations, position_tolerance, end_tolerance
 
     !> Positions whose difference is at most this share of the larger one are the same place
     real(wp), parameter :: position_tolerance = 64*epsilon(1.0_wp)
@@ -78,7 +78,7 @@ contains
     end subroutine locate
 
     !> Points from left to right, places that differ by rounding only taken as one
-    pure subroutine merge_places(ends, span, offset, anchors, order, chosen, point, number)
+    pure subroutine merge_stations(ends, span, offset, anchors, order, chosen, point, number)
         !> Span ends, shape (0:n)
         real(wp), intent(in) :: ends(0:)
         !> All places, shape (m)
@@ -96,7 +96,7 @@ contains
         integer, intent(out) :: number
         integer :: i, k, last
 
-        call sort_places(span, offset, order, chosen)
+        call sort_stations(span, offset, order, chosen)
         ! Until the points are numbered, point holds the place that stands for the point of each
         last = order(1)
         do i = 1, size(order)
@@ -124,11 +124,11 @@ contains
             order(chosen(i)) = i - 1
         end do
         point(:) = order(point)
-    end subroutine merge_places
+    end subroutine merge_stations
 
     !> Does place b, not left of place a, differ from it by rounding only
     pure function is_near(ends, span, offset, a, b) result(near)
-        !> As for merge_places
+        !> As for merge_stations
         real(wp), intent(in) :: ends(0:)
         integer, intent(in) :: span(:)
         real(wp), intent(in) :: offset(:)
@@ -141,7 +141,7 @@ contains
 
     !> What is near a point of the anchors is at the nearest of them
     pure subroutine join_anchors(ends, span, offset, anchors, order, next, stands)
-        !> As for merge_places
+        !> As for merge_stations
         real(wp), intent(in) :: ends(0:)
         integer, intent(in) :: span(:)
         real(wp), intent(in) :: offset(:)
@@ -176,7 +176,7 @@ contains
     end subroutine join_anchors
 
     !> Order of the places from left to right by merging sorted runs; equal ones stay in their order
-    pure subroutine sort_places(span, offset, order, work)
+    pure subroutine sort_stations(span, offset, order, work)
         integer, intent(in) :: span(:)
         real(wp), intent(in) :: offset(:)
         integer, intent(out) :: order(:), work(:)
@@ -195,7 +195,7 @@ contains
             end do
             width = 2*width
         end do
-    end subroutine sort_places
+    end subroutine sort_stations
 
     !> Merge two runs, the first `half` entries and the rest
     pure subroutine merge_runs(span, offset, order, half, work)
@@ -237,4 +237,4 @@ contains
 
     end subroutine merge_runs
 
-end module gapbeam_places
+end module gapbeam_stations

@@ -1,7 +1,7 @@
 !> Values of tables at the ends of the pieces of the beam, which is cut at their points
-module gapbeam_lower_tables
+module gapbeam_assemble_tables
     use gapbeam_kinds, only: wp
-    use gapbeam_lowered, only: lowered_type
+    use gapbeam_assembled_model, only: assembled_type
     implicit none
     private
     public :: place_type, place_in_table, place_of, distance, between, follow_table
@@ -16,8 +16,8 @@ contains
 
     !> The values of a table at the ends of pieces: straight between its points, beyond its ends the last value. Every piece lies
     !> between two points
-    pure subroutine follow_table(lowered, left, right, places, given, values)
-        type(lowered_type), intent(in) :: lowered
+    pure subroutine follow_table(assembled, left, right, places, given, values)
+        type(assembled_type), intent(in) :: assembled
         !> First and last point of the beam
         integer, intent(in) :: left, right
         !> The points of the table, in ascending order, and their values
@@ -30,10 +30,10 @@ contains
 
         i = 1
         do j = left + 1, right
-            ends = [place_of(lowered, j - 1), place_of(lowered, j)]
+            ends = [place_of(assembled, j - 1), place_of(assembled, j)]
             ! The first point of the table that is right of the middle of the piece: its ends may differ from points by rounding
             do while (i <= size(places))
-                if (distance(lowered, ends(1), places(i)) > distance(lowered, ends(1), ends(2))/2) exit
+                if (distance(assembled, ends(1), places(i)) > distance(assembled, ends(1), ends(2))/2) exit
                 i = i + 1
             end do
             if (i == 1 .or. i > size(places)) then
@@ -42,40 +42,40 @@ contains
             end if
             do k = 1, 2
                 values(k, j - left) = between(given(i - 1), given(i), &
-                                              min(1.0_wp, max(0.0_wp, distance(lowered, places(i - 1), ends(k)) &
-                                                              /distance(lowered, places(i - 1), places(i)))))
+                                              min(1.0_wp, max(0.0_wp, distance(assembled, places(i - 1), ends(k)) &
+                                                              /distance(assembled, places(i - 1), places(i)))))
             end do
         end do
     end subroutine follow_table
 
     !> Where a point of a table is: on its foundation exactly at the beam's own point, which may differ by rounding
-    elemental function place_in_table(lowered, number, x) result(place)
-        type(lowered_type), intent(in) :: lowered
+    elemental function place_in_table(assembled, number, x) result(place)
+        type(assembled_type), intent(in) :: assembled
         !> Among the points of tables, then of laws; and its place as given
         integer, intent(in) :: number
         real(wp), intent(in) :: x
         type(place_type) :: place
 
         place = place_type(0, x)
-        if (lowered%ground_point(number) >= 0) place = place_of(lowered, lowered%ground_point(number))
+        if (assembled%ground_point(number) >= 0) place = place_of(assembled, assembled%ground_point(number))
     end function place_in_table
 
     !> Where a point of the beam is
-    pure function place_of(lowered, point) result(place)
-        type(lowered_type), intent(in) :: lowered
+    pure function place_of(assembled, point) result(place)
+        type(assembled_type), intent(in) :: assembled
         integer, intent(in) :: point
         type(place_type) :: place
 
-        place = place_type(lowered%point_span(point), lowered%point_offset(point))
+        place = place_type(assembled%point_span(point), assembled%point_offset(point))
     end function place_of
 
     !> Distance from one place to another, positive to the right
-    pure function distance(lowered, from, to) result(length)
-        type(lowered_type), intent(in) :: lowered
+    pure function distance(assembled, from, to) result(length)
+        type(assembled_type), intent(in) :: assembled
         type(place_type), intent(in) :: from, to
         real(wp) :: length
 
-        length = (lowered%ends(to%span) - lowered%ends(from%span)) + (to%offset - from%offset)
+        length = (assembled%ends(to%span) - assembled%ends(from%span)) + (to%offset - from%offset)
     end function distance
 
     !> A value at a share of the way from one to another
@@ -87,4 +87,4 @@ contains
         if (abs(a - b) > 0.0_wp) value = a*(1 - share) + b*share
     end function between
 
-end module gapbeam_lower_tables
+end module gapbeam_assemble_tables

@@ -1,5 +1,5 @@
 !> Laws of supports: from the points that the user gave to breakpoints, in the user's units (gapbeam_polyline)
-module gapbeam_lower_laws
+module gapbeam_assemble_laws
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type
     use gapbeam_words, only: shown, whole
@@ -8,9 +8,9 @@ module gapbeam_lower_laws
     use gapbeam_model, only: node_support_type
     use gapbeam_law, only: always_closed
     use gapbeam_kinematics, only: free_motions, motion_type
-    use gapbeam_lowered, only: lowered_type
-    use gapbeam_places, only: position_tolerance
-    use gapbeam_refusal, only: refuse, of_supports, twice
+    use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_stations, only: position_tolerance
+    use gapbeam_input_error, only: refuse, of_supports, twice
     implicit none
     private
     public :: find_laws, count_breakpoints, make_breakpoints, check_rigid_pieces, depends_on_path
@@ -36,14 +36,14 @@ contains
 
     !> No two supports at a place may be rigid at one deflection, if one of them has a law: statics could not tell what each of them
     !> takes. One that begins to push up and another one to push down there may.
-    subroutine check_rigid_pieces(lowered, error)
+    subroutine check_rigid_pieces(assembled, error)
         !> With its supports in the user's units
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: assembled
         !> The supports
         type(error_type), allocatable, intent(out) :: error
         integer :: i, j, k
 
-        associate (beam => lowered%beam)
+        associate (beam => assembled%beam)
             do i = 0, size(beam%links)
                 do j = beam%first(i) + 1, beam%first(i + 1) - 1
                     do k = beam%first(i), j - 1
@@ -62,8 +62,8 @@ contains
             type(node_support_type) :: a, b
             logical :: apart
 
-            associate (this => lowered%normal(j), other => lowered%normal(k), given => lowered%model%supports)
-                if (this == other .or. .not. (lowered%with_law(this) .or. lowered%with_law(other))) return
+            associate (this => assembled%normal(j), other => assembled%normal(k), given => assembled%model%supports)
+                if (this == other .or. .not. (assembled%with_law(this) .or. assembled%with_law(other))) return
                 a = rise_of(j)
                 b = rise_of(k)
                 if (min(a%stiffness, b%stiffness) <= huge(1.0_wp)) return
@@ -82,9 +82,9 @@ contains
             integer, intent(in) :: k
             type(node_support_type) :: made
 
-            made = lowered%beam%supports(k)
-            associate (s => lowered%model%supports(lowered%normal(k)))
-                if (lowered%with_law(lowered%normal(k))) return
+            made = assembled%beam%supports(k)
+            associate (s => assembled%model%supports(assembled%normal(k)))
+                if (assembled%with_law(assembled%normal(k))) return
                 made%stiffness = s%stiffness
                 made%contact = s%settlement + s%side*s%gap
             end associate
@@ -93,24 +93,24 @@ contains
     end subroutine check_rigid_pieces
 
     !> Does a state depend on the way of the load to it: a force may fall, or a support unloads otherwise than along its law
-    function depends_on_path(lowered) result(depends)
-        type(lowered_type), intent(in) :: lowered
+    function depends_on_path(assembled) result(depends)
+        type(assembled_type), intent(in) :: assembled
         logical :: depends
         type(motion_type), allocatable :: motions(:)
 
-        associate (s => lowered%beam%supports)
+        associate (s => assembled%beam%supports)
             depends = any(s%breakpoint > 0 .and. (s%stiffness < 0.0_wp .or. s%before < 0.0_wp))
         end associate
-        if (.not. allocated(lowered%model%law)) return
-        if (size(lowered%model%law) == 0) return
-        depends = depends .or. any(lowered%model%supports(lowered%model%law%support)%unloading /= gapbeam_elastic)
+        if (.not. allocated(assembled%model%law)) return
+        if (size(assembled%model%law) == 0) return
+        depends = depends .or. any(assembled%model%supports(assembled%model%law%support)%unloading /= gapbeam_elastic)
         if (depends) return
         ! What yields may let go of a beam that nothing else holds: only its path tells at which load
-        associate (s => lowered%beam%supports)
+        associate (s => assembled%beam%supports)
             if (.not. any(s%breakpoint > 0 .and. abs(s%force) > 0.0_wp .and. &
                           .not. (abs(s%stiffness) > 0.0_wp .and. abs(s%before) > 0.0_wp))) return
         end associate
-        call free_motions(lowered%beam, always_closed(lowered%beam%supports), motions)
+        call free_motions(assembled%beam, always_closed(assembled%beam%supports), motions)
         depends = size(motions) > 0
     end function depends_on_path
 
@@ -203,4 +203,4 @@ contains
 
     end subroutine make_breakpoints
 
-end module gapbeam_lower_laws
+end module gapbeam_assemble_laws

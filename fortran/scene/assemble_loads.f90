@@ -1,98 +1,98 @@
 !> Loads of a model whose points and nodes are known, and with them the links: everything as the engine takes it
-module gapbeam_lower_loads
+module gapbeam_assemble_loads
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_link, only: condense_link, piece_load_type
     use gapbeam_range, only: first_lost_link
     use gapbeam_scene, only: load_type, gapbeam_force, gapbeam_axial_force, gapbeam_curvature, gapbeam_dead
-    use gapbeam_lowered, only: lowered_type, fingerprint, is_stretch
-    use gapbeam_lower_laws, only: depends_on_path
-    use gapbeam_lower_axial, only: lower_axial
-    use gapbeam_lower_foundations, only: lower_foundations
-    use gapbeam_lower_units, only: change_units, refuse_link
+    use gapbeam_assembled_model, only: assembled_type, fingerprint, is_stretch
+    use gapbeam_assemble_laws, only: depends_on_path
+    use gapbeam_assemble_axial, only: assemble_axial
+    use gapbeam_assemble_foundations, only: assemble_foundations
+    use gapbeam_assemble_units, only: change_units, refuse_link
     implicit none
     private
-    public :: lower_loads, spread_load
+    public :: assemble_loads, spread_load
 
 contains
 
     !> Loads of all pieces and nodes from the model's loads, units, and the links; all places are known
-    subroutine lower_loads(lowered, error)
+    subroutine assemble_loads(assembled, error)
         !> Points, nodes and supports in
-        type(lowered_type), intent(inout) :: lowered
+        type(assembled_type), intent(inout) :: assembled
         !> Numbers out of range, or no memory
         type(error_type), allocatable, intent(out) :: error
         real(wp), allocatable :: work(:)
         integer :: i, first, stat
 
-        allocate (work(size(lowered%pieces)), stat=stat)
+        allocate (work(size(assembled%pieces)), stat=stat)
         if (stat /= 0) then
             call no_memory(error)
             return
         end if
-        lowered%fingerprint = fingerprint(lowered%model)
-        call sum_loads(lowered)
-        call lower_foundations(lowered, error)
+        assembled%fingerprint = fingerprint(assembled%model)
+        call sum_loads(assembled)
+        call assemble_foundations(assembled, error)
         if (allocated(error)) return
-        call change_units(lowered, error)
-        if (.not. allocated(error)) call lower_axial(lowered, error)
+        call change_units(assembled, error)
+        if (.not. allocated(error)) call assemble_axial(assembled, error)
         if (allocated(error)) return
-        associate (links => lowered%beam%links)
+        associate (links => assembled%beam%links)
             first = 1
             do i = 1, size(links)
-                associate (last => lowered%node_point(i))
-                    call condense_link(lowered%pieces(first:last), lowered%dead(first:last), lowered%live(first:last), &
+                associate (last => assembled%node_point(i))
+                    call condense_link(assembled%pieces(first:last), assembled%dead(first:last), assembled%live(first:last), &
                                        work, links(i))
                     first = last + 1
                 end associate
             end do
-            i = first_lost_link(lowered%pieces, links, lowered%node_point(1:size(links)))
+            i = first_lost_link(assembled%pieces, links, assembled%node_point(1:size(links)))
         end associate
-        if (i /= 0) call refuse_link(lowered, i, error)
-        if (.not. allocated(error)) lowered%depends_on_path = depends_on_path(lowered)
-    end subroutine lower_loads
+        if (i /= 0) call refuse_link(assembled, i, error)
+        if (.not. allocated(error)) assembled%depends_on_path = depends_on_path(assembled)
+    end subroutine assemble_loads
 
     !> Sums of the loads on all pieces and nodes in the user's units
-    pure subroutine sum_loads(lowered)
-        type(lowered_type), intent(inout) :: lowered
+    pure subroutine sum_loads(assembled)
+        type(assembled_type), intent(inout) :: assembled
         integer :: i, k
 
-        call clear(lowered%dead)
-        call clear(lowered%live)
-        lowered%beam%force(:, :) = 0.0_wp
-        lowered%beam%couple(:, :) = 0.0_wp
-        do i = 1, size(lowered%model%loads)
-            associate (load => lowered%model%loads(i), a => lowered%load_from(i), b => lowered%load_to(i))
+        call clear(assembled%dead)
+        call clear(assembled%live)
+        assembled%beam%force(:, :) = 0.0_wp
+        assembled%beam%couple(:, :) = 0.0_wp
+        do i = 1, size(assembled%model%loads)
+            associate (load => assembled%model%loads(i), a => assembled%load_from(i), b => assembled%load_to(i))
                 k = merge(1, 2, load%case == gapbeam_dead)
                 if (load%kind == gapbeam_axial_force) then
                     cycle
                 else if (.not. is_stretch(load)) then
-                    call add_at_point(lowered, load, a, k)
+                    call add_at_point(assembled, load, a, k)
                 else if (k == 1) then
-                    call spread_load(lowered, load, a, b, lowered%dead)
+                    call spread_load(assembled, load, a, b, assembled%dead)
                 else
-                    call spread_load(lowered, load, a, b, lowered%live)
+                    call spread_load(assembled, load, a, b, assembled%live)
                 end if
             end associate
         end do
     end subroutine sum_loads
 
     !> A force or couple: at a node, or at the right end of the piece before
-    pure subroutine add_at_point(lowered, load, point, case)
-        type(lowered_type), intent(inout) :: lowered
+    pure subroutine add_at_point(assembled, load, point, case)
+        type(assembled_type), intent(inout) :: assembled
         type(load_type), intent(in) :: load
         integer, intent(in) :: point, case
         integer :: node
 
-        node = lowered%node_of_point(point)
+        node = assembled%node_of_point(point)
         if (node >= 0 .and. load%kind == gapbeam_force) then
-            lowered%beam%force(case, node) = lowered%beam%force(case, node) + load%value
+            assembled%beam%force(case, node) = assembled%beam%force(case, node) + load%value
         else if (node >= 0) then
-            lowered%beam%couple(case, node) = lowered%beam%couple(case, node) + load%value
+            assembled%beam%couple(case, node) = assembled%beam%couple(case, node) + load%value
         else if (case == 1) then
-            call add_to_piece(lowered%dead(point), load)
+            call add_to_piece(assembled%dead(point), load)
         else
-            call add_to_piece(lowered%live(point), load)
+            call add_to_piece(assembled%live(point), load)
         end if
     end subroutine add_at_point
 
@@ -116,8 +116,8 @@ contains
     end subroutine add_to_piece
 
     !> A distributed load or an imposed curvature, from point a to point b, on the pieces between
-    pure subroutine spread_load(lowered, load, a, b, piece_loads)
-        type(lowered_type), intent(in) :: lowered
+    pure subroutine spread_load(assembled, load, a, b, piece_loads)
+        type(assembled_type), intent(in) :: assembled
         type(load_type), intent(in) :: load
         integer, intent(in) :: a, b
         type(piece_load_type), intent(inout) :: piece_loads(:)
@@ -144,7 +144,7 @@ contains
             integer, intent(in) :: point
             real(wp) :: x
 
-            associate (ends => lowered%ends, span => lowered%point_span, offset => lowered%point_offset)
+            associate (ends => assembled%ends, span => assembled%point_span, offset => assembled%point_offset)
                 x = (ends(span(point)) - ends(span(a))) + (offset(point) - offset(a))
             end associate
         end function distance
@@ -159,4 +159,4 @@ contains
 
     end subroutine spread_load
 
-end module gapbeam_lower_loads
+end module gapbeam_assemble_loads

@@ -1,5 +1,5 @@
 !> Foundations as layers of ground under the pieces of the beam
-module gapbeam_lower_foundations
+module gapbeam_assemble_foundations
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
@@ -8,24 +8,24 @@ module gapbeam_lower_foundations
     use gapbeam_scene, only: model_type, foundation_type, gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_unchanged, &
         gapbeam_law_by_points, gapbeam_law_plastic, gapbeam_table_of_k, gapbeam_table_of_gap, gapbeam_table_of_parameter
     use gapbeam_units, only: units_type, exponents_type, stiffness_unit
-    use gapbeam_lowered, only: lowered_type, point_x
-    use gapbeam_lower_tables, only: place_in_table, place_of, distance, between, follow_table
-    use gapbeam_lower_ground_laws, only: law_of_foundation_type, find_laws, make_laws, is_straight
+    use gapbeam_assembled_model, only: assembled_type, point_x
+    use gapbeam_assemble_tables, only: place_in_table, place_of, distance, between, follow_table
+    use gapbeam_assemble_ground_laws, only: law_of_foundation_type, find_laws, make_laws, is_straight
     use gapbeam_check, only: entry_type, refuse_entry
     use gapbeam_check_foundations, only: find_tables, at_right, quantities
     use gapbeam_check_ground_laws, only: check_parameters
     use gapbeam_words, only: shown
-    use gapbeam_refusal, only: refuse_range, named, of_foundations, bad_law
+    use gapbeam_input_error, only: refuse_range, named, of_foundations, bad_law
     implicit none
     private
-    public :: lower_foundations, note_foundations, scale_foundations, greatest_values
+    public :: assemble_foundations, note_foundations, scale_foundations, greatest_values
 
 contains
 
     !> Layers and laws in the user's units; nothing without foundations
-    subroutine lower_foundations(lowered, error)
+    subroutine assemble_foundations(assembled, error)
         !> Points in
-        type(lowered_type), intent(inout) :: lowered
+        type(assembled_type), intent(inout) :: assembled
         !> Laws that are impossible between the points of their tables, or no memory
         type(error_type), allocatable, intent(out) :: error
         integer, allocatable :: first(:, :), last(:, :), next(:), here(:)
@@ -35,12 +35,12 @@ contains
         integer(int64) :: total
         integer :: i, j, m, stat, pieces
 
-        if (.not. allocated(lowered%model%foundations)) return
-        m = size(lowered%model%foundations)
+        if (.not. allocated(assembled%model%foundations)) return
+        m = size(assembled%model%foundations)
         if (m == 0) return
-        pieces = size(lowered%pieces)
-        if (.not. allocated(lowered%layers)) then
-            allocate (lowered%layer_first(pieces + 1), stat=stat)
+        pieces = size(assembled%pieces)
+        if (.not. allocated(assembled%layers)) then
+            allocate (assembled%layer_first(pieces + 1), stat=stat)
             if (stat /= 0) then
                 call no_memory(error)
                 return
@@ -52,10 +52,11 @@ contains
             call no_memory(error)
             return
         end if
-        associate (model => lowered%model, layers => lowered%layers, from => lowered%foundation_from, to => lowered%foundation_to)
+        associate (model => assembled%model, layers => assembled%layers, from => assembled%foundation_from, &
+                   to => assembled%foundation_to)
             call find_tables(model%ground, first, last)
-            call find_laws(lowered, laws)
-            call make_laws(lowered, laws, error)
+            call find_laws(assembled, laws)
+            call make_laws(assembled, laws, error)
             if (allocated(error)) return
             next(:) = 0
             total = 0
@@ -65,25 +66,25 @@ contains
                 total = total + sum(int(here(from(i) + 1:to(i)), int64))
                 next(from(i) + 1:to(i)) = next(from(i) + 1:to(i)) + here(from(i) + 1:to(i))
             end do
-            if (.not. allocated(lowered%layers)) then
+            if (.not. allocated(assembled%layers)) then
                 stat = merge(1, 0, total >= huge(m))
-                if (stat == 0) allocate (lowered%layers(total), stat=stat)
+                if (stat == 0) allocate (assembled%layers(total), stat=stat)
                 if (stat /= 0) then
                     call no_memory(error)
                     return
                 end if
             end if
-            lowered%layer_first(1) = 1
+            assembled%layer_first(1) = 1
             do j = 1, pieces
-                lowered%layer_first(j + 1) = lowered%layer_first(j) + next(j)
-                next(j) = lowered%layer_first(j)
+                assembled%layer_first(j + 1) = assembled%layer_first(j) + next(j)
+                next(j) = assembled%layer_first(j)
             end do
             do i = 1, m
                 call find_layers(i)
                 do j = from(i) + 1, to(i)
-                    if (here(j) > 0) lowered%layers(next(j)) = layer_at(i, j, merge(gapbeam_below, model%foundations(i)%side, &
-                                                                                    here(j) == 2))
-                    if (here(j) == 2) lowered%layers(next(j) + 1) = layer_at(i, j, gapbeam_above)
+                    if (here(j) > 0) assembled%layers(next(j)) = layer_at(i, j, merge(gapbeam_below, model%foundations(i)%side, &
+                                                                                      here(j) == 2))
+                    if (here(j) == 2) assembled%layers(next(j) + 1) = layer_at(i, j, gapbeam_above)
                     next(j) = next(j) + here(j)
                 end do
             end do
@@ -97,23 +98,23 @@ contains
             integer :: number, piece, range(2)
             logical :: with_points
 
-            call find_values(lowered, foundation, first(:, foundation), last(:, foundation), values)
+            call find_values(assembled, foundation, first(:, foundation), last(:, foundation), values)
             with_points = laws(foundation)%points > 0
-            associate (f => lowered%model%foundations(foundation), a => lowered%foundation_from(foundation) + 1, &
-                       b => lowered%foundation_to(foundation), q => gapbeam_table_of_gap)
+            associate (f => assembled%model%foundations(foundation), a => assembled%foundation_from(foundation) + 1, &
+                       b => assembled%foundation_to(foundation), q => gapbeam_table_of_gap)
                 number = layers_of(f, with_points .or. f%law /= gapbeam_law_by_points, last(q, foundation) >= first(q, foundation))
                 here(a:b) = number
                 if (.not. (any(last(:, foundation) >= first(:, foundation)) .or. laws(foundation)%varies)) return
                 do piece = a, b
                     range = range_under(foundation, piece)
                     if (with_points) then
-                        if (.not. any(max(lowered%law_pieces(range(1):range(2))%slope_a, &
-                                          lowered%law_pieces(range(1):range(2))%slope_b) > 0.0_wp)) here(piece) = 0
+                        if (.not. any(max(assembled%law_pieces(range(1):range(2))%slope_a, &
+                                          assembled%law_pieces(range(1):range(2))%slope_b) > 0.0_wp)) here(piece) = 0
                     else if (.not. carries(f%law, values(:, :, piece))) then
                         here(piece) = 0
                     end if
                 end do
-                if (.not. allocated(error)) call check_values(lowered, foundation, with_points, here, values, error)
+                if (.not. allocated(error)) call check_values(assembled, foundation, with_points, here, values, error)
             end associate
         end subroutine find_layers
 
@@ -126,7 +127,7 @@ contains
             associate (law => laws(foundation))
                 if (law%points == 0) return
                 range(1) = law%first
-                if (law%varies) range(1) = law%first + (piece - lowered%foundation_from(foundation) - 1)*law%points
+                if (law%varies) range(1) = law%first + (piece - assembled%foundation_from(foundation) - 1)*law%points
                 range(2) = range(1) + law%points - 1
             end associate
         end function range_under
@@ -142,13 +143,13 @@ contains
                 layer = layer_type(foundation=foundation, side=side, modulus_a=a(gapbeam_table_of_k), &
                                    modulus_b=b(gapbeam_table_of_k), contact_a=side*a(gap), contact_b=side*b(gap), &
                                    law_first=range(1), law_last=range(2), &
-                                   law=lowered%model%foundations(foundation)%law, &
+                                   law=assembled%model%foundations(foundation)%law, &
                                    parameter_a=a(gapbeam_table_of_parameter:), parameter_b=b(gapbeam_table_of_parameter:))
             end associate
-            if (.not. is_straight(lowered%law_pieces(range(1):range(2)))) layer%law = law_polyline
+            if (.not. is_straight(assembled%law_pieces(range(1):range(2)))) layer%law = law_polyline
         end function layer_at
 
-    end subroutine lower_foundations
+    end subroutine assemble_foundations
 
     !> Does ground with a modulus, or a law with parameters, carry on a piece at all
     pure function carries(law, values) result(does)
@@ -170,8 +171,8 @@ contains
     end function carries
 
     !> Is a foundation with tables possible on all its pieces
-    pure subroutine check_values(lowered, foundation, with_points, layers, values, error)
-        type(lowered_type), intent(in) :: lowered
+    pure subroutine check_values(assembled, foundation, with_points, layers, values, error)
+        type(assembled_type), intent(in) :: assembled
         integer, intent(in) :: foundation
         !> Has it a law by points
         logical, intent(in) :: with_points
@@ -181,9 +182,9 @@ contains
         type(error_type), allocatable, intent(out) :: error
         integer :: j
 
-        associate (f => lowered%model%foundations(foundation), a => lowered%foundation_from(foundation) + 1, &
-                   b => lowered%foundation_to(foundation), &
-                   here => entry_type(of_foundations, foundation, size(lowered%model%foundations)))
+        associate (f => assembled%model%foundations(foundation), a => assembled%foundation_from(foundation) + 1, &
+                   b => assembled%foundation_to(foundation), &
+                   here => entry_type(of_foundations, foundation, size(assembled%model%foundations)))
             if (.not. any(layers(a:b) > 0)) then
                 call refuse_entry(error, here, trim(merge("law", "k  ", with_points .or. f%law /= gapbeam_law_by_points)), &
                                   bad_law, "carries nowhere from "//trim(stretch(a, b))//"; remove the foundation")
@@ -206,7 +207,7 @@ contains
             integer, intent(in) :: from, to
             character(len=120) :: stretch
 
-            stretch = "x = "//trim(shown(point_x(lowered, from - 1)))//" to x = "//trim(shown(point_x(lowered, to)))
+            stretch = "x = "//trim(shown(point_x(assembled, from - 1)))//" to x = "//trim(shown(point_x(assembled, to)))
         end function stretch
 
     end subroutine check_values
@@ -224,8 +225,8 @@ contains
     end function layers_of
 
     !> Modulus, gap and parameters of its law of a foundation at both ends of its pieces
-    pure subroutine find_values(lowered, foundation, first, last, values)
-        type(lowered_type), intent(in) :: lowered
+    pure subroutine find_values(assembled, foundation, first, last, values)
+        type(assembled_type), intent(in) :: assembled
         integer, intent(in) :: foundation
         !> First and last point of its tables, the last before the first: none, shape (quantities)
         integer, intent(in) :: first(:), last(:)
@@ -234,12 +235,12 @@ contains
         real(wp) :: whole, share, at_point(quantities)
         integer :: left, right, p, q
 
-        left = lowered%foundation_from(foundation)
-        right = lowered%foundation_to(foundation)
-        whole = distance(lowered, place_of(lowered, left), place_of(lowered, right))
-        associate (f => lowered%model%foundations(foundation))
+        left = assembled%foundation_from(foundation)
+        right = assembled%foundation_to(foundation)
+        whole = distance(assembled, place_of(assembled, left), place_of(assembled, right))
+        associate (f => assembled%model%foundations(foundation))
             do p = left, right
-                share = distance(lowered, place_of(lowered, left), place_of(lowered, p))/whole
+                share = distance(assembled, place_of(assembled, left), place_of(assembled, p))/whole
                 at_point = between([f%k, f%gap, f%parameter], [at_right(f%k, f%k_to), at_right(f%gap, f%gap_to), &
                                                                at_right(f%parameter, f%parameter_to)], share)
                 if (p > left) values(:, 2, p) = at_point
@@ -248,27 +249,27 @@ contains
         end associate
         do q = 1, quantities
             if (first(q) > last(q)) cycle
-            call follow_table(lowered, left, right, place_in_table(lowered, [(p, p=first(q), last(q))], &
-                                                                   lowered%model%ground(first(q):last(q))%x), &
-                              lowered%model%ground(first(q):last(q))%value, values(q, :, left + 1:right))
+            call follow_table(assembled, left, right, place_in_table(assembled, [(p, p=first(q), last(q))], &
+                                                                     assembled%model%ground(first(q):last(q))%x), &
+                              assembled%model%ground(first(q):last(q))%value, values(q, :, left + 1:right))
         end do
     end subroutine find_values
 
     !> Meet the moduli and levels of all foundations
-    pure subroutine note_foundations(lowered, length, stiffness, forces, ways)
+    pure subroutine note_foundations(assembled, length, stiffness, forces, ways)
         !> Layers in the user's units in
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: assembled
         !> The exponent of the unit of length
         integer, intent(in) :: length
         type(exponents_type), intent(inout) :: stiffness, forces, ways
-        real(wp) :: most(quantities, size(lowered%model%foundations))
+        real(wp) :: most(quantities, size(assembled%model%foundations))
         integer :: i
 
-        if (.not. allocated(lowered%layers)) return
-        most(:, :) = greatest_values(lowered%model)
-        do i = 1, size(lowered%model%foundations)
+        if (.not. allocated(assembled%layers)) return
+        most(:, :) = greatest_values(assembled%model)
+        do i = 1, size(assembled%model%foundations)
             call stiffness%note(most(gapbeam_table_of_k, i), length)
-            associate (law => lowered%model%foundations(i)%law, parameters => most(gapbeam_table_of_parameter:, i))
+            associate (law => assembled%model%foundations(i)%law, parameters => most(gapbeam_table_of_parameter:, i))
                 if (law == gapbeam_law_by_points) cycle
                 call stiffness%note(parameters(1), length)
                 if (law == law_cubic) cycle
@@ -276,15 +277,15 @@ contains
                 call stiffness%note(parameters(3), length)
             end associate
         end do
-        do i = 1, size(lowered%law_pieces)
-            associate (piece => lowered%law_pieces(i))
+        do i = 1, size(assembled%law_pieces)
+            associate (piece => assembled%law_pieces(i))
                 call stiffness%note(max(piece%slope_a, piece%slope_b), length)
                 call forces%note(max(piece%force_a, piece%force_b), length)
                 call ways%note(max(piece%displacement_a, piece%displacement_b), 0)
             end associate
         end do
-        do i = 1, size(lowered%layers)
-            call ways%note(max(abs(lowered%layers(i)%contact_a), abs(lowered%layers(i)%contact_b)), 0)
+        do i = 1, size(assembled%layers)
+            call ways%note(max(abs(assembled%layers(i)%contact_a), abs(assembled%layers(i)%contact_b)), 0)
         end do
     end subroutine note_foundations
 
@@ -310,20 +311,20 @@ contains
     end function greatest_values
 
     !> Layers and laws from the user's units to the engine's
-    subroutine scale_foundations(lowered, units, error)
-        type(lowered_type), intent(inout) :: lowered
+    subroutine scale_foundations(assembled, units, error)
+        type(assembled_type), intent(inout) :: assembled
         type(units_type), intent(in) :: units
         !> Numbers out of range
         type(error_type), allocatable, intent(out) :: error
         logical, allocatable :: lost(:)
         real(wp) :: slopes(2), given(parameters_of_law, 2), scaled(parameters_of_law, 2)
-        real(wp) :: most(quantities, size(lowered%model%foundations))
+        real(wp) :: most(quantities, size(assembled%model%foundations))
         integer :: i, m, per_length, powers(parameters_of_law)
 
-        if (.not. allocated(lowered%layers)) return
-        m = size(lowered%model%foundations)
+        if (.not. allocated(assembled%layers)) return
+        m = size(assembled%model%foundations)
         per_length = units%length - stiffness_unit(units)
-        most(:, :) = greatest_values(lowered%model)
+        most(:, :) = greatest_values(assembled%model)
         do i = 1, m
             associate (k => most(gapbeam_table_of_k, i))
                 if (.not. k > 0.0_wp .or. .not. is_lost(scale(k, per_length))) cycle
@@ -332,9 +333,9 @@ contains
             end associate
             return
         end do
-        allocate (lost(size(lowered%law_pieces)))
-        do i = 1, size(lowered%law_pieces)
-            associate (piece => lowered%law_pieces(i))
+        allocate (lost(size(assembled%law_pieces)))
+        do i = 1, size(assembled%law_pieces)
+            associate (piece => assembled%law_pieces(i))
                 slopes = [piece%slope_a, piece%slope_b]
                 piece%displacement_a = scale(piece%displacement_a, -units%deflection)
                 piece%displacement_b = scale(piece%displacement_b, -units%deflection)
@@ -348,8 +349,8 @@ contains
                     .or. any(slopes > 0.0_wp .and. is_lost([piece%slope_a, piece%slope_b]))
             end associate
         end do
-        do i = 1, size(lowered%layers)
-            associate (layer => lowered%layers(i))
+        do i = 1, size(assembled%layers)
+            associate (layer => assembled%layers(i))
                 layer%modulus_a = scale(layer%modulus_a, per_length)
                 layer%modulus_b = scale(layer%modulus_b, per_length)
                 layer%contact_a = scale(layer%contact_a, -units%deflection)
@@ -376,4 +377,4 @@ contains
         end do
     end subroutine scale_foundations
 
-end module gapbeam_lower_foundations
+end module gapbeam_assemble_foundations

@@ -1,17 +1,17 @@
 !> A model made ready: the engine's arrays, and what leads from them back to the user's places and supports
-module gapbeam_lowered
+module gapbeam_assembled_model
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp
     use gapbeam_link, only: piece_type, piece_load_type
     use gapbeam_layers, only: layer_type, law_piece_type
     use gapbeam_model, only: beam_type
     use gapbeam_scene, only: model_type, load_type, gapbeam_distributed, gapbeam_curvature
-    use gapbeam_places, only: place_span_ends
+    use gapbeam_stations, only: place_span_ends
     use gapbeam_units, only: units_type
     implicit none
     private
     public :: stiffness_of, in_bending, in_shear, along_axis
-    public :: lowered_type, axial_type, copy_model, fingerprint, is_stretch, point_x, piece_length, find_length_errors
+    public :: assembled_type, axial_type, copy_model, fingerprint, is_stretch, point_x, piece_length, find_length_errors
 
     !> Kinds of stiffness: EI, GA, EA
     integer, parameter :: in_bending = 1, in_shear = 2, along_axis = 3
@@ -38,7 +38,7 @@ module gapbeam_lowered
     end type axial_type
 
     !> A model made ready
-    type :: lowered_type
+    type :: assembled_type
         !> What the user gave, and its fingerprint
         type(model_type) :: model
         integer :: fingerprint = 0
@@ -79,13 +79,13 @@ module gapbeam_lowered
         integer, allocatable :: beam_support(:)
         !> Which supports of the model have a law
         logical, allocatable :: with_law(:)
-        !> Does a state depend on the way of the load to it (gapbeam_lower_laws)
+        !> Does a state depend on the way of the load to it (gapbeam_assemble_laws)
         logical :: depends_on_path = .false.
         !> Stiffness of the rotational restraint of every node in the user's units, shape (0:nlink), and the share that every
         !> support of the model has in that of its node
         real(wp), allocatable :: turning(:), couple_share(:)
         type(axial_type) :: axial
-    end type lowered_type
+    end type assembled_type
 
 contains
 
@@ -98,56 +98,56 @@ contains
     end function is_stretch
 
     !> x of a point
-    pure function point_x(lowered, point) result(x)
-        type(lowered_type), intent(in) :: lowered
+    pure function point_x(assembled, point) result(x)
+        type(assembled_type), intent(in) :: assembled
         integer, intent(in) :: point
         real(wp) :: x
 
-        x = lowered%ends(lowered%point_span(point)) + lowered%point_offset(point)
+        x = assembled%ends(assembled%point_span(point)) + assembled%point_offset(point)
     end function point_x
 
     !> Length of a piece in the user's units
-    pure function piece_length(lowered, piece) result(length)
-        type(lowered_type), intent(in) :: lowered
+    pure function piece_length(assembled, piece) result(length)
+        type(assembled_type), intent(in) :: assembled
         integer, intent(in) :: piece
         real(wp) :: length
 
-        associate (span => lowered%point_span, offset => lowered%point_offset)
+        associate (span => assembled%point_span, offset => assembled%point_offset)
             if (span(piece) == span(piece - 1)) then
                 length = offset(piece) - offset(piece - 1)
             else
-                length = lowered%model%spans(span(piece - 1) + 1)%length - offset(piece - 1)
+                length = assembled%model%spans(span(piece - 1) + 1)%length - offset(piece - 1)
             end if
         end associate
     end function piece_length
 
     !> What links, their flexibilities and loads may be off, relative to them, since places are: a distance in a span is an x less
     !> the rounded end of a span
-    subroutine find_length_errors(lowered, errors)
-        type(lowered_type), intent(in) :: lowered
+    subroutine find_length_errors(assembled, errors)
+        type(assembled_type), intent(in) :: assembled
         !> Shape (nlink)
         real(wp), intent(out) :: errors(:)
         real(wp), allocatable :: rest(:), ends(:)
         real(wp) :: shift, length, each(3), sums(3), shifted(3)
         integer :: i, j
 
-        allocate (rest(0:size(lowered%model%spans)), ends(0:size(lowered%model%spans)))
-        call place_span_ends(lowered%model%spans, ends, rest)
+        allocate (rest(0:size(assembled%model%spans)), ends(0:size(assembled%model%spans)))
+        call place_span_ends(assembled%model%spans, ends, rest)
         do i = 1, size(errors)
             length = 0.0_wp
             sums(:) = tiny(sums)
             shifted(:) = 0.0_wp
-            do j = lowered%node_point(i - 1) + 1, lowered%node_point(i)
+            do j = assembled%node_point(i - 1) + 1, assembled%node_point(i)
                 shift = shift_of(j - 1) + shift_of(j)
-                associate (piece => lowered%pieces(j), dead => lowered%dead(j), live => lowered%live(j))
+                associate (piece => assembled%pieces(j), dead => assembled%dead(j), live => assembled%live(j))
                     each = [piece%flexibility, piece%shear_flexibility, &
                             max(abs(dead%qa), abs(dead%qb)) + max(abs(live%qa), abs(live%qb))]
                 end associate
                 shifted(:) = shifted + shift*each
-                sums(:) = sums + piece_length(lowered, j)*each
-                length = length + piece_length(lowered, j)
+                sums(:) = sums + piece_length(assembled, j)*each
+                length = length + piece_length(assembled, j)
             end do
-            shift = shift_of(lowered%node_point(i - 1)) + shift_of(lowered%node_point(i))
+            shift = shift_of(assembled%node_point(i - 1)) + shift_of(assembled%node_point(i))
             errors(i) = max(shift/length, maxval(shifted/sums))
         end do
 
@@ -159,7 +159,7 @@ contains
             real(wp) :: shift
 
             shift = 0.0_wp
-            associate (span => lowered%point_span(point), offset => lowered%point_offset(point))
+            associate (span => assembled%point_span(point), offset => assembled%point_offset(point))
                 if (.not. offset > 0.0_wp) return
                 shift = abs(rest(span))
                 ! The difference of numbers of which one is less than twice the other is exact
@@ -170,20 +170,20 @@ contains
     end subroutine find_length_errors
 
     !> Stiffness of a piece in the user's units
-    pure function stiffness_of(lowered, piece, kind) result(stiffness)
-        type(lowered_type), intent(in) :: lowered
+    pure function stiffness_of(assembled, piece, kind) result(stiffness)
+        type(assembled_type), intent(in) :: assembled
         integer, intent(in) :: piece
         !> in_bending, in_shear or along_axis
         integer, intent(in) :: kind
         real(wp) :: stiffness, all_three(3)
 
-        associate (s => lowered%model%spans(lowered%point_span(piece - 1) + 1))
+        associate (s => assembled%model%spans(assembled%point_span(piece - 1) + 1))
             all_three = [s%EI, s%GA, s%EA]
         end associate
         stiffness = all_three(kind)
-        if (.not. allocated(lowered%section_of)) return
-        if (lowered%section_of(kind, piece) == 0) return
-        associate (s => lowered%model%sections(lowered%section_of(kind, piece)))
+        if (.not. allocated(assembled%section_of)) return
+        if (assembled%section_of(kind, piece) == 0) return
+        associate (s => assembled%model%sections(assembled%section_of(kind, piece)))
             all_three = [s%EI, s%GA, s%EA]
         end associate
         stiffness = all_three(kind)
@@ -313,4 +313,4 @@ contains
         end do
     end subroutine mix
 
-end module gapbeam_lowered
+end module gapbeam_assembled_model

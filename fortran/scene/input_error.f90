@@ -1,5 +1,5 @@
 !> How what a user gave is refused: in words, and as codes for an interface that has words of its own
-module gapbeam_refusal
+module gapbeam_input_error
     use gapbeam_error, only: error_type, fatal_error, gapbeam_bad_input, gapbeam_not_finite
     use gapbeam_words, only: whole
     implicit none
@@ -67,4 +67,4 @@ contains
         call fatal_error(error, gapbeam_not_finite, "numbers left the range of double precision: "//what//"; "//remedy)
     end subroutine refuse_range
 
-end module gapbeam_refusal
+end module gapbeam_input_error

@@ -3,109 +3,109 @@
 !> The beam is cut into pieces wherever anything changes: at span ends, supports, hinges, point loads, the ends of distributed
 !> loads and of foundations, and the points of their tables. Only beam ends, supports across the beam and hinges become nodes of
 !> the system, with foundations all points; the pieces between two nodes are condensed into one link.
-module gapbeam_lower
+module gapbeam_assemble
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_scene, only: gapbeam_by_x, gapbeam_axial, gapbeam_couple, gapbeam_right_end, gapbeam_unchanged
-    use gapbeam_lowered, only: lowered_type, is_stretch, in_bending, in_shear, along_axis
-    use gapbeam_places, only: place_span_ends, locate, merge_places
+    use gapbeam_assembled_model, only: assembled_type, is_stretch, in_bending, in_shear, along_axis
+    use gapbeam_stations, only: place_span_ends, locate, merge_stations
     use gapbeam_check, only: check_spans, check_rest, check_loads
     use gapbeam_check_laws, only: check_laws, have_laws
     use gapbeam_check_foundations, only: check_foundations
-    use gapbeam_refusal, only: refuse, of_hinges, of_sections, of_foundations, of_loads, twice, no_stretch, at_hinge
-    use gapbeam_lower_supports, only: lower_supports
-    use gapbeam_lower_loads, only: lower_loads
+    use gapbeam_input_error, only: refuse, of_hinges, of_sections, of_foundations, of_loads, twice, no_stretch, at_hinge
+    use gapbeam_assemble_supports, only: assemble_supports
+    use gapbeam_assemble_loads, only: assemble_loads
     implicit none
     private
-    public :: lower_model
+    public :: assemble_model
 
 contains
 
-    !> Lower the model that is already in `lowered`, with all its arrays allocated
-    subroutine lower_model(lowered, error)
+    !> Assemble the model that is already in `assembled`, with all its arrays allocated
+    subroutine assemble_model(assembled, error)
         !> The model in, everything out
-        type(lowered_type), intent(inout) :: lowered
+        type(assembled_type), intent(inout) :: assembled
         !> Bad input, numbers out of range, or no memory
         type(error_type), allocatable, intent(out) :: error
         integer :: stat, n
 
-        associate (model => lowered%model)
+        associate (model => assembled%model)
             call check_spans(model%spans, error)
             if (allocated(error)) return
             n = size(model%spans)
-            allocate (lowered%ends(0:n), stat=stat)
+            allocate (assembled%ends(0:n), stat=stat)
             if (stat /= 0) then
                 call no_memory(error)
                 return
             end if
-            call place_span_ends(model%spans, lowered%ends)
+            call place_span_ends(model%spans, assembled%ends)
             call check_laws(model, error)
             if (allocated(error)) return
-            allocate (lowered%with_law(size(model%supports)), stat=stat)
+            allocate (assembled%with_law(size(model%supports)), stat=stat)
             if (stat /= 0) then
                 call no_memory(error)
                 return
             end if
-            lowered%with_law(:) = have_laws(model)
-            call check_rest(model, lowered%with_law, lowered%ends, error)
+            assembled%with_law(:) = have_laws(model)
+            call check_rest(model, assembled%with_law, assembled%ends, error)
             if (allocated(error)) return
-            call check_foundations(model, lowered%ends(n), error)
+            call check_foundations(model, assembled%ends(n), error)
             if (allocated(error)) return
-            call check_loads(model%loads, lowered%ends, any(model%supports%direction == gapbeam_axial), error)
+            call check_loads(model%loads, assembled%ends, any(model%supports%direction == gapbeam_axial), error)
             if (allocated(error)) return
         end associate
-        call find_points(lowered, error)
-        if (.not. allocated(error)) call assign_sections(lowered, error)
+        call find_points(assembled, error)
+        if (.not. allocated(error)) call assign_sections(assembled, error)
         if (allocated(error)) return
-        call lower_supports(lowered, error)
+        call assemble_supports(assembled, error)
         if (allocated(error)) return
-        call lower_loads(lowered, error)
-    end subroutine lower_model
+        call assemble_loads(assembled, error)
+    end subroutine assemble_model
 
     !> Which section gives the stiffness of a piece: the last one that gives it
-    subroutine assign_sections(lowered, error)
-        type(lowered_type), intent(inout) :: lowered
+    subroutine assign_sections(assembled, error)
+        type(assembled_type), intent(inout) :: assembled
         type(error_type), allocatable, intent(out) :: error
         integer :: i, stat
 
-        if (size(lowered%model%sections) == 0) return
-        allocate (lowered%section_of(3, size(lowered%pieces)), stat=stat)
+        if (size(assembled%model%sections) == 0) return
+        allocate (assembled%section_of(3, size(assembled%pieces)), stat=stat)
         if (stat /= 0) then
             call no_memory(error)
             return
         end if
-        lowered%section_of(:, :) = 0
-        do i = 1, size(lowered%model%sections)
-            associate (s => lowered%model%sections(i), first => lowered%section_from(i) + 1, last => lowered%section_to(i))
-                if (s%EI > gapbeam_unchanged) lowered%section_of(in_bending, first:last) = i
-                if (s%GA > gapbeam_unchanged) lowered%section_of(in_shear, first:last) = i
-                if (s%EA > gapbeam_unchanged) lowered%section_of(along_axis, first:last) = i
+        assembled%section_of(:, :) = 0
+        do i = 1, size(assembled%model%sections)
+            associate (s => assembled%model%sections(i), first => assembled%section_from(i) + 1, last => assembled%section_to(i))
+                if (s%EI > gapbeam_unchanged) assembled%section_of(in_bending, first:last) = i
+                if (s%GA > gapbeam_unchanged) assembled%section_of(in_shear, first:last) = i
+                if (s%EA > gapbeam_unchanged) assembled%section_of(along_axis, first:last) = i
             end associate
         end do
     end subroutine assign_sections
 
     !> Points between the pieces, and the points of supports, hinges, foundations and loads
-    subroutine find_points(lowered, error)
-        type(lowered_type), intent(inout) :: lowered
+    subroutine find_points(assembled, error)
+        type(assembled_type), intent(inout) :: assembled
         type(error_type), allocatable, intent(out) :: error
         integer, allocatable :: span(:), order(:), chosen(:), point(:)
         real(wp), allocatable :: offset(:)
         integer(int64) :: total
         integer :: stat, at, i, n, number
 
-        associate (model => lowered%model)
+        associate (model => assembled%model)
             n = size(model%spans)
             total = 1_int64 + n + size(model%supports) + size(model%hinges) + size(model%ground) + size(model%ground_law) &
                 + 2_int64*(size(model%sections) + size(model%loads) + size(model%foundations))
             stat = merge(1, 0, 2*total > huge(0))
             if (stat == 0) allocate (span(total), order(total), chosen(total), point(total), offset(total), stat=stat)
-            if (stat == 0) allocate (lowered%end_point(0:n), lowered%support_point(size(model%supports)), &
-                                     lowered%load_from(size(model%loads)), lowered%load_to(size(model%loads)), &
-                                     lowered%section_from(size(model%sections)), lowered%section_to(size(model%sections)), &
-                                     lowered%foundation_from(size(model%foundations)), &
-                                     lowered%foundation_to(size(model%foundations)), &
-                                     lowered%ground_point(size(model%ground) + size(model%ground_law)), stat=stat)
+            if (stat == 0) allocate (assembled%end_point(0:n), assembled%support_point(size(model%supports)), &
+                                     assembled%load_from(size(model%loads)), assembled%load_to(size(model%loads)), &
+                                     assembled%section_from(size(model%sections)), assembled%section_to(size(model%sections)), &
+                                     assembled%foundation_from(size(model%foundations)), &
+                                     assembled%foundation_to(size(model%foundations)), &
+                                     assembled%ground_point(size(model%ground) + size(model%ground_law)), stat=stat)
             if (stat /= 0) then
                 call no_memory(error)
                 return
@@ -141,39 +141,39 @@ contains
                 call add_on_foundation(size(model%ground) + i, model%ground_law(i)%foundation, model%ground_law(i)%x)
             end do
             at = 1 + n + size(model%supports) + size(model%hinges)
-            call merge_places(lowered%ends, span, offset, at, order, chosen, point, number)
-            allocate (lowered%point_span(0:number - 1), lowered%point_offset(0:number - 1), lowered%hinged(0:number - 1), &
-                      lowered%pieces(number - 1), lowered%dead(number - 1), lowered%live(number - 1), stat=stat)
+            call merge_stations(assembled%ends, span, offset, at, order, chosen, point, number)
+            allocate (assembled%point_span(0:number - 1), assembled%point_offset(0:number - 1), assembled%hinged(0:number - 1), &
+                      assembled%pieces(number - 1), assembled%dead(number - 1), assembled%live(number - 1), stat=stat)
             if (stat /= 0) then
                 call no_memory(error)
                 return
             end if
             do i = 1, number
-                lowered%point_span(i - 1) = span(chosen(i))
-                lowered%point_offset(i - 1) = offset(chosen(i))
+                assembled%point_span(i - 1) = span(chosen(i))
+                assembled%point_offset(i - 1) = offset(chosen(i))
             end do
-            lowered%end_point(0:n) = point(1:n + 1)
+            assembled%end_point(0:n) = point(1:n + 1)
             at = n + 1
-            lowered%support_point(:) = point(at + 1:at + size(model%supports))
+            assembled%support_point(:) = point(at + 1:at + size(model%supports))
             at = at + size(model%supports)
             call find_hinges(point(at + 1:at + size(model%hinges)))
             if (allocated(error)) return
             at = at + size(model%hinges)
             do i = 1, size(model%sections)
-                lowered%section_from(i) = point(at + 2*i - 1)
-                lowered%section_to(i) = point(at + 2*i)
-                if (lowered%section_from(i) < lowered%section_to(i)) cycle
+                assembled%section_from(i) = point(at + 2*i - 1)
+                assembled%section_to(i) = point(at + 2*i)
+                if (assembled%section_from(i) < assembled%section_to(i)) cycle
                 call refuse_empty(of_sections, i, size(model%sections))
                 return
             end do
             at = at + 2*size(model%sections)
             do i = 1, size(model%loads)
-                lowered%load_from(i) = point(at + 2*i - 1)
-                lowered%load_to(i) = point(at + 2*i)
+                assembled%load_from(i) = point(at + 2*i - 1)
+                assembled%load_to(i) = point(at + 2*i)
                 ! One without length acts on nothing
-                if (is_stretch(model%loads(i)) .and. lowered%load_from(i) > lowered%load_to(i)) then
+                if (is_stretch(model%loads(i)) .and. assembled%load_from(i) > assembled%load_to(i)) then
                     call refuse_empty(of_loads, i, size(model%loads))
-                else if (model%loads(i)%kind == gapbeam_couple .and. lowered%hinged(lowered%load_from(i))) then
+                else if (model%loads(i)%kind == gapbeam_couple .and. assembled%hinged(assembled%load_from(i))) then
                     call refuse(error, of_loads, i, size(model%loads), at_hinge, "", &
                                 "the couple acts exactly at a hinge, so it is open which side takes it; put it on one side "// &
                                 "of the hinge")
@@ -182,14 +182,14 @@ contains
             end do
             at = at + 2*size(model%loads)
             do i = 1, size(model%foundations)
-                lowered%foundation_from(i) = point(at + 2*i - 1)
-                lowered%foundation_to(i) = point(at + 2*i)
-                if (lowered%foundation_from(i) < lowered%foundation_to(i)) cycle
+                assembled%foundation_from(i) = point(at + 2*i - 1)
+                assembled%foundation_to(i) = point(at + 2*i)
+                if (assembled%foundation_from(i) < assembled%foundation_to(i)) cycle
                 call refuse_empty(of_foundations, i, size(model%foundations))
                 return
             end do
             at = at + 2*size(model%foundations)
-            where (lowered%ground_point == 0) lowered%ground_point = point(at + 1:at + size(lowered%ground_point))
+            where (assembled%ground_point == 0) assembled%ground_point = point(at + 1:at + size(assembled%ground_point))
         end associate
 
     contains
@@ -201,7 +201,7 @@ contains
 
             at = at + 1
             if (node == gapbeam_by_x) then
-                call locate(x, lowered%ends, span(at), offset(at))
+                call locate(x, assembled%ends, span(at), offset(at))
             else
                 span(at) = node
                 offset(at) = 0.0_wp
@@ -214,9 +214,9 @@ contains
             integer, intent(in) :: number, foundation
             real(wp), intent(in) :: x
 
-            associate (f => lowered%model%foundations(foundation))
-                lowered%ground_point(number) = merge(0, -1, x > f%from .and. x < right_end(f%to))
-                call add(merge(x, f%from, lowered%ground_point(number) == 0), gapbeam_by_x)
+            associate (f => assembled%model%foundations(foundation))
+                assembled%ground_point(number) = merge(0, -1, x > f%from .and. x < right_end(f%to))
+                call add(merge(x, f%from, assembled%ground_point(number) == 0), gapbeam_by_x)
             end associate
         end subroutine add_on_foundation
 
@@ -226,7 +226,7 @@ contains
             real(wp) :: x
 
             x = to
-            if (to <= gapbeam_right_end) x = lowered%ends(n)
+            if (to <= gapbeam_right_end) x = assembled%ends(n)
         end function right_end
 
         !> Refuse a stretch without length
@@ -241,18 +241,18 @@ contains
             integer, intent(in) :: points(:)
             integer :: k, other
 
-            lowered%hinged(:) = .false.
+            assembled%hinged(:) = .false.
             do k = 1, size(points)
-                if (lowered%hinged(points(k))) then
+                if (assembled%hinged(points(k))) then
                     other = findloc(points, points(k), 1)
                     call refuse(error, of_hinges, k, size(points), twice, "", &
                                 "there is a hinge at this place already; remove one of them", other)
                     return
                 end if
-                lowered%hinged(points(k)) = .true.
+                assembled%hinged(points(k)) = .true.
             end do
         end subroutine find_hinges
 
     end subroutine find_points
 
-end module gapbeam_lower
+end module gapbeam_assemble

@@ -1,34 +1,34 @@
 !> Numbers of the axial system of a model, whose points are known, in units of its own
-module gapbeam_lower_axial
+module gapbeam_assemble_axial
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type
     use gapbeam_range, only: is_lost
     use gapbeam_scene, only: gapbeam_axial, gapbeam_axial_force, gapbeam_dead
     use gapbeam_units, only: exponents_type, stiffness_unit, units_with_loads, middle, middle_of, largest, no_exponent
-    use gapbeam_lowered, only: lowered_type, point_x, piece_length, stiffness_of, along_axis
+    use gapbeam_assembled_model, only: assembled_type, point_x, piece_length, stiffness_of, along_axis
     use gapbeam_words, only: shown
-    use gapbeam_refusal, only: refuse_range, named, of_supports
+    use gapbeam_input_error, only: refuse_range, named, of_supports
     implicit none
     private
-    public :: lower_axial
+    public :: assemble_axial
 
 contains
 
     !> Flexibilities, supports and loads, if there is an axial system
-    subroutine lower_axial(lowered, error)
+    subroutine assemble_axial(assembled, error)
         !> Its points in
-        type(lowered_type), intent(inout) :: lowered
+        type(assembled_type), intent(inout) :: assembled
         !> Numbers out of range
         type(error_type), allocatable, intent(out) :: error
         type(exponents_type) :: lengths, soft, stiff, forces, ways
         real(wp) :: length, EA
         integer :: i, j, k, stiffness, unit
 
-        if (.not. allocated(lowered%axial%point)) return
-        associate (axial => lowered%axial, model => lowered%model)
-            do j = 1, size(lowered%pieces)
-                length = piece_length(lowered, j)
-                EA = stiffness_of(lowered, j, along_axis)
+        if (.not. allocated(assembled%axial%point)) return
+        associate (axial => assembled%axial, model => assembled%model)
+            do j = 1, size(assembled%pieces)
+                length = piece_length(assembled, j)
+                EA = stiffness_of(assembled, j, along_axis)
                 call lengths%note(length, 0)
                 if (EA <= huge(EA)) call soft%note(length, -exponent(EA))
             end do
@@ -46,12 +46,12 @@ contains
             unit = middle(lengths)
             axial%flexibility(:) = 0.0_wp
             i = 1
-            do j = 1, size(lowered%pieces)
-                EA = stiffness_of(lowered, j, along_axis)
-                axial%softness(j) = scale(piece_length(lowered, j), -unit)/scale(EA, -unit - stiffness_unit(axial%units))
+            do j = 1, size(assembled%pieces)
+                EA = stiffness_of(assembled, j, along_axis)
+                axial%softness(j) = scale(piece_length(assembled, j), -unit)/scale(EA, -unit - stiffness_unit(axial%units))
                 if (EA <= huge(EA) .and. is_lost(axial%softness(j))) then
-                    call refuse_range(error, "EA = "//trim(shown(EA))//" from x = "//trim(shown(point_x(lowered, j - 1)))// &
-                                      " to x = "//trim(shown(point_x(lowered, j)))//" is too far from the other axial "// &
+                    call refuse_range(error, "EA = "//trim(shown(EA))//" from x = "//trim(shown(point_x(assembled, j - 1)))// &
+                                      " to x = "//trim(shown(point_x(assembled, j)))//" is too far from the other axial "// &
                                       "stiffnesses", "bring them nearer together")
                     return
                 end if
@@ -78,13 +78,13 @@ contains
             do k = 1, size(model%loads)
                 associate (load => model%loads(k))
                     if (load%kind /= gapbeam_axial_force) cycle
-                    i = axial_node(axial%point, lowered%load_from(k))
+                    i = axial_node(axial%point, assembled%load_from(k))
                     j = merge(1, 2, load%case == gapbeam_dead)
                     axial%force(j, i) = axial%force(j, i) + scale(load%value, -axial%units%force)
                 end associate
             end do
         end associate
-    end subroutine lower_axial
+    end subroutine assemble_axial
 
     !> Node of the axial system at a point
     pure function axial_node(points, point) result(node)
@@ -105,4 +105,4 @@ contains
         end do
     end function axial_node
 
-end module gapbeam_lower_axial
+end module gapbeam_assemble_axial

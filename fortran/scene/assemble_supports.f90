@@ -1,5 +1,5 @@
 !> Supports and hinges as nodes of the system, and the axial system
-module gapbeam_lower_supports
+module gapbeam_assemble_supports
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_band, only: plain, hinge, restrained
@@ -7,64 +7,64 @@ module gapbeam_lower_supports
         gapbeam_axial_force
     use gapbeam_model, only: node_support_type, order_supports
     use gapbeam_words, only: shown, whole
-    use gapbeam_lowered, only: lowered_type
-    use gapbeam_lower_laws, only: find_laws, count_breakpoints, make_breakpoints, check_rigid_pieces
-    use gapbeam_places, only: position_tolerance
-    use gapbeam_refusal, only: refuse, refuse_range, named, of_supports, twice, no_room, at_hinge
+    use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_assemble_laws, only: find_laws, count_breakpoints, make_breakpoints, check_rigid_pieces
+    use gapbeam_stations, only: position_tolerance
+    use gapbeam_input_error, only: refuse, refuse_range, named, of_supports, twice, no_room, at_hinge
     implicit none
     private
-    public :: lower_supports, contact_level, is_room
+    public :: assemble_supports, contact_level, is_room
 
 contains
 
     !> Nodes, supports, restraints, and the axial system where it is needed
-    subroutine lower_supports(lowered, error)
+    subroutine assemble_supports(assembled, error)
         !> Points and pieces in
-        type(lowered_type), intent(inout) :: lowered
+        type(assembled_type), intent(inout) :: assembled
         type(error_type), allocatable, intent(out) :: error
 
-        call check_neighbours(lowered, error)
+        call check_neighbours(assembled, error)
         if (allocated(error)) return
-        call choose_nodes(lowered, error)
+        call choose_nodes(assembled, error)
         if (allocated(error)) return
-        call place_supports(lowered, error)
+        call place_supports(assembled, error)
         if (allocated(error)) return
-        call check_rigid_pieces(lowered, error)
+        call check_rigid_pieces(assembled, error)
         if (allocated(error)) return
-        if (any(lowered%model%loads%kind == gapbeam_axial_force) &
-            .or. any(lowered%model%supports%direction == gapbeam_axial &
-                     .and. abs(lowered%model%supports%settlement) > 0.0_wp)) then
-            call build_axial(lowered, error)
+        if (any(assembled%model%loads%kind == gapbeam_axial_force) &
+            .or. any(assembled%model%supports%direction == gapbeam_axial &
+                     .and. abs(assembled%model%supports%settlement) > 0.0_wp)) then
+            call build_axial(assembled, error)
         end if
-    end subroutine lower_supports
+    end subroutine assemble_supports
 
     !> Supports at the same place must leave room for each other, and no two may do the same rigidly
-    subroutine check_neighbours(lowered, error)
-        type(lowered_type), intent(in) :: lowered
+    subroutine check_neighbours(assembled, error)
+        type(assembled_type), intent(in) :: assembled
         type(error_type), allocatable, intent(out) :: error
         !> The rigid support of each kind at a point, 0: none; kinds are the sides -1..1, 2 along the beam, elastic ones
         !> too, 3 clamp
         integer, allocatable :: rigid(:, :)
         integer :: k, m, stat, point
 
-        m = size(lowered%model%supports)
-        allocate (rigid(-1:3, 0:ubound(lowered%point_span, 1)), stat=stat)
+        m = size(assembled%model%supports)
+        allocate (rigid(-1:3, 0:ubound(assembled%point_span, 1)), stat=stat)
         if (stat /= 0) then
             call no_memory(error)
             return
         end if
         rigid(:, :) = 0
         do k = 1, m
-            point = lowered%support_point(k)
-            associate (s => lowered%model%supports(k))
-                if (s%rotation > 0.0_wp .and. lowered%hinged(point)) then
+            point = assembled%support_point(k)
+            associate (s => assembled%model%supports(k))
+                if (s%rotation > 0.0_wp .and. assembled%hinged(point)) then
                     call refuse(error, of_supports, k, m, at_hinge, "rotation", &
                                 "there is a hinge here, so it is open which side is held; move one aside")
                 else if (s%direction == gapbeam_axial) then
                     call note(2, "direction", "hold the beam along its axis")
                 else if (s%stiffness > huge(s%stiffness)) then
                     ! A law is no stiffness; what it holds rigidly depends on its piece
-                    if (.not. lowered%with_law(k)) call note(s%side, "side", "do the same rigidly")
+                    if (.not. assembled%with_law(k)) call note(s%side, "side", "do the same rigidly")
                 end if
                 if (.not. allocated(error) .and. s%rotation > huge(s%rotation)) then
                     call note(3, "rotation", "hold the rotation rigidly")
@@ -73,7 +73,7 @@ contains
             if (allocated(error)) return
         end do
         do k = 1, m
-            point = lowered%support_point(k)
+            point = assembled%support_point(k)
             if (rigid(gapbeam_below, point) == k) then
                 call look(k, rigid(gapbeam_above, point), .false.)
                 if (.not. allocated(error)) call look(k, rigid(gapbeam_both, point), .true.)
@@ -106,8 +106,8 @@ contains
             real(wp) :: stop_at, start_at
 
             if (lower == 0 .or. upper == 0) return
-            stop_at = contact_level(lowered%model%supports(lower))
-            start_at = contact_level(lowered%model%supports(upper))
+            stop_at = contact_level(assembled%model%supports(lower))
+            start_at = contact_level(assembled%model%supports(upper))
             if (.not. is_room(stop_at, start_at, strictly)) then
                 call refuse(error, of_supports, lower, m, no_room, "", "this one acts at a deflection of "//trim(shown(stop_at))// &
                             " and support "//trim(whole(upper))//" at "//trim(shown(start_at))// &
@@ -140,38 +140,38 @@ contains
 
     !> Beam ends, hinges and supports across the beam are nodes, and on overhangs the places of loads: the moments there
     !> follow from the loads farther out alone. With foundations all points are: every piece is a link on ground of its own
-    subroutine choose_nodes(lowered, error)
-        type(lowered_type), intent(inout) :: lowered
+    subroutine choose_nodes(assembled, error)
+        type(assembled_type), intent(inout) :: assembled
         type(error_type), allocatable, intent(out) :: error
         integer :: k, j, n, first, last, stat
 
-        n = ubound(lowered%point_span, 1)
-        allocate (lowered%node_of_point(0:n), stat=stat)
+        n = ubound(assembled%point_span, 1)
+        allocate (assembled%node_of_point(0:n), stat=stat)
         if (stat /= 0) then
             call no_memory(error)
             return
         end if
-        associate (node => lowered%node_of_point)
-            node(:) = merge(0, -1, lowered%hinged)
+        associate (node => assembled%node_of_point)
+            node(:) = merge(0, -1, assembled%hinged)
             node(0) = 0
             node(n) = 0
-            if (size(lowered%model%foundations) > 0) node(:) = 0
+            if (size(assembled%model%foundations) > 0) node(:) = 0
             first = n + 1
             last = -1
-            do k = 1, size(lowered%support_point)
-                if (lowered%model%supports(k)%direction /= gapbeam_normal) cycle
-                node(lowered%support_point(k)) = 0
-                first = min(first, lowered%support_point(k))
-                last = max(last, lowered%support_point(k))
+            do k = 1, size(assembled%support_point)
+                if (assembled%model%supports(k)%direction /= gapbeam_normal) cycle
+                node(assembled%support_point(k)) = 0
+                first = min(first, assembled%support_point(k))
+                last = max(last, assembled%support_point(k))
             end do
-            do k = 1, size(lowered%load_from)
-                if (last < 0 .or. lowered%model%loads(k)%kind == gapbeam_axial_force) cycle
-                associate (a => lowered%load_from(k), b => lowered%load_to(k))
+            do k = 1, size(assembled%load_from)
+                if (last < 0 .or. assembled%model%loads(k)%kind == gapbeam_axial_force) cycle
+                associate (a => assembled%load_from(k), b => assembled%load_to(k))
                     if (a < first .or. a > last) node(a) = 0
                     if (b < first .or. b > last) node(b) = 0
                 end associate
             end do
-            allocate (lowered%node_point(0:count(node == 0) - 1), stat=stat)
+            allocate (assembled%node_point(0:count(node == 0) - 1), stat=stat)
             if (stat /= 0) then
                 call no_memory(error)
                 return
@@ -180,76 +180,76 @@ contains
             do j = 0, n
                 if (node(j) < 0) cycle
                 node(j) = k
-                lowered%node_point(k) = j
+                assembled%node_point(k) = j
                 k = k + 1
             end do
         end associate
     end subroutine choose_nodes
 
     !> The supports across the beam that can carry, and rotational restraints; their numbers come with the units
-    subroutine place_supports(lowered, error)
-        type(lowered_type), intent(inout) :: lowered
+    subroutine place_supports(assembled, error)
+        type(assembled_type), intent(inout) :: assembled
         type(error_type), allocatable, intent(out) :: error
         type(node_support_type), allocatable :: supports(:)
         logical, allocatable :: clamped(:)
         integer, allocatable :: first(:), last(:)
         integer :: k, j, m, n, stat
 
-        n = ubound(lowered%node_point, 1)
-        associate (beam => lowered%beam, given => lowered%model%supports, law => lowered%model%law)
+        n = ubound(assembled%node_point, 1)
+        associate (beam => assembled%beam, given => assembled%model%supports, law => assembled%model%law)
             allocate (first(size(given)), last(size(given)), stat=stat)
             if (stat /= 0) then
                 call no_memory(error)
                 return
             end if
-            call find_laws(lowered%model, first, last)
+            call find_laws(assembled%model, first, last)
             m = 0
             do k = 1, size(given)
                 if (can_carry(given(k))) m = m + count_breakpoints(given(k), law(first(k):last(k)))
             end do
             allocate (beam%links(n), beam%kind(0:n), beam%compliance(0:n), beam%force(2, 0:n), beam%couple(2, 0:n), &
-                      lowered%normal(m), lowered%beam_support(size(given)), lowered%couple_share(size(given)), &
-                      lowered%turning(0:n), clamped(0:n), supports(m), stat=stat)
+                      assembled%normal(m), assembled%beam_support(size(given)), assembled%couple_share(size(given)), &
+                      assembled%turning(0:n), clamped(0:n), supports(m), stat=stat)
             ! order_supports frees and allocates these again
             if (stat == 0) allocate (beam%supports(m), beam%order(m), beam%first(0:n + 1), stat=stat)
             if (stat /= 0) then
                 call no_memory(error)
                 return
             end if
-            lowered%turning(:) = 0.0_wp
+            assembled%turning(:) = 0.0_wp
             clamped(:) = .false.
-            lowered%beam_support(:) = 0
-            beam%kind(:) = merge(hinge, plain, lowered%hinged(lowered%node_point))
+            assembled%beam_support(:) = 0
+            beam%kind(:) = merge(hinge, plain, assembled%hinged(assembled%node_point))
             j = 0
             do k = 1, size(given)
                 if (given(k)%direction /= gapbeam_normal) cycle
-                associate (node => lowered%node_of_point(lowered%support_point(k)))
-                    lowered%turning(node) = lowered%turning(node) + given(k)%rotation
+                associate (node => assembled%node_of_point(assembled%support_point(k)))
+                    assembled%turning(node) = assembled%turning(node) + given(k)%rotation
                     if (given(k)%rotation > huge(given(k)%rotation)) clamped(node) = .true.
                     if (.not. can_carry(given(k))) cycle
-                    lowered%beam_support(k) = j + 1
+                    assembled%beam_support(k) = j + 1
                     m = 1
-                    if (lowered%with_law(k)) then
+                    if (assembled%with_law(k)) then
                         m = count_breakpoints(given(k), law(first(k):last(k)))
                         call make_breakpoints(given(k), law(first(k):last(k)), node, supports(j + 1:j + m))
                     else
                         supports(j + 1) = node_support_type(node, given(k)%side, 0.0_wp, 0.0_wp)
                     end if
-                    lowered%normal(j + 1:j + m) = k
+                    assembled%normal(j + 1:j + m) = k
                     j = j + m
                 end associate
             end do
             call order_supports(supports, beam)
-            where (lowered%turning > 0.0_wp) beam%kind = restrained
+            where (assembled%turning > 0.0_wp) beam%kind = restrained
             do k = size(given), 1, -1
-                lowered%couple_share(k) = 0.0_wp
-                associate (turn => given(k)%rotation, node => lowered%node_of_point(lowered%support_point(k)))
+                assembled%couple_share(k) = 0.0_wp
+                associate (turn => given(k)%rotation, node => assembled%node_of_point(assembled%support_point(k)))
                     if (.not. turn > 0.0_wp) cycle
                     ! A clamp takes all of the couple
-                    lowered%couple_share(k) = 1.0_wp
+                    assembled%couple_share(k) = 1.0_wp
                     if (turn > huge(turn)) cycle
-                    lowered%couple_share(k) = turn/lowered%turning(node)
-                    if (.not. lowered%turning(node) > huge(turn) .or. clamped(node)) cycle
+                    assembled%couple_share(k) = turn/assembled%turning(node)
+                    if (.not. assembled%turning(node) > huge(turn) .or. clamped(node)) cycle
                     call refuse_range(error, "the rotations of "//trim(named(of_supports, k, size(given)))// &
                                       " and others at its place are too great together", "clamp it")
                     return
@@ -267,14 +267,14 @@ contains
     end function can_carry
 
     !> The axial system: its points are the beam's ends and the places of axial forces and supports
-    subroutine build_axial(lowered, error)
-        type(lowered_type), intent(inout) :: lowered
+    subroutine build_axial(assembled, error)
+        type(assembled_type), intent(inout) :: assembled
         type(error_type), allocatable, intent(out) :: error
         integer, allocatable :: node(:)
         integer :: i, j, k, n, stat
 
-        n = ubound(lowered%point_span, 1)
-        associate (axial => lowered%axial, model => lowered%model)
+        n = ubound(assembled%point_span, 1)
+        associate (axial => assembled%axial, model => assembled%model)
             allocate (node(0:n), axial%node(size(model%supports)), stat=stat)
             if (stat /= 0) then
                 call no_memory(error)
@@ -284,10 +284,10 @@ contains
             node(0) = 0
             node(n) = 0
             do k = 1, size(model%supports)
-                if (model%supports(k)%direction == gapbeam_axial) node(lowered%support_point(k)) = 0
+                if (model%supports(k)%direction == gapbeam_axial) node(assembled%support_point(k)) = 0
             end do
             do k = 1, size(model%loads)
-                if (model%loads(k)%kind == gapbeam_axial_force) node(lowered%load_from(k)) = 0
+                if (model%loads(k)%kind == gapbeam_axial_force) node(assembled%load_from(k)) = 0
             end do
             i = count(node == 0) - 1
             allocate (axial%point(0:i), axial%softness(n), axial%before(n), axial%flexibility(i), axial%force(2, 0:i), &
@@ -305,9 +305,9 @@ contains
             end do
             do k = 1, size(model%supports)
                 axial%node(k) = -1
-                if (model%supports(k)%direction == gapbeam_axial) axial%node(k) = node(lowered%support_point(k))
+                if (model%supports(k)%direction == gapbeam_axial) axial%node(k) = node(assembled%support_point(k))
             end do
         end associate
     end subroutine build_axial
 
-end module gapbeam_lower_supports
+end module gapbeam_assemble_supports

@@ -1,11 +1,11 @@
 !> Laws of foundations by points as pieces; of those that vary, at both ends of every piece of the beam
-module gapbeam_lower_ground_laws
+module gapbeam_assemble_ground_laws
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_layers, only: law_piece_type
-    use gapbeam_lowered, only: lowered_type
-    use gapbeam_lower_tables, only: place_type, place_in_table, follow_table
+    use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_assemble_tables, only: place_type, place_in_table, follow_table
     use gapbeam_check_foundations, only: find_runs, points_of_law
     implicit none
     private
@@ -23,28 +23,28 @@ module gapbeam_lower_ground_laws
 contains
 
     !> Where the laws are, and their pieces will be
-    pure subroutine find_laws(lowered, laws)
-        type(lowered_type), intent(in) :: lowered
+    pure subroutine find_laws(assembled, laws)
+        type(assembled_type), intent(in) :: assembled
         !> Of all foundations
         type(law_of_foundation_type), intent(out) :: laws(:)
         integer :: i, next
 
         next = 1
-        call find_runs(lowered%model%ground_law%foundation, laws%from, laws%to)
+        call find_runs(assembled%model%ground_law%foundation, laws%from, laws%to)
         do i = 1, size(laws)
             associate (law => laws(i))
-                law%points = points_of_law(lowered%model%ground_law(law%from:law%to))
+                law%points = points_of_law(assembled%model%ground_law(law%from:law%to))
                 law%first = next
                 law%varies = law%to - law%from + 1 > law%points
-                if (law%varies) law%times = lowered%foundation_to(i) - lowered%foundation_from(i)
+                if (law%varies) law%times = assembled%foundation_to(i) - assembled%foundation_from(i)
                 next = next + law%points*law%times
             end associate
         end do
     end subroutine find_laws
 
     !> Pieces of all laws, one for every point: the one that ends there, the last one going on
-    pure subroutine make_laws(lowered, laws, error)
-        type(lowered_type), intent(inout) :: lowered
+    pure subroutine make_laws(assembled, laws, error)
+        type(assembled_type), intent(inout) :: assembled
         type(law_of_foundation_type), intent(in) :: laws(:)
         !> No memory
         type(error_type), allocatable, intent(out) :: error
@@ -56,17 +56,17 @@ contains
             total = total + int(laws(i)%points, int64)*laws(i)%times
         end do
         stat = merge(1, 0, total >= huge(i))
-        if (stat == 0 .and. .not. allocated(lowered%law_pieces)) allocate (lowered%law_pieces(total), stat=stat)
+        if (stat == 0 .and. .not. allocated(assembled%law_pieces)) allocate (assembled%law_pieces(total), stat=stat)
         do i = 1, size(laws)
-            if (stat == 0 .and. laws(i)%points > 0) call make_law(lowered, laws(i), lowered%foundation_from(i), &
-                                                                  lowered%foundation_to(i), stat)
+            if (stat == 0 .and. laws(i)%points > 0) call make_law(assembled, laws(i), assembled%foundation_from(i), &
+                                                                  assembled%foundation_to(i), stat)
         end do
         if (stat /= 0) call no_memory(error)
     end subroutine make_laws
 
     !> The pieces of one law
-    pure subroutine make_law(lowered, law, left, right, stat)
-        type(lowered_type), intent(inout) :: lowered
+    pure subroutine make_law(assembled, law, left, right, stat)
+        type(assembled_type), intent(inout) :: assembled
         type(law_of_foundation_type), intent(in) :: law
         !> First and last point of the foundation
         integer, intent(in) :: left, right
@@ -79,12 +79,12 @@ contains
         n = law%points
         allocate (d(2, law%times, n), f(2, law%times, n), stat=stat)
         if (stat /= 0) return
-        if (law%varies) places = places_of_law(lowered, law)
-        associate (points => lowered%model%ground_law(law%from:law%to))
+        if (law%varies) places = places_of_law(assembled, law)
+        associate (points => assembled%model%ground_law(law%from:law%to))
             do i = 1, n
                 if (law%varies) then
-                    call follow_table(lowered, left, right, places, points(i::n)%displacement, d(:, :, i))
-                    call follow_table(lowered, left, right, places, points(i::n)%force, f(:, :, i))
+                    call follow_table(assembled, left, right, places, points(i::n)%displacement, d(:, :, i))
+                    call follow_table(assembled, left, right, places, points(i::n)%force, f(:, :, i))
                 else
                     d(:, :, i) = points(i)%displacement
                     f(:, :, i) = points(i)%force
@@ -93,21 +93,21 @@ contains
         end associate
         do j = 1, law%times
             do i = 1, n
-                lowered%law_pieces(law%first + (j - 1)*n + i - 1) = piece_between([0.0_wp, d(1, j, :i)], [0.0_wp, d(2, j, :i)], &
-                                                                                  [0.0_wp, f(1, j, :i)], [0.0_wp, f(2, j, :i)])
+                assembled%law_pieces(law%first + (j - 1)*n + i - 1) = piece_between([0.0_wp, d(1, j, :i)], [0.0_wp, d(2, j, :i)], &
+                                                                                    [0.0_wp, f(1, j, :i)], [0.0_wp, f(2, j, :i)])
             end do
         end do
     end subroutine make_law
 
     !> The places at which a law that varies is given
-    pure function places_of_law(lowered, law) result(places)
-        type(lowered_type), intent(in) :: lowered
+    pure function places_of_law(assembled, law) result(places)
+        type(assembled_type), intent(in) :: assembled
         type(law_of_foundation_type), intent(in) :: law
         type(place_type), allocatable :: places(:)
         integer :: i
 
-        associate (before => size(lowered%model%ground), points => lowered%model%ground_law)
-            places = [(place_in_table(lowered, before + i, points(i)%x), i=law%from, law%to, law%points)]
+        associate (before => size(assembled%model%ground), points => assembled%model%ground_law)
+            places = [(place_in_table(assembled, before + i, points(i)%x), i=law%from, law%to, law%points)]
         end associate
     end function places_of_law
 
@@ -138,4 +138,4 @@ contains
                                 .or. abs(pieces%way_a - pieces%way_b) > 0.0_wp)
     end function is_straight
 
-end module gapbeam_lower_ground_laws
+end module gapbeam_assemble_ground_laws
