@@ -8,11 +8,11 @@ module gapbeam_history
     use gapbeam_polyline, only: node_support_type
     use gapbeam_polyline_quad, only: fine_support_type => node_support_type
     use gapbeam_model_quad, only: beam_type
-    use gapbeam_line_quad, only: drop_live
+    use gapbeam_affine_response_quad, only: drop_live
     use gapbeam_scheme_quad, only: outcome_type
     use gapbeam_refined, only: refine_beam
     use gapbeam_extended_precision, only: reserve_for
-    use gapbeam_lines, only: way_type, rise, fall, turn
+    use gapbeam_region_responses, only: outgoing_type, rise, fall, turn
     use gapbeam_branch, only: branch_type, segment_type, start_branch, step_branch, goes_on, no_way_on, never_ends, not_told
     use gapbeam_scene, only: gapbeam_elastic
     use gapbeam_assembled_model, only: assembled_type, point_x
@@ -157,7 +157,7 @@ contains
             type(segment_type) :: segment
             type(outcome_type) :: beginning
             integer :: way, outcome, index, direction, taken, idle
-            type(way_type), allocatable :: ways(:)
+            type(outgoing_type), allocatable :: ways(:)
             logical :: stable, moves
             real(qp) :: target
             logical :: acting(size(closed)), first(size(closed))
@@ -203,7 +203,7 @@ contains
                 acting(:) = branch%way%closed
                 index = branch%way%index
                 direction = branch%way%direction
-                ways = branch%ways
+                ways = branch%outgoing
                 taken = branch%taken
                 laws_before(:) = branch%beam%supports
                 stable = index == 0 .and. direction /= -way
@@ -237,7 +237,7 @@ contains
                 if (outcome == goes_on) then
                     if (stable .and. (branch%way%index > 0 .or. branch%way%direction == -way)) then
                         call note_limit(merge(limit_point, bifurcation, branch%way%direction == -way .and. &
-                                              size(branch%ways) == 1), leg, real(segment%to, wp))
+                                              size(branch%outgoing) == 1), leg, real(segment%to, wp))
                     end if
                 else if (outcome == no_way_on .or. outcome == never_ends) then
                     history%ending = merge(ended, mechanism, outcome == never_ends .and. direction /= turn)
@@ -246,7 +246,7 @@ contains
                 if (at_limit == at_limit_stop .and. size(history%limits) > 0 .and. .not. is_jumping()) history%ending = ended
                 if (history%ending /= no_limit) exit
             end do
-            history%solves = history%solves + branch%lines%solves
+            history%solves = history%solves + branch%responses%solves
             closed(:) = branch%way%closed
             laws = branch%beam%supports
         end subroutine go_leg
@@ -293,7 +293,7 @@ contains
 
         !> Keep the ways that the last stretch is not
         subroutine add_others(ways, taken)
-            type(way_type), intent(in) :: ways(:)
+            type(outgoing_type), intent(in) :: ways(:)
             integer, intent(in) :: taken
             integer :: w
 

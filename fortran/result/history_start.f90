@@ -5,7 +5,7 @@ module gapbeam_history_start
     use gapbeam_polyline, only: last_breakpoint
     use gapbeam_model_quad, only: beam_type
     use gapbeam_scheme_quad, only: outcome_type
-    use gapbeam_cell, only: find_cell, cell_type
+    use gapbeam_linear_region, only: find_region, region_type
     use gapbeam_scene, only: gapbeam_both
     use gapbeam_assembled_model, only: assembled_type
     implicit none
@@ -26,18 +26,18 @@ contains
         type(outcome_type), intent(out) :: outcome
         type(error_type), allocatable, intent(out) :: error
         type(beam_type) :: mirrored
-        type(cell_type) :: cell
+        type(region_type) :: region
 
         mirrored = beam
         if (to < 0.0_qp) call reverse_live(mirrored)
-        call find_cell(mirrored, 0.0_qp, abs(to), closed, cell, outcome, error)
-        solves = solves + cell%solves
+        call find_region(mirrored, 0.0_qp, abs(to), closed, region, outcome, error)
+        solves = solves + region%solves
         if (allocated(error)) then
             ! Only that the search does not know its way among falling forces: every combination is tried instead
             if (error%code == gapbeam_not_converged) deallocate (error)
             outcome%status = gapbeam_solved
         else if (outcome%status == gapbeam_solved) then
-            closed(:) = cell%closed
+            closed(:) = region%closed
         end if
     end subroutine find_beginning
 

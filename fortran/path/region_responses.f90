@@ -1,5 +1,5 @@
-!> A cell of the path: all pieces of all laws stay the same, and the solution is a line over the load factor
-module gapbeam_lines
+!> A region of the path: all pieces of all laws stay the same, and the solution is a line over the load factor
+module gapbeam_region_responses
     use gapbeam_kinds, only: wp => qp
     use gapbeam_band_quad, only: band_ok
     use gapbeam_polyline_quad, only: piece_that_acts, vertical_pieces
@@ -8,10 +8,10 @@ module gapbeam_lines
     use gapbeam_workspace_quad, only: workspace_type, new_workspace, set_loads
     use gapbeam_system_quad, only: solve_and_refine
     use gapbeam_pivoting_quad, only: count_unstable
-    use gapbeam_line_quad, only: line_type, line_of, without_dead_loads, value_at, width_at
+    use gapbeam_affine_response_quad, only: response_type, response_of, without_dead_loads, value_at, width_at
     implicit none
     private
-    public :: lines_type, way_type, new_lines, solve_lines, find_falling, find_index, is_held_twice, are_one
+    public :: responses_type, outgoing_type, new_responses, solve_responses, find_falling, find_index, is_held_twice, are_one
     public :: rise, fall, turn, from_nowhere
 
     !> Directions of the load factor along a way
@@ -23,11 +23,11 @@ module gapbeam_lines
     !> Share of the rates beside it below which a rate is none
     real(wp), parameter :: no_rate = 2.0_wp**(-70)
 
-    !> A cell: what all supports do over the load factor while their pieces stay the same
-    type :: lines_type
+    !> A region: what all supports do over the load factor while their pieces stay the same
+    type :: responses_type
         type(beam_type) :: incremental
         type(workspace_type) :: dead, live
-        type(line_type), allocatable :: line(:)
+        type(response_type), allocatable :: response(:)
         !> How fast supports move themselves with the factor (while settlements grow with the dead loads), shape (size(supports))
         real(wp), allocatable :: settling(:)
         !> The scheme solved last; is there a unique solution
@@ -35,10 +35,10 @@ module gapbeam_lines
         logical :: regular = .false.
         !> Linear solves
         integer :: solves = 0
-    end type lines_type
+    end type responses_type
 
     !> A way on
-    type :: way_type
+    type :: outgoing_type
         logical, allocatable :: closed(:)
         !> rise, fall or turn
         integer :: direction = rise
@@ -48,75 +48,75 @@ module gapbeam_lines
         logical, allocatable :: still(:)
         !> Where the beam turns: displacements of the nodes, shape (0:n)
         real(wp), allocatable :: motion(:)
-    end type way_type
+    end type outgoing_type
 
 contains
 
     !> Room for the lines of a beam
-    subroutine new_lines(beam, lines)
+    subroutine new_responses(beam, responses)
         type(beam_type), intent(in) :: beam
-        type(lines_type), intent(out) :: lines
+        type(responses_type), intent(out) :: responses
 
-        call without_dead_loads(beam, lines%incremental)
-        call new_workspace(beam, lines%dead)
-        call new_workspace(lines%incremental, lines%live)
-        call set_loads(beam, 0.0_wp, lines%dead)
-        call set_loads(lines%incremental, 1.0_wp, lines%live)
-        allocate (lines%line(size(beam%supports)), lines%settling(size(beam%supports)))
-        lines%settling(:) = 0.0_wp
-        allocate (lines%closed(size(beam%supports)))
-        lines%closed(:) = .false.
-    end subroutine new_lines
+        call without_dead_loads(beam, responses%incremental)
+        call new_workspace(beam, responses%dead)
+        call new_workspace(responses%incremental, responses%live)
+        call set_loads(beam, 0.0_wp, responses%dead)
+        call set_loads(responses%incremental, 1.0_wp, responses%live)
+        allocate (responses%response(size(beam%supports)), responses%settling(size(beam%supports)))
+        responses%settling(:) = 0.0_wp
+        allocate (responses%closed(size(beam%supports)))
+        responses%closed(:) = .false.
+    end subroutine new_responses
 
-    !> Solve a cell
-    subroutine solve_lines(beam, closed, lines)
-        !> The beam, whose supports may have changed since new_lines, and the scheme
+    !> Solve a region
+    subroutine solve_responses(beam, closed, responses)
+        !> The beam, whose supports may have changed since new_responses, and the scheme
         type(beam_type), intent(in) :: beam
         logical, intent(in) :: closed(:)
-        type(lines_type), intent(inout) :: lines
+        type(responses_type), intent(inout) :: responses
         integer :: state, place, k
 
-        associate (s => lines%incremental%supports)
+        associate (s => responses%incremental%supports)
             s = beam%supports
-            s%contact = lines%settling
+            s%contact = responses%settling
             s%force = 0.0_wp
         end associate
-        call solve_and_refine(beam, closed, lines%dead, state, place)
-        if (state == band_ok) call solve_and_refine(lines%incremental, closed, lines%live, state, place)
-        lines%solves = lines%solves + 2
-        lines%closed(:) = closed
-        lines%regular = state == band_ok
-        if (.not. lines%regular) return
+        call solve_and_refine(beam, closed, responses%dead, state, place)
+        if (state == band_ok) call solve_and_refine(responses%incremental, closed, responses%live, state, place)
+        responses%solves = responses%solves + 2
+        responses%closed(:) = closed
+        responses%regular = state == band_ok
+        if (.not. responses%regular) return
         do k = 1, size(closed)
-            lines%line(k) = line_of(beam, lines%incremental, closed, k, lines%dead, lines%live)
+            responses%response(k) = response_of(beam, responses%incremental, closed, k, responses%dead, responses%live)
         end do
-    end subroutine solve_lines
+    end subroutine solve_responses
 
-    !> Which breakpoints that are at zero fall along the line of a cell
-    subroutine find_falling(beam, closed, factor, direction, at_hand, lines, falling)
+    !> Which breakpoints that are at zero fall along the line of a region
+    subroutine find_falling(beam, closed, factor, direction, at_hand, responses, falling)
         type(beam_type), intent(in) :: beam
         logical, intent(in) :: closed(:)
         real(wp), intent(in) :: factor
         integer, intent(in) :: direction
         logical, intent(in) :: at_hand(:)
-        type(lines_type), intent(in) :: lines
+        type(responses_type), intent(in) :: responses
         logical, intent(out) :: falling(:)
         integer :: k
 
         do k = 1, size(closed)
             falling(k) = .false.
             if (.not. is_watched_in(beam%supports, closed, k)) cycle
-            associate (line => lines%line(k))
-                falling(k) = direction*line%v1 < -max(line%error_of_v1, no_rate*abs(line%v1))
-                ! What is at hand is at zero, whatever this cell has made of it by rounding
-                if (.not. at_hand(k)) falling(k) = falling(k) .and. value_at(line, factor) <= near*width_at(line, factor)
+            associate (response => responses%response(k))
+                falling(k) = direction*response%v1 < -max(response%error_of_v1, no_rate*abs(response%v1))
+                ! What is at hand is at zero, whatever this region has made of it by rounding
+                if (.not. at_hand(k)) falling(k) = falling(k) .and. value_at(response, factor) <= near*width_at(response, factor)
             end associate
         end do
     end subroutine find_falling
 
-    !> Are two ways one and the same: their cells differ by breakpoints only that do not move
+    !> Are two ways one and the same: their regions differ by breakpoints only that do not move
     pure function are_one(way, other) result(one)
-        type(way_type), intent(in) :: way, other
+        type(outgoing_type), intent(in) :: way, other
         logical :: one
 
         one = way%direction == other%direction .and. allocated(way%still) .and. allocated(other%still)
@@ -139,19 +139,19 @@ contains
         end do
     end function is_held_twice
 
-    !> In how many ways the beam gives way by itself in a cell
-    subroutine find_index(beam, closed, lines, index)
+    !> In how many ways the beam gives way by itself in a region
+    subroutine find_index(beam, closed, responses, index)
         type(beam_type), intent(in) :: beam
         logical, intent(in) :: closed(:)
         !> Solved
-        type(lines_type), intent(in) :: lines
+        type(responses_type), intent(in) :: responses
         integer, intent(out) :: index
         real(wp) :: slope
         integer :: k
         logical :: acts
 
         index = 0
-        if (any(lines%dead%nodes%stiffness < 0.0_wp)) call count_unstable(lines%dead%nodes, beam%links, index)
+        if (any(responses%dead%nodes%stiffness < 0.0_wp)) call count_unstable(responses%dead%nodes, beam%links, index)
         do k = 1, size(closed)
             if (beam%supports(k)%breakpoint == 0) cycle
             call piece_that_acts(beam%supports, closed, k, acts, slope)
@@ -160,4 +160,4 @@ contains
         end do
     end subroutine find_index
 
-end module gapbeam_lines
+end module gapbeam_region_responses

@@ -3,56 +3,57 @@
 !> There is one then, and the rates at the breakpoints at hand are a linear complementarity problem with a P-matrix: breakpoints
 !> that move the wrong way are passed until none does, all at once, then the one of least index (Murty 1974). So a state with many
 !> breakpoints at hand, as there are where supports unload, takes a few solves, not one for every choice of them.
-module gapbeam_single_way
+module gapbeam_single_direction
     use gapbeam_kinds, only: wp => qp
     use gapbeam_polyline_quad, only: node_support_type, coincide, piece_that_acts, open_from
     use gapbeam_model_quad, only: beam_type
-    use gapbeam_lines, only: lines_type, way_type, solve_lines, find_falling, is_held_twice, rise, fall, turn
+    use gapbeam_region_responses, only: responses_type, outgoing_type, solve_responses, find_falling, is_held_twice, &
+        rise, fall, turn
     implicit none
     private
-    public :: find_single_way
+    public :: find_single_direction
 
-    !> Looks at cells without progress in which all that moves the wrong way is passed, and looks in all, for the single way
+    !> Looks at regions without progress in which all that moves the wrong way is passed, and looks in all, for the single way
     integer, parameter :: non_monotone_steps = 3, most_looks = 200
 
 contains
 
     !> Find the way on where no force falls, so that there is one
-    subroutine find_single_way(beam, factor, before, came, wanted, broken, at_hand, lines, ways)
-        !> As for find_ways
+    subroutine find_single_direction(beam, factor, before, came, wanted, broken, at_hand, responses, outgoing)
+        !> As for find_outgoing
         type(beam_type), intent(in) :: beam
         real(wp), intent(in) :: factor
         logical, intent(in) :: before(:)
         integer, intent(in) :: came, wanted
         logical, intent(in) :: broken(:), at_hand(:)
-        type(lines_type), intent(inout) :: lines
+        type(responses_type), intent(inout) :: responses
         !> That way; one for each direction if the path comes from nowhere; none if there is none, or not only one
-        type(way_type), allocatable, intent(out) :: ways(:)
-        type(way_type) :: way
+        type(outgoing_type), allocatable, intent(out) :: outgoing(:)
+        type(outgoing_type) :: way
         integer :: direction
         logical :: found
 
-        allocate (ways(0))
+        allocate (outgoing(0))
         if (any(broken)) return
         do direction = rise, fall, -2
             if (abs(came) == 1 .and. direction /= came) cycle
             if (wanted /= turn .and. direction /= wanted) cycle
-            call search_way(beam, factor, before, direction, at_hand, lines, way%closed, found)
+            call search_way(beam, factor, before, direction, at_hand, responses, way%closed, found)
             if (.not. found) cycle
             way%direction = direction
-            ways = [ways, way]
+            outgoing = [outgoing, way]
         end do
-    end subroutine find_single_way
+    end subroutine find_single_direction
 
     !> Pass breakpoints that move the wrong way until none does
-    subroutine search_way(beam, factor, before, direction, at_hand, lines, closed, found)
+    subroutine search_way(beam, factor, before, direction, at_hand, responses, closed, found)
         type(beam_type), intent(in) :: beam
         real(wp), intent(in) :: factor
         logical, intent(in) :: before(:)
         integer, intent(in) :: direction
         logical, intent(in) :: at_hand(:)
-        type(lines_type), intent(inout) :: lines
-        !> The cell of the way
+        type(responses_type), intent(inout) :: responses
+        !> The region of the way
         logical, allocatable, intent(out) :: closed(:)
         logical, intent(out) :: found
         logical, allocatable :: reached(:), falling(:)
@@ -67,18 +68,18 @@ contains
         do looks = 1, most_looks
             if (any_falls(beam%supports, closed, reached)) return
             if (is_held_twice(beam, closed)) then
-                lines%regular = .false.
+                responses%regular = .false.
             else
-                call solve_lines(beam, closed, lines)
+                call solve_responses(beam, closed, responses)
             end if
-            if (.not. lines%regular) then
+            if (.not. responses%regular) then
                 if (idle > non_monotone_steps) return
                 ! One by one, from the beginning
                 closed(:) = before
                 idle = non_monotone_steps + 1
                 cycle
             end if
-            call find_falling(beam, closed, factor, direction, reached, lines, falling)
+            call find_falling(beam, closed, factor, direction, reached, responses, falling)
             found = .not. any(falling)
             if (found) return
             reached(:) = reached .or. falling
@@ -135,4 +136,4 @@ contains
         call open_from(supports, closed)
     end subroutine pass_breakpoints
 
-end module gapbeam_single_way
+end module gapbeam_single_direction

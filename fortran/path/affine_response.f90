@@ -1,6 +1,6 @@
 !> Reactions and openings as lines over the load factor while one scheme acts: v = v0 + factor v1, v0 from the dead loads and
 !> the contact levels, v1 from the live loads alone
-module gapbeam_line
+module gapbeam_affine_response
     use gapbeam_kinds, only: wp
     use gapbeam_law_margins, only: margin_in_scheme
     use gapbeam_law_adapters, only: drop_level
@@ -9,12 +9,12 @@ module gapbeam_line
     use gapbeam_rules, only: first_width
     implicit none
     private
-    public :: line_type, line_of, without_dead_loads, drop_live, value_at, width_at, zero_of, falls, rises, stays_at_zero
+    public :: response_type, response_of, without_dead_loads, drop_live, value_at, width_at, zero_of, falls, rises, stays_at_zero
 
     !> Force with which a support pushes, or its distance to contact, and the errors of the coefficients
-    type :: line_type
+    type :: response_type
         real(wp) :: v0 = 0.0_wp, v1 = 0.0_wp, error_of_v0 = 0.0_wp, error_of_v1 = 0.0_wp
-    end type line_type
+    end type response_type
 
 contains
 
@@ -68,7 +68,7 @@ contains
     end subroutine drop_live
 
     !> The line of a support
-    pure function line_of(beam, incremental, closed, k, dead, live) result(line)
+    pure function response_of(beam, incremental, closed, k, dead, live) result(response)
         !> The beam, and what without_dead_loads makes of it
         type(beam_type), intent(in) :: beam, incremental
         !> The scheme, and the number of the support
@@ -76,68 +76,68 @@ contains
         integer, intent(in) :: k
         !> v0 and v1, solved with the scheme at hand
         type(workspace_type), intent(in) :: dead, live
-        type(line_type) :: line
+        type(response_type) :: response
 
         associate (i => beam%supports(k)%node)
             call margin_in_scheme(beam%supports, closed, k, dead%answers(i)%deflection, dead%deflection_size(i), dead%reaction, &
-                                  dead%reaction_error, line%v0, line%error_of_v0)
+                                  dead%reaction_error, response%v0, response%error_of_v0)
             call margin_in_scheme(incremental%supports, closed, k, live%answers(i)%deflection, live%deflection_size(i), &
-                                  live%reaction, live%reaction_error, line%v1, line%error_of_v1)
+                                  live%reaction, live%reaction_error, response%v1, response%error_of_v1)
         end associate
-        line%error_of_v0 = first_width*line%error_of_v0
-        line%error_of_v1 = first_width*line%error_of_v1
-    end function line_of
+        response%error_of_v0 = first_width*response%error_of_v0
+        response%error_of_v1 = first_width*response%error_of_v1
+    end function response_of
 
     !> Value at a factor
-    elemental function value_at(line, factor) result(value)
-        type(line_type), intent(in) :: line
+    elemental function value_at(response, factor) result(value)
+        type(response_type), intent(in) :: response
         real(wp), intent(in) :: factor
         real(wp) :: value
 
-        value = line%v0 + factor*line%v1
+        value = response%v0 + factor*response%v1
     end function value_at
 
     !> How near to zero counts as zero at a factor
-    elemental function width_at(line, factor) result(width)
-        type(line_type), intent(in) :: line
+    elemental function width_at(response, factor) result(width)
+        type(response_type), intent(in) :: response
         real(wp), intent(in) :: factor
         real(wp) :: width
 
-        width = max(line%error_of_v0 + abs(factor)*line%error_of_v1, &
-                    4*epsilon(1.0_wp)*max(abs(line%v0), abs(factor*line%v1)))
+        width = max(response%error_of_v0 + abs(factor)*response%error_of_v1, &
+                    4*epsilon(1.0_wp)*max(abs(response%v0), abs(factor*response%v1)))
     end function width_at
 
     !> The factor at which a line that is not level is zero
-    elemental function zero_of(line) result(zero)
-        type(line_type), intent(in) :: line
+    elemental function zero_of(response) result(zero)
+        type(response_type), intent(in) :: response
         real(wp) :: zero
 
-        zero = -line%v0/line%v1
+        zero = -response%v0/response%v1
     end function zero_of
 
     !> Does a line fall as the factor grows
-    elemental function falls(line)
-        type(line_type), intent(in) :: line
+    elemental function falls(response)
+        type(response_type), intent(in) :: response
         logical :: falls
 
-        falls = line%v1 < -line%error_of_v1
+        falls = response%v1 < -response%error_of_v1
     end function falls
 
     !> Does a line rise as the factor grows
-    elemental function rises(line)
-        type(line_type), intent(in) :: line
+    elemental function rises(response)
+        type(response_type), intent(in) :: response
         logical :: rises
 
-        rises = line%v1 > line%error_of_v1
+        rises = response%v1 > response%error_of_v1
     end function rises
 
     !> Is a line zero, and does it stay so
-    elemental function stays_at_zero(line, factor) result(stays)
-        type(line_type), intent(in) :: line
+    elemental function stays_at_zero(response, factor) result(stays)
+        type(response_type), intent(in) :: response
         real(wp), intent(in) :: factor
         logical :: stays
 
-        stays = .not. (falls(line) .or. rises(line)) .and. abs(value_at(line, factor)) <= width_at(line, factor)
+        stays = .not. (falls(response) .or. rises(response)) .and. abs(value_at(response, factor)) <= width_at(response, factor)
     end function stays_at_zero
 
-end module gapbeam_line
+end module gapbeam_affine_response

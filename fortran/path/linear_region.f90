@@ -6,7 +6,7 @@
 !> one (Katzenelson 1965; Chien and Kuh 1977; the path of a parametric linear complementarity problem, Cottle 1972).
 !> Coincident events and ties need nothing of their own. Where contact is lost and the beam is free to
 !> turn, the scheme just above is that with which it comes to rest: the limit from the right.
-module gapbeam_cell
+module gapbeam_linear_region
     use gapbeam_kinds, only: wp => qp
     use gapbeam_error, only: error_type, gapbeam_solved, fatal_error, gapbeam_not_converged
     use gapbeam_band_quad, only: band_ok
@@ -16,10 +16,10 @@ module gapbeam_cell
     use gapbeam_system_quad, only: solve_and_refine
     use gapbeam_search_quad, only: rule_block
     use gapbeam_scheme_quad, only: find_scheme, outcome_type
-    use gapbeam_line_quad, only: line_type, line_of, without_dead_loads, zero_of, falls, rises
+    use gapbeam_affine_response_quad, only: response_type, response_of, without_dead_loads, zero_of, falls, rises
     implicit none
     private
-    public :: cell_type, find_cell
+    public :: region_type, find_region
 
     !> The first factor tried is above the given one by this share of the way; none nearer than this is
     real(wp), parameter :: first_share = 2.0_wp**(-40), last_share = 2.0_wp**(-48)
@@ -29,21 +29,21 @@ module gapbeam_cell
     real(wp), parameter :: weaker = 2.0_wp**(-24)
 
     !> A stretch of the path
-    type :: cell_type
+    type :: region_type
         !> The scheme, shape (size(supports))
         logical, allocatable :: closed(:)
         !> Where it ends; huge if never
         real(wp) :: to = huge(1.0_wp)
         !> Reactions and openings over the factor
-        type(line_type), allocatable :: lines(:)
+        type(response_type), allocatable :: responses(:)
         !> Linear solves
         integer :: solves = 0
-    end type cell_type
+    end type region_type
 
 contains
 
     !> Find the stretch that begins at a factor
-    subroutine find_cell(beam, factor, limit, start, cell, outcome, error)
+    subroutine find_region(beam, factor, limit, start, region, outcome, error)
         !> The beam
         type(beam_type), intent(in) :: beam
         !> The factor, and the end of the path
@@ -51,7 +51,7 @@ contains
         !> Where the search for the scheme starts
         logical, intent(in) :: start(:)
         !> The stretch
-        type(cell_type), intent(out) :: cell
+        type(region_type), intent(out) :: region
         !> No equilibrium above the factor, with the motion
         type(outcome_type), intent(out) :: outcome
         !> As for find_scheme
@@ -63,18 +63,18 @@ contains
         scale_of_factor = max(abs(factor), limit - factor)
         trial = factor + first_share*scale_of_factor
         call new_workspace(beam, work)
-        allocate (cell%closed(size(start)), cell%lines(size(start)))
+        allocate (region%closed(size(start)), region%responses(size(start)))
         farther = .false.
         do
-            cell%closed(:) = start
+            region%closed(:) = start
             call set_loads(beam, trial, work)
-            call find_scheme(beam, trial, rule_block, cell%closed, work, outcome, error)
-            cell%solves = cell%solves + work%solves
+            call find_scheme(beam, trial, rule_block, region%closed, work, outcome, error)
+            region%solves = region%solves + work%solves
             if (allocated(error)) return
             if (outcome%status == gapbeam_solved) then
-                call find_lines(beam, work, cell, error)
+                call find_responses(beam, work, region, error)
                 if (allocated(error)) return
-                call find_interval(cell, trial, from)
+                call find_interval(region, trial, from)
             else
                 from = start_of_motion(beam, outcome%motion)
             end if
@@ -90,12 +90,12 @@ contains
                 trial = factor + (min(from, trial) - factor)/2
             else
                 ! Farther, if so near to the factor even this precision cannot tell what falls from zero
-                farther = outcome%status == gapbeam_solved .and. .not. cell%to > trial .and. trial < limit
+                farther = outcome%status == gapbeam_solved .and. .not. region%to > trial .and. trial < limit
                 if (.not. farther) exit
                 trial = min(limit, factor + 16*(trial - factor))
             end if
         end do
-    end subroutine find_cell
+    end subroutine find_region
 
     !> The factor above which the loads do work along a motion
     function start_of_motion(beam, motion) result(factor)
@@ -110,11 +110,11 @@ contains
     end function start_of_motion
 
     !> Solve the scheme for dead and for live loads
-    subroutine find_lines(beam, work, cell, error)
+    subroutine find_responses(beam, work, region, error)
         type(beam_type), intent(in) :: beam
         !> The solution at the factor tried
         type(workspace_type), intent(in) :: work
-        type(cell_type), intent(inout) :: cell
+        type(region_type), intent(inout) :: region
         type(error_type), allocatable, intent(out) :: error
         type(beam_type) :: incremental
         type(workspace_type) :: dead, live
@@ -130,41 +130,41 @@ contains
         dead%reference = work%answers%deflection
         call set_loads(beam, 0.0_wp, dead)
         call set_loads(incremental, 1.0_wp, live)
-        call solve_and_refine(beam, cell%closed, dead, state, place)
-        if (state == band_ok) call solve_and_refine(incremental, cell%closed, live, state, place)
+        call solve_and_refine(beam, region%closed, dead, state, place)
+        if (state == band_ok) call solve_and_refine(incremental, region%closed, live, state, place)
         if (state /= band_ok) then
             call fatal_error(error, gapbeam_not_converged, "the beam is held by so little that the path of its supports "// &
                              "could not be followed: follow the load by steps")
             return
         end if
-        cell%solves = cell%solves + 2
+        region%solves = region%solves + 2
         springs = sum(dead%proximal_weight*(abs(dead%reference - dead%answers%deflection) + abs(live%answers%deflection)))
-        do k = 1, size(cell%closed)
-            cell%lines(k) = line_of(beam, incremental, cell%closed, k, dead, live)
+        do k = 1, size(region%closed)
+            region%responses(k) = response_of(beam, incremental, region%closed, k, dead, live)
             ! What only the weak springs press on carries nothing
-            associate (line => cell%lines(k))
+            associate (response => region%responses(k))
                 if (beam%supports(k)%breakpoint > 0) cycle
-                if (cell%closed(k) .and. max(abs(line%v0), abs(line%v1)) <= 2*springs) line = line_type()
+                if (region%closed(k) .and. max(abs(response%v0), abs(response%v1)) <= 2*springs) response = response_type()
             end associate
         end do
-    end subroutine find_lines
+    end subroutine find_responses
 
     !> The interval of factors on which no sign is wrong, around the factor tried
-    pure subroutine find_interval(cell, trial, from)
-        type(cell_type), intent(inout) :: cell
+    pure subroutine find_interval(region, trial, from)
+        type(region_type), intent(inout) :: region
         real(wp), intent(in) :: trial
         !> Where it begins
         real(wp), intent(out) :: from
         integer :: k
 
         from = -huge(from)
-        cell%to = huge(from)
-        do k = 1, size(cell%lines)
-            associate (line => cell%lines(k))
-                if (falls(line)) cell%to = min(cell%to, max(trial, zero_of(line)))
-                if (rises(line)) from = max(from, min(trial, zero_of(line)))
+        region%to = huge(from)
+        do k = 1, size(region%responses)
+            associate (response => region%responses(k))
+                if (falls(response)) region%to = min(region%to, max(trial, zero_of(response)))
+                if (rises(response)) from = max(from, min(trial, zero_of(response)))
             end associate
         end do
     end subroutine find_interval
 
-end module gapbeam_cell
+end module gapbeam_linear_region
