@@ -16,7 +16,7 @@ program lane_widths
     use gapbeam_workspace, only: workspace_type, new_workspace
     use gapbeam_search, only: rule_block
     use gapbeam_cases, only: case_loads_type, split_loads, solve_case, replace_supports
-    use gapbeam_lane_levels, only: least_level, best_level
+    use gapbeam_cpu_dispatch, only: least_level, best_level
     use gapbeam_lane_cases, only: lane_room_type, fits_lanes, solve_in_lanes
     use gapbeam_many_cases, only: case_room_type, solve_cases
     implicit none

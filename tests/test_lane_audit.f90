@@ -9,8 +9,8 @@ program test_lane_audit
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_cases, only: case_loads_type, split_loads
     use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type, new_pack
-    use gapbeam_lane_levels, only: least_level, best_level, take_columns_at, take_numbers_at, search_pack_at, finish_pack_at, &
-        audit_pack_at
+    use gapbeam_cpu_dispatch, only: least_level, best_level, take_columns_at, take_numbers_at, search_pack_at, &
+        finish_pack_at, audit_pack_at
     use gapbeam_lane_spans, only: span_room_type, prepare_spans, take_spans, make_pack_links
     use gapbeam_lane_cases, only: fits_lanes
     use gapbeam_lane_model, only: prepare_lanes, take_supports, take_starts, units_of_supports

@@ -12,7 +12,7 @@ program test_lanes
     use gapbeam_workspace, only: workspace_type, new_workspace
     use gapbeam_search, only: rule_block
     use gapbeam_cases, only: case_loads_type, split_loads, solve_case, replace_supports
-    use gapbeam_lane_levels, only: least_level, best_level
+    use gapbeam_cpu_dispatch, only: least_level, best_level
     use gapbeam_lane_cases, only: lane_room_type, fits_lanes, solve_in_lanes
     use gapbeam_case_extremes, only: extremes_of_cases
     use gapbeam_case_certificates, only: certify_cases, certificate_numbers

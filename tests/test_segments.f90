@@ -12,7 +12,7 @@ program test_segments
     use gapbeam_workspace, only: workspace_type, new_workspace
     use gapbeam_search, only: rule_block
     use gapbeam_cases, only: case_loads_type, split_loads, solve_case, replace_supports
-    use gapbeam_lane_levels, only: least_level, best_level, audit_segments_at
+    use gapbeam_cpu_dispatch, only: least_level, best_level, audit_segments_at
     use gapbeam_segment_types, only: segment_room_type
     use gapbeam_segment_cases, only: segments_type, fits_segments, solve_in_segments
     implicit none

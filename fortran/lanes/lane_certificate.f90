@@ -1,18 +1,19 @@
 !> How good the solutions of eight cases are: gapbeam_certificate side by side. Where that compares with a solution in quadruple
 !> precision and estimates movements, residuals in twice the working precision are taken here as one more thing by which the rows
-!> are off, and all movements are bounds (gapbeam_lane_movements). Both are bounds of the same errors, none always the smaller.
+!> are off, and all movements are bounds (gapbeam_lane_error_ellipses). Both are bounds of the same errors, none always the smaller.
 module gapbeam_lane_certificate
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes, lane_beam_type, lane_rounding_type, pack_type, &
         link_faa, link_fab, link_fbb, link_sum_a, link_sum_b, link_bending
     use gapbeam_lane_search, only: add_loads, apply_scheme
-    use gapbeam_lane_row_errors, only: unit => rounding_unit, greatest, find_sizes, look_at_range
+    use gapbeam_lane_row_errors, only: unit => rounding_unit, greatest, find_sizes, limit_range
     use gapbeam_lane_residual, only: find_rest, find_rest_at_restraints
     use gapbeam_lane_reactions, only: complete
     use gapbeam_lane_audit, only: audit_pack
     use gapbeam_lane_measures, only: measure_pack
     use gapbeam_lane_fields, only: find_rotations
-    use gapbeam_lane_movements, only: find_movements, kinds_of_movement, of_deflection, of_moment, of_shear, of_rotation
+    use gapbeam_lane_error_ellipses, only: find_movements, kinds_of_movement, of_deflection, of_moment, of_shear, &
+        of_rotation
     implicit none
     private
     public :: certify_pack
@@ -57,11 +58,11 @@ contains
             call find_rest_at_restraints(beam, pack%links, n, pack%left, pack%right, pack%couple, pack%w, pack%ml, pack%mr, &
                                          pack%left_rest, pack%turn_rest)
         end if
-        call look_at_known(n, pack%known_rest, poor)
+        call find_wrong_levels(n, pack%known_rest, poor)
         call find_sizes(beam, n, rounding, pack%left, pack%right, pack%force, pack%couple, pack%load_size, pack%turn_size, &
                         pack%held, pack%spring, pack%w, pack%ml, pack%mr, pack%left_rest, pack%turn_rest, pack%force_rest, &
                         pack%dw, pack%dl, pack%dr)
-        call look_at_range(n, pack%dw, pack%dl, pack%dr, poor)
+        call limit_range(n, pack%dw, pack%dl, pack%dr, poor)
         call find_movements(beam, n, pack%held, pack%spring, pack%dw, pack%dl, pack%dr, moves, lost)
         poor(:) = poor + lost
         call find_rotations(beam, pack%links, n, pack%left, pack%right, pack%w, pack%ml, pack%mr, pack%room)
@@ -74,7 +75,7 @@ contains
     end subroutine certify_pack
 
     !> Cases with a known deflection that is another
-    pure subroutine look_at_known(n, known_rest, poor)
+    pure subroutine find_wrong_levels(n, known_rest, poor)
         integer, intent(in) :: n
         real(wp), intent(in) :: known_rest(lanes, 0:n)
         real(wp), intent(inout) :: poor(lanes)
@@ -86,7 +87,7 @@ contains
                 poor(l) = poor(l) + merge(1.0_wp, 0.0_wp, abs(known_rest(l, i)) > 0.0_wp)
             end do
         end do
-    end subroutine look_at_known
+    end subroutine find_wrong_levels
 
     !> Errors of the shears and rotations of links as they are found for fields: by their own ends, or through a neighbour
     pure subroutine bound_links(beam, n, rounding, right, turn_size, held, spring, force, w, ml, mr, couple, room, moves)

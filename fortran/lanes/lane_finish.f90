@@ -2,9 +2,9 @@
 module gapbeam_lane_finish
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes, link_numbers, lane_beam_type, pack_type, by_both_ends, by_three_moments
-    use gapbeam_lane_each, only: each
+    use gapbeam_lane_stiffness, only: stiffness_lanes
     use gapbeam_lane_sweeps, only: sweep_three_moments, sweep_chain
-    use gapbeam_lane_passes, only: pass_both_ends, correct_both_ends
+    use gapbeam_lane_two_sided_sweep, only: pass_both_ends, correct_both_ends
     use gapbeam_lane_residual, only: find_rest, find_rest_at_restraints
     use gapbeam_lane_reactions, only: complete, doubt_corrections
     use gapbeam_lane_search, only: apply_scheme
@@ -80,7 +80,7 @@ contains
         type(lane_beam_type), intent(in) :: beam
         integer, intent(in) :: n, method
         !> Numbers of the links (pack_type)
-        real(wp), intent(in) :: links(each, link_numbers, n)
+        real(wp), intent(in) :: links(stiffness_lanes, link_numbers, n)
         real(wp), intent(in), dimension(lanes, 0:n) :: left, right, force, couple, held, known, spring
         real(wp), intent(inout), dimension(lanes, 0:n) :: w, ml, mr
         real(wp), intent(inout) :: room(lanes, 0:n, 10), turning(lanes, size(beam%restrained), 5)

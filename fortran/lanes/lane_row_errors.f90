@@ -4,7 +4,7 @@ module gapbeam_lane_row_errors
     use gapbeam_lane_types, only: lanes, lane_beam_type, lane_rounding_type, link_faa, link_fab, link_fbb
     implicit none
     private
-    public :: rounding_unit, greatest, find_sizes, look_at_range
+    public :: rounding_unit, greatest, find_sizes, limit_range
 
     !> As safety and roundings of gapbeam_certificate
     real(wp), parameter :: rounding_unit = 4*epsilon(1.0_wp)
@@ -121,7 +121,7 @@ contains
     end subroutine find_sizes
 
     !> Numbers too far from 1 for their squares
-    pure subroutine look_at_range(n, left_off, turn_off, force_off, poor)
+    pure subroutine limit_range(n, left_off, turn_off, force_off, poor)
         integer, intent(in) :: n
         real(wp), intent(inout), dimension(lanes, 0:n) :: left_off, turn_off, force_off
         real(wp), intent(inout) :: poor(lanes)
@@ -146,6 +146,6 @@ contains
             turn_off(l, :) = 0.0_wp
             force_off(l, :) = 0.0_wp
         end do
-    end subroutine look_at_range
+    end subroutine limit_range
 
 end module gapbeam_lane_row_errors

@@ -7,9 +7,9 @@
 module gapbeam_lane_search
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type, by_both_ends, by_three_moments, by_chain
-    use gapbeam_lane_each, only: each
+    use gapbeam_lane_stiffness, only: stiffness_lanes
     use gapbeam_lane_sweeps, only: sweep_chain
-    use gapbeam_lane_passes, only: pass_both_ends, find_wrong_between
+    use gapbeam_lane_two_sided_sweep, only: pass_both_ends, find_wrong_between
     use gapbeam_lane_shared, only: keep_loads, join_supports, find_wrong_beside, wait_beside
     implicit none
     private
@@ -69,12 +69,12 @@ contains
             k = beam%link_load(j)
             !$omp simd
             do l = 1, lanes
-                right(l, i - 1) = right(l, i - 1) + factors(l, k)*beam%to_link(min(l, each), 1, j)
-                left(l, i) = left(l, i) + factors(l, k)*beam%to_link(min(l, each), 2, j)
-                room(l, i, 1) = room(l, i, 1) + factors(l, k)*beam%to_link(min(l, each), 3, j)
-                room(l, i, 2) = room(l, i, 2) + factors(l, k)*beam%to_link(min(l, each), 4, j)
-                room(l, i, 3) = room(l, i, 3) + abs(factors(l, k))*beam%to_link(min(l, each), 5, j)
-                turn_size(l, i) = turn_size(l, i) + abs(factors(l, k))*beam%to_link(min(l, each), 6, j)
+                right(l, i - 1) = right(l, i - 1) + factors(l, k)*beam%to_link(min(l, stiffness_lanes), 1, j)
+                left(l, i) = left(l, i) + factors(l, k)*beam%to_link(min(l, stiffness_lanes), 2, j)
+                room(l, i, 1) = room(l, i, 1) + factors(l, k)*beam%to_link(min(l, stiffness_lanes), 3, j)
+                room(l, i, 2) = room(l, i, 2) + factors(l, k)*beam%to_link(min(l, stiffness_lanes), 4, j)
+                room(l, i, 3) = room(l, i, 3) + abs(factors(l, k))*beam%to_link(min(l, stiffness_lanes), 5, j)
+                turn_size(l, i) = turn_size(l, i) + abs(factors(l, k))*beam%to_link(min(l, stiffness_lanes), 6, j)
             end do
         end do
         do j = 1, size(beam%node)
@@ -135,7 +135,7 @@ contains
                 call sweep_chain(beam, pack%links, n, pack%left, pack%right, pack%force, pack%couple, pack%held, pack%known, &
                                  pack%spring, pack%room, pack%turning, pack%w, pack%ml, pack%mr, moves)
                 ! A scheme that moves is solved once more, with weak springs, as by gapbeam_scheme
-                proximal_weight(:) = proximal_weight + moves*[(beam%proximal_weight(min(l, each)), l=1, lanes)]
+                proximal_weight(:) = proximal_weight + moves*[(beam%proximal_weight(min(l, stiffness_lanes)), l=1, lanes)]
                 looked_at(:) = alive*(1.0_wp - moves)
                 call find_wrong(beam, n, looked_at, pack%shear, pack%stiffness, pack%contact, pack%held, pack%closed, pack%w, &
                                 pack%ml, pack%mr, pack%turn_rest, wrong)

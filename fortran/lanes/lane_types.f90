@@ -20,7 +20,7 @@ module gapbeam_lane_types
     integer, parameter :: by_both_ends = 1, by_three_moments = 2, by_chain = 3
 
     !> What cases have in common: links, shape (n), and supports, shape (0:n). What follows from stiffnesses is by lane where these
-    !> differ from case to case, and belongs to the eight cases at hand; else the first extent is 1 (gapbeam_lane_each)
+    !> differ from case to case, and belongs to the eight cases at hand; else the first extent is 1 (gapbeam_lane_stiffness)
     type :: lane_beam_type
         integer :: n = 0
         !> Stiffness of the weak springs that hold a scheme which moves, shape (1 or lanes)

@@ -6,7 +6,7 @@ module gapbeam_segment_finish
     use gapbeam_lane_residual, only: find_rest_along
     use gapbeam_lane_audit, only: audit_along
     use gapbeam_segment_types, only: segment_beam_type, segment_room_type, node_of, half
-    use gapbeam_segment_passes, only: solve_segments
+    use gapbeam_segment_two_sided_sweep, only: solve_segments
     use gapbeam_segment_search, only: search_segments
     implicit none
     private

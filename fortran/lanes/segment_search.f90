@@ -7,7 +7,7 @@ module gapbeam_segment_search
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes
     use gapbeam_segment_types, only: segment_beam_type, segment_room_type, node_of, half
-    use gapbeam_segment_passes, only: solve_segments
+    use gapbeam_segment_two_sided_sweep, only: solve_segments
     implicit none
     private
     public :: search_segments
@@ -17,7 +17,7 @@ module gapbeam_segment_search
     !> Without progress so few wrong supports, or as many as there are after so many solves, are changed only where others near them
     !> are not. Before that boundaries move, which takes long step by step
     integer, parameter :: few = 16, few_solves = 2
-    !> Rounds of a solve (gapbeam_segment_passes): what is not yet exact goes on with the next one
+    !> Rounds of a solve (gapbeam_segment_two_sided_sweep): what is not yet exact goes on with the next one
     integer, parameter :: most_rounds = 2
     !> So many nodes farther on supports hardly turn each other round
     integer, parameter :: neighbourhood = 20

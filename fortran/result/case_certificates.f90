@@ -16,8 +16,8 @@ module gapbeam_case_certificates
     use gapbeam_cases, only: case_loads_type
     use gapbeam_combinations, only: combination_type, varied_type, combine, solve_combination
     use gapbeam_lane_types, only: lanes, lane_beam_type, lane_rounding_type, pack_type, new_pack
-    use gapbeam_lane_movements, only: kinds_of_movement
-    use gapbeam_lane_levels, only: take_columns_at, take_numbers_at, certify_pack_at, best_level
+    use gapbeam_lane_error_ellipses, only: kinds_of_movement
+    use gapbeam_cpu_dispatch, only: take_columns_at, take_numbers_at, certify_pack_at, best_level
     use gapbeam_lane_cases, only: fits_lanes
     use gapbeam_lane_model, only: prepare_lanes, take_supports, take_starts, units_of_supports
     implicit none

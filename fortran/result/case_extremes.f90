@@ -12,7 +12,7 @@ module gapbeam_case_extremes
     use gapbeam_cases, only: case_loads_type
     use gapbeam_combinations, only: combination_type, varied_type, combine, solve_combination
     use gapbeam_lane_types, only: lanes, lane_beam_type, lane_pieces_type, pack_type, piece_pack_type, new_pack, new_piece_pack
-    use gapbeam_lane_levels, only: take_columns_at, take_numbers_at, extremes_of_pack_at, fields_of_pack_at, best_level
+    use gapbeam_cpu_dispatch, only: take_columns_at, take_numbers_at, extremes_of_pack_at, fields_of_pack_at, best_level
     use gapbeam_lane_pieces, only: prepare_pieces
     use gapbeam_lane_spans, only: span_room_type, prepare_spans, take_spans, make_pack_links
     use gapbeam_lane_model, only: prepare_lanes, take_supports, take_starts, units_of_supports

@@ -9,7 +9,7 @@ module gapbeam_lane_cases
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_cases, only: case_loads_type, split_loads, leave_room, give_case
     use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type, new_pack
-    use gapbeam_lane_levels, only: take_columns_at, take_numbers_at, give_pack_at, search_pack_at, finish_pack_at, &
+    use gapbeam_cpu_dispatch, only: take_columns_at, take_numbers_at, give_pack_at, search_pack_at, finish_pack_at, &
         audit_pack_at, best_level
     use gapbeam_lane_spans, only: span_room_type, prepare_spans, take_spans, make_pack_links
     use gapbeam_lane_model, only: prepare_lanes, take_supports, take_starts, units_of_supports
@@ -85,7 +85,7 @@ contains
         integer, intent(inout) :: solves(:)
         !> Which cases are done; the others are as they were
         logical, intent(out) :: done(:)
-        !> Instructions (gapbeam_lane_levels); default the best that there are
+        !> Instructions (gapbeam_cpu_dispatch); default the best that there are
         integer, intent(in), optional :: level
         real(wp) :: units(3)
         integer :: first, l, kind, solves_of(lanes), method(lanes), case_of(lanes), at_level

@@ -8,7 +8,7 @@ module gapbeam_lane_spans
     use gapbeam_assembled_model, only: assembled_type, in_bending, in_shear
     use gapbeam_cases, only: case_loads_type
     use gapbeam_lane_types, only: lanes, lane_beam_type, lane_pieces_type, lane_spans_type, pack_type, link_bending
-    use gapbeam_lane_levels, only: make_links_at
+    use gapbeam_cpu_dispatch, only: make_links_at
     use gapbeam_lane_pieces, only: prepare_pieces
     implicit none
     private
@@ -203,7 +203,7 @@ contains
 
     !> Make the links of eight cases whose stiffnesses have been taken
     subroutine make_pack_links(level, room, beam, pack)
-        !> Instructions (gapbeam_lane_levels)
+        !> Instructions (gapbeam_cpu_dispatch)
         integer, intent(in) :: level
         type(span_room_type), intent(inout) :: room
         !> What loads do to links, and weak springs, out

@@ -12,7 +12,7 @@ module gapbeam_segment_cases
     use gapbeam_cases, only: case_loads_type, give_case
     use gapbeam_lane_types, only: lanes
     use gapbeam_segment_types, only: segment_beam_type, segment_room_type, new_segments, node_of
-    use gapbeam_lane_levels, only: solve_segments_at, audit_segments_at, best_level
+    use gapbeam_cpu_dispatch, only: solve_segments_at, audit_segments_at, best_level
     implicit none
     private
     public :: segments_type, fits_segments, solve_in_segments, least_alone

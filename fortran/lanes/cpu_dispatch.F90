@@ -1,7 +1,7 @@
 !> Eight cases by the best instructions that the processor has. Modules whose names end in _v3 and _v4 are the same sources compiled
 !> for AVX2 and for AVX-512 (x86-64-v3 and v4 of the psABI), those with _own for stiffnesses that differ from case to case
-!> (gapbeam_lane_each); all give the same digits
-module gapbeam_lane_levels
+!> (gapbeam_lane_stiffness); all give the same digits
+module gapbeam_cpu_dispatch
     use, intrinsic :: iso_c_binding, only: c_int
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes, lane_beam_type, lane_pieces_type, lane_rounding_type, pack_type, piece_pack_type, &
@@ -381,4 +381,4 @@ contains
         end select
     end subroutine make_links_at
 
-end module gapbeam_lane_levels
+end module gapbeam_cpu_dispatch

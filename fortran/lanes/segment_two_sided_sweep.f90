@@ -5,7 +5,7 @@
 !> segment begins with a guess of what comes in from outside, all at once, and then again with what does come in, until the bits are
 !> those of before. Whether they are is tested, no tolerance is needed: where they never are, the segments end up one after the
 !> other. The way back is the same.
-module gapbeam_segment_passes
+module gapbeam_segment_two_sided_sweep
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes
     use gapbeam_segment_types, only: segment_beam_type, segment_room_type, half, kept
@@ -206,4 +206,4 @@ contains
         end do
     end subroutine go_outward
 
-end module gapbeam_segment_passes
+end module gapbeam_segment_two_sided_sweep

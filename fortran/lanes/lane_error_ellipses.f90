@@ -6,7 +6,7 @@
 !> around it goes through the elimination in its place. The smallest ellipses around the sum of two, as far as their sizes by the
 !> energy go, are those of Kurzhanski and Valyi (1997, 2.2). Where a result is looked at, one ellipse comes from either side, and
 !> the bound is their reach in the direction of that result: never less than the largest sum of |K^-1| times what rows are off.
-module gapbeam_lane_movements
+module gapbeam_lane_error_ellipses
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes, lane_beam_type, &
         link_faa, link_fab, link_fbb, link_sum_a, link_sum_b, link_bending, link_determinant
@@ -363,4 +363,4 @@ contains
         end do
     end subroutine add_rows
 
-end module gapbeam_lane_movements
+end module gapbeam_lane_error_ellipses

@@ -1,11 +1,11 @@
 !> Passes over the beams of eight cases, each end with a support that acts or a restraint, without couples and hinges; with the
 !> arithmetic of gapbeam_kernel, number by number: the bits are its. The scheme is applied on the way inward, signs are looked at on
 !> the way back, and a right-hand side can be solved for with the elimination of the pass before
-module gapbeam_lane_passes
+module gapbeam_lane_two_sided_sweep
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes, lane_beam_type, link_numbers, link_faa, link_fab, link_fbb, link_sum_a, link_sum_b, &
         link_bending, link_determinant
-    use gapbeam_lane_each, only: each
+    use gapbeam_lane_stiffness, only: stiffness_lanes
     implicit none
     private
     public :: pass_both_ends, find_wrong_between, correct_both_ends
@@ -17,7 +17,7 @@ contains
         type(lane_beam_type), intent(in) :: beam
         integer, intent(in) :: n
         !> Numbers of the links (pack_type)
-        real(wp), intent(in) :: links(each, link_numbers, n)
+        real(wp), intent(in) :: links(stiffness_lanes, link_numbers, n)
         !> Right-hand sides and supports (pack_type), shape (lanes, 0:n)
         real(wp), intent(in), dimension(lanes, 0:n) :: turn, shear, stiffness, rigid, contact
         !> 1 where a support is to be changed
@@ -70,7 +70,7 @@ contains
         !> Links; 1 from the left, 2 from the right; first and last node, step
         integer, intent(in) :: n, way, first, last, step
         !> Numbers of the links (pack_type)
-        real(wp), intent(in) :: links(each, link_numbers, n)
+        real(wp), intent(in) :: links(stiffness_lanes, link_numbers, n)
         !> As for pass_both_ends
         real(wp), intent(in), dimension(lanes, 0:n) :: turn, shear, stiffness, rigid, contact, change
         real(wp), intent(inout) :: closed(lanes, 0:n), room(lanes, 0:n, 10)
@@ -94,7 +94,7 @@ contains
         at_sum_far = merge(link_sum_b, link_sum_a, way == 1)
         !$omp simd private(far, acts, held, known, spring, force, free, stiff, v, softness, deflection)
         do l = 1, lanes
-            far = links(min(l, each), at_far, link)
+            far = links(min(l, stiffness_lanes), at_far, link)
             acts = abs(closed(l, i) - change(l, i))
             closed(l, i) = acts
             held = acts*rigid(l, i)
@@ -132,13 +132,13 @@ contains
             !$omp simd private(near, far, cross, sum_near, sum_far, bending, determinant, acts, held, known, spring, force, free, &
             !$omp   a, b, c, b_free, reciprocal, right, v, c_h, next, deflection, moment, before)
             do l = 1, lanes
-                near = links(min(l, each), at_near, link)
-                far = links(min(l, each), at_far, link)
-                cross = links(min(l, each), link_fab, link)
-                sum_near = links(min(l, each), at_sum_near, link)
-                sum_far = links(min(l, each), at_sum_far, link)
-                bending = links(min(l, each), link_bending, link)
-                determinant = links(min(l, each), link_determinant, link)
+                near = links(min(l, stiffness_lanes), at_near, link)
+                far = links(min(l, stiffness_lanes), at_far, link)
+                cross = links(min(l, stiffness_lanes), link_fab, link)
+                sum_near = links(min(l, stiffness_lanes), at_sum_near, link)
+                sum_far = links(min(l, stiffness_lanes), at_sum_far, link)
+                bending = links(min(l, stiffness_lanes), link_bending, link)
+                determinant = links(min(l, stiffness_lanes), link_determinant, link)
                 acts = abs(closed(l, i) - change(l, i))
                 closed(l, i) = acts
                 held = acts*rigid(l, i)
@@ -251,7 +251,7 @@ contains
         type(lane_beam_type), intent(in) :: beam
         integer, intent(in) :: n
         !> Numbers of the links (pack_type)
-        real(wp), intent(in) :: links(each, link_numbers, n)
+        real(wp), intent(in) :: links(stiffness_lanes, link_numbers, n)
         !> Right-hand sides, is the deflection known and which is it, shape (lanes, 0:n)
         real(wp), intent(in), dimension(lanes, 0:n) :: turn, force, held, known
         !> As pass_both_ends left it
@@ -287,7 +287,7 @@ contains
         !> As for go_inward
         integer, intent(in) :: n, way, first, last, step
         !> Numbers of the links (pack_type)
-        real(wp), intent(in) :: links(each, link_numbers, n)
+        real(wp), intent(in) :: links(stiffness_lanes, link_numbers, n)
         !> As for correct_both_ends
         real(wp), intent(in), dimension(lanes, 0:n) :: turn, force, held, known
         real(wp), intent(inout) :: room(lanes, 0:n, 10)
@@ -312,7 +312,7 @@ contains
             h = beam%inverse(link)
             !$omp simd private(cross, free, right, v, a, b, c, reciprocal, moment, deflection)
             do l = 1, lanes
-                cross = links(min(l, each), link_fab, link)
+                cross = links(min(l, stiffness_lanes), link_fab, link)
                 free = 1.0_wp - held(l, i)
                 a = room(l, i, 7)
                 b = room(l, i, 8)
@@ -330,4 +330,4 @@ contains
         end do
     end subroutine put_inward
 
-end module gapbeam_lane_passes
+end module gapbeam_lane_two_sided_sweep
