@@ -9,7 +9,7 @@ module gapbeam_workspace
     use gapbeam_model, only: beam_type
     implicit none
     private
-    public :: workspace_type, reach_type, new_workspace, set_loads, apply_scheme
+    public :: workspace_type, interval_type, new_workspace, set_loads, apply_scheme
     public :: method_mixed, method_three_moment, method_pivoting
 
     !> Nodes at which a search may solve, all its solves together, and solves it may take in any beam: some seconds
@@ -19,9 +19,9 @@ module gapbeam_workspace
     integer, parameter :: method_mixed = 0, method_three_moment = 1, method_pivoting = 2
 
     !> Sizes of a shear and of a deflection
-    type :: reach_type
+    type :: interval_type
         real(wp) :: shear = 0.0_wp, deflection = 0.0_wp
-    end type reach_type
+    end type interval_type
 
     !> Everything a solve needs beside the beam; reused from solve to solve
     type :: workspace_type
@@ -57,7 +57,7 @@ module gapbeam_workspace
         real(wp), allocatable :: level(:)
         !> Sizes of the shears and deflections whose rounding reaches a node: from beside it, from the left, from the
         !> right, from everywhere
-        type(reach_type), allocatable :: reach_own(:), reach_left(:), reach_right(:)
+        type(interval_type), allocatable :: reach_own(:), reach_left(:), reach_right(:)
         real(wp), allocatable :: shear_size(:), deflection_size(:)
         !> Springs towards a reference deflection that keep schemes which are mechanisms solvable; zero if unused
         real(wp), allocatable :: proximal_weight(:), reference(:)

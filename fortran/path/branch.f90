@@ -110,7 +110,7 @@ contains
             outcome = never_ends
             if (.not. any(at_hand)) return
         else
-            call look_ahead(branch, target, next, at_hand)
+            call enter_next_interval(branch, target, next, at_hand)
             if (direction == leg .and. direction*(next - target) >= 0.0_wp) then
                 branch%factor = target
                 segment%to = target
@@ -248,7 +248,7 @@ contains
     end function ends_at
 
     !> The next breakpoint along a line
-    subroutine look_ahead(branch, target, next, at_hand)
+    subroutine enter_next_interval(branch, target, next, at_hand)
         type(branch_type), intent(in) :: branch
         !> What is there but for rounding is there, and so it is at 0
         real(wp), intent(in) :: target
@@ -287,7 +287,7 @@ contains
                     .or. value_at(responses(k), next) <= 2*width_at(responses(k), next)
             end do
         end associate
-    end subroutine look_ahead
+    end subroutine enter_next_interval
 
     !> Turn until something holds the beam
     subroutine turn_on(branch, at_hand)

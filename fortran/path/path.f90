@@ -39,7 +39,7 @@ module gapbeam_path
     public :: follow_path, path_type, event_opens, event_closes, event_turns
 
     !> How much further up the scheme is looked for
-    real(wp), parameter :: look_ahead = 2.0_wp**(-20)
+    real(wp), parameter :: enter_next_interval = 2.0_wp**(-20)
     !> Factors in double and quadruple precision that differ by less, relative to the way, are the same
     real(wp), parameter :: agreement = 1e-9_wp
     !> Links up to which doubt is a reason for quadruple precision; in longer beams only if the end of the path is wrong
@@ -276,7 +276,7 @@ contains
         done = .false.
         allocate (after(size(closed)), doubtful(size(closed)), was_far(size(closed)), is_far(size(closed)))
         after(:) = closed
-        trial = factor + look_ahead*max(abs(factor), limit - factor)
+        trial = factor + enter_next_interval*max(abs(factor), limit - factor)
         call new_workspace(beam, work)
         call set_loads(beam, trial, work)
         call find_scheme(beam, trial, rule_block, after, work, outcome, error)

@@ -3,7 +3,7 @@
 !> The place of a train is that of its first axle. While no axle, and no end of a uniform load, passes a point at which a piece
 !> of the beam ends, what it does to the links is a polynomial in the place: the rotations of the simple bar under a unit
 !> force are the deflections under unit moments at its ends (Maxwell), of degree 3 in every piece. Such a range of places is a
-!> reach.
+!> interval.
 module gapbeam_train
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory

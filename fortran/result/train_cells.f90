@@ -1,5 +1,5 @@
 !> The beam under a train, cut where its pieces end and where axles and ends of its uniform loads are: in every such cell the fields
-!> are polynomials in x, and while the train is in one reach, in its place as well.
+!> are polynomials in x, and while the train is in one interval, in its place as well.
 module gapbeam_train_cells
     use gapbeam_kinds, only: wp
     use gapbeam_element, only: field_type, fields_at
@@ -8,7 +8,7 @@ module gapbeam_train_cells
     use gapbeam_workspace, only: workspace_type
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_train, only: train_type, track_type
-    use gapbeam_train_reaches, only: reach_type
+    use gapbeam_train_intervals, only: interval_type
     implicit none
     private
     public :: cell_type, cells_type, new_cells, find_cells, fill_cells, recover_cells, cell_ends, fields_in_cell, x_in_cell, &
@@ -100,16 +100,16 @@ contains
 
     end subroutine new_cells
 
-    !> The cells of a reach
-    subroutine find_cells(track, train, reach, cells)
+    !> The cells of an interval
+    subroutine find_cells(track, train, interval, cells)
         type(track_type), intent(in) :: track
         type(train_type), intent(in) :: train
-        type(reach_type), intent(in) :: reach
+        type(interval_type), intent(in) :: interval
         type(cells_type), intent(inout) :: cells
         real(wp) :: middle, from, to
         integer :: i, j, k, next
 
-        middle = reach%from + (reach%to - reach%from)/2
+        middle = interval%from + (interval%to - interval%from)/2
         cells%number = 0
         next = 1
         do j = 1, size(track%link)
@@ -154,16 +154,16 @@ contains
             integer :: piece, load
 
             if (cells%axle(point) > 0) then
-                piece = reach%piece(cells%axle(point))
+                piece = interval%piece(cells%axle(point))
                 return
             end if
             piece = 0
             load = (1 - cells%axle(point))/2
-            if (reach%first(load) > reach%last(load)) return
+            if (interval%first(load) > interval%last(load)) return
             associate (x => middle + cells%offset(point))
                 if (x < 0.0_wp .or. x > track%x(ubound(track%x, 1))) return
             end associate
-            piece = merge(reach%first(load), reach%last(load), cells%axle(point) == 1 - 2*load)
+            piece = merge(interval%first(load), interval%last(load), cells%axle(point) == 1 - 2*load)
         end function piece_of
 
     end subroutine find_cells

@@ -5,7 +5,7 @@ module gapbeam_train_events
     use gapbeam_polyline, only: last_breakpoint
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_pieces, only: acting_type, acting_piece, what_happens, nothing
-    use gapbeam_train_passage, only: passage_type
+    use gapbeam_train_traversal, only: traversal_type
     implicit none
     private
     public :: train_event_type, find_events
@@ -20,10 +20,10 @@ module gapbeam_train_events
 contains
 
     !> The events on the way of a train. What changes though it is zero all the way is none
-    subroutine find_events(assembled, passage, backwards, events, error)
+    subroutine find_events(assembled, traversal, backwards, events, error)
         type(assembled_type), intent(in) :: assembled
         !> By pass_train
-        type(passage_type), intent(in) :: passage
+        type(traversal_type), intent(in) :: traversal
         !> Does the train go towards smaller positions
         logical, intent(in) :: backwards
         !> In the order in which they happen
@@ -42,21 +42,21 @@ contains
         end if
         number = 0
         first = 0
-        do step = 1, passage%number
-            i = merge(passage%number + 1 - step, step, backwards)
-            if (passage%status(i) /= gapbeam_solved) cycle
-            if (first == 0) now(:) = passage%closed(:, i)
+        do step = 1, traversal%number
+            i = merge(traversal%number + 1 - step, step, backwards)
+            if (traversal%status(i) /= gapbeam_solved) cycle
+            if (first == 0) now(:) = traversal%closed(:, i)
             first = i
-            if (all(passage%closed(:, i) .eqv. now)) cycle
+            if (all(traversal%closed(:, i) .eqv. now)) cycle
             k = 1
             do while (k <= size(now))
                 last = last_breakpoint(assembled%beam%supports, k)
-                associate (there => passage%closed(k:last, i), supports => assembled%beam%supports(k:last))
-                    if (any((now(k:last) .neqv. there) .and. .not. passage%at_zero(k:last, i))) then
+                associate (there => traversal%closed(k:last, i), supports => assembled%beam%supports(k:last))
+                    if (any((now(k:last) .neqv. there) .and. .not. traversal%at_zero(k:last, i))) then
                         before = acting_piece(supports, assembled%model%supports(assembled%normal(k))%side, now(k:last))
                         after = acting_piece(supports, assembled%model%supports(assembled%normal(k))%side, there)
                         now(k:last) = there
-                        call note(merge(passage%to(i), passage%from(i), backwards), assembled%normal(k), before, after)
+                        call note(merge(traversal%to(i), traversal%from(i), backwards), assembled%normal(k), before, after)
                         if (allocated(error)) return
                     end if
                 end associate

@@ -12,7 +12,7 @@ module gapbeam_train_influence
     use gapbeam_units, only: moment_unit, rotation_unit
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_train, only: train_type, track_type
-    use gapbeam_train_reaches, only: reach_type, find_reaches, enter_reach
+    use gapbeam_train_intervals, only: interval_type, find_intervals, enter_interval
     use gapbeam_train_loads, only: place_train
     use gapbeam_train_cells, only: cells_type, new_cells, find_cells, fill_cells, recover_cells, cell_ends, cell_of_place, &
         fields_in_cell
@@ -44,8 +44,8 @@ contains
         type(train_type) :: unit
         type(cells_type) :: cells
         type(assembled_type) :: empty
-        type(reach_type), allocatable :: reaches(:)
-        type(reach_type) :: reach
+        type(interval_type), allocatable :: intervals(:)
+        type(interval_type) :: interval
         type(workspace_type) :: work
         type(field_type) :: at
         real(wp) :: left, right
@@ -83,10 +83,10 @@ contains
             powers(:) = [units%deflection, rotation_unit(units), moment_unit(units), units%force]
         end associate
         do k = 1, size(places)
-            call find_reaches(bare, unit, places(k), places(k), reaches, error)
+            call find_intervals(bare, unit, places(k), places(k), intervals, error)
             if (allocated(error)) return
-            call enter_reach(bare, unit, reaches(1), reach)
-            call place_train(bare, unit, reach, places(k))
+            call enter_interval(bare, unit, intervals(1), interval)
+            call place_train(bare, unit, interval, places(k))
             call set_loads(bare%beam, 1.0_wp, work)
             call solve_and_refine(bare%beam, closed, work, state, place)
             if (state /= band_ok) then
@@ -94,7 +94,7 @@ contains
                 call end_if_stopped(bare%beam%watch, error)
                 return
             end if
-            call find_cells(bare, unit, reach, cells)
+            call find_cells(bare, unit, interval, cells)
             call fill_cells(empty, bare, places(k), cells)
             call recover_cells(bare, work, cells)
             c = cell_of_place(bare, cells, piece, track%x(piece - 1) + distance, places(k))

@@ -20,10 +20,10 @@ module gapbeam_train_samples
     use gapbeam_state, only: solve_along_axis
     use gapbeam_support_values, only: support_values
     use gapbeam_train, only: train_type, track_type, degree_of
-    use gapbeam_train_reaches, only: reach_type, enter_reach
+    use gapbeam_train_intervals, only: interval_type, enter_interval
     use gapbeam_train_loads, only: place_train
     use gapbeam_train_cells, only: cells_type, new_cells, find_cells, fill_cells, recover_cells, fields_in_cell
-    use gapbeam_train_passage, only: passage_type
+    use gapbeam_train_traversal, only: traversal_type
     implicit none
     private
     public :: samples_type, new_samples, sample_stretch, sample_supports, degree_in_position, along_cell, bound_fields, &
@@ -46,7 +46,7 @@ module gapbeam_train_samples
         real(wp), allocatable :: supports(:, :, :)
         type(cells_type) :: cells
         !> Where the train is
-        type(reach_type) :: reach
+        type(interval_type) :: interval
         type(workspace_type) :: work
         type(state_type) :: state
     end type samples_type
@@ -92,11 +92,11 @@ contains
     end subroutine new_samples
 
     !> Sample the fields on a stretch that is solved
-    subroutine sample_stretch(assembled, track, train, passage, k, samples, error)
+    subroutine sample_stretch(assembled, track, train, traversal, k, samples, error)
         type(assembled_type), intent(in) :: assembled
         type(track_type), intent(inout) :: track
         type(train_type), intent(in) :: train
-        type(passage_type), intent(in) :: passage
+        type(traversal_type), intent(in) :: traversal
         !> Number of the stretch
         integer, intent(in) :: k
         type(samples_type), intent(inout) :: samples
@@ -106,12 +106,12 @@ contains
         integer :: p
 
         points(:) = sample_points(samples%degree)
-        call enter_reach(track, train, passage%reaches(passage%reach(k)), samples%reach)
-        call find_cells(track, train, samples%reach, samples%cells)
+        call enter_interval(track, train, traversal%intervals(traversal%interval(k)), samples%interval)
+        call find_cells(track, train, samples%interval, samples%cells)
         associate (n => samples%cells%number)
             do p = 0, samples%degree
-                samples%position(p) = passage%from(k) + points(p)*(passage%to(k) - passage%from(k))
-                call solve_at(track, train, passage%closed(:, k), samples%position(p), samples, error)
+                samples%position(p) = traversal%from(k) + points(p)*(traversal%to(k) - traversal%from(k))
+                call solve_at(track, train, traversal%closed(:, k), samples%position(p), samples, error)
                 if (allocated(error)) return
                 call fill_cells(assembled, track, samples%position(p), samples%cells)
                 call recover_cells(track, samples%work, samples%cells)
@@ -123,12 +123,12 @@ contains
     end subroutine sample_stretch
 
     !> Sample the supports on a stretch that is solved
-    subroutine sample_supports(assembled, track, train, passage, k, samples, error)
+    subroutine sample_supports(assembled, track, train, traversal, k, samples, error)
         !> As for sample_stretch
         type(assembled_type), intent(in) :: assembled
         type(track_type), intent(inout) :: track
         type(train_type), intent(in) :: train
-        type(passage_type), intent(in) :: passage
+        type(traversal_type), intent(in) :: traversal
         integer, intent(in) :: k
         type(samples_type), intent(inout) :: samples
         type(error_type), allocatable, intent(out) :: error
@@ -137,13 +137,14 @@ contains
         integer :: p
 
         points(:) = sample_points(degree_of(train))
-        call enter_reach(track, train, passage%reaches(passage%reach(k)), samples%reach)
+        call enter_interval(track, train, traversal%intervals(traversal%interval(k)), samples%interval)
         do p = 0, degree_of(train)
-            call solve_at(track, train, passage%closed(:, k), passage%from(k) + points(p)*(passage%to(k) - passage%from(k)), &
+            call solve_at(track, train, traversal%closed(:, k), &
+                          traversal%from(k) + points(p)*(traversal%to(k) - traversal%from(k)), &
                           samples, error)
             if (allocated(error)) return
             associate (s => samples%state, work => samples%work)
-                s%closed(:) = passage%closed(:, k)
+                s%closed(:) = traversal%closed(:, k)
                 s%deflection(:) = work%answers%deflection
                 s%moment_left(:) = work%answers%moment_left
                 s%moment_right(:) = work%answers%moment_right
@@ -154,7 +155,7 @@ contains
         end do
     end subroutine sample_supports
 
-    !> Solve at a position in the reach that the samples are in
+    !> Solve at a position in the interval that the samples are in
     subroutine solve_at(track, train, closed, s, samples, error)
         type(track_type), intent(inout) :: track
         type(train_type), intent(in) :: train
@@ -165,7 +166,7 @@ contains
         type(error_type), allocatable, intent(out) :: error
         integer :: state, place
 
-        call place_train(track, train, samples%reach, s)
+        call place_train(track, train, samples%interval, s)
         call set_loads(track%beam, 1.0_wp, samples%work)
         call solve_and_refine(track%beam, closed, samples%work, state, place)
         if (state /= band_ok) then

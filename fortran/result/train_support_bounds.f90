@@ -9,7 +9,7 @@ module gapbeam_train_support_bounds
     use gapbeam_train_columns, only: columns_type, most_columns, value_of_column
     implicit none
     private
-    public :: support_bounds_type, new_support_bounds, watch_scheme, look_at_supports, mark_stretches
+    public :: support_bounds_type, new_support_bounds, watch_scheme, bound_supports, mark_stretches
 
     !> Values at the node of a support that tell its reaction, deflection or couple
     integer, parameter :: force = 1, deflection = 2, couple = 3
@@ -116,7 +116,7 @@ contains
     end subroutine watch_scheme
 
     !> Look at the supports on a stretch
-    subroutine look_at_supports(track, k, columns, bounds, stat)
+    subroutine bound_supports(track, k, columns, bounds, stat)
         type(track_type), intent(in) :: track
         !> Number of the stretch, and its columns
         integer, intent(in) :: k
@@ -184,7 +184,7 @@ contains
             bounds%bound(bounds%count) = most
         end subroutine keep
 
-    end subroutine look_at_supports
+    end subroutine bound_supports
 
     !> Twice as much room
     subroutine lengthen(bounds, stat)

@@ -30,9 +30,9 @@ module gapbeam_stretch_audit
 
     !> A place at which the state of a layer was looked at: how far it is from the lines at which its piece of the law begins and
     !> ends, positive on the right side, and how that changes along the stretch
-    type :: look_type
+    type :: link_bounds_type
         real(wp) :: xi = 0.0_wp, away(2) = 0.0_wp, change(2) = 0.0_wp
-    end type look_type
+    end type link_bounds_type
 
 contains
 
@@ -49,7 +49,7 @@ contains
         type(ledger_type), intent(inout) :: ledger
         !> What it adds up to
         type(sums_type), intent(out) :: sums
-        type(look_type) :: last(size(solution%acts, 1))
+        type(link_bounds_type) :: last(size(solution%acts, 1))
         type(inside_type) :: inside
         type(piece_load_type) :: load
         type(field_type) :: left, right
@@ -236,7 +236,7 @@ contains
             type(field_type), intent(in) :: field
             logical, intent(in) :: at_end
             type(field_type) :: nearest
-            type(look_type) :: now
+            type(link_bounds_type) :: now
             real(wp) :: t
             integer :: k, side
 
@@ -265,9 +265,9 @@ contains
             real(wp), intent(in) :: xi
             type(field_type), intent(in) :: field
             logical, intent(in) :: at_end
-            type(look_type), intent(out), optional :: found
+            type(link_bounds_type), intent(out), optional :: found
             real(wp) :: place, steepness, terms_of_it, incline, past, change
-            type(look_type) :: now
+            type(link_bounds_type) :: now
             integer :: side, breakpoint
 
             now%xi = xi

@@ -1,25 +1,25 @@
 !> A beam under a train on one stretch of its way, looked at link by link: what its fields are at both ends of the stretch, and how
 !> far they can be from the line between (gapbeam_train_bounds).
-module gapbeam_train_view
+module gapbeam_train_link_bounds
     use gapbeam_kinds, only: wp
     use gapbeam_element, only: field_type
     use gapbeam_link, only: piece_load_type, combine_loads
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_train, only: train_type, track_type
-    use gapbeam_train_reaches, only: reach_type, enter_reach
+    use gapbeam_train_intervals, only: interval_type, enter_interval
     use gapbeam_train_cells, only: cells_type, new_cells, find_cells
-    use gapbeam_train_passage, only: passage_type
+    use gapbeam_train_traversal, only: traversal_type
     use gapbeam_train_columns, only: columns_type, new_columns, set_scheme, at_distance, value_of_column
     use gapbeam_train_elimination, only: solve_columns
     implicit none
     private
-    public :: view_type, look_type, slopes_type, new_view, show_stretch, look_ahead, look_at_link, slopes_in_link, &
+    public :: view_type, link_bounds_type, slopes_type, new_view, enter_stretch, enter_next_interval, bound_link, slopes_in_link, &
         greatest_curvature, greater
 
     !> Deflection, rotation, moment, shear in a link at one position: bounds, and values that are there
-    type :: look_type
+    type :: link_bounds_type
         real(wp) :: high(4), low(4), top(4), bottom(4)
-    end type look_type
+    end type link_bounds_type
 
     !> Largest first and second derivatives of the moments and deflections at the ends of a link in the position
     type :: slopes_type
@@ -35,8 +35,8 @@ module gapbeam_train_view
     type :: view_type
         type(columns_type) :: columns
         type(cells_type) :: cells
-        !> Where the train is, and where it goes next, with the number of that reach
-        type(reach_type) :: reach, ahead
+        !> Where the train is, and where it goes next, with the number of that interval
+        type(interval_type) :: interval, ahead
         integer :: next = 0
         !> The stretch that is shown, that whose scheme is factored; can anything be seen, and was it factored for this stretch
         integer :: stretch = 0, scheme_of = 0
@@ -87,11 +87,11 @@ contains
         view%shears = any(view%worst%shear_flexibility > 0.0_wp)
     end subroutine new_view
 
-    !> Show a stretch
-    subroutine show_stretch(track, train, passage, k, view)
+    !> Make a stretch the one at hand
+    subroutine enter_stretch(track, train, traversal, k, view)
         type(track_type), intent(in) :: track
         type(train_type), intent(in) :: train
-        type(passage_type), intent(in) :: passage
+        type(traversal_type), intent(in) :: traversal
         !> Number of a stretch that is solved
         integer, intent(in) :: k
         type(view_type), intent(inout) :: view
@@ -100,21 +100,21 @@ contains
 
         if (view%stretch == k) return
         same = view%scheme_of > 0
-        if (same) same = all(passage%closed(:, view%scheme_of) .eqv. passage%closed(:, k))
+        if (same) same = all(traversal%closed(:, view%scheme_of) .eqv. traversal%closed(:, k))
         view%new_scheme = .not. same
-        if (.not. same) call set_scheme(track%beam, passage%closed(:, k), view%columns)
+        if (.not. same) call set_scheme(track%beam, traversal%closed(:, k), view%columns)
         view%scheme_of = k
         view%stretch = k
-        view%ends(:) = [passage%from(k), passage%to(k)]
+        view%ends(:) = [traversal%from(k), traversal%to(k)]
         view%clear = view%columns%usable
         if (.not. view%clear) return
-        if (view%next == passage%reach(k)) then
-            view%reach = view%ahead
+        if (view%next == traversal%interval(k)) then
+            view%interval = view%ahead
         else
-            call enter_reach(track, train, passage%reaches(passage%reach(k)), view%reach)
+            call enter_interval(track, train, traversal%intervals(traversal%interval(k)), view%interval)
         end if
-        call find_cells(track, train, view%reach, view%cells)
-        call solve_columns(track, train, view%reach, passage%from(k), passage%to(k), view%columns)
+        call find_cells(track, train, view%interval, view%cells)
+        call solve_columns(track, train, view%interval, traversal%from(k), traversal%to(k), view%columns)
         view%clear = view%columns%finite
         view%axles(:) = 0.0_wp
         view%uniform(:) = 0.0_wp
@@ -126,7 +126,7 @@ contains
             end do
         end associate
         do c = 1, size(train%uniform)
-            associate (first => view%reach%first(c), last => view%reach%last(c), &
+            associate (first => view%interval%first(c), last => view%interval%last(c), &
                        q => train%uniform(c)%q*view%columns%to_force/view%columns%to_length)
                 if (first > last) cycle
                 associate (links => view%uniform(track%link(first):track%link(last)))
@@ -134,30 +134,30 @@ contains
                 end associate
             end associate
         end do
-    end subroutine show_stretch
+    end subroutine enter_stretch
 
-    !> Look ahead to a reach
-    subroutine look_ahead(track, train, passage, r, view)
+    !> Enter the interval that comes next
+    subroutine enter_next_interval(track, train, traversal, r, view)
         type(track_type), intent(in) :: track
         type(train_type), intent(in) :: train
-        type(passage_type), intent(in) :: passage
-        !> Number of the reach
+        type(traversal_type), intent(in) :: traversal
+        !> Number of the interval
         integer, intent(in) :: r
         type(view_type), intent(inout) :: view
 
-        call enter_reach(track, train, passage%reaches(r), view%ahead)
+        call enter_interval(track, train, traversal%intervals(r), view%ahead)
         view%next = r
-    end subroutine look_ahead
+    end subroutine enter_next_interval
 
-    !> Look at a link at a position in the stretch
-    subroutine look_at_link(assembled, track, view, i, share, look, starts)
+    !> Bound the fields of a link at a position in the stretch
+    subroutine bound_link(assembled, track, view, i, share, at_link, starts)
         type(assembled_type), intent(in) :: assembled
         type(track_type), intent(in) :: track
         type(view_type), intent(in) :: view
         !> Number of the link, and the position as a share of the stretch
         integer, intent(in) :: i
         real(wp), intent(in) :: share
-        type(look_type), intent(out) :: look
+        type(link_bounds_type), intent(out) :: at_link
         !> Fields at the left ends of all cells of the beam: those of the link are put there
         type(field_type), intent(inout), optional :: starts(:)
         real(wp) :: a, b, wa, wb, w, r, m, v, w1, r1, m1, v1, h, s, t, t1, l, qa, slope, most, rest, d, d1
@@ -176,10 +176,10 @@ contains
             r = (wb - wa)*link%inverse + link%faa*a + link%fab*b + (link%turn_a(1) + value_of_column(columns%turn_a(:, i), h))
             v = (b - a)*link%inverse + (link%shear_a(1) + value_of_column(columns%shear_a(:, i), h))
         end associate
-        look%high(:) = -huge(1.0_wp)
-        look%low(:) = huge(1.0_wp)
-        look%top(:) = -huge(1.0_wp)
-        look%bottom(:) = huge(1.0_wp)
+        at_link%high(:) = -huge(1.0_wp)
+        at_link%low(:) = huge(1.0_wp)
+        at_link%top(:) = -huge(1.0_wp)
+        at_link%bottom(:) = huge(1.0_wp)
         first = 1
         if (i > 1) first = view%cells%last(i - 1) + 1
         t = 0.0_wp
@@ -212,26 +212,26 @@ contains
                     d1 = l*(r1 + g*v1)/3
                     rest = f*most*l**4/384
                     call bound_cubic([w, w + d, w1 - d1, w1], rest, view%enough(:, 1), &
-                                     look%high(1), look%low(1), look%top(1), look%bottom(1))
+                                     at_link%high(1), at_link%low(1), at_link%top(1), at_link%bottom(1))
                     d = l*(kappa - f*m)/3
                     d1 = l*(kappa - f*m1)/3
                     rest = f*abs(slope)*l**4/384
                     call bound_cubic([r, r + d, r1 - d1, r1], rest, view%enough(:, 2), &
-                                     look%high(2), look%low(2), look%top(2), look%bottom(2))
+                                     at_link%high(2), at_link%low(2), at_link%top(2), at_link%bottom(2))
                 end associate
                 rest = 0.0_wp
                 if (changes(v, v1) .or. changes(qa, qa + l*slope)) rest = most*l**2/8
-                look%high(3) = max(look%high(3), m + rest, m1 + rest)
-                look%low(3) = min(look%low(3), m - rest, m1 - rest)
+                at_link%high(3) = max(at_link%high(3), m + rest, m1 + rest)
+                at_link%low(3) = min(at_link%low(3), m - rest, m1 - rest)
                 rest = 0.0_wp
                 if (changes(qa, qa + l*slope)) rest = most*l
-                look%high(4) = max(look%high(4), v + rest, v1 + rest)
-                look%low(4) = min(look%low(4), v - rest, v1 - rest)
+                at_link%high(4) = max(at_link%high(4), v + rest, v1 + rest)
+                at_link%low(4) = min(at_link%low(4), v - rest, v1 - rest)
                 if (l > 0.0_wp) then
-                    look%top(3) = max(look%top(3), m, m1)
-                    look%bottom(3) = min(look%bottom(3), m, m1)
-                    look%top(4) = max(look%top(4), v, v1)
-                    look%bottom(4) = min(look%bottom(4), v, v1)
+                    at_link%top(3) = max(at_link%top(3), m, m1)
+                    at_link%bottom(3) = min(at_link%bottom(3), m, m1)
+                    at_link%top(4) = max(at_link%top(4), v, v1)
+                    at_link%bottom(4) = min(at_link%bottom(4), v, v1)
                 end if
             end associate
             t = t1
@@ -294,7 +294,7 @@ contains
             changes = min(x, y) < 0.0_wp .and. max(x, y) > 0.0_wp
         end function changes
 
-    end subroutine look_at_link
+    end subroutine bound_link
 
     !> Derivatives of the values at the ends of a link on the stretch
     pure function slopes_in_link(view, i) result(slopes)
@@ -367,4 +367,4 @@ contains
         end associate
     end function greatest_curvature
 
-end module gapbeam_train_view
+end module gapbeam_train_link_bounds

@@ -1,39 +1,39 @@
-!> Reaches of a train's way: places between which nothing passes a point at which a piece of the beam ends
-module gapbeam_train_reaches
+!> Intervals of a train's way: places between which nothing passes a point at which a piece of the beam ends
+module gapbeam_train_intervals
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_train, only: train_type, track_type, least_distance
     implicit none
     private
-    public :: reach_type, find_reaches, enter_reach
+    public :: interval_type, find_intervals, enter_interval
 
     !> Places of a train between which nothing passes a point; of no length where axles come and go at one place
-    type :: reach_type
+    type :: interval_type
         real(wp) :: from = 0.0_wp, to = 0.0_wp
         !> A place within it that stands for all, and how many axles are left of the beam and right of it
         real(wp) :: about = 0.0_wp
         integer :: outside(2) = 0
-        !> By enter_reach: piece of every axle, 0: not on the beam
+        !> By enter_interval: piece of every axle, 0: not on the beam
         integer, allocatable :: piece(:)
         !> And in which every uniform load begins and ends; the first is beyond the last where it is not on the beam
         integer, allocatable :: first(:), last(:)
         !> Do the loads on its ends act there as in between
         logical :: holds_from = .true., holds_to = .true.
-    end type reach_type
+    end type interval_type
 
 contains
 
-    !> The reaches of a range of places
-    subroutine find_reaches(track, train, from, to, reaches, error)
+    !> The intervals of a range of places
+    subroutine find_intervals(track, train, from, to, intervals, error)
         type(track_type), intent(in) :: track
         type(train_type), intent(in) :: train
         !> Places of the train
         real(wp), intent(in) :: from, to
         !> From left to right
-        type(reach_type), allocatable, intent(out) :: reaches(:)
+        type(interval_type), allocatable, intent(out) :: intervals(:)
         !> No memory
         type(error_type), allocatable, intent(out) :: error
-        type(reach_type), allocatable :: found(:)
+        type(interval_type), allocatable :: found(:)
         real(wp), allocatable :: place(:)
         real(wp) :: near
         integer :: count, number, i, k, stat
@@ -72,7 +72,7 @@ contains
             call add_single(place(k))
             if (k == number) exit
             count = count + 1
-            found(count) = reach_at(track, train, place(k), place(k + 1), place(k) + (place(k + 1) - place(k))/2, near)
+            found(count) = interval_at(track, train, place(k), place(k + 1), place(k) + (place(k + 1) - place(k))/2, near)
         end do
         call drop_singles()
 
@@ -95,7 +95,7 @@ contains
             real(wp), intent(in) :: s
 
             count = count + 1
-            found(count) = reach_at(track, train, s, s, s, near)
+            found(count) = interval_at(track, train, s, s, s, near)
         end subroutine add_single
 
         !> Keep those places by themselves at which other axles act than on both sides
@@ -114,52 +114,52 @@ contains
                     keep(j) = keep(j) .and. .not. found(j + 1)%holds_from
                 end if
             end do
-            reaches = pack(found(:count), keep)
+            intervals = pack(found(:count), keep)
         end subroutine drop_singles
 
-    end subroutine find_reaches
+    end subroutine find_intervals
 
-    !> A reach: what acts in it, as the train goes to the right, is told by how many axles are not yet, or no longer, on the beam
-    pure function reach_at(track, train, from, to, about, near) result(reach)
+    !> A interval: what acts in it, as the train goes to the right, is told by how many axles are not yet, or no longer, on the beam
+    pure function interval_at(track, train, from, to, about, near) result(interval)
         type(track_type), intent(in) :: track
         type(train_type), intent(in) :: train
         real(wp), intent(in) :: from, to, about
         !> What is not farther from an end of the beam is on it
         real(wp), intent(in) :: near
-        type(reach_type) :: reach
+        type(interval_type) :: interval
 
-        reach%from = from
-        reach%to = to
-        reach%about = about
-        reach%outside = [count(about + train%offset < -near), count(about + train%offset > track%x(ubound(track%x, 1)) + near)]
-    end function reach_at
+        interval%from = from
+        interval%to = to
+        interval%about = about
+        interval%outside = [count(about + train%offset < -near), count(about + train%offset > track%x(ubound(track%x, 1)) + near)]
+    end function interval_at
 
-    !> Find the pieces in which axles and uniform loads are, from those of a reach nearby in a few steps
-    subroutine enter_reach(track, train, next, reach)
+    !> Find the pieces in which axles and uniform loads are, from those of an interval nearby in a few steps
+    subroutine enter_interval(track, train, next, interval)
         type(track_type), intent(in) :: track
         type(train_type), intent(in) :: train
-        !> By find_reaches
-        type(reach_type), intent(in) :: next
-        !> The reach where the train was before, if any; the same as the next one then, with all pieces
-        type(reach_type), intent(inout) :: reach
+        !> By find_intervals
+        type(interval_type), intent(in) :: next
+        !> The interval where the train was before, if any; the same as the next one then, with all pieces
+        type(interval_type), intent(inout) :: interval
         real(wp) :: x, near
         integer :: i, j, n
 
         n = ubound(track%x, 1)
         near = least_distance(track, train)
-        if (.not. allocated(reach%piece)) then
-            allocate (reach%piece(size(train%offset)), reach%first(size(train%uniform)), reach%last(size(train%uniform)))
-            reach%piece(:) = 0
+        if (.not. allocated(interval%piece)) then
+            allocate (interval%piece(size(train%offset)), interval%first(size(train%uniform)), interval%last(size(train%uniform)))
+            interval%piece(:) = 0
         end if
-        reach%from = next%from
-        reach%to = next%to
-        reach%about = next%about
-        reach%outside = next%outside
-        reach%holds_from = next%holds_from
-        reach%holds_to = next%holds_to
+        interval%from = next%from
+        interval%to = next%to
+        interval%about = next%about
+        interval%outside = next%outside
+        interval%holds_from = next%holds_from
+        interval%holds_to = next%holds_to
         do i = 1, size(train%offset)
-            x = reach%about + train%offset(i)
-            j = reach%piece(i)
+            x = interval%about + train%offset(i)
+            j = interval%piece(i)
             if (.not. (x >= -near .and. x <= track%x(n) + near)) then
                 j = 0
             else if (j == 0) then
@@ -174,18 +174,18 @@ contains
                     j = j - 1
                 end do
             end if
-            reach%piece(i) = j
+            interval%piece(i) = j
         end do
         do i = 1, size(train%uniform)
-            reach%first(i) = 1
-            reach%last(i) = 0
-            associate (from => reach%about + train%uniform(i)%from, to => reach%about + train%uniform(i)%to)
+            interval%first(i) = 1
+            interval%last(i) = 0
+            associate (from => interval%about + train%uniform(i)%from, to => interval%about + train%uniform(i)%to)
                 if (to <= 0.0_wp .or. from >= track%x(n)) cycle
-                reach%first(i) = piece_at(track, from)
-                reach%last(i) = piece_at(track, to)
+                interval%first(i) = piece_at(track, from)
+                interval%last(i) = piece_at(track, to)
             end associate
         end do
-    end subroutine enter_reach
+    end subroutine enter_interval
 
     !> Piece of a place, the nearest one for places beyond the ends
     pure function piece_at(track, x) result(piece)
@@ -232,4 +232,4 @@ contains
         end do
     end subroutine sort
 
-end module gapbeam_train_reaches
+end module gapbeam_train_intervals

@@ -1,17 +1,17 @@
 !> Deflections at rigid supports are their levels: what differs from that by rounding only is made so
-module gapbeam_train_levels
+module gapbeam_train_prescribed_deflections
     use gapbeam_kinds, only: wp
     use gapbeam_law, only: is_rigid
     use gapbeam_model, only: beam_type
     use gapbeam_train_ties, only: extreme_type
     implicit none
     private
-    public :: keep_level, keep_levels
+    public :: keep_prescribed, keep_prescribed_extreme
 
 contains
 
     !> Make a deflection at a node the contact level of a rigid support there, if it is that but for rounding
-    pure subroutine keep_level(beam, node, rounding, deflection)
+    pure subroutine keep_prescribed(beam, node, rounding, deflection)
         type(beam_type), intent(in) :: beam
         !> The node; none if below 0
         integer, intent(in) :: node
@@ -27,11 +27,11 @@ contains
                 if (abs(deflection - s%contact) <= rounding) deflection = s%contact
             end associate
         end do
-    end subroutine keep_level
+    end subroutine keep_prescribed
 
     !> The same of extremes in the user's units
-    pure subroutine keep_levels(beam, node, power, rounding, extreme)
-        !> As for keep_level
+    pure subroutine keep_prescribed_extreme(beam, node, power, rounding, extreme)
+        !> As for keep_prescribed
         type(beam_type), intent(in) :: beam
         integer, intent(in) :: node
         !> Exponent of the unit
@@ -44,9 +44,9 @@ contains
 
         do q = 1, extreme%number
             deflection = scale(extreme%ties(q)%value, -power)
-            call keep_level(beam, node, scale(rounding, -power), deflection)
+            call keep_prescribed(beam, node, scale(rounding, -power), deflection)
             extreme%ties(q)%value = scale(deflection, power)
         end do
-    end subroutine keep_levels
+    end subroutine keep_prescribed_extreme
 
-end module gapbeam_train_levels
+end module gapbeam_train_prescribed_deflections
