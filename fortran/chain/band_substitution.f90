@@ -11,7 +11,7 @@ module gapbeam_band_substitution
     public :: solve_chain, correct_chain
 
     !> Relative to the solution, what cannot be seen in it even if it comes back a thousand times
-    real(wp), parameter :: unseen = 2.0_wp**(-10)*epsilon(1.0_wp)
+    real(wp), parameter :: below_rounding = 2.0_wp**(-10)*epsilon(1.0_wp)
 
 contains
 
@@ -150,8 +150,8 @@ contains
             if (pivot%floating) then
                 small = .not. (abs(m) > 0.0_wp .or. abs(p) > 0.0_wp)
             else
-                small = abs(e) <= unseen*(pivot%phi*moment + pivot%beta*w) &
-                    .and. abs(p) <= unseen*(pivot%beta*moment + pivot%delta*w)
+                small = abs(e) <= below_rounding*(pivot%phi*moment + pivot%beta*w) &
+                    .and. abs(p) <= below_rounding*(pivot%beta*moment + pivot%delta*w)
             end if
         end associate
     end function fades
@@ -182,8 +182,8 @@ contains
                 ! Two nodes in a row, so that a deflection that passes through zero does not deceive
                 associate (a => answers(i + 1), s => solution(i + 1))
                     small = merge(small + 1, 0, .not. pivots(i)%floating .and. &
-                                  abs(a%deflection) <= unseen*abs(s%deflection) .and. &
-                                  abs(a%moment_left) <= unseen*abs(s%moment_left))
+                                  abs(a%deflection) <= below_rounding*abs(s%deflection) .and. &
+                                  abs(a%moment_left) <= below_rounding*abs(s%moment_left))
                 end associate
                 if (small == 2) then
                     first = i + 1

@@ -29,7 +29,7 @@ module gapbeam_contact_boundary
         integer :: first = 0, last = -1
         logical :: closed = .false.
         !> Is any of them wrong; does it lie beside a boundary that moves
-        logical :: wrong = .false., beside = .false.
+        logical :: wrong = .false., adjacent = .false.
     end type run_type
 
 contains
@@ -88,8 +88,8 @@ contains
                         distance = min(distance, max(few, outer%last - outer%first + 1))
                     end if
                     if (distance < few) cycle
-                    runs(r)%beside = .true.
-                    outer%beside = .true.
+                    runs(r)%adjacent = .true.
+                    outer%adjacent = .true.
                 end associate
                 do k = j, j + way*(distance - 1), way
                     passed(base%support(k)) = closed(base%support(k))
@@ -97,7 +97,7 @@ contains
             end do
         end do
         do r = 1, ubound(runs, 1) - 1
-            if (.not. runs(r)%beside) cycle
+            if (.not. runs(r)%adjacent) cycle
             do k = runs(r)%first, runs(r)%last
                 wrong(base%support(k)) = .false.
             end do

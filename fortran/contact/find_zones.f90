@@ -24,7 +24,7 @@ module gapbeam_find_zones
     !> Shares of a stretch without crossings at which it is looked on which side it is, the next one where a place only touches
     real(wp), parameter :: looks(2) = [0.5_wp, 0.375_wp]
     !> Distance from a line, beside deflection and line, below which crossings may have been taken for rounding
-    real(wp), parameter :: nothing = 2**12*epsilon(1.0_wp)
+    real(wp), parameter :: touching_width = 2**12*epsilon(1.0_wp)
 
 contains
 
@@ -296,7 +296,7 @@ contains
             touches = .false.
             do law = max(1, acts), min(acts + 1, pieces_of_law(layer))
                 line = line_of_breakpoint(ground%laws, layer, law, place, length)
-                touches = touches .or. abs(w - line) <= nothing*max(abs(w), abs(line))
+                touches = touches .or. abs(w - line) <= touching_width*max(abs(w), abs(line))
             end do
         end function touches
 

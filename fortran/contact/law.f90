@@ -127,7 +127,7 @@ contains
                     if (.not. acts) cycle
                     level(s%node) = max(level(s%node), abs(s%contact))
                     if (abs(slope) > huge(slope)) then
-                        ! Another one may hold it elsewhere in a scheme that is wrong (beside_level)
+                        ! Another one may hold it elsewhere in a scheme that is wrong (past_level)
                         if (.not. node%held) r%deflection = s%contact
                         node%held = .true.
                     else

@@ -5,7 +5,7 @@
 module gapbeam_law_margins
     use gapbeam_kinds, only: wp
     use gapbeam_band, only: answer_type
-    use gapbeam_polyline, only: node_support_type, breakpoint_margin, is_watched, beside_level
+    use gapbeam_polyline, only: node_support_type, breakpoint_margin, is_watched, past_level
     use gapbeam_law, only: both
     implicit none
     private
@@ -148,7 +148,7 @@ contains
                     call margin_of(supports(k), closed(k), answers(i)%deflection, deflection_size(i), reaction(k), &
                                    reaction_error(k), margin, rounding)
                 else
-                    call beside_level(supports, closed, k, answers(i)%deflection, deflection_size(i), margin, rounding)
+                    call past_level(supports, closed, k, answers(i)%deflection, deflection_size(i), margin, rounding)
                     margin = -margin
                     if (.not. abs(margin) > width*rounding) then
                         call margin_in_scheme(supports, closed, k, answers(i)%deflection, deflection_size(i), reaction, &

@@ -16,7 +16,7 @@ module gapbeam_polyline
     implicit none
     private
     public :: node_support_type, piece_that_acts, piece_force, breakpoint_margin, is_watched
-    public :: beside_level, vertical_pieces
+    public :: past_level, vertical_pieces
     public :: open_from, advance_one_segment, jump_to_plateau, coincide, last_breakpoint, join_pieces
 
     !> A support at a node, or a breakpoint of its law
@@ -93,15 +93,15 @@ contains
         logical, intent(out) :: by_force
         real(wp) :: here, there
         integer :: from
-        logical :: beside
+        logical :: adjacent
 
         margin = 0.0_wp
         rounding = 0.0_wp
         by_force = .false.
         if (supports(k)%passed) return
-        call breakpoint_slopes(supports, closed, k, beside, from, here, there)
+        call breakpoint_slopes(supports, closed, k, adjacent, from, here, there)
         associate (s => supports(k))
-            if (.not. beside) then
+            if (.not. adjacent) then
                 if (abs(here) > huge(here)) return
             else
                 by_force = abs(here) > abs(there) .or. abs(here) > huge(here)
@@ -119,35 +119,35 @@ contains
     end subroutine breakpoint_margin
 
     !> Is a breakpoint beside the piece that acts, and the slopes on this side of it and beyond
-    pure subroutine breakpoint_slopes(supports, closed, k, beside, from, here, there)
+    pure subroutine breakpoint_slopes(supports, closed, k, adjacent, from, here, there)
         type(node_support_type), intent(in) :: supports(:)
         logical, intent(in) :: closed(:)
         integer, intent(in) :: k
-        logical, intent(out) :: beside
+        logical, intent(out) :: adjacent
         !> The breakpoint that has the reaction of the law
         integer, intent(out) :: from
         real(wp), intent(out) :: here, there
 
         associate (s => supports(k))
             from = k
-            beside = .true.
+            adjacent = .true.
             if (closed(k)) then
                 here = s%stiffness
                 there = s%before
-                if (s%more) beside = .not. closed(k + 1)
+                if (s%more) adjacent = .not. closed(k + 1)
             else
                 here = s%before
                 there = s%stiffness
                 if (s%breakpoint > 1) then
                     from = k - 1
-                    beside = closed(k - 1)
+                    adjacent = closed(k - 1)
                 end if
             end if
         end associate
     end subroutine breakpoint_slopes
 
     !> By how much a node is beyond an end of the vertical piece on which a support of it is, since another one holds it elsewhere
-    pure subroutine beside_level(supports, closed, k, deflection, deflection_size, beyond, rounding)
+    pure subroutine past_level(supports, closed, k, deflection, deflection_size, beyond, rounding)
         !> As for breakpoint_margin
         type(node_support_type), intent(in) :: supports(:)
         logical, intent(in) :: closed(:)
@@ -157,19 +157,19 @@ contains
         real(wp), intent(out) :: beyond, rounding
         real(wp) :: here, there
         integer :: from
-        logical :: beside
+        logical :: adjacent
 
         beyond = 0.0_wp
         rounding = 0.0_wp
         if (supports(k)%passed) return
-        call breakpoint_slopes(supports, closed, k, beside, from, here, there)
-        if (.not. beside .or. abs(here) <= huge(here)) return
+        call breakpoint_slopes(supports, closed, k, adjacent, from, here, there)
+        if (.not. adjacent .or. abs(here) <= huge(here)) return
         associate (s => supports(k))
             beyond = s%side*(deflection - s%contact)
             if (closed(k)) beyond = -beyond
             rounding = epsilon(deflection)*max(deflection_size, abs(s%contact))
         end associate
-    end subroutine beside_level
+    end subroutine past_level
 
     !> On how many vertical pieces some supports are: with two at one node nothing tells what each of them takes
     pure function vertical_pieces(supports, closed, numbers) result(pieces)

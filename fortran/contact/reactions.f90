@@ -123,7 +123,7 @@ contains
         type(beam_type), intent(in) :: beam
         integer, intent(in) :: range(2)
         type(workspace_type), intent(inout) :: work
-        type(interval_type) :: beside
+        type(interval_type) :: neighbour
         real(wp) :: moment, turn, flexibility, length, of_stretch
         integer :: i, last
         logical :: stretches
@@ -149,13 +149,13 @@ contains
                     flexibility = beam%ground(i)%faa + beam%ground(i)%fbb
                     length = link%length
                     if (link%bending > 0.0_wp) length = min(length, flexibility*length/link%bending)
-                    beside = interval_type(2*moment/length, flexibility*length*moment)
+                    neighbour = interval_type(2*moment/length, flexibility*length*moment)
                 else
-                    beside = interval_type(2*moment*link%inverse, work%reach(i)*moment)
-                    if (stretches) beside%shear = min(beside%shear, of_stretch)
+                    neighbour = interval_type(2*moment*link%inverse, work%reach(i)*moment)
+                    if (stretches) neighbour%shear = min(neighbour%shear, of_stretch)
                 end if
-                if (i > range(1)) work%reach_own(i - 1) = passed_on(beside, work%reach_own(i - 1), .false.)
-                if (i <= range(2)) work%reach_own(i) = passed_on(beside, work%reach_own(i), .false.)
+                if (i > range(1)) work%reach_own(i - 1) = passed_on(neighbour, work%reach_own(i - 1), .false.)
+                if (i <= range(2)) work%reach_own(i) = passed_on(neighbour, work%reach_own(i), .false.)
             end associate
         end do
     end subroutine find_own_sizes

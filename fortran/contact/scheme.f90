@@ -164,7 +164,7 @@ contains
             if (work%solves > work%most_solves) exit
             work%proximal_weight = proximal_weight
             call settle(beam, rule, .true., closed, work, settled, error)
-            if (.not. settled .and. move == 1 .and. nothing_loads(work)) then
+            if (.not. settled .and. move == 1 .and. is_unloaded(work)) then
                 ! Weak springs press it onto lacks of fit, which takes very long to settle; off all supports it rests as well
                 call find_free_level(beam%supports, way, there_is)
                 if (there_is) then
@@ -250,11 +250,11 @@ contains
     end subroutine proximal_iteration
 
     !> Are there no loads, couples and imposed curvatures
-    pure function nothing_loads(work) result(nothing)
+    pure function is_unloaded(work) result(unloaded)
         type(workspace_type), intent(in) :: work
-        logical :: nothing
+        logical :: unloaded
 
-        nothing = work%without_couples .and. .not. (any(work%load_size > 0.0_wp) .or. any(work%turn_size > 0.0_wp))
-    end function nothing_loads
+        unloaded = work%without_couples .and. .not. (any(work%load_size > 0.0_wp) .or. any(work%turn_size > 0.0_wp))
+    end function is_unloaded
 
 end module gapbeam_scheme

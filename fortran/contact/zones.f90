@@ -27,10 +27,10 @@ module gapbeam_zones
     !> at most, and by this share of the stretch ahead at most
     real(wp), parameter :: far = 0.01_wp, largest_ratio = 0.92_wp, largest_share = 0.4_wp
     !> Ends that have come back differ by less than this share of the stretches beside them
-    real(wp), parameter :: alike = 1e-5_wp
+    real(wp), parameter :: same_ends = 1e-5_wp
     !> What moves by less than this share of the beam does not move: so short zones have no force, and behind a part of the beam
     !> that next to no ground holds no end is known better
-    real(wp), parameter :: unseen = sqrt(epsilon(1.0_wp))
+    real(wp), parameter :: below_rounding = sqrt(epsilon(1.0_wp))
 
 contains
 
@@ -86,7 +86,7 @@ contains
             if (settled) return
             ! Zones that come back do so again and again. Compared with those of the last round that is a power of two (Brent 1980)
             if (round > 2 .and. moved > far) then
-                if (max(way_of_ends(mark, asked), way_of_fields(ground, grounded, mark, asked)) <= alike) return
+                if (max(way_of_ends(mark, asked), way_of_fields(ground, grounded, mark, asked)) <= same_ends) return
             end if
             if (iand(round, round - 1) == 0) mark = asked
         end do
@@ -256,7 +256,7 @@ contains
         do i = 1, size(found%piece) - 1
             if (found%piece(i) /= found%piece(i + 1)) cycle
             move = abs(zones%to(i) - found%to(i))
-            if (move <= unseen*length) cycle
+            if (move <= below_rounding*length) cycle
             way = max(way, move/min(found%to(i) - found%from(i), found%to(i + 1) - found%from(i + 1)))
         end do
     end function way_of_ends

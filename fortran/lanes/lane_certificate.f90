@@ -50,7 +50,7 @@ contains
         call measure_pack(beam, pack, found(:, :3))
         call apply_scheme(n, pack%shear, pack%stiffness, pack%rigid, pack%contact, pack%closed, pack%held, pack%known, &
                           pack%spring, pack%force)
-        pack%nothing(:, :) = pack%reaction
+        pack%spare(:, :) = pack%reaction
         call complete(beam, n, pack, poor)
         call find_rest(beam, pack%links, n, pack%left, pack%right, pack%force, pack%held, pack%known, pack%spring, pack%w, &
                        pack%ml, pack%mr, pack%turn_rest, pack%force_rest, pack%known_rest)
@@ -189,10 +189,10 @@ contains
                 right = merge(pack%room(l, after, 5), 0.0_wp, i < n)
                 right_error = merge(moves(l, after, of_shear), 0.0_wp, i < n)
                 own = pack%shear(l, i) - (left - right)
-                error = left_error + right_error + abs(pack%nothing(l, i) - own) + of_load*pack%load_size(l, i) &
+                error = left_error + right_error + abs(pack%spare(l, i) - own) + of_load*pack%load_size(l, i) &
                     + unit*(abs(pack%shear(l, i)) + abs(left) + abs(right))
                 own = pack%stiffness(l, i)*(pack%w(l, i) - pack%contact(l, i))
-                other = pack%stiffness(l, i)*moves(l, i, of_deflection) + abs(pack%nothing(l, i) - own) &
+                other = pack%stiffness(l, i)*moves(l, i, of_deflection) + abs(pack%spare(l, i) - own) &
                     + unit*pack%stiffness(l, i)*(abs(pack%w(l, i)) + abs(pack%contact(l, i)))
                 other = merge(other, error, other < error .and. pack%rigid(l, i) < 0.5_wp)
                 reaction(l) = larger(reaction(l), there*pack%closed(l, i)*other)
@@ -201,7 +201,7 @@ contains
                 moment(l) = larger(moment(l), moves(l, i, of_moment))
                 largest_w(l) = larger(largest_w(l), abs(pack%w(l, i)))
                 largest_m(l) = larger(largest_m(l), larger(abs(pack%ml(l, i)), abs(pack%mr(l, i))))
-                largest_r(l) = larger(largest_r(l), there*abs(pack%nothing(l, i)))
+                largest_r(l) = larger(largest_r(l), there*abs(pack%spare(l, i)))
             end do
         end do
         do l = 1, lanes

@@ -65,7 +65,7 @@ contains
                                    pack%dw, pack%dl)
             call copy_moments(n, pack%dl, pack%dr)
         else
-            call solve(beam, pack%links, n, method, pack%left_rest, pack%turn_rest, pack%force_rest, pack%nothing, pack%held, &
+            call solve(beam, pack%links, n, method, pack%left_rest, pack%turn_rest, pack%force_rest, pack%spare, pack%held, &
                        pack%known_rest, pack%spring, pack%room, pack%turning, pack%dw, pack%dl, pack%dr, moves)
         end if
         call add_correction(n, pack%dw, pack%dl, pack%dr, pack%w, pack%ml, pack%mr)

@@ -75,7 +75,7 @@ module gapbeam_lane_types
         !> Solution: deflection, moments; reaction by places
         real(wp), allocatable, dimension(:, :) :: w, ml, mr, reaction
         !> Residuals or, after elimination, corrections; the first also which supports are wrong, by places
-        real(wp), allocatable, dimension(:, :) :: turn_rest, force_rest, known_rest, dw, dl, dr, nothing
+        real(wp), allocatable, dimension(:, :) :: turn_rest, force_rest, known_rest, dw, dl, dr, spare
         !> Residuals left of restraints, 0 at other nodes
         real(wp), allocatable :: left_rest(:, :)
         !> Right-hand side of compatibility at plain nodes
@@ -185,12 +185,12 @@ contains
                   pack%w(lanes, 0:n), pack%ml(lanes, 0:n), pack%mr(lanes, 0:n), pack%reaction(lanes, 0:last), &
                   pack%turn_rest(lanes, 0:last), pack%force_rest(lanes, 0:n), pack%known_rest(lanes, 0:n), &
                   pack%dw(lanes, 0:n), pack%dl(lanes, 0:n), pack%dr(lanes, 0:n), pack%turn(lanes, 0:n), &
-                  pack%nothing(lanes, 0:n), pack%left_rest(lanes, 0:n), pack%room(lanes, 0:n, 10), &
+                  pack%spare(lanes, 0:n), pack%left_rest(lanes, 0:n), pack%room(lanes, 0:n, 10), &
                   pack%turning(lanes, size(beam%restrained), 5), pack%links(size(beam%links, 1), link_numbers, n), stat=stat)
         made = stat == 0
         if (.not. made) return
         pack%links(:, :, :) = beam%links
-        pack%nothing(:, :) = 0.0_wp
+        pack%spare(:, :) = 0.0_wp
         pack%left_rest(:, :) = 0.0_wp
     end subroutine new_pack
 

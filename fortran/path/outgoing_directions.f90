@@ -86,7 +86,7 @@ contains
                 do direction = rise, fall, -2
                     if (mask == 0 .and. direction == -came) cycle
                     if (wanted /= turn .and. direction /= wanted) cycle
-                    call look_into(beam, closed, factor, direction, at_hand, responses, leads, more)
+                    call follow_region(beam, closed, factor, direction, at_hand, responses, leads, more)
                     if (.not. leads) cycle
                     way%closed = closed
                     way%direction = direction
@@ -103,7 +103,7 @@ contains
     end subroutine find_outgoing
 
     !> Does the line of a region lead into it, and what else is at zero and falls along it
-    subroutine look_into(beam, closed, factor, direction, at_hand, responses, leads, more)
+    subroutine follow_region(beam, closed, factor, direction, at_hand, responses, leads, more)
         type(beam_type), intent(in) :: beam
         logical, intent(in) :: closed(:)
         real(wp), intent(in) :: factor
@@ -120,7 +120,7 @@ contains
         if (.not. leads) return
         leads = .not. any(falling)
         more(:) = more .or. falling
-    end subroutine look_into
+    end subroutine follow_region
 
     !> A region without a unique solution: does the beam move freely, and into it
     subroutine try_motion(beam, closed, factor, as_before, came, deflection, broken, at_hand, responses, way, leads, more)

@@ -147,19 +147,19 @@ contains
             done = .false.
             if (.not. stretch%closely) then
                 call change_in_place(beam, factor, closed, at_zero, stretch, path, done)
-                if (.not. done) call look_further(beam, factor, limit, at_zero, closed, stretch, path, done)
+                if (.not. done) call try_next_event(beam, factor, limit, at_zero, closed, stretch, path, done)
                 stretch%closely = stretch%in_doubt .and. size(beam%links) <= short_beam
                 done = done .and. .not. stretch%closely
             end if
             if (.not. done) then
-                call look_closely(beam, detail, exactly, limit, at_zero, closed, stretch, path, outcome, error)
+                call decide_in_quadruple(beam, detail, exactly, limit, at_zero, closed, stretch, path, outcome, error)
                 if (allocated(error) .or. outcome%status /= gapbeam_solved) exit
             end if
             here = exactly
             call find_next(beam, closed, factor, limit, stretch, at_zero, exactly)
             if (stretch%in_doubt .and. size(beam%links) <= short_beam .and. .not. stretch%closely) then
                 stretch%closely = .true.
-                call look_closely(beam, detail, here, limit, at_zero, closed, stretch, path, outcome, error)
+                call decide_in_quadruple(beam, detail, here, limit, at_zero, closed, stretch, path, outcome, error)
                 if (allocated(error) .or. outcome%status /= gapbeam_solved) exit
                 call find_next(beam, closed, factor, limit, stretch, at_zero, exactly)
             end if
@@ -256,7 +256,7 @@ contains
     end subroutine change_in_place
 
     !> Find the scheme a little further up, and whether it acts all the way from the event
-    subroutine look_further(beam, factor, limit, at_zero, closed, stretch, path, done)
+    subroutine try_next_event(beam, factor, limit, at_zero, closed, stretch, path, done)
         type(beam_type), intent(in) :: beam
         real(wp), intent(in) :: factor, limit
         !> Supports at zero, those that stay there out
@@ -300,10 +300,10 @@ contains
         call note_changes(factor, closed, after, was_far, is_far, stretch, path)
         closed(:) = after
         at_zero = pack(at_zero, [(stays_at_zero(response_in(beam, closed, at_zero(k), stretch), factor), k=1, size(at_zero))])
-    end subroutine look_further
+    end subroutine try_next_event
 
     !> Find the next stretch in quadruple precision
-    subroutine look_closely(beam, detail, factor, limit, at_zero, closed, stretch, path, outcome, error)
+    subroutine decide_in_quadruple(beam, detail, factor, limit, at_zero, closed, stretch, path, outcome, error)
         type(beam_type), intent(in) :: beam
         type(detail_type), intent(in) :: detail
         real(qp), intent(in) :: factor
@@ -344,7 +344,7 @@ contains
         call note_changes(real(factor, wp), closed, stretch%region%closed, was_far, is_far, stretch, path)
         closed(:) = stretch%region%closed
         at_zero = [integer ::]
-    end subroutine look_closely
+    end subroutine decide_in_quadruple
 
     !> The next event, and the supports at zero there
     subroutine find_next(beam, closed, factor, limit, stretch, at_zero, next)

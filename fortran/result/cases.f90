@@ -37,7 +37,7 @@ module gapbeam_cases
     end type case_loads_type
 
     !> No load on a piece
-    type(piece_load_type), parameter :: nothing = piece_load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
+    type(piece_load_type), parameter :: no_load = piece_load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
 
 contains
 
@@ -57,7 +57,7 @@ contains
             call no_memory(error)
             return
         end if
-        on_pieces(:) = nothing
+        on_pieces(:) = no_load
         do i = 1, size(assembled%beam%links)
             link_of(assembled%node_point(i - 1) + 1:assembled%node_point(i)) = i
         end do
@@ -95,7 +95,7 @@ contains
                     do i = link_of(a + 1), link_of(b)
                         call condense(i)
                     end do
-                    on_pieces(a + 1:b) = nothing
+                    on_pieces(a + 1:b) = no_load
                 else if (assembled%node_of_point(a) >= 0) then
                     at_nodes = at_nodes + 1
                     loads%of_nodes(at_nodes) = at_node(assembled, k)
@@ -104,7 +104,7 @@ contains
                     if (load%kind == gapbeam_couple) on_pieces(a)%couple = load%value
                     call load_in_units(on_pieces(a), assembled%units)
                     call condense(link_of(a))
-                    on_pieces(a) = nothing
+                    on_pieces(a) = no_load
                 end if
             end associate
         end do

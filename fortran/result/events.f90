@@ -7,7 +7,7 @@ module gapbeam_events
     use gapbeam_scheme, only: outcome_type
     use gapbeam_extended_precision, only: rule_given, reserve_for
     use gapbeam_path, only: follow_path, path_type, event_turns
-    use gapbeam_pieces, only: acting_type, acting_piece, what_happens, nothing
+    use gapbeam_pieces, only: acting_type, acting_piece, what_happens, no_change
     use gapbeam_words, only: shown
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_solution, only: state_type, close_all, forget
@@ -31,7 +31,7 @@ module gapbeam_events
         integer :: state
         !> gapbeam_opens, gapbeam_closes, gapbeam_turns; of a support with a law also gapbeam_yields, gapbeam_hardens,
         !> gapbeam_softens, gapbeam_breaks, gapbeam_unloads
-        integer :: change = nothing
+        integer :: change = no_change
         !> Of a history: the stretch that begins with it
         integer :: stretch = 0
     end type event_type
@@ -115,7 +115,7 @@ contains
             after = now_acts(which)
             change = what
             if (assembled%beam%supports(which)%breakpoint > 0 .and. what /= event_turns) change = what_happens(before, after)
-            if (change == nothing .or. (.not. when > 0.0_wp .and. what /= event_turns)) return
+            if (change == no_change .or. (.not. when > 0.0_wp .and. what /= event_turns)) return
             if (number == size(events)) then
                 allocate (longer(2*number), stat=stat)
                 if (stat /= 0) then

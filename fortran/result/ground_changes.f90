@@ -13,7 +13,7 @@ module gapbeam_ground_changes
     public :: zone_type, zone_change_type, find_zones, same_zones, compare_zones
 
     !> Zones of a smaller share of the beam only touch: rounding of the load factor makes them and takes them away
-    real(wp), parameter :: thinnest = 2.0_wp**(-46)
+    real(wp), parameter :: min_zone_length = 2.0_wp**(-46)
 
     !> A zone in which a layer of one-sided ground acts at least on some branch of its law; 1 is the zone of contact
     type :: zone_type
@@ -52,7 +52,7 @@ contains
 
         call ground_runs(assembled, solution, runs, error, only_acts=.true.)
         if (allocated(error)) return
-        call join_thin(thinnest*point_x(assembled, size(assembled%pieces)), runs)
+        call join_thin(min_zone_length*point_x(assembled, size(assembled%pieces)), runs)
         holds_both_ways = find_two_sided(assembled)
         most = 0
         if (size(runs) > 0) most = sum(max(runs%acts, 0))

@@ -54,11 +54,11 @@ contains
                 do k = first, last
                     if (solution%acts(k - first + 1, i) > 0) cycle
                     call peaks_beside(assembled, solution, i, k, xi, number)
-                    call look_at(0.0_wp)
+                    call check_at(0.0_wp)
                     do j = 1, number
-                        call look_at(xi(j))
+                        call check_at(xi(j))
                     end do
-                    call look_at(1.0_wp)
+                    call check_at(1.0_wp)
                 end do
             end associate
         end do
@@ -66,7 +66,7 @@ contains
     contains
 
         !> Ask for the distance at a place of the stretch
-        subroutine look_at(at)
+        subroutine check_at(at)
             real(wp), intent(in) :: at
             real(wp) :: distance, rounding
 
@@ -81,7 +81,7 @@ contains
                     places(2) = at
                 end if
             end associate
-        end subroutine look_at
+        end subroutine check_at
 
     end subroutine largest_ways
 

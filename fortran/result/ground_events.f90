@@ -4,14 +4,14 @@ module gapbeam_ground_events
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_polyline, only: last_breakpoint
     use gapbeam_assembled_model, only: assembled_type, point_x
-    use gapbeam_pieces, only: acting_type, acting_piece, what_happens, nothing, gapbeam_merges, gapbeam_splits
+    use gapbeam_pieces, only: acting_type, acting_piece, what_happens, no_change, gapbeam_merges, gapbeam_splits
     use gapbeam_zone_margin, only: change_type
     use gapbeam_ground_start, only: ground_start_type
     use gapbeam_ground_changes, only: zone_type, zone_change_type, same_zones, compare_zones
     implicit none
     private
     public :: ground_path_type, ground_event_type, ground_segment_type, held_type, new_path, &
-              note_changes, list_changes, add_segment, alike
+              note_changes, list_changes, add_segment, same_contact
 
     !> A change of what holds the beam
     type :: ground_event_type
@@ -23,7 +23,7 @@ module gapbeam_ground_events
         integer :: branch = 1
         !> Of a support: gapbeam_opens, gapbeam_closes, with a law also gapbeam_yields, gapbeam_hardens, gapbeam_unloads; of a zone:
         !> gapbeam_appears, gapbeam_vanishes, gapbeam_merges, gapbeam_splits; of its ends: gapbeam_reaches, gapbeam_leaves
-        integer :: change = nothing
+        integer :: change = no_change
     end type ground_event_type
 
     !> Between two load factors the same acts
@@ -89,7 +89,7 @@ contains
                 last = k
                 if (supports(k)%breakpoint > 0) last = last_breakpoint(supports, k)
                 what = change_of(assembled, k, last, before, after)
-                if (what /= nothing) then
+                if (what /= no_change) then
                     associate (s => assembled%normal(k), point => assembled%support_point(assembled%normal(k)))
                         call add_event(ground_event_type(factor(n + 1), point_x(assembled, point), support=s, change=what), begin, &
                                        path, error)
@@ -211,13 +211,13 @@ contains
     end subroutine add_segment
 
     !> Does the same hold the beam: the same supports, and as many zones with ends of the same kind
-    pure function alike(held, other) result(same)
+    pure function same_contact(held, other) result(same)
         type(held_type), intent(in) :: held, other
         logical :: same
 
         same = held%stands .and. other%stands
         if (same) same = all(held%closed .eqv. other%closed)
         if (same) same = same_zones(held%zones, other%zones)
-    end function alike
+    end function same_contact
 
 end module gapbeam_ground_events

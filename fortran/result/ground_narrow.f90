@@ -10,7 +10,7 @@ module gapbeam_ground_narrow
     use gapbeam_zone_margin, only: change_type
     use gapbeam_ground_crossing, only: crossing_type, find_crossing, refine_crossing
     use gapbeam_assembled_model, only: assembled_type, point_x
-    use gapbeam_ground_events, only: held_type, list_changes, alike
+    use gapbeam_ground_events, only: held_type, list_changes, same_contact
     use gapbeam_ground_walk, only: walk_type, hold, make_sure
     implicit none
     private
@@ -112,26 +112,26 @@ contains
         logical, intent(out) :: found
         !> As for solve_state
         type(error_type), allocatable, intent(out) :: error
-        type(held_type) :: between, beside
+        type(held_type) :: between, neighbour
         real(wp) :: guess, reach
         logical :: others
 
         found = .false.
         guess = crossing%factor
-        beside%stands = .true.
-        beside%start = crossing%start
+        neighbour%stands = .true.
+        neighbour%start = crossing%start
         reach = nearest*guess
         do while (guess - reach > low)
-            call hold(assembled, walk, guess - reach, between, error, beside)
+            call hold(assembled, walk, guess - reach, between, error, neighbour)
             if (allocated(error)) return
             if (between%stands .or. .not. allocated(walk%trouble)) then
-                if (alike(below, between)) then
+                if (same_contact(below, between)) then
                     low = guess - reach
                     below = between
                     exit
                 end if
                 ! There is another change before, or states do not tell so near to it
-                others = .not. alike(between, above)
+                others = .not. same_contact(between, above)
                 high = guess - reach
                 above = between
                 if (others) return
@@ -141,10 +141,10 @@ contains
         end do
         reach = nearest*guess
         do while (guess + reach < high)
-            call hold(assembled, walk, guess + reach, between, error, beside)
+            call hold(assembled, walk, guess + reach, between, error, neighbour)
             if (allocated(error)) return
             if (between%stands .or. .not. allocated(walk%trouble)) then
-                if (.not. alike(below, between)) then
+                if (.not. same_contact(below, between)) then
                     high = guess + reach
                     above = between
                     exit
@@ -212,12 +212,12 @@ contains
             if (.not. (guess*(1 - reach) > low .and. guess*(1 - reach) < high)) return
             call hold(assembled, walk, guess*(1 - reach), between, error, below)
             if (allocated(error)) return
-            if (alike(below, between)) exit
+            if (same_contact(below, between)) exit
             if (.not. between%stands .and. allocated(walk%trouble)) return
             high = guess*(1 - reach)
             above = between
         end do
-        if (above%stands .or. .not. alike(below, between)) return
+        if (above%stands .or. .not. same_contact(below, between)) return
         low = guess*(1 - reach)
         below = between
         if (guess*(1 + reach) >= high) return
@@ -271,7 +271,7 @@ contains
             end if
             call hold(assembled, walk, middle, between, error, below)
             if (allocated(error)) return
-            if (alike(below, between)) then
+            if (same_contact(below, between)) then
                 low = middle
                 below = between
             else

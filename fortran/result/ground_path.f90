@@ -11,8 +11,8 @@ module gapbeam_ground_path
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_solution, only: state_type
     use gapbeam_state, only: detail_of
-    use gapbeam_ground_events, only: ground_path_type, held_type, new_path, note_changes, add_segment, alike
-    use gapbeam_ground_walk, only: walk_type, begin_walk, look, hold, make_sure
+    use gapbeam_ground_events, only: ground_path_type, held_type, new_path, note_changes, add_segment, same_contact
+    use gapbeam_ground_walk, only: walk_type, begin_walk, solve_near, hold, make_sure
     use gapbeam_ground_narrow, only: narrow
     implicit none
     private
@@ -91,9 +91,9 @@ contains
             k = 1
             do while (k <= parts)
                 next = factor*(real(k, wp)/parts)
-                call look(assembled, walk, next, now, then, error)
+                call solve_near(assembled, walk, next, now, then, error)
                 if (allocated(error)) return
-                do while (.not. alike(now, then))
+                do while (.not. same_contact(now, then))
                     low = at
                     high = next
                     below = now
@@ -178,7 +178,7 @@ contains
                 if (held%stands) exit
             end do
             if (.not. held%stands) return
-            if (.not. alike(below, held)) then
+            if (.not. same_contact(below, held)) then
                 high = last
                 above = held
                 return

@@ -6,7 +6,7 @@ module gapbeam_ground_query
     use gapbeam_foundation_roots, only: find_peaks
     use gapbeam_curved, only: curved_type
     use gapbeam_ground_laws, only: along
-    use gapbeam_ground_fields, only: inside_type, look_inside, field_at_end, field_inside, curved_stretch
+    use gapbeam_ground_fields, only: inside_type, prepare_inside, field_at_end, field_inside, curved_stretch
     use gapbeam_ground_solver, only: ground_solution_type
     use gapbeam_assembled_model, only: assembled_type
     implicit none
@@ -85,8 +85,8 @@ contains
             return
         end if
         associate (j => solution%piece(i))
-            call look_inside(assembled%layers(assembled%layer_first(j):assembled%layer_first(j + 1) - 1), assembled%law_pieces, &
-                             assembled%pieces(j)%length, solution, i, inside)
+            call prepare_inside(assembled%layers(assembled%layer_first(j):assembled%layer_first(j + 1) - 1), assembled%law_pieces, &
+                                assembled%pieces(j)%length, solution, i, inside)
         end associate
         call field_inside(inside, xi, field)
     end subroutine values_in

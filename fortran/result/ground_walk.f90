@@ -14,10 +14,10 @@ module gapbeam_ground_walk
     use gapbeam_solution, only: state_type
     use gapbeam_state, only: solve_state, ground_of, detail_of
     use gapbeam_ground_changes, only: find_zones
-    use gapbeam_ground_events, only: held_type, alike
+    use gapbeam_ground_events, only: held_type, same_contact
     implicit none
     private
-    public :: walk_type, begin_walk, look, hold, make_sure
+    public :: walk_type, begin_walk, solve_near, hold, make_sure
 
     !> Zones of this share of the beam have next to no length
     real(wp), parameter :: shortest = 2.0_wp**(-24)
@@ -64,7 +64,7 @@ contains
     end subroutine begin_walk
 
     !> What holds the beam at a load factor, as far as double precision tells; where that does not tell, for sure
-    subroutine look(assembled, walk, at, near, held, error)
+    subroutine solve_near(assembled, walk, at, near, held, error)
         type(assembled_type), intent(in), target :: assembled
         type(walk_type), intent(inout) :: walk
         real(wp), intent(in) :: at
@@ -93,7 +93,7 @@ contains
             end if
         end if
         call hold(assembled, walk, at, held, error, near)
-    end subroutine look
+    end subroutine solve_near
 
     !> What holds the beam at a load factor. Just below the last one next to nothing does: what cannot be settled there is put
     !> down as no equilibrium, and prove_end sees to it that there is none
@@ -152,7 +152,7 @@ contains
         if (held%sure) return
         call hold(assembled, walk, at, solved, error, held)
         if (allocated(error)) return
-        walk%misled = .not. alike(held, solved)
+        walk%misled = .not. same_contact(held, solved)
         held = solved
     end subroutine make_sure
 

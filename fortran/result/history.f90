@@ -232,7 +232,7 @@ contains
                     end if
                     call add(leg, segment, direction, index, size(ways), acting, laws_before)
                     call add_others(ways, taken)
-                    if (stable) call look_for_landings(way)
+                    if (stable) call find_landings(way)
                 end if
                 if (outcome == goes_on) then
                     if (stable .and. (branch%way%index > 0 .or. branch%way%direction == -way)) then
@@ -323,7 +323,7 @@ contains
         end function is_jumping
 
         !> From which limits the beam lands on the last stretch, which is stable and passes their load factors
-        subroutine look_for_landings(way)
+        subroutine find_landings(way)
             integer, intent(in) :: way
             integer :: j, k
 
@@ -341,7 +341,7 @@ contains
                     end associate
                 end do
             end associate
-        end subroutine look_for_landings
+        end subroutine find_landings
 
     end subroutine follow_history
 

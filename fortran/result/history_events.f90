@@ -3,7 +3,8 @@ module gapbeam_history_events
     use gapbeam_kinds, only: wp
     use gapbeam_polyline, only: last_breakpoint
     use gapbeam_assembled_model, only: assembled_type
-    use gapbeam_pieces, only: acting_type, acting_piece, what_happens, nothing, gapbeam_turns, gapbeam_opens, gapbeam_closes
+    use gapbeam_pieces, only: acting_type, acting_piece, what_happens, no_change, gapbeam_turns, gapbeam_opens, &
+        gapbeam_closes
     use gapbeam_events, only: event_type
     use gapbeam_history, only: history_type, stretch_type
     implicit none
@@ -79,13 +80,13 @@ contains
                     end associate
                     before = acts_on(a, i)
                     after = acts_on(b, i)
-                    change = nothing
+                    change = no_change
                     if (assembled%beam%supports(first)%breakpoint > 0) then
                         change = what_happens(before, after)
                     else
                         change = merge(gapbeam_closes, gapbeam_opens, b%closed(first))
                     end if
-                    if (change == nothing) cycle
+                    if (change == no_change) cycle
                     pending = pending + 1
                     call add(event_type(b%from, i, after%condition, change, other))
                 end do

@@ -13,7 +13,7 @@ module gapbeam_lane_pieces
     public :: prepare_pieces
 
     !> No load on a piece
-    type(piece_load_type), parameter :: nothing = piece_load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
+    type(piece_load_type), parameter :: no_load = piece_load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
 
 contains
 
@@ -53,7 +53,7 @@ contains
         do k = 1, ubound(pieces%last, 1)
             call find_distances(pieces%last(k - 1) + 1, pieces%last(k))
         end do
-        on_pieces(:) = nothing
+        on_pieces(:) = no_load
         shares = 0
         do k = 1, size(assembled%model%loads)
             associate (load => assembled%model%loads(k), a => assembled%load_from(k), b => assembled%load_to(k))
@@ -110,7 +110,7 @@ contains
             associate (q => on_pieces(piece))
                 pieces%to_piece(:, shares) = [q%qa, q%qb, q%kappa, q%force, q%couple]
             end associate
-            on_pieces(piece) = nothing
+            on_pieces(piece) = no_load
         end subroutine take
 
     end subroutine prepare_pieces

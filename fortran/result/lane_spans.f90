@@ -23,7 +23,7 @@ module gapbeam_lane_spans
     !> Pieces of links times loads on them: beyond that they leave the processor's memory
     integer, parameter :: most_terms = 100000
     !> No load on a piece
-    type(piece_load_type), parameter :: nothing = piece_load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
+    type(piece_load_type), parameter :: no_load = piece_load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
 
     !> What eight cases with spans of their own need
     type :: span_room_type
@@ -120,7 +120,7 @@ contains
         allocate (on_link(size(spans%length)), work(size(spans%length)), stat=stat)
         made = stat == 0
         if (.not. made) return
-        on_link(:) = nothing
+        on_link(:) = no_load
         spans%last_term(0) = 0
         j = 0
         do k = 1, size(spans%link)
@@ -145,7 +145,7 @@ contains
                     call go_along(assembled%beam%links(spans%link(k))%length, assembled%pieces(first:last), on_link(first:last), &
                                   work, spans%terms(:, before + 1:spans%last_term(k)), spans%sizes(:, k))
                 end if
-                on_link(first:last) = nothing
+                on_link(first:last) = no_load
             end associate
         end do
     end subroutine prepare_loads

@@ -6,7 +6,7 @@ module gapbeam_pieces
     use gapbeam_path, only: event_opens, event_closes, event_turns
     implicit none
     private
-    public :: acting_type, acting_piece, what_happens, nothing
+    public :: acting_type, acting_piece, what_happens, no_change
     public :: gapbeam_open, gapbeam_closed, gapbeam_bilateral, gapbeam_touching, gapbeam_branch
     public :: gapbeam_opens, gapbeam_closes, gapbeam_turns, gapbeam_yields, gapbeam_hardens, gapbeam_softens, gapbeam_breaks, &
         gapbeam_unloads
@@ -26,7 +26,7 @@ module gapbeam_pieces
     integer, parameter :: gapbeam_appears = 20, gapbeam_vanishes = 21, gapbeam_merges = 22, gapbeam_splits = 23, &
                           gapbeam_reaches = 24, gapbeam_leaves = 25
     !> No event
-    integer, parameter :: nothing = -1
+    integer, parameter :: no_change = -1
 
     !> What acts of a support
     type :: acting_type
@@ -78,15 +78,15 @@ contains
 
         same_slope = .not. (before%slope < after%slope .or. before%slope > after%slope)
         if (before%condition == after%condition .and. before%way == after%way .and. same_slope) then
-            event = nothing
+            event = no_change
         else if (before%condition == gapbeam_open .or. after%condition == gapbeam_open) then
             event = merge(gapbeam_opens, gapbeam_closes, after%condition == gapbeam_open)
         else if (same_slope) then
-            event = nothing
+            event = no_change
         else if (after%condition < before%condition) then
             event = gapbeam_unloads
         else if (before%slope < -huge(1.0_wp)) then
-            event = nothing  ! the foot of a drop; it has broken at its top
+            event = no_change  ! the foot of a drop; it has broken at its top
         else if (after%slope < 0.0_wp) then
             event = merge(gapbeam_breaks, gapbeam_softens, after%slope < -huge(1.0_wp))
         else

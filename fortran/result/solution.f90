@@ -130,36 +130,37 @@ contains
         if (clearly_in_range(assembled, state)) return
         associate (units => assembled%units, axial => assembled%axial)
             do i = 0, ubound(state%deflection, 1)
-                call look(state%deflection(i), units%deflection, "deflection", "length", assembled%node_point(i))
-                call look(state%moment_left(i), moment_unit(units), "moment", "force", assembled%node_point(i))
-                call look(state%moment_right(i), moment_unit(units), "moment", "force", assembled%node_point(i))
-                if (i > 0) call look(state%shear(i), units%force, "shear", "force", assembled%node_point(i))
+                call check_finite(state%deflection(i), units%deflection, "deflection", "length", assembled%node_point(i))
+                call check_finite(state%moment_left(i), moment_unit(units), "moment", "force", assembled%node_point(i))
+                call check_finite(state%moment_right(i), moment_unit(units), "moment", "force", assembled%node_point(i))
+                if (i > 0) call check_finite(state%shear(i), units%force, "shear", "force", assembled%node_point(i))
                 if (assembled%turning(i) > 0.0_wp) then
-                    call look(couple_at_node(assembled, state, i), moment_unit(units), "couple of the rotational restraint", &
-                              "force", assembled%node_point(i))
+                    call check_finite(couple_at_node(assembled, state, i), moment_unit(units), &
+                                      "couple of the rotational restraint", "force", assembled%node_point(i))
                 end if
             end do
             do k = 1, size(assembled%model%supports)
                 j = assembled%beam_support(k)
                 associate (point => assembled%support_point(k))
-                    if (j > 0) call look(sum(state%reaction(j:last_breakpoint(assembled%beam%supports, j))), units%force, &
-                                         "reaction of the support", "force", point)
+                    if (j > 0) call check_finite(sum(state%reaction(j:last_breakpoint(assembled%beam%supports, j))), units%force, &
+                                                 "reaction of the support", "force", point)
                     if (assembled%model%supports(k)%side == 0) cycle
-                    call look(way_to_contact(assembled, state, k), units%deflection, "opening of the support", "length", point)
+                    call check_finite(way_to_contact(assembled, state, k), units%deflection, "opening of the support", "length", &
+                                      point)
                 end associate
             end do
             if (.not. allocated(axial%point)) return
             do i = 0, ubound(axial%point, 1)
-                call look(state%displacement(i), axial%units%deflection, "axial displacement", "length", axial%point(i))
-                call look(state%axial_reaction(i), axial%units%force, "axial reaction", "force", axial%point(i))
-                if (i > 0) call look(state%tension(i), axial%units%force, "axial force", "force", axial%point(i))
+                call check_finite(state%displacement(i), axial%units%deflection, "axial displacement", "length", axial%point(i))
+                call check_finite(state%axial_reaction(i), axial%units%force, "axial reaction", "force", axial%point(i))
+                if (i > 0) call check_finite(state%tension(i), axial%units%force, "axial force", "force", axial%point(i))
             end do
         end associate
 
     contains
 
         !> Is a value finite in the user's units
-        subroutine look(value, power, what, unit, point)
+        subroutine check_finite(value, power, what, unit, point)
             real(wp), intent(in) :: value
             integer, intent(in) :: power, point
             character(len=*), intent(in) :: what, unit
@@ -172,7 +173,7 @@ contains
                 call name_farthest(assembled, error)
             end if
             call forget(state)
-        end subroutine look
+        end subroutine check_finite
 
     end subroutine check_range
 

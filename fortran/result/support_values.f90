@@ -61,11 +61,11 @@ contains
                     end if
                     if (has_law) then
                         if (allocated(state%laws)) then
-                            call look_at_law(state%laws(j:last), s%side, state%closed(j:last), state%deflection(node), &
-                                             condition(k), opening(k))
+                            call state_of_law(state%laws(j:last), s%side, state%closed(j:last), state%deflection(node), &
+                                              condition(k), opening(k))
                         else
-                            call look_at_law(beam%supports(j:last), s%side, state%closed(j:last), state%deflection(node), &
-                                             condition(k), opening(k))
+                            call state_of_law(beam%supports(j:last), s%side, state%closed(j:last), state%deflection(node), &
+                                              condition(k), opening(k))
                         end if
                         opening(k) = scale(opening(k), units%deflection)
                     else if (s%side /= both) then
@@ -83,7 +83,7 @@ contains
     end subroutine support_values
 
     !> Which piece of a law acts, as a condition, and how far it is open
-    pure subroutine look_at_law(breakpoints, side, closed, deflection, condition, opening)
+    pure subroutine state_of_law(breakpoints, side, closed, deflection, condition, opening)
         type(node_support_type), intent(in) :: breakpoints(:)
         !> Side of the support, and the scheme of its breakpoints
         integer, intent(in) :: side
@@ -98,7 +98,7 @@ contains
         condition = acting%condition
         opening = 0.0_wp
         if (condition == gapbeam_open) opening = way_to_law(breakpoints, side, deflection)
-    end subroutine look_at_law
+    end subroutine state_of_law
 
     !> How far a law is open
     pure function way_to_law(breakpoints, side, deflection) result(way)

@@ -103,24 +103,24 @@ contains
         !> The link, its first and its last piece
         integer, intent(in) :: i, first, last
         type(track_type), intent(inout) :: track
-        type(piece_load_type) :: nothing(first:last)
+        type(piece_load_type) :: no_load(first:last)
         type(field_type) :: starts(first:last)
         real(wp) :: work(last - first + 1, 3), length
         integer :: j
 
-        nothing(:) = piece_load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
+        no_load(:) = piece_load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
         length = 0.0_wp
         do j = first, last
             track%before(j) = length
             length = length + assembled%pieces(j)%length
         end do
         associate (link => track%beam%links(i))
-            call recover_link(assembled%pieces(first:last), nothing, link%length, 1.0_wp, 0.0_wp, -link%inverse, 0.0_wp, 0.0_wp, &
+            call recover_link(assembled%pieces(first:last), no_load, link%length, 1.0_wp, 0.0_wp, -link%inverse, 0.0_wp, 0.0_wp, &
                               link%faa, work, starts)
             do j = first, last
                 track%turn_a(:, j) = cubic(starts(j))
             end do
-            call recover_link(assembled%pieces(first:last), nothing, link%length, 0.0_wp, 1.0_wp, link%inverse, 0.0_wp, 0.0_wp, &
+            call recover_link(assembled%pieces(first:last), no_load, link%length, 0.0_wp, 1.0_wp, link%inverse, 0.0_wp, 0.0_wp, &
                               link%fab, work, starts)
             do j = first, last
                 track%turn_b(:, j) = cubic(starts(j))

@@ -33,7 +33,7 @@ module gapbeam_train_cells
         integer, allocatable :: axle(:)
         !> The cells at a place of the train as pieces with loads, and the fields at their left ends
         type(piece_type), allocatable :: pieces(:)
-        type(piece_load_type), allocatable :: loads(:), nothing(:)
+        type(piece_load_type), allocatable :: loads(:), no_load(:)
         type(field_type), allocatable :: starts(:)
     end type cells_type
 
@@ -60,10 +60,10 @@ contains
         end do
         most = size(track%link) + moving
         allocate (cells%cells(most), cells%last(size(track%beam%links)), cells%first(size(track%link) + 1), cells%offset(moving), &
-                  cells%force(moving), cells%axle(moving), cells%pieces(most), cells%loads(most), cells%nothing(most), &
+                  cells%force(moving), cells%axle(moving), cells%pieces(most), cells%loads(most), cells%no_load(most), &
                   cells%starts(most), stat=stat)
         if (stat /= 0) return
-        cells%nothing(:) = piece_load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
+        cells%no_load(:) = piece_load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
         cells%axle(:) = axle(:moving)
         do i = 1, moving
             k = axle(i)
@@ -233,7 +233,7 @@ contains
         type(cells_type), intent(inout) :: cells
 
         associate (n => cells%number)
-            call recover_beam(cells%pieces(:n), cells%loads(:n), cells%nothing(:n), 1.0_wp, track%beam%links, cells%last, &
+            call recover_beam(cells%pieces(:n), cells%loads(:n), cells%no_load(:n), 1.0_wp, track%beam%links, cells%last, &
                               track%beam%kind, work%answers%deflection, work%answers%moment_left, work%answers%moment_right, &
                               work%shear, cells%starts(:n))
         end associate

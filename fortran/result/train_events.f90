@@ -4,7 +4,7 @@ module gapbeam_train_events
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved
     use gapbeam_polyline, only: last_breakpoint
     use gapbeam_assembled_model, only: assembled_type
-    use gapbeam_pieces, only: acting_type, acting_piece, what_happens, nothing
+    use gapbeam_pieces, only: acting_type, acting_piece, what_happens, no_change
     use gapbeam_train_traversal, only: traversal_type
     implicit none
     private
@@ -14,7 +14,7 @@ module gapbeam_train_events
     !> happens (gapbeam_pieces)
     type :: train_event_type
         real(wp) :: position = 0.0_wp
-        integer :: support = 0, state = 0, change = nothing
+        integer :: support = 0, state = 0, change = no_change
     end type train_event_type
 
 contains
@@ -79,7 +79,7 @@ contains
             else
                 change = after%condition
             end if
-            if (change == nothing) return
+            if (change == no_change) return
             if (number == size(events)) then
                 allocate (longer(2*number), stat=stat)
                 if (stat /= 0) then

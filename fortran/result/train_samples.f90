@@ -188,7 +188,7 @@ contains
         !> Of deflection, rotation, moment, shear
         real(wp), intent(out) :: low(4), high(4)
         type(field_type) :: end
-        real(wp) :: length, change_of_length, q, change_of_q, curvature, moment, rotation, shear, bulge(4), change(4)
+        real(wp) :: length, change_of_length, q, change_of_q, curvature, moment, rotation, shear, deviation(4), change(4)
 
         length = maxval(pieces%length)
         change_of_length = maxval(abs(pieces%length - pieces(0)%length))
@@ -200,18 +200,18 @@ contains
             moment = max(abs(a(0)%moment), abs(end%moment)) + length**2*q
             curvature = f*moment + abs(loads(0)%kappa)
             rotation = max(abs(a(0)%rotation), abs(end%rotation)) + length*curvature
-            bulge = [length**2*(curvature + g*q)/8, length*curvature/2, length**2*q/8, length*q]
+            deviation = [length**2*(curvature + g*q)/8, length*curvature/2, length**2*q/8, length*q]
             change(4) = maxval(abs(a%shear - a(0)%shear)) + change_of_length*q + length*change_of_q
             change(3) = maxval(abs(a%moment - a(0)%moment)) + length*change(4) + change_of_length*shear
             change(2) = maxval(abs(a%rotation - a(0)%rotation)) + length*f*change(3) + change_of_length*curvature
             change(1) = maxval(abs(a%deflection - a(0)%deflection)) + length*(change(2) + g*change(4)) &
                 + change_of_length*(rotation + g*shear)
         end associate
-        bulge(:) = bulge + lebesgue*change
+        deviation(:) = deviation + lebesgue*change
         high(:) = [max(a(0)%deflection, end%deflection), max(a(0)%rotation, end%rotation), max(a(0)%moment, end%moment), &
-                   max(a(0)%shear, end%shear)] + bulge
+                   max(a(0)%shear, end%shear)] + deviation
         low(:) = [min(a(0)%deflection, end%deflection), min(a(0)%rotation, end%rotation), min(a(0)%moment, end%moment), &
-                  min(a(0)%shear, end%shear)] - bulge
+                  min(a(0)%shear, end%shear)] - deviation
     end subroutine bound_fields
 
     !> Degree of the load in the cells

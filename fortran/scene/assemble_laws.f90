@@ -47,7 +47,7 @@ contains
             do i = 0, size(beam%links)
                 do j = beam%first(i) + 1, beam%first(i + 1) - 1
                     do k = beam%first(i), j - 1
-                        call look(beam%order(j), beam%order(k))
+                        call compare(beam%order(j), beam%order(k))
                         if (allocated(error)) return
                     end do
                 end do
@@ -57,7 +57,7 @@ contains
     contains
 
         !> Compare two supports or breakpoints of a place
-        subroutine look(j, k)
+        subroutine compare(j, k)
             integer, intent(in) :: j, k
             type(node_support_type) :: a, b
             logical :: apart
@@ -75,7 +75,7 @@ contains
                             ", so statics cannot tell what each of them takes; give one of them a finite stiffness", other)
                 error%key = "law"
             end associate
-        end subroutine look
+        end subroutine compare
 
         !> The piece that begins at a breakpoint, or that of a support without a law, which has no numbers yet
         pure function rise_of(k) result(made)

@@ -75,10 +75,10 @@ contains
         do k = 1, m
             point = assembled%support_point(k)
             if (rigid(gapbeam_below, point) == k) then
-                call look(k, rigid(gapbeam_above, point), .false.)
-                if (.not. allocated(error)) call look(k, rigid(gapbeam_both, point), .true.)
+                call check_order(k, rigid(gapbeam_above, point), .false.)
+                if (.not. allocated(error)) call check_order(k, rigid(gapbeam_both, point), .true.)
             else if (rigid(gapbeam_above, point) == k) then
-                call look(rigid(gapbeam_both, point), k, .true.)
+                call check_order(rigid(gapbeam_both, point), k, .true.)
             end if
             if (allocated(error)) return
         end do
@@ -100,7 +100,7 @@ contains
         end subroutine note
 
         !> The lower one of two rigid supports must not be in the way of the upper one
-        subroutine look(lower, upper, strictly)
+        subroutine check_order(lower, upper, strictly)
             integer, intent(in) :: lower, upper
             logical, intent(in) :: strictly
             real(wp) :: stop_at, start_at
@@ -113,7 +113,7 @@ contains
                             " and support "//trim(whole(upper))//" at "//trim(shown(start_at))// &
                             ", so no room is left; give a greater gap", upper)
             end if
-        end subroutine look
+        end subroutine check_order
 
     end subroutine check_neighbours
 

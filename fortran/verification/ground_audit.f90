@@ -128,7 +128,7 @@ contains
             piece = max(j, 1)
             at = merge(ground%pieces(piece)%length, 0.0_wp, j > 0)
             inside = j > 0 .and. i <= m
-            call look_beside(i)
+            call find_sizes_beside(i)
             a = field_type(solution%deflection(j), 0.0_wp, 0.0_wp, 0.0_wp)
             b = a
             if (j > 0) a = field_at_end(solution, i - 1, 2)
@@ -221,7 +221,7 @@ contains
 
             a = field_at_end(solution, i, 2)
             b = field_at_end(solution, i + 1, 1)
-            call look_beside(i + 1)
+            call find_sizes_beside(i + 1)
             associate (piece => solution%piece(i), at => solution%to(i), before => solution%acts(:, i), &
                        after => solution%acts(:, i + 1))
                 length = ground%pieces(piece)%length
@@ -253,7 +253,7 @@ contains
         end subroutine audit_border
 
         !> Sizes of the fields beside the left end of a stretch
-        subroutine look_beside(stretch)
+        subroutine find_sizes_beside(stretch)
             integer, intent(in) :: stretch
             integer :: left, right
 
@@ -263,7 +263,7 @@ contains
             sizes = larger(sizes_of(left), sizes_of(right))
             sizes = field_type(sizes%deflection + least%deflection, sizes%rotation + least%rotation, &
                                sizes%moment + least%moment, sizes%shear + least%shear)
-        end subroutine look_beside
+        end subroutine find_sizes_beside
 
     end subroutine audit_ground
 

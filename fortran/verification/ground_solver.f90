@@ -47,7 +47,7 @@ module gapbeam_ground_solver
     !> has become stiffer
     integer, parameter :: edge_nodes = 4, most_stiffer = 6
     !> Part of the largest displacement of a motion that is none
-    real(wp), parameter :: no_way = 1e-6_wp
+    real(wp), parameter :: zero_motion = 1e-6_wp
     !> Differences are taken so many times
     real(wp), parameter :: safety = 4.0_wp
 
@@ -115,7 +115,7 @@ contains
                 if (allocated(error)) deallocate (error)
                 ! What Newton's method does not find from full contact may be too much to be borne
                 if (first == 0 .or. try > 1) call weigh()
-                if (.not. allocated(error)) call look_on_mesh()
+                if (.not. allocated(error)) call solve_on_mesh()
                 if (allocated(error)) then
                     if (any(error%code == [gapbeam_no_memory, gapbeam_stopped])) return
                 end if
@@ -161,7 +161,7 @@ contains
                 motion(:) = outcome%motion(grounded%node)
                 call move_alloc(motion, outcome%motion)
             end if
-            outcome%motion(:) = merge(0.0_wp, outcome%motion, abs(outcome%motion) <= no_way)
+            outcome%motion(:) = merge(0.0_wp, outcome%motion, abs(outcome%motion) <= zero_motion)
             ! No support would stop it sooner or later
             if (.not. is_blocked(ground%beam%supports, outcome%motion)) return
         end if
@@ -220,11 +220,11 @@ contains
             tips = .false.
             if (.not. allocated(motion)) return
             tips = .not. (is_blocked(ground%beam%supports, motion) &
-                          .or. any(abs(motion(ground%beam%supports%node)) <= no_way))
+                          .or. any(abs(motion(ground%beam%supports%node)) <= zero_motion))
         end function tips_over
 
         !> Solve on the first mesh, or on one that is finer where zones end
-        subroutine look_on_mesh()
+        subroutine solve_on_mesh()
             logical :: refined
             integer :: again, solves
 
@@ -243,7 +243,7 @@ contains
                 call refine_mesh(ground, mesh, .true., refined)
                 if (.not. refined) return
             end do
-        end subroutine look_on_mesh
+        end subroutine solve_on_mesh
 
     end subroutine solve_on_ground
 

@@ -11,7 +11,7 @@ module gapbeam_stretch_audit
     use gapbeam_link, only: piece_load_type, combine_loads
     use gapbeam_ground, only: ground_type
     use gapbeam_ground_solution, only: ground_solution_type
-    use gapbeam_ground_fields, only: inside_type, look_inside, field_at_end, field_inside, curved_stretch
+    use gapbeam_ground_fields, only: inside_type, prepare_inside, field_at_end, field_inside, curved_stretch
     use gapbeam_quadrature, only: panels_type, cut_into_panels, points_of, most_points
     use gapbeam_ledger, only: ledger_type, note, of_bending, of_equilibrium, of_resultants, of_contact, deflections, rotations, &
         moments, forces, beyond
@@ -69,11 +69,11 @@ contains
                 msize = sizes%moment
                 call take_sizes()
                 curves = any(is_curve(layers, solution%acts(:n, i)))
-                call look_at(0.0_wp, left, .true.)
+                call check_layers(0.0_wp, left, .true.)
                 if (curves) then
                     call go_along_curves()
                 else
-                    call look_inside(layers, ground%laws, ground%pieces(j)%length, solution, i, inside, roughly=.true.)
+                    call prepare_inside(layers, ground%laws, ground%pieces(j)%length, solution, i, inside, roughly=.true.)
                     call integrate()
                     call fits(of_bending, rotations, (right%rotation - left%rotation) - l*bent(1), &
                               abs(right%rotation) + abs(left%rotation) + l*(f*msize + abs(load%kappa)))
@@ -86,7 +86,7 @@ contains
                               abs(right%moment) + abs(left%moment) + l*(abs(left%shear) + l*(sum(terms(:n)) + qsize)))
                     sums%moment = l**2*pressed(2)
                 end if
-                call look_at(1.0_wp, right, .true.)
+                call check_layers(1.0_wp, right, .true.)
                 call audit_resultants()
             end associate
         end associate
@@ -145,7 +145,7 @@ contains
                     call points_of(panels, p, number, points, weights)
                     do t = 1, number
                         call field_inside(inside, points(t), field)
-                        call look_at(points(t), field, .false.)
+                        call check_layers(points(t), field, .false.)
                         place = along(solution%from(i), solution%to(i), points(t), 1.0_wp)
                         q = along(load%qa, load%qb, place, ground%pieces(j)%length)
                         total = -q
@@ -200,10 +200,10 @@ contains
                         c = c + 1
                         force(k) = layers(k)%side*by_curves(c)
                     end do
-                    call look_inside(layers, ground%laws, ground%pieces(j)%length, solution, i, inside)
+                    call prepare_inside(layers, ground%laws, ground%pieces(j)%length, solution, i, inside)
                     do t = 1, samples
                         call field_inside(inside, t/(samples + 1.0_wp), field)
-                        call look_at(t/(samples + 1.0_wp), field, .false.)
+                        call check_layers(t/(samples + 1.0_wp), field, .false.)
                     end do
                 end associate
             end associate
@@ -231,7 +231,7 @@ contains
 
         !> Is every layer that acts one way in the right state at a place, and at the place since the last one where the beam comes
         !> nearest to a line at which the state would change
-        subroutine look_at(xi, field, at_end)
+        subroutine check_layers(xi, field, at_end)
             real(wp), intent(in) :: xi
             type(field_type), intent(in) :: field
             logical, intent(in) :: at_end
@@ -242,7 +242,7 @@ contains
 
             do k = 1, n
                 if (ground%layers(ground%first(solution%piece(i)) + k - 1)%side == 0) cycle
-                call look_layer(k, xi, field, at_end, now)
+                call check_layer(k, xi, field, at_end, now)
                 if (xi > 0.0_wp .and. .not. curves) then
                     do side = 1, 2
                         if (.not. (last(k)%change(side) < 0.0_wp .and. now%change(side) > 0.0_wp)) cycle
@@ -251,15 +251,15 @@ contains
                         t = last(k)%xi + t*(xi - last(k)%xi)
                         if (.not. (t > 0.0_wp .and. t < 1.0_wp)) cycle
                         call field_inside(inside, t, nearest)
-                        call look_layer(k, t, nearest, .false.)
+                        call check_layer(k, t, nearest, .false.)
                     end do
                 end if
                 last(k) = now
             end do
-        end subroutine look_at
+        end subroutine check_layers
 
         !> Is a layer in the right state at a place
-        subroutine look_layer(k, xi, field, at_end, found)
+        subroutine check_layer(k, xi, field, at_end, found)
             !> Its number among those of the piece
             integer, intent(in) :: k
             real(wp), intent(in) :: xi
@@ -294,7 +294,7 @@ contains
                 end associate
             end associate
             if (present(found)) found = now
-        end subroutine look_layer
+        end subroutine check_layer
 
     end subroutine audit_stretch
 
