@@ -1,4 +1,5 @@
-!> Status codes and errors. Outcomes carry data and are no errors: a scene without equilibrium is valid.
+!> Status codes and errors.
+!> Outcomes carry data and are no errors: a scene without equilibrium is valid.
 module gapbeam_error
     implicit none
     private

@@ -1,4 +1,4 @@
-!> Polynomials of two variables on the unit square by their Bernstein coefficients, and the greatest value of one.
+!> Polynomials of two variables on the unit square in Bernstein form, and their greatest values.
 !>
 !> Between the least and the greatest coefficient lie all values, so parts of the square that hold nothing greater than what is
 !> known are dropped, and the others cut in two. Where a derivative keeps its sign only an edge is left. A field in a cell whose

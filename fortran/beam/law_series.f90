@@ -1,4 +1,4 @@
-!> Laws of the ground as power series: the force of a layer along a stretch, and its slope, from the displacement there.
+!> Laws of the ground as power series of the displacement: force and slope of a layer along a stretch.
 !>
 !> The recurrences of power-series arithmetic (Moore 1966; Jorba and Zou 2005) give term by term what a series makes of another
 !> one; parameters are linear along the stretch.

@@ -1,4 +1,4 @@
-!> The mixed system, 2x2-block tridiagonal in (M, w) node by node, and its factor; gapbeam_band_substitution solves with it.
+!> Factor of the mixed system, 2x2-block tridiagonal in (M, w) node by node.
 !>
 !> Rows of node i (docs/method.md 2), V the shear, psi the rotation of the section:
 !>

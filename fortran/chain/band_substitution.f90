@@ -1,5 +1,5 @@
-!> Forward elimination and back substitution of right-hand sides with the factor of gapbeam_band, on the whole beam or on as much
-!> of it as a change can be seen on.
+!> Forward elimination and back substitution with the factor of gapbeam_band.
+!> On the whole beam, or on as much of it as a change can be seen on.
 module gapbeam_band_substitution
     use gapbeam_kinds, only: wp
     use gapbeam_require, only: checked, require

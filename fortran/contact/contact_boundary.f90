@@ -1,4 +1,4 @@
-!> Boundaries of contact, where closed supports, many and close to each other, end and the beam lifts off.
+!> Boundaries of contact, where a row of closed supports ends and the beam lifts off.
 !>
 !> At a boundary that stands too far out only the few supports next to it pull, one up, one down, so switching the wrong ones
 !> moves it by a few supports a solve. But on a base that the beam lies on closely the moment beyond what the shape of the

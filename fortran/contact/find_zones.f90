@@ -1,5 +1,5 @@
-!> The zones of contact, and of the pieces of laws, that a solution asks for: all crossings inside every stretch are isolated with
-!> certainty, and what acts between them is judged anew
+!> Zones of contact, and of the pieces of laws, that a solution asks for.
+!> All crossings inside every stretch are isolated with certainty, and what acts between them is judged anew.
 module gapbeam_find_zones
     use gapbeam_kinds, only: wp
     use gapbeam_watch, only: is_stopped

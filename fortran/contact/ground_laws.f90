@@ -1,4 +1,4 @@
-!> What a layer of ground does at a place along its piece of the beam: where it acts, by which piece of its law, and how
+!> Laws of ground layers at a place: whether they act, by which piece, and with which force.
 module gapbeam_ground_laws
     use gapbeam_kinds, only: wp
     use gapbeam_law_series, only: curve_type, curve_force, curve_slope, parameters_of_curve

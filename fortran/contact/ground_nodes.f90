@@ -1,4 +1,4 @@
-!> The beam and its ground at the nodes of a mesh: links between them, and what the ground pushes there.
+!> Forces and slopes of the ground at the nodes of a mesh, and the links of the beam between them.
 !>
 !> The ground acts at a node on half of the parts of the mesh beside it, by the laws of its layers there.
 module gapbeam_ground_nodes

@@ -1,4 +1,4 @@
-!> A first guess of the working scheme by a primal-dual interior-point method (Mehrotra 1992).
+!> First guess of the contact state by a primal-dual interior-point method (Mehrotra 1992).
 !>
 !> With reaction R >= 0 and opening s >= 0 of every one-sided support, s = side (contact - w) + R/stiffness, the method
 !> follows R s = mu to mu = 0. Each of its linear systems is the beam with every one-sided support, closed or open, as a

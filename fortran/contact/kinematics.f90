@@ -1,4 +1,4 @@
-!> Free motions of a beam: which bodies can move without any resistance, found by counting, not by numbers.
+!> Free motions of a beam, found by counting bodies and constraints, not by numbers.
 !>
 !> Hinges cut the beam into bodies that move rigidly in a free motion, since bending resists. A body is described by
 !> the displacements of its two ends. Each support that acts in it is one condition on them, a clamp or

@@ -1,5 +1,5 @@
-!> States and forces of supports: no module but this one, gapbeam_law_margins, gapbeam_polyline, gapbeam_law_kinematics and
-!> gapbeam_law_adapters knows their laws.
+!> States and forces of supports by their laws.
+!> No module but this one, gapbeam_law_margins, gapbeam_polyline, gapbeam_law_kinematics and gapbeam_law_adapters knows the laws.
 !>
 !> The law of a support is a polyline of its reaction (positive up) over the deflection of its node, and its state is the piece on
 !> which it is:

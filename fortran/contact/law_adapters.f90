@@ -1,4 +1,4 @@
-!> Supports as other methods want them: as pairs, as stiffnesses, one for a node, or changed
+!> Supports in the form of other methods: as pairs, as stiffnesses, one for a node, or changed.
 module gapbeam_law_adapters
     use gapbeam_kinds, only: wp
     use gapbeam_law, only: node_support_type, both, is_rigid

@@ -1,4 +1,4 @@
-!> What supports do to motions of the beam: hold them, stand in their way, let them go on for a while
+!> Supports that hold a motion of the beam, block it, or let it go on for a while.
 module gapbeam_law_kinematics
     use gapbeam_kinds, only: wp
     use gapbeam_polyline, only: node_support_type, piece_that_acts

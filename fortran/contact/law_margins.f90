@@ -1,4 +1,4 @@
-!> Margins of supports: how far each is from the end of its piece of the law, below zero where its state is wrong.
+!> Margins of supports: distances from the end of their piece of the law, below zero if wrong.
 !>
 !> The one measure of all signs, beside the rounding error of the number itself. A margin is the force with which a closed support
 !> pushes, or the distance of an open one from contact; of laws with more pieces gapbeam_polyline knows it.

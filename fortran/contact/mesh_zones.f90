@@ -1,4 +1,4 @@
-!> The zones of contact, and of the pieces of laws, that a solved mesh shows: a start for Newton's method (gapbeam_zones)
+!> Zones of contact, and of the pieces of laws, on a solved mesh: a start for gapbeam_zones.
 module gapbeam_mesh_zones
     use gapbeam_kinds, only: wp
     use gapbeam_layers, only: pieces_of_law, law_cubic, parameters_of_law

@@ -1,4 +1,4 @@
-!> Supports whose law has more than two pieces: a polyline of the force over the deflection, one breakpoint an entry.
+!> Supports whose law is a polyline of more than two pieces, one entry a breakpoint.
 !>
 !> With y = side*deflection and f = side*reaction, piece i of a law begins at breakpoint i, a point (side*contact, force), and goes
 !> on with the slope `stiffness` of that breakpoint; left of the first breakpoint it has the slope `before`. Slopes may have any

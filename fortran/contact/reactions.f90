@@ -1,4 +1,4 @@
-!> What follows from a solution: shears, reactions, and how far rounding errors reach
+!> Shears and reactions from a solution, with the reach of their rounding errors.
 module gapbeam_reactions
     use gapbeam_kinds, only: wp
     use gapbeam_band, only: restrained

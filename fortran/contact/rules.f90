@@ -1,4 +1,4 @@
-!> Which supports are wrong in a scheme, which of them a rule changes, and whether a scheme has come back
+!> Wrong supports of a contact state, those that a rule changes, and cycles of states.
 module gapbeam_rules
     use gapbeam_kinds, only: wp
     use gapbeam_law_margins, only: find_margins, find_wrong_states, find_doubtful_states

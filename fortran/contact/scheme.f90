@@ -1,4 +1,4 @@
-!> The working scheme of a beam, or the proof that there is none.
+!> The contact state of a beam, or the proof that there is none.
 !>
 !> Where the bilateral supports alone hold the beam every scheme is stable, and gapbeam_search ends with the right one.
 !> Other beams may pass through mechanisms. Then weak springs towards a reference position hold it, the reference

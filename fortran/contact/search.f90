@@ -1,4 +1,4 @@
-!> The search for the working scheme: solve, see which supports are wrong, change some of them.
+!> Active-set search for the contact state: solve, find wrong supports, change some of them.
 !>
 !> A scheme is right when no closed support pulls and no open one is penetrated. Two rules find it.
 !>

@@ -1,4 +1,4 @@
-!> Which supports are wrong in a scheme, from its deflections and moments alone, as long as nothing is near zero.
+!> Wrong supports by the signs of deflections and moments alone, as long as none is near zero.
 !>
 !> That is so in nearly every scheme of a search, and costs a small part of what it takes to find reactions and how far rounding
 !> errors reach. What is near zero is left to gapbeam_law, with all that.

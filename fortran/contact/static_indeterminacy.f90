@@ -1,12 +1,10 @@
-!> Reactions that statics cannot tell apart although a scheme was found: a rigid stretch that touches more rigid supports than
-!> it needs.
+!> Static indeterminacy of reactions: rigid stretches on more rigid supports than they need.
 !>
 !> Elastic parts have one state of forces only, since their energy is strictly convex. So the difference of two right states is
 !> a moment that no load balances, in parts without flexibility: linear between nodes, with a kink up or down at rigid
 !> supports that may push more or less, zero at hinges, and zero where such a part ends. The scheme is right for one reaction only
 !> if there is no such moment but zero. From the left, moment and shear that such a difference may have at a node are a cone in the
-!> plane,
-!> and there is one if it ever comes back to zero.
+!> plane, and there is one if it ever comes back to zero.
 !>
 !> An edge of a cone begins at a support, a hinge or a clamp, so its moment at places farther right has the sign that the order
 !> of the nodes gives it. Only this order matters, and numbers of nodes stand for places: all of this is exact.

@@ -1,4 +1,4 @@
-!> A stretch of the beam as a beam of its own
+!> A stretch of the beam cut out as a beam of its own (Schwarz).
 module gapbeam_subdomain
     use gapbeam_kinds, only: wp, dp
     use gapbeam_require, only: checked, require

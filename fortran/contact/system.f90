@@ -1,4 +1,4 @@
-!> One working scheme solved: the system it needs is chosen, assembled and solved; reactions follow.
+!> Solution of one contact state: its system chosen, assembled, solved and refined.
 module gapbeam_system
     use gapbeam_kinds, only: wp
     use gapbeam_watch, only: is_stopped

@@ -1,4 +1,4 @@
-!> Where the loads push a beam that may move freely while a scheme acts.
+!> Free motions of a beam along which the loads do work, unbounded if no support stops them.
 module gapbeam_unbounded_motions
     use gapbeam_kinds, only: wp, dp
     use gapbeam_band, only: hinge, restrained

@@ -1,4 +1,4 @@
-!> What solving a beam needs beside it: loads and scheme as they reach the nodes, factor, solution
+!> Workspace of a solve: loads and contact state at the nodes, factor, solution.
 module gapbeam_workspace
     use gapbeam_kinds, only: wp
     use gapbeam_require, only: checked, require

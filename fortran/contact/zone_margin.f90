@@ -1,4 +1,4 @@
-!> How far a zone of contact, or a support, is from a change: below zero before it, above zero after it, or the other way round.
+!> Margin of a zone of contact, or of a support, against a change; zero where it changes.
 !>
 !> A zone appears or vanishes where the greatest way of the beam past the line at which a layer acts is zero; two zones merge, or
 !> one splits, where the least one between them is; an end comes to the end of a layer, or leaves it, where the way there is, or

@@ -1,4 +1,4 @@
-!> Where the ground acts: the zones of contact, and of the pieces of its laws, found by Newton's method.
+!> Zones of contact, and of the pieces of the ground's laws, found by Newton's method.
 !>
 !> On given zones the beam is solved, with its one-sided supports by the search of gapbeam_scheme; the places where its
 !> deflection crosses the contact lines are the ends of the next zones. An end that is off by e leaves an unbalanced load of the

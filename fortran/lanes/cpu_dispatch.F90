@@ -1,6 +1,6 @@
-!> Eight cases by the best instructions that the processor has. Modules whose names end in _v3 and _v4 are the same sources compiled
-!> for AVX2 and for AVX-512 (x86-64-v3 and v4 of the psABI), those with _own for stiffnesses that differ from case to case
-!> (gapbeam_lane_stiffness); all give the same digits
+!> Dispatch of eight cases to the best instructions that the processor has.
+!> Modules whose names end in _v3 and _v4 are the same sources compiled for AVX2 and for AVX-512 (x86-64-v3 and v4 of the psABI),
+!> those with _own for stiffnesses that differ from case to case (gapbeam_lane_stiffness); all give the same digits
 module gapbeam_cpu_dispatch
     use, intrinsic :: iso_c_binding, only: c_int
     use gapbeam_kinds, only: wp

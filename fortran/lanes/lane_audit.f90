@@ -1,7 +1,8 @@
-!> Whether the numbers of solved cases are a solution, whatever found them. Forces and couples balance at every node, and with that
-!> those on every part of the beam; rotations are those of one beam, but at hinges; supports and restraints lie on their laws at the
-!> deflections that are told, in the states that are told, and no contact is violated. Every sum may be off by what rounding makes
-!> of its terms, conditions of signs by nothing
+!> Audit of the solutions of eight cases: equilibrium, compatibility, support laws.
+!> Whatever found the solutions: forces and couples balance at every node, and with that those on every part of the beam; rotations
+!> are those of one beam, but at hinges; supports and restraints lie on their laws at the deflections that are told, in the states
+!> that are told, and no contact is violated. Every sum may be off by what rounding makes of its terms, conditions of signs by
+!> nothing
 module gapbeam_lane_audit
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type, link_numbers, link_faa, link_fab, link_fbb

@@ -1,6 +1,7 @@
-!> How good the solutions of eight cases are: gapbeam_certificate side by side. Where that compares with a solution in quadruple
-!> precision and estimates movements, residuals in twice the working precision are taken here as one more thing by which the rows
-!> are off, and all movements are bounds (gapbeam_lane_error_ellipses). Both are bounds of the same errors, none always the smaller.
+!> Certificates of eight cases: residuals and error bounds, as of gapbeam_certificate.
+!> Where that compares with a solution in quadruple precision and estimates movements, residuals in twice the working precision are
+!> taken here as one more thing by which the rows are off, and all movements are bounds (gapbeam_lane_error_ellipses). Both are
+!> bounds of the same errors, none always the smaller.
 module gapbeam_lane_certificate
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes, lane_beam_type, lane_rounding_type, pack_type, &

@@ -1,5 +1,5 @@
-!> How far the results of eight cases move when every row of their systems is off by so much: bounds, where
-!> gapbeam_sensitivity estimates.
+!> Bounds of how far results of eight cases move when rows of their systems are off, by ellipses.
+!> gapbeam_sensitivity estimates the same.
 !>
 !> What is off at a node is seen elsewhere through two numbers, the rotation and the force that one part of the beam passes on to
 !> the next (gapbeam_kernel). All that the rows of a part may pass on together is a zonotope in the plane of these two; an ellipse

@@ -1,6 +1,7 @@
-!> Largest and smallest values of the fields of eight cases, and where they are: at the ends of the pieces, and inside them where
-!> the derivative changes sign. Shear and moment by the roots of a line and a parabola; rotation and deflection in those pieces
-!> only in which there may be more than is known, eight such pieces at a time.
+!> Largest and smallest values of the fields of eight cases, and their places.
+!> They are at the ends of the pieces, and inside them where the derivative changes sign. Shear and moment by the roots of a line
+!> and a parabola; rotation and deflection in those pieces only in which there may be more than is known, eight such pieces at a
+!> time.
 module gapbeam_lane_extremes
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes, lane_beam_type, lane_pieces_type, pack_type, piece_pack_type

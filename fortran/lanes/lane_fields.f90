@@ -1,5 +1,6 @@
-!> Fields at the left ends of all pieces of eight cases, from their solutions at the nodes: gapbeam_recover and recover_link of
-!> gapbeam_link side by side. Places are the same in all cases, so sums of lengths are made once (lane_pieces_type).
+!> Fields at the left ends of all pieces of eight cases, from their solutions at the nodes.
+!> That is gapbeam_recover and recover_link of gapbeam_link side by side. Places are the same in all cases, so sums of lengths are
+!> made once (lane_pieces_type).
 module gapbeam_lane_fields
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes, lane_beam_type, lane_pieces_type, pack_type, piece_pack_type, link_numbers, link_faa, &

@@ -1,4 +1,4 @@
-!> Solutions of the working schemes of eight cases, refined once, with reactions, and which of them are doubtful.
+!> Solutions of the contact states of eight cases, refined once, with reactions and doubts.
 module gapbeam_lane_finish
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes, link_numbers, lane_beam_type, pack_type, by_both_ends, by_three_moments

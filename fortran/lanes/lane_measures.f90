@@ -1,4 +1,4 @@
-!> By how much the sums that gapbeam_lane_audit looks at are off, for certificates of eight cases
+!> Relative residuals of eight cases for their certificates (gapbeam_lane_audit).
 module gapbeam_lane_measures
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type, link_faa, link_fab, link_fbb

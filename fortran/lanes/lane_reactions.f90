@@ -1,5 +1,5 @@
-!> What follows from the solutions of eight cases: shears, reactions, and which of them rounding could turn. gapbeam_reactions and
-!> gapbeam_law for ordinary supports, number by number
+!> Shears and reactions of eight cases, and which of them rounding could turn.
+!> That is gapbeam_reactions and gapbeam_law for ordinary supports, number by number.
 module gapbeam_lane_reactions
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type, link_numbers, link_fixity, link_reach

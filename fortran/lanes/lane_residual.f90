@@ -1,4 +1,4 @@
-!> What the rows of eight cases still lack, in twice the working precision: gapbeam_residual, number by number
+!> Residuals of eight cases in twice the working precision: gapbeam_residual, number by number.
 module gapbeam_lane_residual
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes, lane_beam_type, link_numbers, link_faa, link_fab, link_fbb

@@ -1,4 +1,4 @@
-!> By how much the rows of the systems of eight cases are off: residuals, rounding of coefficients, last digits of the data.
+!> Errors of the rows of the systems of eight cases: residuals, rounding, last digits of the data.
 module gapbeam_lane_row_errors
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes, lane_beam_type, lane_rounding_type, link_faa, link_fab, link_fbb

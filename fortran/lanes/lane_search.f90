@@ -1,4 +1,4 @@
-!> The search for the working schemes of eight cases side by side.
+!> Active-set search for the contact states of eight cases side by side.
 !>
 !> The search changes every wrong support at once, and where that makes no progress those at every other node. It may take
 !> signs as they come, for what it ends with is looked at as gapbeam_extended_precision does: the final solution is refined

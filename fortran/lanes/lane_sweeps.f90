@@ -1,5 +1,6 @@
-!> Systems of eight cases solved side by side, with the arithmetic of gapbeam_three_moment and gapbeam_band, number by number: the
-!> bits are theirs. Branches are masks here, and what a mask strikes out is kept finite.
+!> Systems of eight cases solved side by side by sweeps from end to end.
+!> That is the arithmetic of gapbeam_three_moment and gapbeam_band, number by number: the bits are theirs. Branches are masks here,
+!> and what a mask strikes out is kept finite.
 module gapbeam_lane_sweeps
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes, lane_beam_type, link_numbers, link_faa, link_fab, link_fbb, link_sum_a, link_sum_b, &

@@ -1,6 +1,7 @@
-!> Passes over the beams of eight cases, each end with a support that acts or a restraint, without couples and hinges; with the
-!> arithmetic of gapbeam_kernel, number by number: the bits are its. The scheme is applied on the way inward, signs are looked at on
-!> the way back, and a right-hand side can be solved for with the elimination of the pass before
+!> Two-sided elimination of the beams of eight cases that are held at both ends.
+!> Each end has a support that acts or a restraint, and there are no couples and hinges; with the arithmetic of gapbeam_kernel,
+!> number by number: the bits are its. The scheme is applied on the way inward, signs are looked at on the way back, and a
+!> right-hand side can be solved for with the elimination of the pass before
 module gapbeam_lane_two_sided_sweep
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes, lane_beam_type, link_numbers, link_faa, link_fab, link_fbb, link_sum_a, link_sum_b, &

@@ -1,5 +1,6 @@
-!> Many cases of one beam side by side: the lanes of every array here are cases, lane index first, so that the processor does in one
-!> instruction what is the same for all of them. Masks are reals, 1 or 0, which multiply.
+!> Types for many cases of one beam side by side: the lanes of every array are cases.
+!> The lane index comes first, so that the processor does in one instruction what is the same for all of them. Masks are reals, 1
+!> or 0, which multiply.
 module gapbeam_lane_types
     use gapbeam_kinds, only: wp
     implicit none

@@ -1,5 +1,5 @@
-!> The solution of a long beam in segments: refined, with reactions, and whether its scheme is beyond doubt; gapbeam_system,
-!> gapbeam_reactions and gapbeam_law for ordinary supports, one at a node, number by number
+!> Solution of a long beam in segments, refined, with reactions and doubts.
+!> That is gapbeam_system, gapbeam_reactions and gapbeam_law for ordinary supports, one at a node, number by number
 module gapbeam_segment_finish
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes

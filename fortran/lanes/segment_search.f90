@@ -1,4 +1,4 @@
-!> The working scheme of a long beam in segments.
+!> Active-set search for the contact state of a long beam in segments.
 !>
 !> Every wrong support but those of the ends, which hold the beam, is changed at once; where that makes no progress, one in every
 !> neighbourhood. Where nothing helps, or an end is wrong at last, the case is given up. Signs are taken as they come: the scheme

@@ -1,5 +1,6 @@
-!> The system of a long beam, each end with a support that acts, without couples and hinges, solved in eight segments, with the
-!> arithmetic of gapbeam_kernel, number by number: the bits are its.
+!> Two-sided elimination of a long beam in eight segments at once.
+!> Each end has a support that acts, and there are no couples and hinges; with the arithmetic of gapbeam_kernel, number by number:
+!> the bits are its.
 !>
 !> What a node passes on hardly depends on what lies far outside of it, to the last bit as a rule after some thirty nodes. So every
 !> segment begins with a guess of what comes in from outside, all at once, and then again with what does come in, until the bits are

@@ -1,5 +1,5 @@
-!> Reactions and openings as lines over the load factor while one scheme acts: v = v0 + factor v1, v0 from the dead loads and
-!> the contact levels, v1 from the live loads alone
+!> Reactions and openings as affine functions of the load factor while one contact state acts.
+!> v = v0 + factor v1, v0 from the dead loads and the contact levels, v1 from the live loads alone.
 module gapbeam_affine_response
     use gapbeam_kinds, only: wp
     use gapbeam_law_margins, only: margin_in_scheme

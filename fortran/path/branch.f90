@@ -1,5 +1,5 @@
-!> The path of a beam whose supports may soften, break or unload otherwise than along their law: from breakpoint to breakpoint,
-!> through limit points, in quadruple precision.
+!> Path of a beam whose supports soften, break or unload off their law, through limit points.
+!> It goes from breakpoint to breakpoint, in quadruple precision.
 !>
 !> The solution is followed along itself (gapbeam_outgoing_directions), so the load factor may fall; nothing is stepped and nothing
 !> iterates.

@@ -1,4 +1,4 @@
-!> The stretch of the load path that begins at a factor, on which one scheme acts: found in quadruple precision.
+!> The interval of load factors after a given one that has one contact state, in quadruple precision.
 !>
 !> Its scheme is that of a factor just above. It acts on an interval of factors, between the zeros of its reactions and
 !> openings; if that begins further up, other schemes come first, and a nearer factor is tried. Every scheme has but

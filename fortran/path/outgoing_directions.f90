@@ -1,4 +1,4 @@
-!> The ways on from a state at which some supports are at the end of their piece.
+!> Outgoing directions of a path from a state with supports at the end of their piece.
 !>
 !> While the pieces of all laws stay the same (in one region), the solutions lie on a straight line over the load factor. At its end
 !> one breakpoint or more are reached, and those beyond which the solution goes on are passed. A choice of passed breakpoints is a

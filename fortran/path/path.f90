@@ -1,4 +1,4 @@
-!> The path of the solution over the load factor, from one change of the working scheme to the next.
+!> Path of the solution over the load factor, from one change of the contact state to the next.
 !>
 !> While a scheme acts, all values are linear in the load factor (gapbeam_affine_response). The next event is the smallest factor
 !> ahead at which the reaction of a closed support or the opening of an open one becomes zero; it follows from v0 and v1

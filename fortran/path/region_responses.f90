@@ -1,4 +1,4 @@
-!> A region of the path: all pieces of all laws stay the same, and the solution is a line over the load factor
+!> Responses of a linear region of the path, in which all pieces of all laws stay the same.
 module gapbeam_region_responses
     use gapbeam_kinds, only: wp => qp
     use gapbeam_band_quad, only: band_ok

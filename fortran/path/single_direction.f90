@@ -1,4 +1,4 @@
-!> The way on from a state at which supports are at the end of their piece, where no force falls.
+!> The one outgoing direction of a path where no force falls, by complementarity.
 !>
 !> There is one then, and the rates at the breakpoints at hand are a linear complementarity problem with a P-matrix: breakpoints
 !> that move the wrong way are passed until none does, all at once, then the one of least index (Murty 1974). So a state with many

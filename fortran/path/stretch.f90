@@ -1,5 +1,5 @@
-!> A stretch of the load path on which one scheme acts: the solution as lines over the load factor, kept up to date while supports
-!> change, and the queue of the factors at which they reach zero
+!> An interval of the load path with one contact state, updated while supports change.
+!> The solution as lines over the load factor, and the queue of the factors at which they reach zero.
 module gapbeam_stretch
     use gapbeam_kinds, only: wp
     use gapbeam_band, only: band_ok

@@ -1,5 +1,5 @@
-!> Certificates of many solved cases of a beam, eight side by side where lanes hold them and nothing is in doubt
-!> (gapbeam_lane_certificate), the others one by one (gapbeam_certificate)
+!> Certificates of many solved cases of a beam, eight side by side where lanes hold them.
+!> Where something is in doubt, or lanes do not hold them (gapbeam_lane_certificate), one by one (gapbeam_certificate).
 module gapbeam_case_certificates
     use gapbeam_kinds, only: wp, qp
     use gapbeam_watch, only: is_stopped

@@ -1,4 +1,5 @@
-!> Many load cases of one beam. What each load does alone is condensed once; a case is a sum of that, each load times a factor.
+!> Many load cases of one beam as sums of its loads, each condensed once.
+!> A case is a sum of what each load does alone, times a factor.
 module gapbeam_cases
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved, gapbeam_not_finite, gapbeam_bad_input

@@ -1,5 +1,5 @@
-!> Combinations of loads: every load times a factor, dead ones as dead ones, and supports that have moved; each solved in a
-!> working scheme of its own, from the same start, so that none depends on those before it
+!> Combinations of loads and moved supports, each solved in a contact state of its own.
+!> Every load is taken times a factor, dead ones as dead ones; each begins from the same start, so none depends on those before.
 module gapbeam_combinations
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory

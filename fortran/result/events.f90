@@ -1,4 +1,4 @@
-!> The load followed from event to event: every change of the working scheme at its load factor.
+!> The load followed from event to event: every change of the contact state at its load factor.
 module gapbeam_events
     use gapbeam_kinds, only: wp
     use gapbeam_watch, only: end_if_stopped

@@ -1,4 +1,4 @@
-!> Zones of contact as the load changes them: which there are at a load factor, and how those of one become those of another
+!> Zones of contact at one load factor matched with those at another.
 module gapbeam_ground_changes
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp

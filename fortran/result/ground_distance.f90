@@ -1,4 +1,4 @@
-!> How far a solved beam is from the ground, and where it touches the ground without pressing it
+!> Distance of a solved beam from the ground, and places where it touches without pressing.
 module gapbeam_ground_distance
     use gapbeam_kinds, only: wp
     use gapbeam_element, only: field_type

@@ -1,4 +1,4 @@
-!> The load path of a beam on the ground, event by event and segment by segment
+!> Load path of a beam on the ground, event by event and segment by segment.
 module gapbeam_ground_events
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory

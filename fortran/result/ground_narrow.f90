@@ -1,4 +1,5 @@
-!> The first change of what holds a beam on the ground between two load factors: its own factor, and states on both sides of it.
+!> First change of the contact of a beam on the ground between two load factors.
+!> Its own factor, and states on both sides of it.
 !>
 !> Where the change is to be expected is computed (gapbeam_ground_crossing); states next to that factor tell whether it is so. What
 !> cannot be computed is found by bisection. The last factor below which there is equilibrium is where loads begin to do work along

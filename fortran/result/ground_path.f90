@@ -1,4 +1,4 @@
-!> The load path of a beam on the ground: every change of zones of contact and of supports at its load factor.
+!> Load path of a beam on the ground: changes of zones of contact and supports at their factors.
 !>
 !> Between two changes the ends of the zones move smoothly with the load, and no formula gives the factor of the next change. So
 !> the beam is looked at on a grid of factors, and where what acts differs between two neighbours, the changes between them are

@@ -1,4 +1,4 @@
-!> The pressure of the ground on a solved beam, anywhere along it, and its extremes
+!> Pressure of the ground on a solved beam, anywhere along it, and its extremes.
 module gapbeam_ground_pressure
     use gapbeam_kinds, only: wp
     use gapbeam_element, only: field_type

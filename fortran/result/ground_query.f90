@@ -1,4 +1,4 @@
-!> What a solved beam on the ground says: fields along it and their extremes
+!> Fields of a solved beam on the ground, and their extremes.
 module gapbeam_ground_query
     use gapbeam_kinds, only: wp
     use gapbeam_element, only: field_type

@@ -1,4 +1,4 @@
-!> A beam on the ground at one load factor after another: what holds it there
+!> States of a beam on the ground at one load factor after another.
 module gapbeam_ground_walk
     use gapbeam_kinds, only: wp
     use gapbeam_watch, only: end_if_stopped

@@ -1,4 +1,4 @@
-!> Where the ground acts on the beam, and where the beam hangs free above it, in the user's units: for all languages
+!> Zones of contact and free spans of a beam on the ground, in the user's units.
 module gapbeam_ground_zones
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp

@@ -1,4 +1,4 @@
-!> The load followed through factors in turn, by the path itself: past limit points, with supports that soften, break or keep a set
+!> Load path through given factors, past limit points, with supports that soften, break or keep a set.
 module gapbeam_history
     use gapbeam_kinds, only: wp, qp
     use gapbeam_watch, only: end_if_stopped

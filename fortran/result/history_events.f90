@@ -1,4 +1,4 @@
-!> What happens to the supports on the way of the load, from stretch to stretch
+!> Events of the supports along a load path, from stretch to stretch.
 module gapbeam_history_events
     use gapbeam_kinds, only: wp
     use gapbeam_polyline, only: last_breakpoint

@@ -1,4 +1,4 @@
-!> Where the way of the load begins: supports at rest, settlements, dead loads, and the scheme at the first factor above 0.
+!> Start of a load path: supports at rest, settlements, dead loads, and the first contact state.
 module gapbeam_history_start
     use gapbeam_kinds, only: wp, qp
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_not_converged

@@ -1,5 +1,6 @@
-!> Many cases of a beam, eight side by side (fortran/lanes), where the beam is one that lanes hold. What comes out has the digits of
-!> solve_case of gapbeam_cases, which takes the other beams, and the cases that are doubtful here
+!> Many cases of a beam solved eight side by side (fortran/lanes).
+!> The beam is one that lanes hold. What comes out has the digits of solve_case of gapbeam_cases, which takes the other beams, and
+!> the cases that are doubtful here
 module gapbeam_lane_cases
     use gapbeam_kinds, only: wp
     use gapbeam_watch, only: is_stopped

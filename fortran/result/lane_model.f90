@@ -1,4 +1,4 @@
-!> A beam, its supports and the starts of searches as columns of eight cases side by side.
+!> A beam, its supports and the starts of searches as columns of eight cases.
 module gapbeam_lane_model
     use gapbeam_kinds, only: wp
     use gapbeam_band, only: plain, hinge, restrained

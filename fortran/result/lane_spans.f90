@@ -1,4 +1,4 @@
-!> What links of cases whose spans have other stiffnesses are made of (gapbeam_lane_links)
+!> Links of cases whose spans have stiffnesses of their own (gapbeam_lane_links).
 module gapbeam_lane_spans
     use gapbeam_kinds, only: wp
     use gapbeam_element, only: moment_integrals

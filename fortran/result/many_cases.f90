@@ -1,4 +1,4 @@
-!> Cases of a beam: side by side in lanes where that can be (gapbeam_lane_cases), the others one by one
+!> Cases of a beam, side by side where lanes hold them (gapbeam_lane_cases), else one by one.
 module gapbeam_many_cases
     use gapbeam_kinds, only: wp
     use gapbeam_watch, only: is_stopped

@@ -1,4 +1,4 @@
-!> What a support does, and what happens to it, as codes: states of supports, pieces of laws, events
+!> Codes for states of supports, pieces of laws and events.
 module gapbeam_pieces
     use gapbeam_kinds, only: wp
     use gapbeam_polyline, only: node_support_type

@@ -1,4 +1,4 @@
-!> Pressure of the ground on a beam, in the user's units: at places, and its extremes
+!> Pressure of the ground on a beam in the user's units: at places, and its extremes.
 module gapbeam_pressure
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory

@@ -1,4 +1,4 @@
-!> What a solved state says, in the user's units: fields anywhere, their extremes, the free motion
+!> Fields of a solved state in the user's units: at places, extremes, the free motion.
 module gapbeam_query
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input

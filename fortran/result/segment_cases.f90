@@ -1,5 +1,6 @@
-!> Cases of a long beam one by one, each in eight segments side by side (fortran/lanes), where the beam is such. What comes out has
-!> the digits of solve_case of gapbeam_cases, which takes the other beams, and the cases that are doubtful here
+!> Cases of a long beam one by one, each in eight segments side by side (fortran/lanes).
+!> The beam is such as fits. What comes out has the digits of solve_case of gapbeam_cases, which takes the other beams, and the
+!> cases that are doubtful here
 module gapbeam_segment_cases
     use gapbeam_kinds, only: wp
     use gapbeam_watch, only: is_stopped

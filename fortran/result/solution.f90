@@ -1,4 +1,4 @@
-!> The state of a beam at one load factor as numbers: in which units, at which places, and whether they are numbers at all
+!> The state of a beam at one load factor as numbers, checked to be finite.
 module gapbeam_solution
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory

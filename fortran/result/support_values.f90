@@ -1,4 +1,4 @@
-!> What a solved state says of the supports, in the user's units
+!> Reactions, openings and states of the supports in a solved state, in the user's units.
 module gapbeam_support_values
     use gapbeam_kinds, only: wp
     use gapbeam_model, only: node_support_type, both

@@ -1,4 +1,4 @@
-!> Loads that move together: axles and uniform loads on a beam at a place of the train.
+!> Loads that move together: axles and uniform loads on a beam at one position of the train.
 !>
 !> The place of a train is that of its first axle. While no axle, and no end of a uniform load, passes a point at which a piece
 !> of the beam ends, what it does to the links is a polynomial in the place: the rotations of the simple bar under a unit

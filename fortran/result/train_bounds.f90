@@ -1,4 +1,4 @@
-!> Where the extreme values under a train may be: bounds that leave a few stretches of its way.
+!> Bounds of the values under a train, which leave few stretches of its way for the extremes.
 !>
 !> In a cell (gapbeam_train_cells) at a fixed share of its length a field depends on the position alone. It lies between the line
 !> through its values at two positions and that line moved by h**2/8 of its second derivative. What the axles in a link add to that

@@ -1,5 +1,6 @@
-!> The beam under a train, cut where its pieces end and where axles and ends of its uniform loads are: in every such cell the fields
-!> are polynomials in x, and while the train is in one interval, in its place as well.
+!> The beam under a train cut into cells in which the fields are polynomials.
+!> It is cut where its pieces end and where axles and ends of its uniform loads are: in every such cell the fields are polynomials
+!> in x, and while the train is in one interval, in its place as well.
 module gapbeam_train_cells
     use gapbeam_kinds, only: wp
     use gapbeam_element, only: field_type, fields_at

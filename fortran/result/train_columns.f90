@@ -1,5 +1,5 @@
-!> What a train does to the links of a beam on a stretch of its way, and the state that follows, as polynomials in the position; the
-!> factor of the system of a scheme (gapbeam_train_elimination solves it)
+!> State of a beam under a train on a stretch of its way, as polynomials in the position.
+!> What the train does to the links, and the factor of the system of a scheme (gapbeam_train_elimination solves it).
 module gapbeam_train_columns
     use gapbeam_kinds, only: wp
     use gapbeam_band, only: pivot_type, factor_chain, band_ok

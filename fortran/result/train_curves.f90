@@ -1,4 +1,4 @@
-!> A train at chosen places of the beam: the largest and smallest values there
+!> Largest and smallest values at chosen places of the beam while a train goes over it.
 module gapbeam_train_curves
     use gapbeam_kinds, only: wp
     use gapbeam_watch, only: end_if_stopped

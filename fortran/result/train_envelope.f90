@@ -1,4 +1,4 @@
-!> The largest and smallest values while a train goes over a beam, exact in place and position.
+!> Largest and smallest values while a train goes over a beam, exact in place and position.
 !>
 !> Bounds leave few stretches of the way (gapbeam_train_bounds). In a cell and on a stretch every field is a polynomial in x and in
 !> the position (gapbeam_train_samples), so what no bound of the samples and no Bernstein coefficient reaches is not there; what is

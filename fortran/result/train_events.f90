@@ -1,4 +1,4 @@
-!> What happens to the supports while a train goes over a beam
+!> Events of the supports while a train goes over a beam.
 module gapbeam_train_events
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved

@@ -1,4 +1,4 @@
-!> The largest of what candidates give while a train goes over a beam, and where it is, exact in place and position
+!> Largest value among candidates while a train goes over a beam, exact in place and position.
 module gapbeam_train_extremes
     use gapbeam_kinds, only: wp
     use gapbeam_bernstein, only: value_of

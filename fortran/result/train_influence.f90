@@ -1,4 +1,4 @@
-!> Influence lines of a beam in a scheme
+!> Influence lines of a beam in one contact state.
 module gapbeam_train_influence
     use gapbeam_kinds, only: wp
     use gapbeam_watch, only: end_if_stopped

@@ -1,4 +1,4 @@
-!> Intervals of a train's way: places between which nothing passes a point at which a piece of the beam ends
+!> Intervals of train positions in which no load passes an end of a piece of the beam.
 module gapbeam_train_intervals
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory

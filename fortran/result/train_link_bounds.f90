@@ -1,5 +1,5 @@
-!> A beam under a train on one stretch of its way, looked at link by link: what its fields are at both ends of the stretch, and how
-!> far they can be from the line between (gapbeam_train_bounds).
+!> Bounds of the fields of each link under a train on a stretch of its way.
+!> What its fields are at both ends of the stretch, and how far they can be from the line between (gapbeam_train_bounds).
 module gapbeam_train_link_bounds
     use gapbeam_kinds, only: wp
     use gapbeam_element, only: field_type

@@ -1,4 +1,4 @@
-!> What a train does to the links of a beam at a place
+!> Loads of a train on the links of a beam at one position.
 module gapbeam_train_loads
     use gapbeam_kinds, only: wp
     use gapbeam_train, only: train_type, track_type

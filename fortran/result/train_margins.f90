@@ -1,5 +1,5 @@
-!> Reactions and openings of a scheme while a train moves through an interval, as polynomials in its place, and where they come to
-!> zero;
+!> Margins of a contact state on an interval of train positions, as polynomials, and their roots.
+!> The same of the work of the loads along a free motion.
 !> the same of the work of the loads along a free motion
 module gapbeam_train_margins
     use gapbeam_kinds, only: wp

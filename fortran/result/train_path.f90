@@ -1,4 +1,4 @@
-!> A train goes over a beam: every change of the working scheme at its exact place.
+!> A train on its way over a beam: every change of the contact state at its exact position.
 !>
 !> While one scheme acts and the train is in one interval (gapbeam_train), reactions and openings are polynomials in its place: a
 !> few solves give them. They say where the scheme ceases to be right: the way on is tried with those supports changed that

@@ -1,4 +1,4 @@
-!> Deflections at rigid supports are their levels: what differs from that by rounding only is made so
+!> Prescribed deflections at rigid supports, put in place of what differs by rounding only.
 module gapbeam_train_prescribed_deflections
     use gapbeam_kinds, only: wp
     use gapbeam_law, only: is_rigid

@@ -1,4 +1,4 @@
-!> What is known of a train on a stretch of its way: its solutions at a few positions, from which all of it follows.
+!> Samples of a train on a stretch of its way: solutions at a few positions, from which all follows.
 !>
 !> In a cell of the beam under the train (gapbeam_train_cells) and on a stretch of its way (gapbeam_train_path) every field is a
 !> polynomial in x and in the position. Degrees in the position: node values 3, times 3 for the deflection under an axle; one more

@@ -1,3 +1,4 @@
+!> Bounds of the values of supports under a train: where the extremes may be.
 !> Stretches of a train's way on which a support may have its largest or smallest reaction, opening, deflection or couple: the line
 !> between the values at both ends, moved by h**2/8 of the second derivative (gapbeam_train_columns)
 module gapbeam_train_support_bounds

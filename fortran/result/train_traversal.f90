@@ -1,4 +1,4 @@
-!> The way of a train over a beam as stretches of places
+!> The way of a train over a beam as stretches of positions with one contact state.
 module gapbeam_train_traversal
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory

@@ -1,4 +1,4 @@
-!> From what a user describes to the engine's arrays.
+!> Assembly of the engine's arrays from what a user describes.
 !>
 !> The beam is cut into pieces wherever anything changes: at span ends, supports, hinges, point loads, the ends of distributed
 !> loads and of foundations, and the points of their tables. Only beam ends, supports across the beam and hinges become nodes of

@@ -1,4 +1,4 @@
-!> Numbers of the axial system of a model, whose points are known, in units of its own
+!> Assembly of the axial system of a model whose points are known, in units of its own.
 module gapbeam_assemble_axial
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type

@@ -1,4 +1,4 @@
-!> Foundations as layers of ground under the pieces of the beam
+!> Assembly of foundations as layers of ground under the pieces of the beam.
 module gapbeam_assemble_foundations
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp

@@ -1,4 +1,4 @@
-!> Laws of foundations by points as pieces; of those that vary, at both ends of every piece of the beam
+!> Assembly of foundation laws by points as pieces, at both ends of every piece of the beam.
 module gapbeam_assemble_ground_laws
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp

@@ -1,4 +1,4 @@
-!> Laws of supports: from the points that the user gave to breakpoints, in the user's units (gapbeam_polyline)
+!> Assembly of support laws: the user's points to breakpoints, in the user's units.
 module gapbeam_assemble_laws
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type

@@ -1,4 +1,4 @@
-!> Loads of a model whose points and nodes are known, and with them the links: everything as the engine takes it
+!> Assembly of the loads and links of a model whose points and nodes are known.
 module gapbeam_assemble_loads
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory

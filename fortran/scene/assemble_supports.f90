@@ -1,4 +1,4 @@
-!> Supports and hinges as nodes of the system, and the axial system
+!> Assembly of supports and hinges as nodes of the system, and of the axial system.
 module gapbeam_assemble_supports
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory

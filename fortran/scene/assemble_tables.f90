@@ -1,4 +1,4 @@
-!> Values of tables at the ends of the pieces of the beam, which is cut at their points
+!> Assembly of tables: values at the ends of the pieces of the beam, which is cut at their points.
 module gapbeam_assemble_tables
     use gapbeam_kinds, only: wp
     use gapbeam_assembled_model, only: assembled_type

@@ -1,5 +1,5 @@
-!> The units in which a model is solved, and everything in them as the engine takes it; what does not fit into double precision
-!> is refused by name
+!> Choice of the units in which a model is solved, and its conversion to them.
+!> What does not fit into double precision is refused by name.
 module gapbeam_assemble_units
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type

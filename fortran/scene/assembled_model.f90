@@ -1,4 +1,4 @@
-!> A model made ready: the engine's arrays, and what leads from them back to the user's places and supports
+!> The assembled model: the engine's arrays, and the way back to the user's places and supports.
 module gapbeam_assembled_model
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp

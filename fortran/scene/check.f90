@@ -1,4 +1,5 @@
-!> Is what the user gave possible, number by number; what depends on places that coincide is looked at in gapbeam_assemble
+!> Checks of a scene number by number.
+!> What depends on places that coincide is looked at in gapbeam_assemble.
 module gapbeam_check
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, fatal_error, gapbeam_bad_input

@@ -1,4 +1,4 @@
-!> Are foundations possible, each alone: their moduli, gaps, tables and laws
+!> Checks of foundations, each alone: their moduli, gaps, tables and laws.
 module gapbeam_check_foundations
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type

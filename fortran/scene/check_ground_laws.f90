@@ -1,4 +1,4 @@
-!> Are the laws of foundations that are given by parameters possible
+!> Checks of the laws of foundations that are given by parameters.
 module gapbeam_check_ground_laws
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type

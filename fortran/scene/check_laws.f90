@@ -1,4 +1,4 @@
-!> Are laws of supports possible
+!> Checks of the laws of supports.
 module gapbeam_check_laws
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type

@@ -1,4 +1,4 @@
-!> How what a user gave is refused: in words, and as codes for an interface that has words of its own
+!> Errors of what a user gave: in words, and as codes for an interface with words of its own.
 module gapbeam_input_error
     use gapbeam_error, only: error_type, fatal_error, gapbeam_bad_input, gapbeam_not_finite
     use gapbeam_words, only: whole

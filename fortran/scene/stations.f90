@@ -1,5 +1,5 @@
-!> Places along the beam: kept as a span and a distance from the span's left end, so that a short span far from the
-!> origin keeps its digits.
+!> Stations along the beam, each a span and a distance from its left end.
+!> So a short span far from the origin keeps its digits.
 !>
 !> Places that differ by rounding only (position_tolerance) count as one point: a place becomes the span end that is so near,
 !> else the nearest support or hinge, else the first of the loads' ends to its left. What is near is near to the point itself,

@@ -1,4 +1,4 @@
-!> The audit of a beam without ground: does what the user gets hold together?
+!> Audit of the results of a beam without ground: equilibrium, compatibility, laws.
 !>
 !> Nothing of how the solution was found is used. At every node forces and moments balance, and with that those of every part of the
 !> beam between hinges; rotations are those of one beam but at hinges, or those of the restraint; every support lies on its law at

@@ -1,4 +1,4 @@
-!> How good a result is: its residuals, and bounds of its errors by comparison with the solution in quadruple precision.
+!> Certificate of a result: residuals, and error bounds by the solution in quadruple precision.
 !>
 !> That solution starts from the numbers of the pieces, so what condensing, solving, and going back into the links have
 !> cost is all in the comparison. Its own error is some 1e-33 of the sizes of the terms, below all that doubles can show. What

@@ -1,4 +1,4 @@
-!> What doubles cannot decide is decided in quadruple precision.
+!> Contact states decided in quadruple precision where double precision cannot.
 !>
 !> The search in double precision tells signs from rounding by the sizes of the terms behind them. Where a sign is within
 !> its rounding error, where the search does not end, or where a motion is free by a hair only, the same engine,

@@ -1,4 +1,4 @@
-!> Results at nodes as linear functionals of the solution of the mixed system, and of its right-hand side.
+!> Results at nodes as linear functionals of the solution of the mixed system.
 !>
 !> A deflection, a moment, a shear, a rotation or a reaction is l'x of the solution x of K x = b. K is symmetric, so K^-1 l, the
 !> solution with the functional as right-hand side, is how much the result moves when a row is off by one.

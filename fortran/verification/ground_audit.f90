@@ -1,4 +1,4 @@
-!> The audit of a beam on the ground: does what the user gets hold together?
+!> Audit of the results of a beam on the ground: equilibrium, compatibility, laws.
 !>
 !> The solution is rounded from quadruple precision, and nothing of how it was found is used here. On every stretch the fields
 !> fulfil the equations of the beam, with the loads as given and the pressure that the laws make of the deflection, which adds up

@@ -1,4 +1,4 @@
-!> The load factor at which a zone of contact or a support changes, between two factors with a state before and one after it.
+!> Load factor of a change of a zone of contact or a support, between two solved states.
 !>
 !> How far the change is away (gapbeam_zone_margin) is a continuous function of the load factor, whose zero is found by secants in
 !> double precision, and then by one step with the function in quadruple precision: on zones whose ends are off by e the beam is

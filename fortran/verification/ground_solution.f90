@@ -1,5 +1,5 @@
-!> A beam solved on the ground in quadruple precision, rounded once to doubles: ends, fields, reactions, and the force of every
-!> layer on every stretch.
+!> Solution of a beam on the ground in quadruple precision, rounded once to doubles.
+!> Ends, fields, reactions, and the force of every layer on every stretch.
 module gapbeam_ground_solution
     use gapbeam_kinds, only: wp, qp
     use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type

@@ -1,4 +1,4 @@
-!> A beam on the ground solved: the zones found in double precision, and then all of it in quadruple precision, rounded once.
+!> Solver of a beam on the ground: zones in double precision, then all in quadruple precision.
 !>
 !> So ends, fields and reactions have all digits that doubles hold, and what doubles found is nothing but a start. Whether there is
 !> an equilibrium at all, and where zones are if Newton's method does not find them or laws are curves, the least energy on a mesh

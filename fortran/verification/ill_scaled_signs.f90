@@ -1,4 +1,4 @@
-!> Signs that are hidden even in quadruple precision.
+!> Signs of supports that bad scaling hides even in quadruple precision.
 !>
 !> What rounding can do is estimated by sizes of terms, for any beam: where stiffnesses lie tens of powers of ten apart, or a link
 !> of 1e-29 swings farther than anything else, the estimates hide signs that the solution itself shows. Supports that are wrong by

@@ -1,4 +1,4 @@
-!> How far results move when the data change in their last digits.
+!> Sensitivity of results to the last digits of the data.
 !>
 !> Places, loads and contact levels are sums of the scene's numbers, rounded to doubles, so every coefficient and load of the
 !> system K x = b may be off by some units in the last place, whatever precision it is solved in. The solution then moves by

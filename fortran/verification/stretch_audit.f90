@@ -1,6 +1,7 @@
-!> The audit of a stretch of a beam on the ground: its fields, asked for as users ask, are put into the equations of the beam,
-!> psi' = kappa - M/EI, w' = psi + V/GA, M' = V, V' = pressure - load, and these are integrated from end to end. The pressure is
-!> what the laws make of the deflection, the load is that of the model; nothing of how the stretch was solved is used.
+!> Audit of a stretch of a beam on the ground by the integrated equations of the beam.
+!> Its fields, asked for as users ask, are put into the equations, psi' = kappa - M/EI, w' = psi + V/GA, M' = V, V' = pressure -
+!> load, and these are integrated from end to end. The pressure is what the laws make of the deflection, the load is that of the
+!> model; nothing of how the stretch was solved is used.
 module gapbeam_stretch_audit
     use gapbeam_kinds, only: wp
     use gapbeam_element, only: field_type

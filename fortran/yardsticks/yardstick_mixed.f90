@@ -1,4 +1,4 @@
-!> The nodal mixed system, plain or refined: by the engine's 2x2 block elimination or by LAPACK's dgbsv.
+!> The nodal mixed system as a yardstick, by 2x2 block elimination or by LAPACK's dgbsv.
 !>
 !> Rows and signs are those of gapbeam_band; every mesh point is a node with the unknowns (M, w). Refinement takes its
 !> residual in plain double, with differences of neighbouring unknowns formed first, or in double-double.
