@@ -1,5 +1,6 @@
-!> Polynomials on 0..1 by their Bernstein coefficients: between the least and the greatest coefficient
-!> lie all values, so where nothing happens is known at once, and halves of the interval (de Casteljau) show what does
+!> Polynomials on 0..1 by their Bernstein coefficients, which bound all values.
+!> All values lie between the least and the greatest coefficient, so where nothing happens is known at once, and halves of the
+!> interval (de Casteljau) show the rest.
 module gapbeam_bernstein
     use gapbeam_kinds, only: wp
     implicit none

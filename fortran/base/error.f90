@@ -1,4 +1,5 @@
-!> Status codes and errors. Outcomes carry data and are no errors: a scene without equilibrium is valid.
+!> Status codes and errors.
+!> Outcomes carry data and are no errors: a scene without equilibrium is valid.
 module gapbeam_error
     implicit none
     private
@@ -54,7 +55,7 @@ module gapbeam_error
         !> Of bad input the array, 1 spans, 2 hinges, 3 supports, 4 loads, 5 sections, 6 foundations, 0 another argument, and the
         !> entry in it, from 1
         integer :: table = 0, entry = 0
-        !> Why (gapbeam_refusal), what of the entry it is about, and another entry that it is at odds with
+        !> Why (gapbeam_input_error), what of the entry it is about, and another entry that it is at odds with
         integer :: reason = 0
         character(len=16) :: key = " "
         integer :: partner = 0

@@ -1,4 +1,4 @@
-!> Is there memory for what is to be done
+!> Estimates of the memory that a task takes, and whether there is enough.
 module gapbeam_memory
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_error, only: error_type, no_memory

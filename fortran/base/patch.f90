@@ -1,4 +1,4 @@
-!> Polynomials of two variables on the unit square by their Bernstein coefficients, and the greatest value of one.
+!> Polynomials of two variables on the unit square in Bernstein form, and their greatest values.
 !>
 !> Between the least and the greatest coefficient lie all values, so parts of the square that hold nothing greater than what is
 !> known are dropped, and the others cut in two. Where a derivative keeps its sign only an edge is left. A field in a cell whose
@@ -59,7 +59,7 @@ contains
         waiting(1)%u = 0.0_wp
         waiting(1)%width_v = 1.0_wp
         waiting(1)%width_u = 1.0_wp
-        call look_at_corners(waiting(1), value, v, u)
+        call raise_to_corners(waiting(1), value, v, u)
         do while (count > 0)
             part = waiting(count)
             count = count - 1
@@ -79,15 +79,15 @@ contains
                 end if
             end if
             call split(part, waiting(count + 1), waiting(count + 2))
-            call look_at_corners(waiting(count + 1), value, v, u)
-            call look_at_corners(waiting(count + 2), value, v, u)
+            call raise_to_corners(waiting(count + 1), value, v, u)
+            call raise_to_corners(waiting(count + 2), value, v, u)
             count = count + 2
         end do
         if (value > known - slack) call polish(whole, value, v, u)
     end subroutine greatest_on_patch
 
     !> Values at the corners are coefficients
-    pure subroutine look_at_corners(part, value, v, u)
+    pure subroutine raise_to_corners(part, value, v, u)
         type(patch_type), intent(in) :: part
         real(wp), intent(inout) :: value, v, u
         integer :: i, k
@@ -102,7 +102,7 @@ contains
                 end associate
             end do
         end do
-    end subroutine look_at_corners
+    end subroutine raise_to_corners
 
     !> Where a derivative keeps its sign the greatest value is at an edge
     pure subroutine drop_to_edges(part)

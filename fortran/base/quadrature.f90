@@ -1,4 +1,5 @@
-!> Integrals of smooth functions to rounding: Gauss's formulas on panels (Stroud, Secrest, Gaussian Quadrature Formulas, 1966)
+!> Integrals of smooth functions to rounding by Gauss's formulas on panels.
+!> Stroud, Secrest, Gaussian Quadrature Formulas, 1966.
 module gapbeam_quadrature
     use gapbeam_kinds, only: wp
     implicit none

@@ -1,4 +1,4 @@
-!> What a procedure takes for granted, as executable checks in the build with checks (tests/run), beside those of array bounds.
+!> Preconditions of procedures as executable checks, in the build with checks only (tests/run).
 !> In all other builds `checked` is a constant false: nothing is tested, no code is made, and nothing here can end the process.
 !>
 !>     if (checked) call require(size(x) == n, "solve_chain: x")

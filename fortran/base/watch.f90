@@ -1,5 +1,6 @@
-!> A watch on calls that take long: whether they are to go on. Whoever calls keeps it, and a beam refers to it; what takes long
-!> looks at it between linear solves, and ends with the status gapbeam_stopped. Once it says so it stays so, until it begins anew.
+!> Watch on calls that take long, asked between linear solves whether they are to go on.
+!> Whoever calls keeps it, and a beam refers to it; a call that is not to go on ends with the status gapbeam_stopped. Once the watch
+!> says so it stays so, until it begins anew.
 module gapbeam_watch
     use, intrinsic :: iso_c_binding, only: c_int, c_int64_t, c_double, c_ptr, c_funptr, c_null_ptr, c_null_funptr, c_associated
     use gapbeam_error, only: error_type, fatal_error, status_text, gapbeam_stopped

@@ -1,4 +1,4 @@
-!> Numbers as words.
+!> Numbers written as words.
 !>
 !> Not of deferred length: gfortran keeps the length of such a result in static storage, which threads share.
 module gapbeam_words

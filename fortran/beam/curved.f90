@@ -1,4 +1,4 @@
-!> A stretch of beam on ground whose law is a curve: its fields by power series, and its link for Newton's method.
+!> A stretch of beam on ground with a curved law: fields by power series, and its tangent link.
 !>
 !> From the fields at one place, v = w - M/GA, psi, M and V, the equations of gapbeam_foundation_taylor give their series, with
 !> the force of the ground as a series of the displacement (gapbeam_law_series). The slope of that force along the stretch is a

@@ -1,4 +1,4 @@
-!> A prismatic stretch of beam on elastic ground (Winkler 1867; Hetenyi 1946): how its ends answer.
+!> Stiffness of a prismatic stretch of beam on elastic ground (Winkler 1867; Hetenyi 1946).
 !>
 !> The unknowns are those of the simply supported bar of docs/method.md 1, deflections and moments of both ends; a
 !> modulus of zero leaves that bar. Local coordinate x = 0..L to the right, xi = x/L. Signs as there: deflection, load and

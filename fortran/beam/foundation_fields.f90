@@ -1,5 +1,5 @@
-!> The fields inside a prismatic stretch of beam on elastic ground, from its load and what is at its ends; units and signs as in
-!> gapbeam_foundation
+!> Fields inside a prismatic stretch of beam on elastic ground, from its load and end values.
+!> Units and signs as in gapbeam_foundation.
 module gapbeam_foundation_fields
     use gapbeam_kinds, only: wp
     use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type

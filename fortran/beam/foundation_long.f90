@@ -1,4 +1,4 @@
-!> Long stretches on elastic ground of constant modulus: the functions of foundation_series by exponentials.
+!> Long stretches on elastic ground of constant modulus, by exponentials.
 !>
 !> X has the eigenvalues p + d and p - d, of which d may be real or imaginary: without shear p = beta L, d = i beta L
 !> (Hetenyi 1946). Near to each other, functions of X go by p and d**2; well apart, by quotients of differences. Every

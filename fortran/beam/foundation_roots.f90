@@ -1,4 +1,4 @@
-!> Where the deflection of a stretch on elastic ground crosses a line, and where its fields have their peaks.
+!> Roots and peaks of the fields of a stretch on elastic ground.
 !>
 !> The stretch is cut to pieces on which the field is a polynomial to rounding; signs of Bernstein coefficients isolate its
 !> zeros (Descartes' rule, Collins and Akritas 1976; by subdivision, Lane and Riesenfeld 1981). No coefficient is believed

@@ -1,4 +1,4 @@
-!> Short stretches on elastic ground of constant modulus: functions of a matrix, by power series.
+!> Short stretches on elastic ground of constant modulus, by power series of a matrix.
 !>
 !> The fields y = (w, M) obey y'' = A y - load, A the matrix with the rows (K/GA, -1/EI) and (K, 0). Ends and fields are
 !> even functions of X = sqrt(A) L, hence power series in X**2: nothing depends on whether its roots are real, complex,

@@ -1,4 +1,4 @@
-!> Power series along a stretch on elastic ground whose modulus is linear: its fields from those at one place, and its link.
+!> Power series of the fields along a stretch on ground of linear modulus, and its link.
 !>
 !> v = w - M/GA instead of w leaves four equations without derivatives of loads: v' = psi, psi' = -M/EI + kappa, M' = V,
 !> V' = K (v + M/GA) - q. Their series converge everywhere (K is a polynomial); they are short where beta L is 1 at most,

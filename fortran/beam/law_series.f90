@@ -1,4 +1,4 @@
-!> Laws of the ground as power series: the force of a layer along a stretch, and its slope, from the displacement there.
+!> Laws of the ground as power series of the displacement: force and slope of a layer along a stretch.
 !>
 !> The recurrences of power-series arithmetic (Moore 1966; Jorba and Zou 2005) give term by term what a series makes of another
 !> one; parameters are linear along the stretch.
@@ -15,7 +15,7 @@ module gapbeam_law_series
     !> Degree of all series: with as many terms as digits need that shrink by e**2 each, the fewest operations for a length
     integer, parameter :: order = ceiling(digits(1.0_wp)*0.35_wp) + 3
     !> Parameters keep a ratio if they do to this share: they are rounded to doubles
-    real(wp), parameter :: alike = 2.0_wp**(-47)
+    real(wp), parameter :: same_to_rounding = 2.0_wp**(-47)
     !> From here on a tanh is 1 to rounding
     real(wp), parameter :: level = 0.35_wp*digits(1.0_wp) + 0.7_wp
 
@@ -114,7 +114,7 @@ contains
         associate (a => curve%parameter_a, b => curve%parameter_b)
             cross = [a(1)*b(2), b(1)*a(2)]
             if (curve%law == law_polyline) cross = [a(3)*b(4), b(3)*a(4)]
-            series%keeps_ratio = abs(cross(1) - cross(2)) <= alike*maxval(abs(cross))
+            series%keeps_ratio = abs(cross(1) - cross(2)) <= same_to_rounding*maxval(abs(cross))
             if (.not. series%keeps_ratio) return
             if (curve%law == law_polyline) then
                 series%ratio = a(4)/a(3)

@@ -1,4 +1,4 @@
-!> Ground under the pieces of a beam: what every layer does as the beam is pressed into it
+!> Layers of ground under the pieces of a beam, with their laws.
 module gapbeam_layers
     use gapbeam_kinds, only: wp
     implicit none

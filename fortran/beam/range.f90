@@ -1,4 +1,4 @@
-!> What left the range of double precision
+!> Numbers that left the range of double precision, by overflow or underflow.
 module gapbeam_range
     use gapbeam_kinds, only: wp
     use gapbeam_link, only: link_type, piece_type

@@ -1,4 +1,4 @@
-!> Fields at the left end of every piece from the solution at the nodes
+!> Fields at the left end of every piece, recovered from the solution at the nodes.
 module gapbeam_recover
     use gapbeam_kinds, only: wp
     use gapbeam_element, only: field_type

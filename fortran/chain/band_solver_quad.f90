@@ -1,4 +1,5 @@
-!> A band matrix in quadruple precision factored with pivoting and solved: what LAPACK has in double precision only
+!> A band matrix in quadruple precision, factored with pivoting and solved.
+!> LAPACK has that in double precision only.
 module gapbeam_band_solver_quad
     use gapbeam_kinds, only: wp => qp
     implicit none

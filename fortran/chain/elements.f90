@@ -1,4 +1,4 @@
-!> A beam of many elements as plain arrays, solved as fast as memory allows: every element end is a node.
+!> A beam of many elements as plain arrays, every element end a node, solved at the speed of memory.
 !>
 !> For fine meshes, and for programs that have such arrays already. Elements are assembled in small blocks that stay in the
 !> first-level cache, right before the sweeps of gapbeam_kernel need them. Memory is passed through once each way:

@@ -1,4 +1,4 @@
-!> The mixed system of a beam whose links may lie on elastic ground: factor and solve, by the recursion of gapbeam_band.
+!> Factor and solution of the mixed system of a beam whose links may lie on elastic ground.
 !>
 !> A link on ground has two rotations and two shears of its own (gapbeam_foundation); all nodes before a node still act on it
 !> through the three numbers phi, beta, delta of gapbeam_band. With the determinants and sums that a link brings along,

@@ -1,4 +1,4 @@
-!> What the rows of the mixed system of a beam on elastic ground still lack (gapbeam_foundation_chain).
+!> Residual of the mixed system of a beam on elastic ground (gapbeam_foundation_chain).
 !>
 !> Where nothing but a zone of next to no length holds a part of the beam, elimination passes huge numbers through it that cancel
 !> later: a zone of a share e of the beam loses the digits of 1/e**2. The rows themselves have no such numbers, so a solution is

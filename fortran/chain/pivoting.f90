@@ -1,4 +1,4 @@
-!> The pivoting route: the same mixed system through a band solver with pivoting.
+!> The mixed system solved by a band solver with pivoting.
 !>
 !> gapbeam_band needs no pivoting but for one case, a rigid beam over rigid supports, where a flexibility used
 !> as pivot is exactly zero. Rows, unknowns and signs are those of gapbeam_band; a node with a rotational

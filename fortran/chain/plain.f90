@@ -1,4 +1,4 @@
-!> Beams without hinges and couples at nodes, whose links are not rigid: solved from both ends by gapbeam_kernel.
+!> Beams without hinges, couples at nodes and rigid links, solved from both ends (gapbeam_kernel).
 !>
 !> Nearly all schemes of nearly all beams are such; the others go to gapbeam_band. Nothing of the factor is kept: to
 !> solve again costs less than to read one.

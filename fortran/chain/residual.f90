@@ -1,4 +1,4 @@
-!> What the rows of the mixed system still lack, in twice the working precision
+!> Residual of the mixed system in twice the working precision.
 !>
 !> Double-double arithmetic, a number as the unevaluated sum of two doubles, by error-free sums and products (Knuth 1969,
 !> Dekker 1971; Ogita, Rump and Oishi 2005). It relies on IEEE arithmetic without contraction and without reordering:

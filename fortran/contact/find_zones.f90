@@ -1,5 +1,5 @@
-!> The zones of contact, and of the pieces of laws, that a solution asks for: all crossings inside every stretch are isolated with
-!> certainty, and what acts between them is judged anew
+!> Zones of contact, and of the pieces of laws, that a solution asks for.
+!> All crossings inside every stretch are isolated with certainty, and what acts between them is judged anew.
 module gapbeam_find_zones
     use gapbeam_kinds, only: wp
     use gapbeam_watch, only: is_stopped
@@ -8,7 +8,8 @@ module gapbeam_find_zones
     use gapbeam_foundation_roots, only: find_crossings, find_limits
     use gapbeam_curved, only: curved_type, curved_fields
     use gapbeam_layers, only: layer_type, pieces_of_law, has_curves, has_points, law_cubic, parameters_of_law
-    use gapbeam_ground_laws, only: between, contact_line, line_of_kink, approach_kink, piece_of_deflection, parameters_at
+    use gapbeam_ground_laws, only: between, contact_line, line_of_breakpoint, distance_to_breakpoint, &
+        piece_of_deflection, parameters_at
     use gapbeam_workspace, only: workspace_type
     use gapbeam_ground, only: ground_type, zones_type, grounded_type, new_zones, resize, steps_of_piece, combined_load
     use gapbeam_zone_fields, only: ends_of, take_curved
@@ -23,7 +24,7 @@ module gapbeam_find_zones
     !> Shares of a stretch without crossings at which it is looked on which side it is, the next one where a place only touches
     real(wp), parameter :: looks(2) = [0.5_wp, 0.375_wp]
     !> Distance from a line, beside deflection and line, below which crossings may have been taken for rounding
-    real(wp), parameter :: nothing = 2**12*epsilon(1.0_wp)
+    real(wp), parameter :: touching_width = 2**12*epsilon(1.0_wp)
 
 contains
 
@@ -163,8 +164,9 @@ contains
                                                      limits(2, :), xi, crossings, curved)
                                 else
                                     call find_crossings(grounded%stretches(i), load_of(i), ends_of(work, i), &
-                                                        line_of_kink(ground%laws, layer, law, from, length), &
-                                                        line_of_kink(ground%laws, layer, law, to, length), xi, crossings, curved)
+                                                        line_of_breakpoint(ground%laws, layer, law, from, length), &
+                                                        line_of_breakpoint(ground%laws, layer, law, to, length), xi, &
+                                                            crossings, curved)
                                 end if
                                 if (crossings > 0) cuts = [cuts, from + xi(:crossings)*(to - from)]
                             end do
@@ -274,7 +276,7 @@ contains
                 if (before <= acts) return
                 ! A beam that lies on it without any load stays as it is
                 do law = before, acts + 1, -1
-                    call approach_kink(ground%laws, layer, law, deflection(look), 0.0_wp, place, length, past, change)
+                    call distance_to_breakpoint(ground%laws, layer, law, deflection(look), 0.0_wp, place, length, past, change)
                     if (abs(past) > 0.0_wp) cycle
                     acts = law
                     return
@@ -293,8 +295,8 @@ contains
 
             touches = .false.
             do law = max(1, acts), min(acts + 1, pieces_of_law(layer))
-                line = line_of_kink(ground%laws, layer, law, place, length)
-                touches = touches .or. abs(w - line) <= nothing*max(abs(w), abs(line))
+                line = line_of_breakpoint(ground%laws, layer, law, place, length)
+                touches = touches .or. abs(w - line) <= touching_width*max(abs(w), abs(line))
             end do
         end function touches
 

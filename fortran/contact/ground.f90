@@ -1,4 +1,4 @@
-!> A beam on the ground: its pieces, the layers of ground under them, and the zones in which the layers act.
+!> A beam on the ground: its pieces, the layers under them, and the zones in which these act.
 !>
 !> Where the zones are known, the problem is that of a beam on stretches of elastic ground: a beam_type with a link for every
 !> stretch. gapbeam_zones finds them.

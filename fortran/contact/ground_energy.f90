@@ -1,29 +1,26 @@
 !> The least energy of a beam on one-sided ground, on a mesh: Newton's method with a line search.
 !>
-!> At the nodes of the mesh (gapbeam_ground_mesh) the ground pushes by its laws on half of the parts beside them, so that the
-!> energy is convex and has a Lipschitz continuous gradient. A model of it with the forces and slopes of the ground at hand, and
-!> with the supports as they are, is solved by gapbeam_scheme; along the way to its solution the slope of the energy never falls,
-!> and costs no more than the forces of the ground. Going to where it vanishes, or nearly so, the energy falls by a share of what
-!> it can in every round: from any start this ends at the least one (semismooth Newton methods: Pang and Qi 1995, Facchinei 1995).
-!> Where the model runs away along a motion of the beam, the same search tells how far; if nothing stops it, there is no
-!> equilibrium.
+!> With the ground at the nodes of the mesh (gapbeam_ground_nodes) the energy is convex and has a Lipschitz continuous gradient. A
+!> model of it with the forces and slopes of the ground at hand, and with the supports as they are, is solved by gapbeam_scheme;
+!> along the way to its solution the slope of the energy never falls, and costs no more than the forces of the ground. Going to
+!> where it vanishes, or nearly so, the energy falls by a share of what it can in every round: from any start this ends at the
+!> least one (semismooth Newton methods: Pang and Qi 1995, Facchinei 1995). Where the model runs away along a motion of the beam,
+!> the same search tells how far; if nothing stops it, there is no equilibrium.
 module gapbeam_ground_energy
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, fatal_error, out_of_range, gapbeam_solved, gapbeam_not_converged, &
         gapbeam_no_memory, gapbeam_stopped
-    use gapbeam_link, only: piece_type, piece_load_type, condense_link
-    use gapbeam_band, only: plain
     use gapbeam_law, only: both
-    use gapbeam_law_motions, only: find_level_forces
+    use gapbeam_law_kinematics, only: find_level_forces
     use gapbeam_model, only: beam_type, node_support_type, order_supports, softest
     use gapbeam_kinematics, only: work_of_loads
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_search, only: rule_block
     use gapbeam_scheme, only: find_scheme, outcome_type
-    use gapbeam_ground_laws, only: along, piece_of_deflection, push_of_layer, slope_at
     use gapbeam_ground, only: ground_type
     use gapbeam_ground_mesh, only: mesh_type
+    use gapbeam_ground_nodes, only: point_type, press, list_points, make_beam
     implicit none
     private
     public :: find_least_energy
@@ -37,19 +34,10 @@ module gapbeam_ground_energy
     real(wp), parameter :: balanced = 1e-9_wp
     !> A slope of the energy that has fallen to this share of what it was is enough
     real(wp), parameter :: flat = 0.1_wp
-    !> Slopes of the law of a node beside the steepest that are none
-    real(wp), parameter :: no_slope = 2.0_wp**(-40)
-    !> Springs that ease the way where the model has no one solution, beside the softest stiffness
-    real(wp), parameter :: ease_ratio = 1e-5_wp
+    !> Weight of the springs that help where the model has no one solution, beside the softest stiffness
+    real(wp), parameter :: proximal_ratio = 1e-5_wp
     !> A motion goes so many times the length of the beam at first, and at last
     real(wp), parameter :: first_way = 1e-6_wp, last_way = 1e14_wp
-
-    !> Where the ground acts: at a node, on a length of a piece of the beam
-    type :: point_type
-        integer :: node, piece
-        !> Distance from the left end of the piece, and the length that belongs to it
-        real(wp) :: place, width
-    end type point_type
 
     !> Where a slope that never falls goes through zero: places, the slopes there, and which end was replaced last
     type :: bracket_type
@@ -81,7 +69,7 @@ contains
         !> Of the nodes: deflection, what the beam asks ground and supports for there, force and slope of the ground, force of the
         !> model, a step, the change of what is asked for, loads
         real(wp), allocatable, dimension(:) :: w, asked, push, slope, modelled, step, change, load
-        real(wp), allocatable :: ease
+        real(wp), allocatable :: proximal_weight
         logical, allocatable :: acting(:)
         real(wp) :: way, force
         integer(int64) :: asked_for
@@ -105,7 +93,7 @@ contains
             if (asked_for > most_asked) exit
             call solve_model()
             if (allocated(error)) then
-                if (any(error%code == [gapbeam_no_memory, gapbeam_stopped]) .or. allocated(ease)) return
+                if (any(error%code == [gapbeam_no_memory, gapbeam_stopped]) .or. allocated(proximal_weight)) return
                 deallocate (error)
             end if
             if (outcome%status /= gapbeam_solved .and. begun) then
@@ -115,8 +103,8 @@ contains
             end if
             if (.not. succeeded()) then
                 ! Held by so little that springs have to help, here or from the start
-                if (allocated(ease)) exit
-                ease = ease_ratio*softest(beam)
+                if (allocated(proximal_weight)) exit
+                proximal_weight = proximal_ratio*softest(beam)
                 cycle
             end if
             call take_model()
@@ -146,7 +134,7 @@ contains
                 return
             end if
             ! Now motions tell how far to go
-            if (.not. begun .and. allocated(ease)) deallocate (ease)
+            if (.not. begun .and. allocated(proximal_weight)) deallocate (proximal_weight)
             begun = .true.
         end do
         call fatal_error(error, gapbeam_not_converged, "the ground could not be settled, or proved too weak for the loads: "// &
@@ -165,7 +153,7 @@ contains
             supports(:m) = own
             do i = 0, n
                 stiffness = slope(i)
-                if (allocated(ease)) stiffness = stiffness + ease
+                if (allocated(proximal_weight)) stiffness = stiffness + proximal_weight
                 beam%force(1, i) = load(i) - push(i)
                 if (.not. stiffness > 0.0_wp) cycle
                 m = m + 1
@@ -196,7 +184,7 @@ contains
             closed(:) = acting(:size(closed))
             step(:) = work%answers%deflection - w
             modelled(:) = push + slope*step
-            if (allocated(ease)) modelled(:) = modelled + ease*step
+            if (allocated(proximal_weight)) modelled(:) = modelled + proximal_weight*step
             change(:) = modelled - asked
             do k = 1, size(own)
                 associate (i => own(k)%node)
@@ -311,126 +299,5 @@ contains
             bracket%last = 2
         end if
     end subroutine narrow
-
-    !> Force and slope of the ground at the nodes
-    pure subroutine press(ground, points, w, push, slope, pressed, full)
-        type(ground_type), intent(in) :: ground
-        type(point_type), intent(in) :: points(:)
-        !> Deflections
-        real(wp), intent(in) :: w(0:)
-        !> Up, and how it grows downwards
-        real(wp), intent(out) :: push(0:), slope(0:)
-        !> Nodes at which ground that acts one way is pressed
-        integer, intent(out) :: pressed
-        !> As if all layers acted, on the first piece of their law as it begins; default no
-        logical, intent(in), optional :: full
-        real(wp) :: steepest(0:ubound(w, 1)), contact
-        logical :: all_act, presses
-        integer :: i, k, acts
-
-        all_act = .false.
-        if (present(full)) all_act = full
-        push(:) = 0.0_wp
-        slope(:) = 0.0_wp
-        steepest(:) = 0.0_wp
-        pressed = 0
-        do i = 1, size(points)
-            presses = .false.
-            associate (p => points(i), length => ground%pieces(points(i)%piece)%length)
-                do k = ground%first(p%piece), ground%first(p%piece + 1) - 1
-                    associate (layer => ground%layers(k), at => w(p%node))
-                        contact = along(layer%contact_a, layer%contact_b, p%place, length)
-                        steepest(p%node) = max(steepest(p%node), &
-                                               p%width*slope_at(layer, ground%laws, 1, p%place, length, contact))
-                        if (all_act) then
-                            slope(p%node) = slope(p%node) + p%width*slope_at(layer, ground%laws, 1, p%place, length, contact)
-                            push(p%node) = push(p%node) &
-                                + p%width*slope_at(layer, ground%laws, 1, p%place, length, contact)*(at - contact)
-                            cycle
-                        end if
-                        acts = 1
-                        if (layer%side /= 0) acts = piece_of_deflection(ground%laws, layer, at, p%place, length)
-                        if (acts == 0) cycle
-                        presses = presses .or. layer%side /= 0
-                        push(p%node) = push(p%node) + p%width*push_of_layer(layer, ground%laws, acts, p%place, length, at)
-                        slope(p%node) = slope(p%node) + p%width*slope_at(layer, ground%laws, acts, p%place, length, at)
-                    end associate
-                end do
-            end associate
-            if (presses) pressed = pressed + 1
-        end do
-        where (slope <= no_slope*maxval(steepest)) slope = 0.0_wp
-    end subroutine press
-
-    !> Where the ground acts
-    pure subroutine list_points(ground, mesh, points)
-        type(ground_type), intent(in) :: ground
-        type(mesh_type), intent(in) :: mesh
-        type(point_type), allocatable, intent(out) :: points(:)
-        integer :: i, m
-
-        allocate (points(2*size(mesh%piece)))
-        m = 0
-        do i = 1, size(mesh%piece)
-            if (ground%first(mesh%piece(i) + 1) == ground%first(mesh%piece(i))) cycle
-            associate (width => (mesh%to(i) - mesh%from(i))/2)
-                if (mesh%from(i) > 0.0_wp .and. m > 0) then
-                    points(m)%width = points(m)%width + width
-                else
-                    m = m + 1
-                    points(m) = point_type(i - 1, mesh%piece(i), mesh%from(i), width)
-                end if
-                m = m + 1
-                points(m) = point_type(i, mesh%piece(i), mesh%to(i), width)
-            end associate
-        end do
-        points = points(:m)
-    end subroutine list_points
-
-    !> The beam cut into the parts of the mesh, with its supports
-    pure subroutine make_beam(ground, mesh, beam)
-        type(ground_type), intent(in) :: ground
-        type(mesh_type), intent(in) :: mesh
-        type(beam_type), intent(out) :: beam
-        type(node_support_type), allocatable :: supports(:)
-        type(piece_type) :: p(1)
-        real(wp) :: work(1)
-        integer :: i, n
-
-        n = size(mesh%piece)
-        allocate (beam%links(n), beam%kind(0:n), beam%compliance(0:n), beam%force(2, 0:n), beam%couple(2, 0:n))
-        beam%kind(:) = plain
-        beam%compliance(:) = 0.0_wp
-        beam%force(:, :) = 0.0_wp
-        beam%couple(:, :) = 0.0_wp
-        beam%kind(mesh%node) = ground%beam%kind
-        beam%compliance(mesh%node) = ground%beam%compliance
-        beam%force(:, mesh%node) = ground%beam%force
-        beam%couple(:, mesh%node) = ground%beam%couple
-        allocate (supports(size(ground%beam%supports)))
-        supports(:) = ground%beam%supports
-        supports(:)%node = mesh%node(supports(:)%node)
-        call order_supports(supports, beam)
-        do i = 1, n
-            p = ground%pieces(mesh%piece(i))
-            p%length = mesh%to(i) - mesh%from(i)
-            call condense_link(p, [share(ground%dead(mesh%piece(i)))], [share(ground%live(mesh%piece(i)))], work, beam%links(i))
-        end do
-        beam%watch = ground%beam%watch
-
-    contains
-
-        !> The load on a part
-        pure function share(load) result(found)
-            type(piece_load_type), intent(in) :: load
-            type(piece_load_type) :: found
-
-            associate (length => ground%pieces(mesh%piece(i))%length)
-                found = piece_load_type(along(load%qa, load%qb, mesh%from(i), length), &
-                                        along(load%qa, load%qb, mesh%to(i), length), load%kappa, 0.0_wp, 0.0_wp)
-            end associate
-        end function share
-
-    end subroutine make_beam
 
 end module gapbeam_ground_energy

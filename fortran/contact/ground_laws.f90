@@ -1,4 +1,4 @@
-!> What a layer of ground does at a place along its piece of the beam: where it acts, by which piece of its law, and how
+!> Laws of ground layers at a place: whether they act, by which piece, and with which force.
 module gapbeam_ground_laws
     use gapbeam_kinds, only: wp
     use gapbeam_law_series, only: curve_type, curve_force, curve_slope, parameters_of_curve
@@ -6,8 +6,8 @@ module gapbeam_ground_laws
         parameters_of_law
     implicit none
     private
-    public :: between, along, contact_line, line_of_kink, approach_kink, parameters_at, piece_of_deflection, slope_of_layer, &
-              offset_of_layer, push_of_layer, slope_at, take_curves
+    public :: between, along, contact_line, line_of_breakpoint, distance_to_breakpoint, parameters_at, piece_of_deflection, &
+        slope_of_layer, offset_of_layer, push_of_layer, slope_at, take_curves
 
 contains
 
@@ -46,7 +46,7 @@ contains
     end function contact_line
 
     !> Deflection at which a layer goes on to a piece of its law, the first one or one by points
-    pure function line_of_kink(laws, layer, number, distance, length) result(level)
+    pure function line_of_breakpoint(laws, layer, number, distance, length) result(level)
         !> Pieces of all laws, and the layer
         type(law_piece_type), intent(in) :: laws(:)
         type(layer_type), intent(in) :: layer
@@ -59,11 +59,11 @@ contains
         piece = law_piece(layer, laws, number)
         level = contact_line(layer, distance, length) &
             + layer%side*along(piece%displacement_a, piece%displacement_b, distance, length)
-    end function line_of_kink
+    end function line_of_breakpoint
 
-    !> Is a deflection beyond a kink of a law: positive if so, with its change along the beam. Of the limit of a law with
+    !> Is a deflection beyond a breakpoint of a law: positive if so, with its change along the beam. Of the limit of a law with
     !> parameters stiffness times displacement less the limit, which has no pole
-    pure subroutine approach_kink(laws, layer, number, w, incline, distance, length, past, change)
+    pure subroutine distance_to_breakpoint(laws, layer, number, w, incline, distance, length, past, change)
         !> Pieces of all laws, and the layer
         type(law_piece_type), intent(in) :: laws(:)
         type(layer_type), intent(in) :: layer
@@ -74,16 +74,16 @@ contains
         real(wp), intent(out) :: past, change
         real(wp) :: p(parameters_of_law)
 
-        past = layer%side*(w - line_of_kink(laws, layer, number, distance, length))
-        change = layer%side*(incline - (line_of_kink(laws, layer, number, length, length) &
-                                        - line_of_kink(laws, layer, number, 0.0_wp, length))/length)
+        past = layer%side*(w - line_of_breakpoint(laws, layer, number, distance, length))
+        change = layer%side*(incline - (line_of_breakpoint(laws, layer, number, length, length) &
+                                        - line_of_breakpoint(laws, layer, number, 0.0_wp, length))/length)
         if (number == 1 .or. has_points(layer)) return
         p = parameters_at(layer, distance, length)
         associate (a => layer%parameter_a, b => layer%parameter_b)
             change = p(1)*change + past*(b(1) - a(1))/length - (b(2) - a(2))/length
         end associate
         past = p(1)*past - p(2)
-    end subroutine approach_kink
+    end subroutine distance_to_breakpoint
 
     !> Parameters of a law at a distance from the left end of its piece of the beam
     pure function parameters_at(layer, distance, length) result(p)
@@ -122,7 +122,7 @@ contains
         real(wp) :: past, change
 
         do number = pieces_of_law(layer), 1, -1
-            call approach_kink(laws, layer, number, w, 0.0_wp, distance, length, past, change)
+            call distance_to_breakpoint(laws, layer, number, w, 0.0_wp, distance, length, past, change)
             if (past > 0.0_wp) exit
         end do
     end function piece_of_deflection

@@ -1,5 +1,5 @@
-!> A beam on the ground cut into parts, at whose ends the ground acts: where zones of contact are looked for roughly
-!> (gapbeam_ground_energy), finer and finer where they end.
+!> Mesh of a beam on the ground for the first search of zones of contact (gapbeam_ground_energy).
+!> The beam is cut into parts, at whose ends the ground acts, finer and finer where zones end.
 module gapbeam_ground_mesh
     use gapbeam_kinds, only: wp
     use gapbeam_foundation, only: stretch_type, decay_lengths

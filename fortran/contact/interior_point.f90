@@ -1,15 +1,15 @@
-!> A first guess of the working scheme by a primal-dual interior-point method (Mehrotra 1992).
+!> First guess of the contact state by a primal-dual interior-point method (Mehrotra 1992).
 !>
 !> With reaction R >= 0 and opening s >= 0 of every one-sided support, s = side (contact - w) + R/stiffness, the method
 !> follows R s = mu to mu = 0. Each of its linear systems is the beam with every one-sided support, closed or open, as a
 !> spring of stiffness R/(s + R/stiffness): never a mechanism as long as all supports together hold the beam, and
-!> solved by the same sweep. The number of steps hardly grows with the number of supports, so fronts that move
+!> solved by the same sweep. The number of steps hardly grows with the number of supports, so boundaries that move
 !> over thousands of them cost no more than others. Which of R and s goes to zero shows long before mu is small (the
 !> indicators of El-Bakry, Tapia and Zhang 1994); the scheme so guessed is then settled by pivoting.
 module gapbeam_interior_point
     use gapbeam_kinds, only: wp
     use gapbeam_band, only: band_ok
-    use gapbeam_law_forms, only: find_pairs
+    use gapbeam_law_adapters, only: find_pairs
     use gapbeam_model, only: beam_type, softest
     use gapbeam_workspace, only: workspace_type
     use gapbeam_system, only: solve_deflections

@@ -1,4 +1,4 @@
-!> Free motions of a beam: which bodies can move without any resistance, found by counting, not by numbers.
+!> Free motions of a beam, found by counting bodies and constraints, not by numbers.
 !>
 !> Hinges cut the beam into bodies that move rigidly in a free motion, since bending resists. A body is described by
 !> the displacements of its two ends. Each support that acts in it is one condition on them, a clamp or
@@ -7,7 +7,7 @@
 module gapbeam_kinematics
     use gapbeam_kinds, only: wp
     use gapbeam_band, only: hinge, restrained
-    use gapbeam_law_motions, only: mark_held, leaves_all
+    use gapbeam_law_kinematics, only: mark_held, leaves_all
     use gapbeam_model, only: beam_type
     implicit none
     private

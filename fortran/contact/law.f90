@@ -1,4 +1,5 @@
-!> What a support does: no module but this one, gapbeam_polyline, gapbeam_law_motions and gapbeam_law_forms knows its law.
+!> States and forces of supports by their laws.
+!> No module but this one, gapbeam_law_margins, gapbeam_polyline, gapbeam_law_kinematics and gapbeam_law_adapters knows the laws.
 !>
 !> The law of a support is a polyline of its reaction (positive up) over the deflection of its node, and its state is the piece on
 !> which it is:
@@ -8,24 +9,23 @@
 !>
 !> A support that holds both ways has the second piece only, one of stiffness 0 the first only: their states never change. A
 !> scheme is the states of all supports, kept as a logical array: `closed(k)` is true on the second piece. How far a support is
-!> from the end of its piece is its margin; below zero its state is wrong, and the right one lies beyond that end: with two
-!> pieces the other one. A law with more pieces is one support for every kink between them (gapbeam_polyline).
+!> from the end of its piece is its margin (gapbeam_law_margins); below zero its state is wrong, and the right one lies beyond
+!> that end: with two pieces the other one. A law with more pieces is one support for every breakpoint between them
+!> (gapbeam_polyline).
 !>
 !> Loops over supports stand here as well, since procedures of other files are not inlined.
 module gapbeam_law
     use gapbeam_kinds, only: wp
     use gapbeam_require, only: checked, require
     use gapbeam_band, only: node_type, rhs_type, answer_type
-    use gapbeam_polyline, only: node_support_type, piece_that_acts, piece_force, kink_margin, is_watched, beside_level, &
-        open_beyond, go_one_piece, go_to_level
+    use gapbeam_polyline, only: node_support_type, piece_that_acts, piece_force, open_from, advance_one_segment, &
+        jump_to_plateau
     implicit none
     private
     public :: node_support_type, below, above, both, nodes_at_a_time
-    public :: is_support, is_rigid, may_change, always_closed, separate_rigid_pairs
+    public :: is_support, is_rigid, always_closed, separate_rigid_pairs
     public :: add_supports, share_forces, force_by_spring, is_plainly_right
-    public :: margin_of, margin_in_scheme, margin_rates, find_margins, find_wrong_states, &
-        find_doubtful_states
-    public :: has_laws, is_watched_in, open_beyond, go_one_piece, go_to_level
+    public :: has_laws, open_from, advance_one_segment, jump_to_plateau
 
     !> Sides of a support: pushes up only, pushes down only, both
     integer, parameter :: below = 1, above = -1, both = 0
@@ -42,7 +42,7 @@ contains
         type(node_support_type), intent(in) :: support
         logical :: it_is
 
-        it_is = abs(support%side) <= 1 .and. (support%stiffness >= 0.0_wp .or. support%kink > 0) &
+        it_is = abs(support%side) <= 1 .and. (support%stiffness >= 0.0_wp .or. support%breakpoint > 0) &
             .and. abs(support%contact) <= huge(support%contact)
     end function is_support
 
@@ -51,7 +51,7 @@ contains
         type(node_support_type), intent(in) :: supports(:)
         logical :: any_has
 
-        any_has = any(supports%kink > 0)
+        any_has = any(supports%breakpoint > 0)
     end function has_laws
 
     !> Is a support rigid
@@ -61,14 +61,6 @@ contains
 
         rigid = support%stiffness > huge(support%stiffness)
     end function is_rigid
-
-    !> Has a support more than one state
-    elemental function may_change(support) result(may)
-        type(node_support_type), intent(in) :: support
-        logical :: may
-
-        may = support%side /= both .and. (support%stiffness > 0.0_wp .or. support%kink > 0)
-    end function may_change
 
     !> Which supports are closed in every scheme
     pure function always_closed(supports) result(always)
@@ -96,7 +88,7 @@ contains
         end do
         do k = 1, size(closed)
             associate (s => supports(k))
-                if (s%side == both .or. .not. closed(k) .or. .not. is_rigid(s) .or. s%kink > 0) cycle
+                if (s%side == both .or. .not. closed(k) .or. .not. is_rigid(s) .or. s%breakpoint > 0) cycle
                 closed(k) = .not. taken(s%node)
                 taken(s%node) = .true.
             end associate
@@ -130,12 +122,12 @@ contains
                 if (sprung .and. s%side /= both) then
                     node%stiffness = node%stiffness + spring(k)
                     r%shear = r%shear + spring(k)*spring_contact(k)
-                else if (s%kink > 0) then
+                else if (s%breakpoint > 0) then
                     call piece_that_acts(supports, acting, k, acts, slope)
                     if (.not. acts) cycle
                     level(s%node) = max(level(s%node), abs(s%contact))
                     if (abs(slope) > huge(slope)) then
-                        ! Another one may hold it elsewhere in a scheme that is wrong (beside_level)
+                        ! Another one may hold it elsewhere in a scheme that is wrong (past_level)
                         if (.not. node%held) r%deflection = s%contact
                         node%held = .true.
                     else
@@ -189,7 +181,7 @@ contains
                 k = order(j)
                 reaction(k) = 0.0_wp
                 reaction_error(k) = 0.0_wp
-                if (.not. acting(k) .and. supports(k)%kink == 0) cycle
+                if (.not. acting(k) .and. supports(k)%breakpoint == 0) cycle
                 call force_by_spring(supports, acting, k, answers(i)%deflection, deflection_size(i), acts, rigid, by_spring, &
                                      spring_error)
                 if (.not. acts) cycle
@@ -203,7 +195,7 @@ contains
             if (company == 0) cycle
             do j = first(i), first(i + 1) - 1
                 k = order(j)
-                if (.not. acting(k) .and. supports(k)%kink == 0) cycle
+                if (.not. acting(k) .and. supports(k)%breakpoint == 0) cycle
                 call force_by_spring(supports, acting, k, answers(i)%deflection, deflection_size(i), acts, rigid, by_spring, &
                                      spring_error)
                 if (.not. acts) cycle
@@ -239,7 +231,7 @@ contains
         rounding = 0.0_wp
         rigid = .false.
         associate (s => supports(k))
-            if (s%kink > 0) then
+            if (s%breakpoint > 0) then
                 call piece_that_acts(supports, acting, k, acts, slope)
                 if (.not. acts) return
                 rigid = abs(slope) > huge(slope)
@@ -255,7 +247,7 @@ contains
         end associate
     end subroutine force_by_spring
 
-    !> Is a support without kinks on its law, in the right state, but for rounding. What is not so at a glance may still be so
+    !> Is a support without breakpoints on its law, in the right state, but for rounding. What is not so at a glance may still be so
     pure function is_plainly_right(support, closed, deflection, deflection_size, reaction, force_size, limit) result(right)
         type(node_support_type), intent(in) :: support
         logical, intent(in) :: closed
@@ -268,7 +260,7 @@ contains
         logical :: right
 
         right = .false.
-        if (support%kink > 0) return
+        if (support%breakpoint > 0) return
         if (.not. closed) then
             right = .not. abs(reaction) > 0.0_wp .and. support%side*(support%contact - deflection) >= 0.0_wp
         else if (support%side*reaction >= 0.0_wp) then
@@ -280,175 +272,5 @@ contains
             end if
         end if
     end function is_plainly_right
-
-    ! Margins
-
-    !> The same of any support in a scheme; of a law with which of its kinks something is wrong
-    pure subroutine margin_in_scheme(supports, closed, k, deflection, deflection_size, reaction, reaction_error, margin, rounding, &
-                                     by_force)
-        !> All supports, the scheme, and the number of one of them
-        type(node_support_type), intent(in) :: supports(:)
-        logical, intent(in) :: closed(:)
-        integer, intent(in) :: k
-        !> Of its node, and the size of that for rounding errors
-        real(wp), intent(in) :: deflection, deflection_size
-        !> Reactions of all supports and their rounding errors
-        real(wp), intent(in) :: reaction(:), reaction_error(:)
-        !> As for margin_of
-        real(wp), intent(out) :: margin, rounding
-        !> Is it a force, not a distance
-        logical, intent(out), optional :: by_force
-        logical :: is_force
-
-        if (supports(k)%kink > 0) then
-            call kink_margin(supports, closed, k, deflection, deflection_size, reaction, reaction_error, margin, rounding, is_force)
-        else
-            call margin_of(supports(k), closed(k), deflection, deflection_size, reaction(k), reaction_error(k), margin, rounding)
-            is_force = closed(k)
-        end if
-        if (present(by_force)) by_force = is_force
-    end subroutine margin_in_scheme
-
-    !> By how much the state of a support is right, and the rounding error of that: the one measure of all signs
-    elemental subroutine margin_of(support, closed, deflection, deflection_size, reaction, reaction_error, margin, rounding)
-        type(node_support_type), intent(in) :: support
-        logical, intent(in) :: closed
-        !> Of its node, and the size of that for rounding errors
-        real(wp), intent(in) :: deflection, deflection_size
-        !> Its reaction and the rounding error of that
-        real(wp), intent(in) :: reaction, reaction_error
-        !> Force with which it pushes, or distance to contact; 0 for supports whose state does not change
-        real(wp), intent(out) :: margin
-        real(wp), intent(out) :: rounding
-
-        margin = 0.0_wp
-        rounding = 0.0_wp
-        if (.not. may_change(support)) return
-        if (closed) then
-            margin = support%side*reaction
-            rounding = reaction_error
-        else
-            margin = support%side*(support%contact - deflection)
-            rounding = epsilon(deflection)*max(deflection_size, abs(support%contact))
-        end if
-    end subroutine margin_of
-
-    !> By how much the margin of a support that is not held rigidly changes with the deflection of its node, and its contact level
-    pure subroutine margin_rates(supports, closed, k, rate, level, by_force)
-        !> All supports, the scheme, and the number of one of them
-        type(node_support_type), intent(in) :: supports(:)
-        logical, intent(in) :: closed(:)
-        integer, intent(in) :: k
-        !> Absolute values: the slope of its piece where the margin is a force, else 1; its contact level
-        real(wp), intent(out) :: rate, level
-        !> Is the margin a force
-        logical, intent(out) :: by_force
-        real(wp) :: none(size(supports)), margin, rounding
-
-        none(:) = 0.0_wp
-        call margin_in_scheme(supports, closed, k, 0.0_wp, 0.0_wp, none, none, margin, rounding, by_force)
-        rate = 1.0_wp
-        if (by_force) rate = abs(merge(supports(k)%stiffness, supports(k)%before, closed(k)))
-        level = abs(supports(k)%contact)
-    end subroutine margin_rates
-
-    !> Can the state of a support change next
-    pure function is_watched_in(supports, closed, k) result(watched)
-        !> As for margin_in_scheme
-        type(node_support_type), intent(in) :: supports(:)
-        logical, intent(in) :: closed(:)
-        integer, intent(in) :: k
-        logical :: watched
-
-        watched = may_change(supports(k))
-        if (supports(k)%kink > 0) watched = is_watched(supports, closed, k)
-    end function is_watched_in
-
-    !> The margins of all supports
-    pure subroutine find_margins(supports, closed, answers, deflection_size, reaction, reaction_error, margin, rounding)
-        !> The supports and the scheme, shape (m)
-        type(node_support_type), intent(in) :: supports(:)
-        logical, intent(in) :: closed(:)
-        !> At the nodes, shape (0:n)
-        type(answer_type), intent(in) :: answers(0:)
-        real(wp), intent(in) :: deflection_size(0:)
-        !> Of the supports, shape (m)
-        real(wp), intent(in) :: reaction(:), reaction_error(:)
-        !> As margin_of, shape (m)
-        real(wp), intent(out) :: margin(:), rounding(:)
-        integer :: k
-
-        do k = 1, size(closed)
-            associate (i => supports(k)%node)
-                call margin_in_scheme(supports, closed, k, answers(i)%deflection, deflection_size(i), reaction, reaction_error, &
-                                      margin(k), rounding(k))
-            end associate
-        end do
-    end subroutine find_margins
-
-    !> Which states are wrong: margins below zero by more than so many rounding errors
-    pure subroutine find_wrong_states(supports, closed, answers, deflection_size, reaction, reaction_error, width, wrong)
-        !> As for find_margins
-        type(node_support_type), intent(in) :: supports(:)
-        logical, intent(in) :: closed(:)
-        type(answer_type), intent(in) :: answers(0:)
-        real(wp), intent(in) :: deflection_size(0:), reaction(:), reaction_error(:)
-        !> Rounding errors beyond which a sign counts
-        real(wp), intent(in) :: width
-        !> Shape (m)
-        logical, intent(out) :: wrong(:)
-        real(wp) :: margin, rounding
-        integer :: k
-
-        do k = 1, size(closed)
-            associate (i => supports(k)%node)
-                if (supports(k)%kink == 0) then
-                    call margin_of(supports(k), closed(k), answers(i)%deflection, deflection_size(i), reaction(k), &
-                                   reaction_error(k), margin, rounding)
-                else
-                    call beside_level(supports, closed, k, answers(i)%deflection, deflection_size(i), margin, rounding)
-                    margin = -margin
-                    if (.not. abs(margin) > width*rounding) then
-                        call margin_in_scheme(supports, closed, k, answers(i)%deflection, deflection_size(i), reaction, &
-                                              reaction_error, margin, rounding)
-                    end if
-                end if
-            end associate
-            wrong(k) = margin < -width*rounding
-        end do
-    end subroutine find_wrong_states
-
-    !> Of which supports the margin cannot be told from zero, so that their state may be either
-    pure subroutine find_doubtful_states(supports, closed, answers, deflection_size, reaction, reaction_error, width, doubtful, &
-                                         in_doubt)
-        !> As for find_wrong_states
-        type(node_support_type), intent(in) :: supports(:)
-        logical, intent(in) :: closed(:)
-        type(answer_type), intent(in) :: answers(0:)
-        real(wp), intent(in) :: deflection_size(0:), reaction(:), reaction_error(:), width
-        !> Shape (m)
-        logical, intent(out) :: doubtful(:)
-        !> Is any of them not exactly zero, or beyond: wrong
-        logical, intent(out) :: in_doubt
-        real(wp) :: margin, rounding
-        integer :: k
-
-        in_doubt = .false.
-        do k = 1, size(closed)
-            doubtful(k) = .false.
-            if (.not. is_watched_in(supports, closed, k)) cycle
-            associate (i => supports(k)%node)
-                if (supports(k)%kink == 0) then
-                    call margin_of(supports(k), closed(k), answers(i)%deflection, deflection_size(i), reaction(k), &
-                                   reaction_error(k), margin, rounding)
-                else
-                    call margin_in_scheme(supports, closed, k, answers(i)%deflection, deflection_size(i), reaction, &
-                                          reaction_error, margin, rounding)
-                end if
-            end associate
-            doubtful(k) = abs(margin) <= width*rounding
-            in_doubt = in_doubt .or. (doubtful(k) .and. rounding > 0.0_wp) .or. margin < -width*rounding
-        end do
-    end subroutine find_doubtful_states
 
 end module gapbeam_law

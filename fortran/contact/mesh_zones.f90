@@ -1,8 +1,8 @@
-!> The zones of contact, and of the pieces of laws, that a solved mesh shows: a start for Newton's method (gapbeam_zones)
+!> Zones of contact, and of the pieces of laws, on a solved mesh: a start for gapbeam_zones.
 module gapbeam_mesh_zones
     use gapbeam_kinds, only: wp
     use gapbeam_layers, only: pieces_of_law, law_cubic, parameters_of_law
-    use gapbeam_ground_laws, only: between, approach_kink, parameters_at, slope_at
+    use gapbeam_ground_laws, only: between, distance_to_breakpoint, parameters_at, slope_at
     use gapbeam_ground, only: ground_type, zones_type, new_zones, resize, steps_of, steps_of_piece
     use gapbeam_ground_mesh, only: mesh_type, acts_at
     implicit none
@@ -93,32 +93,32 @@ contains
             real(wp) :: past(2), share
             integer :: beyond
 
-            past = [past_kink(i, 1, k, law), past_kink(i, 2, k, law)]
+            past = [past_breakpoint(i, 1, k, law), past_breakpoint(i, 2, k, law)]
             if (past(1) > 0.0_wp .eqv. past(2) > 0.0_wp) return
             share = past(1)/(past(1) - past(2))
             if (law == 1) then
                 ! A node that alone is pressed stands for a zone that is shorter than its parts
                 if (past(1) > 0.0_wp) then
                     beyond = parts(1)
-                    if (beyond == i .or. .not. past_kink(beyond, 1, k, law) > 0.0_wp) share = max(share, alone)
+                    if (beyond == i .or. .not. past_breakpoint(beyond, 1, k, law) > 0.0_wp) share = max(share, alone)
                 else
                     beyond = parts(3)
-                    if (beyond == i .or. .not. past_kink(beyond, 2, k, law) > 0.0_wp) share = min(share, 1 - alone)
+                    if (beyond == i .or. .not. past_breakpoint(beyond, 2, k, law) > 0.0_wp) share = min(share, 1 - alone)
                 end if
             end if
             call add(mesh%from(i) + share*(mesh%to(i) - mesh%from(i)), k - ground%first(mesh%piece(i)) + 1, &
                      merge(law - 1, law, past(1) > 0.0_wp))
         end subroutine cut_part
 
-        !> How far the beam is beyond a kink of a layer at an end of a part
-        pure function past_kink(part, end, k, law) result(past)
+        !> How far the beam is beyond a breakpoint of a layer at an end of a part
+        pure function past_breakpoint(part, end, k, law) result(past)
             integer, intent(in) :: part, end, k, law
             real(wp) :: past, change
 
-            call approach_kink(ground%laws, ground%layers(k), law, mesh%deflection(part + end - 2), 0.0_wp, &
-                               merge(mesh%from(part), mesh%to(part), end == 1), ground%pieces(mesh%piece(part))%length, &
-                               past, change)
-        end function past_kink
+            call distance_to_breakpoint(ground%laws, ground%layers(k), law, mesh%deflection(part + end - 2), 0.0_wp, &
+                                        merge(mesh%from(part), mesh%to(part), end == 1), ground%pieces(mesh%piece(part))%length, &
+                                        past, change)
+        end function past_breakpoint
 
         !> One more place
         subroutine add(place, layer_of_piece, piece_of_law)

@@ -6,7 +6,7 @@ module gapbeam_model
     use gapbeam_link, only: link_type
     use gapbeam_foundation, only: stretch_link_type
     use gapbeam_law, only: node_support_type, below, above, both, is_rigid, is_support
-    use gapbeam_law_forms, only: least_stiffness
+    use gapbeam_law_adapters, only: least_stiffness
     implicit none
     private
     public :: beam_type, new_beam, order_supports, softest

@@ -1,46 +1,48 @@
-!> Supports whose law has more than two pieces: a polyline of the force over the deflection, one kink an entry.
+!> Supports whose law is a polyline of more than two pieces, one entry a breakpoint.
 !>
-!> With y = side*deflection and f = side*reaction, piece i of a law begins at kink i, a point (side*contact, force), and goes
-!> on with the slope `stiffness` of that kink; left of the first kink it has the slope `before`. Slopes may have any sign: 0 is
-!> a constant force, infinite a rigid piece (the node is held while the force grows), minus infinite a brittle drop. The kinks
-!> of a law stand one after the other among the supports, and are closed up to the piece that acts: a law is a support with one
-!> state more for every kink, and any scheme is still a logical array. An ordinary support is one kink: open before it, a spring
+!> With y = side*deflection and f = side*reaction, piece i of a law begins at breakpoint i, a point (side*contact, force), and goes
+!> on with the slope `stiffness` of that breakpoint; left of the first breakpoint it has the slope `before`. Slopes may have any
+!> sign: 0 is a constant force, infinite a rigid piece (the node is held while the force grows), minus infinite a brittle drop. The
+!> breakpoints of a law stand one after the other among the supports, and are closed up to the piece that acts: a law is a support
+!> with one state more for every breakpoint, and any scheme is still a logical array. An ordinary support is one breakpoint: open
+!> before it,
+!> a spring
 !> after it.
 !>
-!> Which side of zero a kink is on is measured along the steeper of the pieces beside it by the force, along the flatter by the
-!> deflection: so neither 1e12 nor 1e-12 costs digits.
+!> Which side of zero a breakpoint is on is measured along the steeper of the pieces beside it by the force, along the flatter by
+!> the deflection: so neither 1e12 nor 1e-12 costs digits.
 module gapbeam_polyline
     use gapbeam_kinds, only: wp
     implicit none
     private
-    public :: node_support_type, piece_that_acts, piece_force, kink_margin, is_watched
-    public :: beside_level, vertical_pieces
-    public :: open_beyond, go_one_piece, go_to_level, coincide, last_kink, join_pieces
+    public :: node_support_type, piece_that_acts, piece_force, breakpoint_margin, is_watched
+    public :: past_level, vertical_pieces
+    public :: open_from, advance_one_segment, jump_to_plateau, coincide, last_breakpoint, join_pieces
 
-    !> A support at a node, or a kink of its law
+    !> A support at a node, or a breakpoint of its law
     type :: node_support_type
         !> Node, 0..n
         integer :: node
         !> below, above or both (gapbeam_law)
         integer :: side
-        !> Force per length; infinite for a rigid one. Of a kink the slope of the piece that begins there
+        !> Force per length; infinite for a rigid one. Of a breakpoint the slope of the piece that begins there
         real(wp) :: stiffness
-        !> Deflection at which it begins to act: settlement + gap (below), settlement - gap (above). Of a kink its place
+        !> Deflection at which it begins to act: settlement + gap (below), settlement - gap (above). Of a breakpoint its place
         real(wp) :: contact
-        !> Number of the kink in its law, from 1; 0 for an ordinary support
-        integer :: kink = 0
-        !> Is the next support the next kink of the same law
+        !> Number of the breakpoint in its law, from 1; 0 for an ordinary support
+        integer :: breakpoint = 0
+        !> Is the next support the next breakpoint of the same law
         logical :: more = .false.
         !> Are both sides of it one line, so that nothing happens there
         logical :: passed = .false.
-        !> Force at the kink, in the direction in which the support pushes, and slope of the piece that ends there
+        !> Force at the breakpoint, in the direction in which the support pushes, and slope of the piece that ends there
         real(wp) :: force = 0.0_wp, before = 0.0_wp
     end type node_support_type
 
 contains
 
-    !> Does a piece beside a kink act, and its slope: the one that begins there if no later kink is closed, or the one before the
-    !> first kink
+    !> Does a piece beside a breakpoint act, and its slope: the one that begins there if no later breakpoint is closed, or the one
+    !> before the first breakpoint
     pure subroutine piece_that_acts(supports, closed, k, acts, slope)
         !> All supports, the scheme, and the number of one with a law
         type(node_support_type), intent(in) :: supports(:)
@@ -56,14 +58,14 @@ contains
                 if (s%more) acts = .not. closed(k + 1)
             else
                 slope = s%before
-                acts = s%kink == 1 .and. (abs(s%before) > 0.0_wp .or. abs(s%force) > 0.0_wp)
+                acts = s%breakpoint == 1 .and. (abs(s%before) > 0.0_wp .or. abs(s%force) > 0.0_wp)
             end if
         end associate
     end subroutine piece_that_acts
 
     !> Force of a piece that is not vertical, positive up, and the rounding error of that
     pure subroutine piece_force(support, slope, deflection, deflection_size, force, rounding)
-        !> The kink and the slope of the piece
+        !> The breakpoint and the slope of the piece
         type(node_support_type), intent(in) :: support
         real(wp), intent(in) :: slope
         !> Of the node, and the size of that for rounding errors
@@ -74,32 +76,32 @@ contains
         rounding = epsilon(force)*(abs(slope)*max(deflection_size, abs(support%contact)) + abs(support%force))
     end subroutine piece_force
 
-    !> By how much the state of a kink is right, and the rounding error of that
-    pure subroutine kink_margin(supports, closed, k, deflection, deflection_size, reaction, reaction_error, margin, rounding, &
-                                by_force)
+    !> By how much the state of a breakpoint is right, and the rounding error of that
+    pure subroutine breakpoint_margin(supports, closed, k, deflection, deflection_size, reaction, reaction_error, margin, &
+                                      rounding, by_force)
         !> All supports, the scheme, and the number of one with a law
         type(node_support_type), intent(in) :: supports(:)
         logical, intent(in) :: closed(:)
         integer, intent(in) :: k
         !> Of its node, and the size of that for rounding errors
         real(wp), intent(in) :: deflection, deflection_size
-        !> Of all supports, and their rounding errors; that of a law is that of the kink whose piece acts
+        !> Of all supports, and their rounding errors; that of a law is that of the breakpoint whose piece acts
         real(wp), intent(in) :: reaction(:), reaction_error(:)
-        !> Force or deflection from here to the kink, below zero beyond it; 0 where it is not watched
+        !> Force or deflection from here to the breakpoint, below zero beyond it; 0 where it is not watched
         real(wp), intent(out) :: margin, rounding
         !> Is it a force
         logical, intent(out) :: by_force
         real(wp) :: here, there
         integer :: from
-        logical :: beside
+        logical :: adjacent
 
         margin = 0.0_wp
         rounding = 0.0_wp
         by_force = .false.
         if (supports(k)%passed) return
-        call look_around(supports, closed, k, beside, from, here, there)
+        call breakpoint_slopes(supports, closed, k, adjacent, from, here, there)
         associate (s => supports(k))
-            if (.not. beside) then
+            if (.not. adjacent) then
                 if (abs(here) > huge(here)) return
             else
                 by_force = abs(here) > abs(there) .or. abs(here) > huge(here)
@@ -114,60 +116,60 @@ contains
             end if
         end associate
         if (.not. closed(k)) margin = -margin
-    end subroutine kink_margin
+    end subroutine breakpoint_margin
 
-    !> Is a kink beside the piece that acts, and the slopes on this side of it and beyond
-    pure subroutine look_around(supports, closed, k, beside, from, here, there)
+    !> Is a breakpoint beside the piece that acts, and the slopes on this side of it and beyond
+    pure subroutine breakpoint_slopes(supports, closed, k, adjacent, from, here, there)
         type(node_support_type), intent(in) :: supports(:)
         logical, intent(in) :: closed(:)
         integer, intent(in) :: k
-        logical, intent(out) :: beside
-        !> The kink that has the reaction of the law
+        logical, intent(out) :: adjacent
+        !> The breakpoint that has the reaction of the law
         integer, intent(out) :: from
         real(wp), intent(out) :: here, there
 
         associate (s => supports(k))
             from = k
-            beside = .true.
+            adjacent = .true.
             if (closed(k)) then
                 here = s%stiffness
                 there = s%before
-                if (s%more) beside = .not. closed(k + 1)
+                if (s%more) adjacent = .not. closed(k + 1)
             else
                 here = s%before
                 there = s%stiffness
-                if (s%kink > 1) then
+                if (s%breakpoint > 1) then
                     from = k - 1
-                    beside = closed(k - 1)
+                    adjacent = closed(k - 1)
                 end if
             end if
         end associate
-    end subroutine look_around
+    end subroutine breakpoint_slopes
 
     !> By how much a node is beyond an end of the vertical piece on which a support of it is, since another one holds it elsewhere
-    pure subroutine beside_level(supports, closed, k, deflection, deflection_size, beyond, rounding)
-        !> As for kink_margin
+    pure subroutine past_level(supports, closed, k, deflection, deflection_size, beyond, rounding)
+        !> As for breakpoint_margin
         type(node_support_type), intent(in) :: supports(:)
         logical, intent(in) :: closed(:)
         integer, intent(in) :: k
         real(wp), intent(in) :: deflection, deflection_size
-        !> Deflection past the kink, away from the piece, below zero the other way; 0 where the piece is not vertical
+        !> Deflection past the breakpoint, away from the piece, below zero the other way; 0 where the piece is not vertical
         real(wp), intent(out) :: beyond, rounding
         real(wp) :: here, there
         integer :: from
-        logical :: beside
+        logical :: adjacent
 
         beyond = 0.0_wp
         rounding = 0.0_wp
         if (supports(k)%passed) return
-        call look_around(supports, closed, k, beside, from, here, there)
-        if (.not. beside .or. abs(here) <= huge(here)) return
+        call breakpoint_slopes(supports, closed, k, adjacent, from, here, there)
+        if (.not. adjacent .or. abs(here) <= huge(here)) return
         associate (s => supports(k))
             beyond = s%side*(deflection - s%contact)
             if (closed(k)) beyond = -beyond
             rounding = epsilon(deflection)*max(deflection_size, abs(s%contact))
         end associate
-    end subroutine beside_level
+    end subroutine past_level
 
     !> On how many vertical pieces some supports are: with two at one node nothing tells what each of them takes
     pure function vertical_pieces(supports, closed, numbers) result(pieces)
@@ -183,7 +185,7 @@ contains
         pieces = 0
         do j = 1, size(numbers)
             associate (k => numbers(j))
-                if (supports(k)%kink > 0) then
+                if (supports(k)%breakpoint > 0) then
                     call piece_that_acts(supports, closed, k, acts, slope)
                 else
                     acts = closed(k)
@@ -194,9 +196,9 @@ contains
         end do
     end function vertical_pieces
 
-    !> Can a kink be passed next or at once with others: not if a vertical piece lies between it and the piece that acts
+    !> Can a breakpoint be passed next or at once with others: not if a vertical piece lies between it and the piece that acts
     pure function is_watched(supports, closed, k) result(watched)
-        !> As for kink_margin
+        !> As for breakpoint_margin
         type(node_support_type), intent(in) :: supports(:)
         logical, intent(in) :: closed(:)
         integer, intent(in) :: k
@@ -204,23 +206,23 @@ contains
         real(wp) :: here, there
         integer :: from
 
-        call look_around(supports, closed, k, watched, from, here, there)
+        call breakpoint_slopes(supports, closed, k, watched, from, here, there)
         watched = (watched .or. abs(here) <= huge(here)) .and. .not. supports(k)%passed
     end function is_watched
 
-    !> Open the kinks of a law beyond its first open one
-    pure subroutine open_beyond(supports, closed)
+    !> Open the breakpoints of a law beyond its first open one
+    pure subroutine open_from(supports, closed)
         type(node_support_type), intent(in) :: supports(:)
         logical, intent(inout) :: closed(:)
         integer :: k
 
         do k = 2, size(closed)
-            if (supports(k)%kink > 1) closed(k) = closed(k) .and. closed(k - 1)
+            if (supports(k)%breakpoint > 1) closed(k) = closed(k) .and. closed(k - 1)
         end do
-    end subroutine open_beyond
+    end subroutine open_from
 
     !> Let every law go on from one scheme to another by one piece only
-    pure subroutine go_one_piece(supports, before, closed)
+    pure subroutine advance_one_segment(supports, before, closed)
         type(node_support_type), intent(in) :: supports(:)
         !> The first scheme
         logical, intent(in) :: before(:)
@@ -228,10 +230,10 @@ contains
         logical, intent(inout) :: closed(:)
         integer :: k, last, old, new
 
-        call open_beyond(supports, closed)
+        call open_from(supports, closed)
         k = 1
         do while (k <= size(closed))
-            last = last_kink(supports, k)
+            last = last_breakpoint(supports, k)
             if (last > k) then
                 old = count(before(k:last))
                 new = count(closed(k:last))
@@ -241,19 +243,19 @@ contains
             end if
             k = last + 1
         end do
-    end subroutine go_one_piece
+    end subroutine advance_one_segment
 
     !> Let every law act by a level piece, on which it holds nothing, where it has one
-    pure subroutine go_to_level(supports, closed)
+    pure subroutine jump_to_plateau(supports, closed)
         type(node_support_type), intent(in) :: supports(:)
-        !> Any scheme in, laws on their first level piece out; those that have none are on the piece before all kinks
+        !> Any scheme in, laws on their first level piece out; those that have none are on the piece before all breakpoints
         logical, intent(inout) :: closed(:)
         integer :: k, j, last
 
         k = 1
         do while (k <= size(closed))
-            last = last_kink(supports, k)
-            if (supports(k)%kink > 0) then
+            last = last_breakpoint(supports, k)
+            if (supports(k)%breakpoint > 0) then
                 closed(k:last) = .false.
                 if (abs(supports(k)%before) > 0.0_wp) then
                     j = k - 1 + findloc(abs(supports(k:last)%stiffness) > 0.0_wp, .false., 1)
@@ -262,10 +264,10 @@ contains
             end if
             k = last + 1
         end do
-    end subroutine go_to_level
+    end subroutine jump_to_plateau
 
-    !> The last kink of the law that begins at a support; the support itself if it has none
-    pure function last_kink(supports, k) result(last)
+    !> The last breakpoint of the law that begins at a support; the support itself if it has none
+    pure function last_breakpoint(supports, k) result(last)
         type(node_support_type), intent(in) :: supports(:)
         integer, intent(in) :: k
         integer :: last
@@ -274,9 +276,9 @@ contains
         do while (supports(last)%more)
             last = last + 1
         end do
-    end function last_kink
+    end function last_breakpoint
 
-    !> Slopes from the kinks they lead to, so that pieces rounded to less precision join again
+    !> Slopes from the breakpoints they lead to, so that pieces rounded to less precision join again
     pure subroutine join_pieces(supports)
         type(node_support_type), intent(inout) :: supports(:)
         real(wp) :: width
@@ -287,14 +289,14 @@ contains
             associate (a => supports(k), b => supports(k + 1))
                 width = a%side*(b%contact - a%contact)
                 if (.not. width > 0.0_wp .or. .not. abs(a%stiffness) <= huge(width)) cycle
-                ! Both sides of a kink that was passed may be one line
+                ! Both sides of a breakpoint that was passed may be one line
                 if (abs(a%stiffness) > 0.0_wp) a%stiffness = (b%force - a%force)/width
                 b%before = a%stiffness
             end associate
         end do
     end subroutine join_pieces
 
-    !> Are a kink and the next one of its law the same point, so that they are passed together
+    !> Are a breakpoint and the next one of its law the same point, so that they are passed together
     pure function coincide(supports, k) result(same)
         type(node_support_type), intent(in) :: supports(:)
         integer, intent(in) :: k

@@ -1,10 +1,10 @@
-!> What follows from a solution: shears, reactions, and how far rounding errors reach
+!> Shears and reactions from a solution, with the reach of their rounding errors.
 module gapbeam_reactions
     use gapbeam_kinds, only: wp
     use gapbeam_band, only: restrained
     use gapbeam_law, only: share_forces, nodes_at_a_time
     use gapbeam_model, only: beam_type
-    use gapbeam_workspace, only: workspace_type, reach_type
+    use gapbeam_workspace, only: workspace_type, interval_type
     implicit none
     private
     public :: find_sizes, find_shears, find_reactions, by_stretches
@@ -87,12 +87,12 @@ contains
         !> First and last node; others follow as far as their sizes change
         integer, intent(in) :: range(2)
         type(workspace_type), intent(inout) :: work
-        type(reach_type) :: reach
+        type(interval_type) :: reach
         integer :: i, n, first, last
 
         n = size(beam%links)
         call find_own_sizes(beam, range, work)
-        reach = reach_type()
+        reach = interval_type()
         if (range(1) > 0) reach = work%reach_left(range(1) - 1)
         do i = range(1), n
             reach = passed_on(reach, work%reach_own(i), work%nodes(i)%held)
@@ -102,7 +102,7 @@ contains
             work%reach_left(i) = reach
         end do
         last = i - 1
-        reach = reach_type()
+        reach = interval_type()
         if (range(2) < n) reach = work%reach_right(range(2) + 1)
         do i = range(2), 0, -1
             reach = passed_on(reach, work%reach_own(i), work%nodes(i)%held)
@@ -123,13 +123,13 @@ contains
         type(beam_type), intent(in) :: beam
         integer, intent(in) :: range(2)
         type(workspace_type), intent(inout) :: work
-        type(reach_type) :: beside
+        type(interval_type) :: neighbour
         real(wp) :: moment, turn, flexibility, length, of_stretch
         integer :: i, last
         logical :: stretches
 
         do i = range(1), range(2)
-            work%reach_own(i) = reach_type(work%load_size(i), abs(work%answers(i)%deflection))
+            work%reach_own(i) = interval_type(work%load_size(i), abs(work%answers(i)%deflection))
         end do
         stretches = by_stretches .and. work%refined .and. range(1) == 0 .and. range(2) == size(beam%links) &
             .and. .not. allocated(beam%ground)
@@ -149,13 +149,13 @@ contains
                     flexibility = beam%ground(i)%faa + beam%ground(i)%fbb
                     length = link%length
                     if (link%bending > 0.0_wp) length = min(length, flexibility*length/link%bending)
-                    beside = reach_type(2*moment/length, flexibility*length*moment)
+                    neighbour = interval_type(2*moment/length, flexibility*length*moment)
                 else
-                    beside = reach_type(2*moment*link%inverse, work%reach(i)*moment)
-                    if (stretches) beside%shear = min(beside%shear, of_stretch)
+                    neighbour = interval_type(2*moment*link%inverse, work%reach(i)*moment)
+                    if (stretches) neighbour%shear = min(neighbour%shear, of_stretch)
                 end if
-                if (i > range(1)) work%reach_own(i - 1) = passed_on(beside, work%reach_own(i - 1), .false.)
-                if (i <= range(2)) work%reach_own(i) = passed_on(beside, work%reach_own(i), .false.)
+                if (i > range(1)) work%reach_own(i - 1) = passed_on(neighbour, work%reach_own(i - 1), .false.)
+                if (i <= range(2)) work%reach_own(i) = passed_on(neighbour, work%reach_own(i), .false.)
             end associate
         end do
     end subroutine find_own_sizes
@@ -169,7 +169,7 @@ contains
         last = first
         do while (last < ubound(work%nodes, 1))
             associate (node => work%nodes(last))
-                if (node%held .or. abs(node%stiffness) > work%ease(last) .or. node%kind == restrained) return
+                if (node%held .or. abs(node%stiffness) > work%proximal_weight(last) .or. node%kind == restrained) return
             end associate
             last = last + 1
         end do
@@ -195,18 +195,18 @@ contains
 
     !> Sizes at a node: its own, and those that come from its neighbour
     pure function passed_on(from, own, held) result(reach)
-        type(reach_type), intent(in) :: from, own
+        type(interval_type), intent(in) :: from, own
         logical, intent(in) :: held
-        type(reach_type) :: reach
+        type(interval_type) :: reach
         real(wp) :: share
 
         share = merge(0.5_wp, 1.0_wp, held)
-        reach = reach_type(max(own%shear, share*from%shear), max(own%deflection, share*from%deflection))
+        reach = interval_type(max(own%shear, share*from%shear), max(own%deflection, share*from%deflection))
     end function passed_on
 
     !> Are two sizes the same
     elemental function same(a, b)
-        type(reach_type), intent(in) :: a, b
+        type(interval_type), intent(in) :: a, b
         logical :: same
 
         same = .not. (abs(a%shear - b%shear) > 0.0_wp .or. abs(a%deflection - b%deflection) > 0.0_wp)
@@ -265,7 +265,7 @@ contains
                 error = error + work%shear_error(i + 1)
             end if
         end if
-        reaction = (work%loads(i)%shear - (left - right)) + work%ease(i)*(work%reference(i) - work%answers(i)%deflection)
+        reaction = (work%loads(i)%shear - (left - right)) + work%proximal_weight(i)*(work%reference(i) - work%answers(i)%deflection)
     end subroutine force_at_node
 
 end module gapbeam_reactions

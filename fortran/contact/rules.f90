@@ -1,14 +1,14 @@
-!> Which supports are wrong in a scheme, which of them a rule changes, and whether a scheme has come back
+!> Wrong supports of a contact state, those that a rule changes, and cycles of states.
 module gapbeam_rules
     use gapbeam_kinds, only: wp
-    use gapbeam_law, only: find_margins, find_wrong_states, find_doubtful_states
+    use gapbeam_law_margins, only: find_margins, find_wrong_states, find_doubtful_states
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type
     implicit none
     private
     public :: find_wrong, find_doubtful
     public :: keep_worst_pull, keep_local_worst, keep_least_index, first_width
-    public :: mark_type, set_mark, came_back
+    public :: mark_type, set_mark, cycled
 
     !> Rounding errors beyond which a sign counts
     real(wp), parameter :: first_width = 32.0_wp
@@ -171,7 +171,7 @@ contains
     end subroutine set_mark
 
     !> Is this scheme the marked one? The mark is moved here after 1, 2, 4, ... schemes (Brent 1980), so every cycle is found
-    function came_back(mark, closed) result(again)
+    function cycled(mark, closed) result(again)
         type(mark_type), intent(inout) :: mark
         logical, intent(in) :: closed(:)
         logical :: again
@@ -182,6 +182,6 @@ contains
         mark%closed(:) = closed
         mark%since = 0
         mark%next = 2*mark%next
-    end function came_back
+    end function cycled
 
 end module gapbeam_rules

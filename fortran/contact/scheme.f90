@@ -1,4 +1,4 @@
-!> The working scheme of a beam, or the proof that there is none.
+!> The contact state of a beam, or the proof that there is none.
 !>
 !> Where the bilateral supports alone hold the beam every scheme is stable, and gapbeam_search ends with the right one.
 !> Other beams may pass through mechanisms. Then weak springs towards a reference position hold it, the reference
@@ -11,12 +11,12 @@ module gapbeam_scheme
     use gapbeam_error, only: error_type, fatal_error, out_of_range, gapbeam_solved, gapbeam_no_equilibrium, &
         gapbeam_indeterminate, gapbeam_not_converged
     use gapbeam_band, only: band_ok, band_needs_pivoting
-    use gapbeam_law, only: always_closed, separate_rigid_pairs, has_laws, go_to_level
-    use gapbeam_law_motions, only: find_free_level, is_blocked, distance_to_contact
-    use gapbeam_law_forms, only: limit_stiffness
+    use gapbeam_law, only: always_closed, separate_rigid_pairs, has_laws, jump_to_plateau
+    use gapbeam_law_kinematics, only: find_free_level, is_blocked, distance_to_contact
+    use gapbeam_law_adapters, only: limit_stiffness
     use gapbeam_model, only: beam_type, softest
     use gapbeam_kinematics, only: free_motions, motion_type
-    use gapbeam_runaways, only: runaway_type, find_runaways, prefer_tipping, no_speed
+    use gapbeam_unbounded_motions, only: unbounded_motion_type, find_unbounded_motions, prefer_rotation_mode, no_speed
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_reactions, only: by_stretches
     use gapbeam_system, only: solve_and_refine, refine_scheme, complete_scheme, is_finite
@@ -27,7 +27,7 @@ module gapbeam_scheme
     public :: find_scheme, outcome_type
 
     !> Weak springs relative to the softest stiffness present
-    real(wp), parameter :: ease_ratio = 10.0_wp**(-precision(1.0_wp)/3)
+    real(wp), parameter :: proximal_ratio = 10.0_wp**(-precision(1.0_wp)/3)
     !> Forces of the weak springs, relative to the loads, that come from rounding of the loads alone
     real(wp), parameter :: least_force = 8*real(epsilon(1.0_dp), wp)
     !> Moves of the reference position before giving up
@@ -44,7 +44,7 @@ module gapbeam_scheme
         !> Does it depend on work or speed that is hardly more than its rounding error
         logical :: in_doubt = .false.
         !> Supports whose reaction or opening is zero as far as any precision here tells: their state may be either
-        !> (gapbeam_referee), shape (size(closed))
+        !> (gapbeam_extended_precision), shape (size(closed))
         logical, allocatable :: undecided(:)
     end type outcome_type
 
@@ -75,12 +75,13 @@ contains
         closed = closed .or. always_closed(beam%supports)
         call separate_rigid_pairs(beam%supports, size(beam%links), closed)
         work%solves = 0
-        work%came_back = .false.
-        work%ease = 0.0_wp
+        work%cycled = .false.
+        work%proximal_weight = 0.0_wp
         work%reference = 0.0_wp  ! an earlier search may have left what is no number
         allocate (start(size(closed)), wrong(size(closed)))
         start = always_closed(beam%supports)
-        if (has_laws(beam%supports)) call go_to_level(beam%supports, start)  ! within its gap a law that holds both ways does not
+        ! Within its gap a law that holds both ways does not
+        if (has_laws(beam%supports)) call jump_to_plateau(beam%supports, start)
         call free_motions(beam, start, motions)
         start = closed
         refined = .false.
@@ -89,8 +90,8 @@ contains
             if (allocated(error)) return
             if (.not. settled) then
                 closed = start
-                call iterate_floating(beam, factor, rule, closed, work, outcome, refined, error)
-                if (allocated(error)) call look_for_motion(beam, factor, rule, start, outcome, error)
+                call proximal_iteration(beam, factor, rule, closed, work, outcome, refined, error)
+                if (allocated(error)) call find_motion_on_soft_supports(beam, factor, rule, start, outcome, error)
             end if
             if (allocated(error) .or. outcome%status /= gapbeam_solved) return
             if (checked) call require(all(closed .or. .not. always_closed(beam%supports)), "find_scheme: opened a bilateral one")
@@ -108,7 +109,7 @@ contains
 
     !> A beam whose reactions statics cannot tell apart may still have no equilibrium. That does not depend on how stiff
     !> its supports are, so it is decided with soft ones
-    subroutine look_for_motion(beam, factor, rule, start, outcome, error)
+    subroutine find_motion_on_soft_supports(beam, factor, rule, start, outcome, error)
         type(beam_type), intent(in) :: beam
         real(wp), intent(in) :: factor
         integer, intent(in) :: rule
@@ -131,12 +132,12 @@ contains
         call limit_stiffness(soft%supports, stiffness)
         call new_workspace(soft, work)
         call set_loads(soft, factor, work)
-        call iterate_floating(soft, factor, rule, closed, work, outcome, refined, another)
+        call proximal_iteration(soft, factor, rule, closed, work, outcome, refined, another)
         if (outcome%status == gapbeam_no_equilibrium .and. .not. allocated(another)) deallocate (error)
-    end subroutine look_for_motion
+    end subroutine find_motion_on_soft_supports
 
     !> The same for a beam that can float: weak springs, and a reference position that follows
-    subroutine iterate_floating(beam, factor, rule, closed, work, outcome, refined, error)
+    subroutine proximal_iteration(beam, factor, rule, closed, work, outcome, refined, error)
         type(beam_type), intent(in) :: beam
         real(wp), intent(in) :: factor
         integer, intent(in) :: rule
@@ -147,23 +148,23 @@ contains
         logical, intent(out) :: refined
         type(error_type), allocatable, intent(out) :: error
         logical, allocatable :: wrong(:)
-        type(runaway_type), allocatable :: runaways(:)
-        real(wp), allocatable :: eased(:), direction(:)
-        real(wp) :: ease, way, moved, moved_before
+        type(unbounded_motion_type), allocatable :: unbounded(:)
+        real(wp), allocatable :: displaced(:), direction(:)
+        real(wp) :: proximal_weight, way, moved, moved_before
         logical :: settled, stable, in_doubt, at_rest, stopped, there_is
         integer :: move, state, place
 
-        allocate (wrong(size(closed)), eased(0:size(beam%links)), direction(0:size(beam%links)))
-        eased(:) = 0.0_wp
-        ease = ease_ratio*softest(beam)
+        allocate (wrong(size(closed)), displaced(0:size(beam%links)), direction(0:size(beam%links)))
+        displaced(:) = 0.0_wp
+        proximal_weight = proximal_ratio*softest(beam)
         work%reference = 0.0_wp
         moved_before = huge(moved_before)
         refined = .false.
         do move = 1, most_moves
             if (work%solves > work%most_solves) exit
-            work%ease = ease
+            work%proximal_weight = proximal_weight
             call settle(beam, rule, .true., closed, work, settled, error)
-            if (.not. settled .and. move == 1 .and. nothing_loads(work)) then
+            if (.not. settled .and. move == 1 .and. is_unloaded(work)) then
                 ! Weak springs press it onto lacks of fit, which takes very long to settle; off all supports it rests as well
                 call find_free_level(beam%supports, way, there_is)
                 if (there_is) then
@@ -175,18 +176,18 @@ contains
             if (.not. settled .and. .not. has_laws(beam%supports)) then
                 ! A beam that nothing stops goes so far on weak springs that rounding hides what is open. That nothing stops it
                 ! is a proof in any scheme
-                call find_runaways(beam, factor, closed, direction, runaways, stable, in_doubt)
-                call follow_runaways(stopped)
+                call find_unbounded_motions(beam, factor, closed, direction, unbounded, stable, in_doubt)
+                call follow_unbounded_motions(stopped)
                 if (.not. stopped) return
             end if
             if (.not. settled) call settle(beam, rule_least_index, .false., closed, work, settled, error)
             if (allocated(error)) return
             if (.not. work%complete) call complete_scheme(beam, closed, work)
-            eased = work%answers%deflection
+            displaced = work%answers%deflection
             ! Does the scheme hold without the springs?
-            call find_runaways(beam, factor, closed, direction, runaways, stable, in_doubt)
+            call find_unbounded_motions(beam, factor, closed, direction, unbounded, stable, in_doubt)
             if (stable) then
-                work%ease = 0.0_wp
+                work%proximal_weight = 0.0_wp
                 call solve_and_refine(beam, closed, work, state, place)
                 if (state == band_needs_pivoting) call refuse_scheme(beam, state, place, error)
                 if (allocated(error)) return
@@ -195,12 +196,13 @@ contains
                     refined = .not. any(wrong)
                     if (refined) return
                 end if
-            else if (size(runaways) == 0) then
+            else if (size(unbounded) == 0) then
                 ! Free to move, but no load does work: the springs carry nothing once the reference has come to rest, but for
                 ! what loads that balance each other have left to rounding
-                moved = maxval(abs(eased - work%reference))
-                at_rest = moved <= max(4096*epsilon(1.0_wp)*maxval(abs(eased)), epsilon(1.0_wp)*maxval(work%shear_size)/ease) &
-                    .or. (moved <= least_force*maxval(work%load_size)/ease .and. moved > moved_before/2)
+                moved = maxval(abs(displaced - work%reference))
+                at_rest = moved <= max(4096*epsilon(1.0_wp)*maxval(abs(displaced)), &
+                                       epsilon(1.0_wp)*maxval(work%shear_size)/proximal_weight) &
+                    .or. (moved <= least_force*maxval(work%load_size)/proximal_weight .and. moved > moved_before/2)
                 moved_before = moved
                 if (at_rest) then
                     outcome%indifferent = .true.
@@ -208,10 +210,10 @@ contains
                     return
                 end if
             else
-                call follow_runaways(stopped)
+                call follow_unbounded_motions(stopped)
                 if (.not. stopped) return
             end if
-            work%reference = eased
+            work%reference = displaced
         end do
         call fatal_error(error, gapbeam_not_converged, "the beam is held by so little that the working scheme "// &
                          "could not be settled: give it a support that holds both ways, or check the loads")
@@ -219,40 +221,40 @@ contains
     contains
 
         !> Let every part that the loads move go as far as its next open support
-        subroutine follow_runaways(stopped)
+        subroutine follow_unbounded_motions(stopped)
             !> Has each one; if not, this is no equilibrium, and the outcome says so
             logical, intent(out) :: stopped
             integer :: r
 
             stopped = .true.
-            do r = 1, size(runaways)
-                associate (from => runaways(r)%first, to => runaways(r)%last)
+            do r = 1, size(unbounded)
+                associate (from => unbounded(r)%first, to => unbounded(r)%last)
                     way = distance_to_contact(beam%supports, beam%order(beam%first(from):beam%first(to + 1) - 1), closed, &
-                                              direction, eased, no_speed)
+                                              direction, displaced, no_speed)
                     stopped = way < huge(way)
                     if (.not. stopped) then
                         outcome%status = gapbeam_no_equilibrium
                         direction(:from - 1) = 0.0_wp
                         direction(to + 1:) = 0.0_wp
                         outcome%in_doubt = in_doubt .or. is_blocked(beam%supports, direction)
-                        call prefer_tipping(beam, factor, direction)
+                        call prefer_rotation_mode(beam, factor, direction)
                         allocate (outcome%motion(0:size(beam%links)))
                         outcome%motion(:) = direction
                         return
                     end if
-                    eased(from:to) = eased(from:to) + way*direction(from:to)
+                    displaced(from:to) = displaced(from:to) + way*direction(from:to)
                 end associate
             end do
-        end subroutine follow_runaways
+        end subroutine follow_unbounded_motions
 
-    end subroutine iterate_floating
+    end subroutine proximal_iteration
 
     !> Are there no loads, couples and imposed curvatures
-    pure function nothing_loads(work) result(nothing)
+    pure function is_unloaded(work) result(unloaded)
         type(workspace_type), intent(in) :: work
-        logical :: nothing
+        logical :: unloaded
 
-        nothing = work%without_couples .and. .not. (any(work%load_size > 0.0_wp) .or. any(work%turn_size > 0.0_wp))
-    end function nothing_loads
+        unloaded = work%without_couples .and. .not. (any(work%load_size > 0.0_wp) .or. any(work%turn_size > 0.0_wp))
+    end function is_unloaded
 
 end module gapbeam_scheme

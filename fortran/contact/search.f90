@@ -1,11 +1,11 @@
-!> The search for the working scheme: solve, see which supports are wrong, change some of them.
+!> Active-set search for the contact state: solve, find wrong supports, change some of them.
 !>
 !> A scheme is right when no closed support pulls and no open one is penetrated. Two rules find it.
 !>
 !> single   the paper's: release the closed support that pulls most and put back every open one that is penetrated, until
 !>          nothing changes. Not proved finite; if a scheme comes back, block goes on.
-!> block    where the wrong supports lie in a part of a long beam, find the scheme of that part by itself, with what the
-!>          rest does to it as loads, and solve the whole again (domain decomposition after Schwarz); fronts
+!> block    where the wrong supports lie in a subdomain of a long beam, find the scheme of that subdomain by itself, with what the
+!>          rest does to it as loads, and solve the whole again (domain decomposition after Schwarz); boundaries
 !>          are moved by statics first. Otherwise change every wrong support at once while their number keeps
 !>          falling within a few solves. If it does not, guess the scheme by interior points and go on from there. If
 !>          that fails too, change in the best scheme so far the wrong support of least index until fewer are wrong, and so on.
@@ -13,22 +13,22 @@
 !> Why block ends: for a stable beam the problem is a linear complementarity problem with a P-matrix, for which the
 !> least-index rule reaches the solution without repeating a scheme (Murty 1974), so the fewest number of wrong
 !> supports falls after finitely many solves, and it can fall only finitely often (Judice and Pires 1994). The phases
-!> before are bounded by counts, parts by their rounds, which get fewer from beam to part. Finite may be very long, so the
+!> before are bounded by counts, subdomains by their rounds, which get fewer from beam to subdomain. Finite may be very long, so the
 !> least-index rule gives up after so many solves as take some seconds (most_solves).
 module gapbeam_search
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, fatal_error, gapbeam_indeterminate, gapbeam_not_converged
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_band, only: band_ok, band_mechanism, band_needs_pivoting, band_stopped
-    use gapbeam_law, only: separate_rigid_pairs, has_laws, open_beyond, go_one_piece
+    use gapbeam_law, only: separate_rigid_pairs, has_laws, open_from, advance_one_segment
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type
     use gapbeam_system, only: complete_scheme
-    use gapbeam_look, only: search_type, look, few
-    use gapbeam_rules, only: keep_worst_pull, keep_local_worst, keep_least_index, mark_type, set_mark, came_back
+    use gapbeam_evaluation, only: search_type, evaluate_active_set, few
+    use gapbeam_rules, only: keep_worst_pull, keep_local_worst, keep_least_index, mark_type, set_mark, cycled
     use gapbeam_reactions, only: find_shears
-    use gapbeam_fronts, only: find_base, move_fronts
-    use gapbeam_part, only: next_stretch, cut_out, least_margin
+    use gapbeam_contact_boundary, only: find_base, move_boundaries
+    use gapbeam_subdomain, only: next_stretch, extract_subdomain, least_margin
     use gapbeam_interior_point, only: interior_type, start_interior, step_interior, product_of
     implicit none
     private
@@ -38,19 +38,20 @@ module gapbeam_search
     integer, parameter :: rule_block = 0, rule_single = 1, rule_least_index = 2
     !> Solves that need not make the number of wrong supports fall: directly from all supports closed, directly from another
     !> scheme, after a guess, between least-index phases
-    integer, parameter :: patience = 4, warm_patience = 12, polish_patience = 3, last_patience = 2
+    integer, parameter :: non_monotone_steps = 4, warm_non_monotone_steps = 12, polish_non_monotone_steps = 3, &
+        last_non_monotone_steps = 2
     !> The same with laws, which go on by one piece at a time then
-    integer, parameter :: law_patience = 40
+    integer, parameter :: law_non_monotone_steps = 40
     !> Such solves after the last guess. When reactions times openings have fallen by this much, so many changes of a
     !> guess in a step show that rounding has taken over
-    integer, parameter :: final_patience = 16, rounding_changes = 40
+    integer, parameter :: final_non_monotone_steps = 16, rounding_changes = 40
     real(wp), parameter :: rounding_product = sqrt(epsilon(1.0_wp))
     !> Steps of the interior-point method at most; changes of its guess in a step at which the guess is tried; steps
     !> between two trials
     integer, parameter :: most_steps = 60, few_changes = 4, steps_between = 4
-    !> Rounds in which parts are settled by themselves: a few in the whole beam, half as many within a part, and so on
-    integer, parameter :: part_rounds = 8
-    !> Largest share of the beam that the parts of a round may have
+    !> Rounds in which subdomains are settled by themselves: a few in the whole beam, half as many within a subdomain, and so on
+    integer, parameter :: subdomain_rounds = 8
+    !> Largest share of the beam that the subdomains of a round may have
     real(wp), parameter :: largest_share = 0.7_wp
     !> Signs are decided beyond first_width rounding errors; widened where they still flicker, up to a limit
     real(wp), parameter :: last_width = 1e7_wp
@@ -74,7 +75,7 @@ contains
         logical, intent(out) :: settled
         !> No unique solution, or signs that cannot be told from rounding
         type(error_type), allocatable, intent(out) :: error
-        !> Rounds of parts, if this is a part itself
+        !> Rounds of subdomains, if this is a subdomain itself
         integer, intent(in), optional :: rounds
         !> Refine wherever few are wrong, however clearly (default: not what is solved from both ends, where little cancels)
         logical, intent(in), optional :: carefully
@@ -83,12 +84,12 @@ contains
 
         allocate (search%wrong(size(closed)), search%best(size(closed)))
         search%best(:) = closed
-        search%rounds = part_rounds
+        search%rounds = subdomain_rounds
         if (present(rounds)) search%rounds = rounds
-        search%in_part = present(rounds)
+        search%in_subdomain = present(rounds)
         search%next_rounds = search%rounds/2
         ! Weak springs let the beam go far: little of its deflection is bending
-        search%carefully = any(work%ease > 0.0_wp)
+        search%carefully = any(work%proximal_weight > 0.0_wp)
         if (present(carefully)) search%carefully = search%carefully .or. carefully
         ! Parts and interior points know of ordinary supports only
         search%with_laws = has_laws(beam%supports)
@@ -99,7 +100,7 @@ contains
         if (rule == rule_least_index) then
             search%rounds = 0
         else if (.not. settled .and. search%state == band_ok) then
-            call change_all(beam, merge(patience, warm_patience, all(closed)), closed, work, search, settled)
+            call change_all(beam, merge(non_monotone_steps, warm_non_monotone_steps, all(closed)), closed, work, search, settled)
         end if
         if (.not. (settled .or. search%state == band_mechanism .or. search%with_laws .or. rule == rule_least_index)) then
             call change_by_interior_point(beam, closed, work, search, settled)
@@ -130,12 +131,12 @@ contains
 
         call set_mark(mark, closed)
         do
-            call look(beam, closed, .true., work, search, settled)
+            call evaluate_active_set(beam, closed, .true., work, search, settled)
             if (settled .or. search%state /= band_ok) return
             call keep_worst_pull(closed, work, search%wrong)
             call change(beam, search, closed)
-            work%came_back = came_back(mark, closed)
-            if (work%came_back) return
+            work%cycled = cycled(mark, closed)
+            if (work%cycled) return
         end do
     end subroutine change_single
 
@@ -151,14 +152,14 @@ contains
             allocate (before(size(closed)))
             before(:) = closed
             closed(:) = closed .neqv. search%wrong
-            call go_one_piece(beam%supports, before, closed)
+            call advance_one_segment(beam%supports, before, closed)
         else
             closed(:) = closed .neqv. search%wrong
-            if (search%with_laws) call open_beyond(beam%supports, closed)
+            if (search%with_laws) call open_from(beam%supports, closed)
         end if
     end subroutine change
 
-    !> Change what is wrong, in parts or all at once, until the number of wrong supports did not fall for some solves.
+    !> Change what is wrong, in subdomains or all at once, until the number of wrong supports did not fall for some solves.
     !> Where few are wrong, a step without progress is followed by one of the paper's rule in every neighbourhood
     recursive subroutine change_all(beam, idle_solves, closed, work, search, settled)
         type(beam_type), intent(in) :: beam
@@ -173,13 +174,13 @@ contains
 
         idle = 0
         do
-            call look(beam, closed, .false., work, search, settled)
+            call evaluate_active_set(beam, closed, .false., work, search, settled)
             if (settled .or. search%state /= band_ok) return
             if (search%margin > 0 .and. .not. scattered(beam, search)) then
                 if (.not. allocated(search%base%support)) call find_base(beam, search%base)
                 call find_shears(beam, [1, size(beam%links)], work)
-                call move_fronts(beam, closed, work, search%base, search%margin/2, search%wrong)
-                call settle_parts(beam, closed, work, search, changed)
+                call move_boundaries(beam, closed, work, search%base, search%margin/2, search%wrong)
+                call settle_subdomains(beam, closed, work, search, changed)
                 if (changed) cycle
             end if
             if (search%wrong_now < search%fewest) then
@@ -189,7 +190,7 @@ contains
             else
                 idle = idle + 1
                 search%carefully = .true.
-                if (idle > merge(law_patience, idle_solves, search%with_laws)) return
+                if (idle > merge(law_non_monotone_steps, idle_solves, search%with_laws)) return
                 ! Over several pieces at once laws may go to and fro (Newton without line search)
                 search%by_pieces = search%with_laws
                 if (search%wrong_now <= few .and. .not. search%with_laws) then
@@ -201,18 +202,18 @@ contains
         end do
     end subroutine change_all
 
-    !> Where the wrong supports lie in a part of the beam only, find its scheme by itself
-    recursive subroutine settle_parts(beam, closed, work, search, changed)
+    !> Where the wrong supports lie in a subdomain of the beam only, find its scheme by itself
+    recursive subroutine settle_subdomains(beam, closed, work, search, changed)
         type(beam_type), intent(in) :: beam
         logical, intent(inout) :: closed(:)
         type(workspace_type), intent(inout) :: work
         type(search_type), intent(inout) :: search
         !> Is there a new scheme
         logical, intent(out) :: changed
-        type(beam_type) :: part
-        type(workspace_type) :: part_work
+        type(beam_type) :: subdomain
+        type(workspace_type) :: subdomain_work
         type(error_type), allocatable :: error
-        logical, allocatable :: part_closed(:), before(:)
+        logical, allocatable :: subdomain_closed(:), before(:)
         integer, allocatable :: number(:)
         integer :: place, from, to, nodes
         real(wp) :: solves
@@ -235,26 +236,26 @@ contains
         do
             call next_stretch(beam, search%wrong, search%margin, place, from, to)
             if (from < 0) exit
-            call cut_out(beam, before, work, from, to, part, part_work, number)
-            part_closed = before(number)
-            call settle(part, rule_block, .true., part_closed, part_work, settled, error, search%next_rounds)
-            solves = solves + part_work%solves*real(to - from, wp)/size(beam%links)
+            call extract_subdomain(beam, before, work, from, to, subdomain, subdomain_work, number)
+            subdomain_closed = before(number)
+            call settle(subdomain, rule_block, .true., subdomain_closed, subdomain_work, settled, error, search%next_rounds)
+            solves = solves + subdomain_work%solves*real(to - from, wp)/size(beam%links)
             if (settled) then
                 changed = .true.
-                closed(number) = part_closed
+                closed(number) = subdomain_closed
             else
                 closed(number) = before(number) .neqv. search%wrong(number)
             end if
         end do
         if (.not. changed) closed(:) = before
         work%solves = work%solves + ceiling(solves)
-        ! A round in which no part was settled counts too: else parts within parts were tried again after every solve
+        ! A round in which no subdomain was settled counts too: else subdomains within subdomains were tried again after every solve
         search%rounds = search%rounds - 1
         if (.not. changed) return
         search%margin = (3*search%margin)/2
-    end subroutine settle_parts
+    end subroutine settle_subdomains
 
-    !> Are the wrong supports here and there, not at a few fronts, and fewer than before
+    !> Are the wrong supports here and there, not at a few boundaries, and fewer than before
     pure function scattered(beam, search) result(everywhere)
         type(beam_type), intent(in) :: beam
         type(search_type), intent(in) :: search
@@ -305,7 +306,7 @@ contains
                 closed(:) = guess
                 call separate_rigid_pairs(beam%supports, size(beam%links), closed)
                 search%fewest = huge(0)
-                call change_all(beam, polish_patience, closed, work, search, settled)
+                call change_all(beam, polish_non_monotone_steps, closed, work, search, settled)
                 if (settled) exit
                 search%state = band_ok
                 wait = steps_between
@@ -316,7 +317,7 @@ contains
             closed(:) = last_guess
             call separate_rigid_pairs(beam%supports, size(beam%links), closed)
             search%fewest = huge(0)
-            call change_all(beam, final_patience, closed, work, search, settled)
+            call change_all(beam, final_non_monotone_steps, closed, work, search, settled)
         end if
         deallocate (work%spring, work%spring_contact)
     end subroutine change_by_interior_point
@@ -332,18 +333,18 @@ contains
         type(mark_type) :: mark
 
         do
-            call change_all(beam, last_patience, closed, work, search, settled)
+            call change_all(beam, last_non_monotone_steps, closed, work, search, settled)
             if (settled .or. search%state /= band_ok) return
             ! Where all were changed at once last, many more may be wrong, from which this rule takes very long to come back
             closed(:) = search%best
             call set_mark(mark, closed)
             do
-                call look(beam, closed, .false., work, search, settled)
+                call evaluate_active_set(beam, closed, .false., work, search, settled)
                 if (settled .or. search%state /= band_ok .or. work%solves > work%most_solves) return
                 if (search%wrong_now < search%fewest) exit
                 call keep_least_index(search%wrong)
                 call change(beam, search, closed)
-                if (came_back(mark, closed)) then
+                if (cycled(mark, closed)) then
                     search%width = 16*search%width
                     if (search%width > last_width) return
                 end if

@@ -1,11 +1,12 @@
-!> Which supports are wrong in a scheme, from its deflections and moments alone, as long as nothing is near zero.
+!> Wrong supports by the signs of deflections and moments alone, as long as none is near zero.
 !>
 !> That is so in nearly every scheme of a search, and costs a small part of what it takes to find reactions and how far rounding
 !> errors reach. What is near zero is left to gapbeam_law, with all that.
 module gapbeam_signs
     use gapbeam_kinds, only: wp
     use gapbeam_require, only: checked, require
-    use gapbeam_law, only: has_laws, is_rigid, may_change
+    use gapbeam_law, only: has_laws, is_rigid
+    use gapbeam_law_margins, only: may_change
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type
     implicit none
@@ -134,7 +135,7 @@ contains
                 k = s%support(j)
                 associate (i => s%node(j))
                     if (closed(k)) then
-                        force = work%loads(i)%shear + work%ease(i)*(work%reference(i) - a(i)%deflection)
+                        force = work%loads(i)%shear + work%proximal_weight(i)*(work%reference(i) - a(i)%deflection)
                         if (i > 0) force = force - (a(i)%moment_left - a(i - 1)%moment_right)*work%inverse(i)
                         if (i < n) force = force + (a(i + 1)%moment_left - a(i)%moment_right)*work%inverse(i + 1)
                         margin = s%side(j)*force

@@ -1,9 +1,9 @@
-!> One working scheme solved: the system it needs is chosen, assembled and solved; reactions follow.
+!> Solution of one contact state: its system chosen, assembled, solved and refined.
 module gapbeam_system
     use gapbeam_kinds, only: wp
     use gapbeam_watch, only: is_stopped
-    use gapbeam_band, only: node_type, rhs_type, factor_chain, solve_chain, band_ok, band_mechanism, band_needs_pivoting, &
-        band_stopped
+    use gapbeam_band, only: node_type, rhs_type, factor_chain, band_ok, band_mechanism, band_needs_pivoting, band_stopped
+    use gapbeam_band_substitution, only: solve_chain
     use gapbeam_foundation_chain, only: factor_foundation_chain, solve_foundation_chain
     use gapbeam_foundation_residual, only: residual_on_ground
     use gapbeam_residual, only: residual_chain
@@ -133,7 +133,7 @@ contains
         if (.not. regular) then
             ! Singular because something moves, or because statics cannot tell reactions apart
             call free_motions(beam, acting, motions)
-            if (size(motions) > 0 .and. .not. any(work%ease > 0.0_wp)) state = band_mechanism
+            if (size(motions) > 0 .and. .not. any(work%proximal_weight > 0.0_wp)) state = band_mechanism
         end if
     end subroutine solve_deflections
 

@@ -1,4 +1,4 @@
-!> A solution kept up to date while a few supports change: the cost is that of the stretch in which something changes.
+!> A solution updated while a few supports change, at the cost of the stretch they affect.
 !>
 !> What a changed support sends to either side fades within a few spans, so the factor is made anew from the changed node to
 !> where the left side passes on what it did before, and the solution is corrected as far as that can be seen in it.
@@ -6,7 +6,8 @@
 module gapbeam_update
     use gapbeam_kinds, only: wp
     use gapbeam_require, only: checked, require
-    use gapbeam_band, only: answer_type, factor_chain, correct_chain, band_ok
+    use gapbeam_band, only: answer_type, factor_chain, band_ok
+    use gapbeam_band_substitution, only: correct_chain
     use gapbeam_residual, only: residual_chain
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, apply_scheme, method_mixed, method_pivoting

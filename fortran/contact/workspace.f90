@@ -1,4 +1,4 @@
-!> What solving a beam needs beside it: loads and scheme as they reach the nodes, factor, solution
+!> Workspace of a solve: loads and contact state at the nodes, factor, solution.
 module gapbeam_workspace
     use gapbeam_kinds, only: wp
     use gapbeam_require, only: checked, require
@@ -9,7 +9,7 @@ module gapbeam_workspace
     use gapbeam_model, only: beam_type
     implicit none
     private
-    public :: workspace_type, reach_type, new_workspace, set_loads, apply_scheme
+    public :: workspace_type, interval_type, new_workspace, set_loads, apply_scheme
     public :: method_mixed, method_three_moment, method_pivoting
 
     !> Nodes at which a search may solve, all its solves together, and solves it may take in any beam: some seconds
@@ -19,9 +19,9 @@ module gapbeam_workspace
     integer, parameter :: method_mixed = 0, method_three_moment = 1, method_pivoting = 2
 
     !> Sizes of a shear and of a deflection
-    type :: reach_type
+    type :: interval_type
         real(wp) :: shear = 0.0_wp, deflection = 0.0_wp
-    end type reach_type
+    end type interval_type
 
     !> Everything a solve needs beside the beam; reused from solve to solve
     type :: workspace_type
@@ -57,10 +57,10 @@ module gapbeam_workspace
         real(wp), allocatable :: level(:)
         !> Sizes of the shears and deflections whose rounding reaches a node: from beside it, from the left, from the
         !> right, from everywhere
-        type(reach_type), allocatable :: reach_own(:), reach_left(:), reach_right(:)
+        type(interval_type), allocatable :: reach_own(:), reach_left(:), reach_right(:)
         real(wp), allocatable :: shear_size(:), deflection_size(:)
         !> Springs towards a reference deflection that keep schemes which are mechanisms solvable; zero if unused
-        real(wp), allocatable :: ease(:), reference(:)
+        real(wp), allocatable :: proximal_weight(:), reference(:)
         !> Is every one-sided support, acting or not, a spring instead (gapbeam_interior_point), and which
         logical :: sprung = .false.
         real(wp), allocatable :: spring(:), spring_contact(:)
@@ -69,7 +69,7 @@ module gapbeam_workspace
         !> Solves after which the least-index rule, which may take very many, gives up
         integer :: most_solves = least_limit
         !> Did the paper's rule come back to a scheme that it had seen
-        logical :: came_back = .false.
+        logical :: cycled = .false.
         integer :: method = method_mixed
         !> Relative residuals of the last solve
         real(wp) :: compatibility = 0.0_wp, equilibrium = 0.0_wp
@@ -95,8 +95,8 @@ contains
         allocate (work%reach_own(0:n), work%reach_left(0:n), work%reach_right(0:n))
         allocate (work%shear_size(0:n), work%deflection_size(0:n))
         allocate (work%reaction(m), work%reaction_error(m))
-        allocate (work%ease(0:n), work%reference(0:n))
-        work%ease = 0.0_wp
+        allocate (work%proximal_weight(0:n), work%reference(0:n))
+        work%proximal_weight = 0.0_wp
         work%reference = 0.0_wp
         allocate (work%fixity(n), work%reach(n), work%inverse(n))
         work%fixity = 0.0_wp
@@ -165,9 +165,9 @@ contains
                     node%kind = beam%kind(i)
                     node%compliance = beam%compliance(i)
                     node%held = .false.
-                    node%stiffness = work%ease(i)
+                    node%stiffness = work%proximal_weight(i)
                     r = work%loads(i)
-                    r%shear = r%shear + work%ease(i)*work%reference(i)
+                    r%shear = r%shear + work%proximal_weight(i)*work%reference(i)
                     work%level(i) = 0.0_wp
                 end associate
             end do

@@ -1,4 +1,4 @@
-!> The fields of a beam solved on its zones of contact, at the ends of its stretches and inside those on curves
+!> Fields of a beam solved on its zones of contact, at the ends of stretches and inside those on curves.
 module gapbeam_zone_fields
     use gapbeam_kinds, only: wp
     use gapbeam_foundation, only: stretch_ends_type

@@ -1,4 +1,4 @@
-!> How far a zone of contact, or a support, is from a change: below zero before it, above zero after it, or the other way round.
+!> Margin of a zone of contact, or of a support, against a change; zero where it changes.
 !>
 !> A zone appears or vanishes where the greatest way of the beam past the line at which a layer acts is zero; two zones merge, or
 !> one splits, where the least one between them is; an end comes to the end of a layer, or leaves it, where the way there is, or
@@ -9,8 +9,8 @@ module gapbeam_zone_margin
     use gapbeam_foundation, only: stretch_load_type, stretch_ends_type
     use gapbeam_foundation_fields, only: fields_at
     use gapbeam_curved, only: curved_type, curved_fields
-    use gapbeam_law, only: margin_in_scheme
-    use gapbeam_ground_laws, only: approach_kink
+    use gapbeam_law_margins, only: margin_in_scheme
+    use gapbeam_ground_laws, only: distance_to_breakpoint
     use gapbeam_workspace, only: workspace_type
     use gapbeam_ground, only: ground_type, zones_type, grounded_type, combined_load
     use gapbeam_zone_fields, only: ends_of, take_curved
@@ -111,15 +111,15 @@ contains
         ends = ends_of(work, i)
         first = min(1.0_wp, max(0.0_wp, (change%from - left)/grounded%stretches(i)%length))
         last = min(1.0_wp, max(first, (change%to - left)/grounded%stretches(i)%length))
-        call look_at(first, before)
+        call evaluate_at(first, before)
         if (change%by_slope) margin = merge(-before, before, first > 0.0_wp)
         if (.not. last > first) return
         at = first
         do part = 1, parts
             next = first + (last - first)*part/parts
-            call look_at(next, slope)
+            call evaluate_at(next, slope)
             if (merge(before > 0.0_wp .and. slope < 0.0_wp, before < 0.0_wp .and. slope > 0.0_wp, change%greatest)) then
-                call look_between(at, before, next, slope)
+                call find_extreme_between(at, before, next, slope)
             end if
             at = next
             before = slope
@@ -128,7 +128,7 @@ contains
     contains
 
         !> The way past the layer at a share of the stretch
-        subroutine look_at(share, slope)
+        subroutine evaluate_at(share, slope)
             real(wp), intent(in) :: share
             !> Of the way
             real(wp), intent(out) :: slope
@@ -140,17 +140,17 @@ contains
                 else
                     call fields_at(s, load, ends, share, w, psi, moment, shear)
                 end if
-                call approach_kink(ground%laws, ground%layers(k), change%branch, w, psi + s%shear_flexibility*shear, &
-                                   (left - begin) + share*s%length, ground%pieces(j)%length, way, slope)
+                call distance_to_breakpoint(ground%laws, ground%layers(k), change%branch, w, psi + s%shear_flexibility*shear, &
+                                            (left - begin) + share*s%length, ground%pieces(j)%length, way, slope)
                 if (merge(way > margin, way < margin, change%greatest)) then
                     margin = way
                     place = left + share*s%length
                 end if
             end associate
-        end subroutine look_at
+        end subroutine evaluate_at
 
         !> Where the slope vanishes between two shares, by secants and halves
-        subroutine look_between(from, at_from, to, at_to)
+        subroutine find_extreme_between(from, at_from, to, at_to)
             real(wp), intent(in) :: from, at_from, to, at_to
             real(wp) :: low, high, f_low, f_high, share, slope
             integer :: step
@@ -161,7 +161,7 @@ contains
             f_high = at_to
             do step = 1, most_steps
                 share = low + (high - low)*merge(0.5_wp, f_low/(f_low - f_high), mod(step, 3) == 0)
-                call look_at(share, slope)
+                call evaluate_at(share, slope)
                 if (min(share - low, high - share) <= near_enough .or. .not. abs(slope) > 0.0_wp) return
                 if (slope > 0.0_wp .eqv. f_low > 0.0_wp) then
                     low = share
@@ -171,7 +171,7 @@ contains
                     f_high = slope
                 end if
             end do
-        end subroutine look_between
+        end subroutine find_extreme_between
 
     end subroutine search_stretch
 

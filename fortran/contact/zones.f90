@@ -1,4 +1,4 @@
-!> Where the ground acts: the zones of contact, and of the pieces of its laws, found by Newton's method.
+!> Zones of contact, and of the pieces of the ground's laws, found by Newton's method.
 !>
 !> On given zones the beam is solved, with its one-sided supports by the search of gapbeam_scheme; the places where its
 !> deflection crosses the contact lines are the ends of the next zones. An end that is off by e leaves an unbalanced load of the
@@ -11,7 +11,7 @@ module gapbeam_zones
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_not_converged
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_scheme, only: find_scheme, outcome_type
-    use gapbeam_ground_laws, only: approach_kink
+    use gapbeam_ground_laws, only: distance_to_breakpoint
     use gapbeam_ground, only: ground_type, zones_type, grounded_type, place_stretches
     use gapbeam_zone_fields, only: fields_at_ends, take_fields, way_of_fields
     use gapbeam_find_zones, only: find_zones
@@ -27,10 +27,10 @@ module gapbeam_zones
     !> at most, and by this share of the stretch ahead at most
     real(wp), parameter :: far = 0.01_wp, largest_ratio = 0.92_wp, largest_share = 0.4_wp
     !> Ends that have come back differ by less than this share of the stretches beside them
-    real(wp), parameter :: alike = 1e-5_wp
+    real(wp), parameter :: same_ends = 1e-5_wp
     !> What moves by less than this share of the beam does not move: so short zones have no force, and behind a part of the beam
     !> that next to no ground holds no end is known better
-    real(wp), parameter :: unseen = sqrt(epsilon(1.0_wp))
+    real(wp), parameter :: below_rounding = sqrt(epsilon(1.0_wp))
 
 contains
 
@@ -86,7 +86,7 @@ contains
             if (settled) return
             ! Zones that come back do so again and again. Compared with those of the last round that is a power of two (Brent 1980)
             if (round > 2 .and. moved > far) then
-                if (max(way_of_ends(mark, asked), way_of_fields(ground, grounded, mark, asked)) <= alike) return
+                if (max(way_of_ends(mark, asked), way_of_fields(ground, grounded, mark, asked)) <= same_ends) return
             end if
             if (iand(round, round - 1) == 0) mark = asked
         end do
@@ -180,8 +180,8 @@ contains
             associate (layer => ground%layers(ground%first(zones%piece(i)) + k - 1), at => zones%to(i), &
                        length => ground%pieces(zones%piece(i))%length, s => grounded%stretches(i))
                 call fields_at_ends(grounded, factor, work, i, rotation, shear)
-                call approach_kink(ground%laws, layer, law, work%answers(i)%deflection, &
-                                   rotation(2) + s%shear_flexibility*shear(2), at, length, away, slope)
+                call distance_to_breakpoint(ground%laws, layer, law, work%answers(i)%deflection, &
+                                            rotation(2) + s%shear_flexibility*shear(2), at, length, away, slope)
                 if (.not. abs(away) < abs(slope)*min(s%length, grounded%stretches(i + 1)%length)) then
                     others = others .or. abs(away) > 0.0_wp
                     cycle
@@ -256,7 +256,7 @@ contains
         do i = 1, size(found%piece) - 1
             if (found%piece(i) /= found%piece(i + 1)) cycle
             move = abs(zones%to(i) - found%to(i))
-            if (move <= unseen*length) cycle
+            if (move <= below_rounding*length) cycle
             way = max(way, move/min(found%to(i) - found%from(i), found%to(i + 1) - found%from(i + 1)))
         end do
     end function way_of_ends

@@ -9,14 +9,15 @@ module gapbeam_api
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_bad_input
     use gapbeam_scene, only: model_type, load_type, gapbeam_axial
-    use gapbeam_lowered, only: lowered_type, copy_model
+    use gapbeam_assembled_model, only: assembled_type, copy_model
     use gapbeam_units, only: bound_outside, moment_unit, rotation_unit
-    use gapbeam_lower, only: lower_model
-    use gapbeam_lower_loads, only: lower_loads
+    use gapbeam_assemble, only: assemble_model
+    use gapbeam_assemble_loads, only: assemble_loads
     use gapbeam_check, only: check_loads
     use gapbeam_words, only: shown
     use gapbeam_certificate, only: found_type => certificate_type
-    use gapbeam_state, only: event_type, solve_state, certify_state, follow_events
+    use gapbeam_state, only: solve_state, certify_state
+    use gapbeam_events, only: event_type, follow_events
     use gapbeam_support_values, only: support_values, find_undecided
     use gapbeam_query, only: fields_at_places, extremes_of_fields, motion_of_nodes, field_count
     use gapbeam_api_objects, only: prepared_type, options_type, result_type, certificate_type, require_beam, require_no_ground, &
@@ -48,7 +49,7 @@ contains
         if (stat /= 0) then
             call no_memory(error)
         else
-            call lower_model(beam%lowered, error)
+            call assemble_model(beam%lowered, error)
         end if
         if (allocated(error) .and. allocated(beam%lowered)) deallocate (beam%lowered)
         call ieee_set_status(environment)
@@ -64,7 +65,7 @@ contains
         !> As for prepare_model
         type(error_type), allocatable, intent(out) :: error
         type(ieee_status_type) :: environment
-        type(lowered_type), allocatable :: other
+        type(assembled_type), allocatable :: other
         integer :: stat
 
         call require_beam(beam, error)
@@ -84,7 +85,7 @@ contains
             end if
             if (stat == 0) then
                 other%model%loads(:) = loads
-                call lower_model(other, error)
+                call assemble_model(other, error)
             else
                 call no_memory(error)
             end if
@@ -98,7 +99,7 @@ contains
 
     !> Take other values of the loads; the old ones stay where numbers leave the range of double precision
     subroutine exchange_loads(lowered, loads, error)
-        type(lowered_type), intent(inout) :: lowered
+        type(assembled_type), intent(inout) :: lowered
         type(load_type), intent(in) :: loads(:)
         type(error_type), allocatable, intent(out) :: error
         type(error_type), allocatable :: none
@@ -112,10 +113,10 @@ contains
         end if
         before(:) = lowered%model%loads
         lowered%model%loads(:) = loads
-        call lower_loads(lowered, error)
+        call assemble_loads(lowered, error)
         if (.not. allocated(error)) return
         lowered%model%loads(:) = before
-        call lower_loads(lowered, none)
+        call assemble_loads(lowered, none)
     end subroutine exchange_loads
 
     !> Do two lists of loads differ in their values only

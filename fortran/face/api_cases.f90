@@ -7,10 +7,10 @@ module gapbeam_api_cases
         gapbeam_not_prepared, gapbeam_stopped
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_words, only: shown, whole
-    use gapbeam_refusal, only: named, of_supports, of_loads
+    use gapbeam_input_error, only: named, of_supports, of_loads
     use gapbeam_scene, only: gapbeam_axial, gapbeam_both
-    use gapbeam_lowered, only: lowered_type
-    use gapbeam_polyline, only: last_kink
+    use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_polyline, only: last_breakpoint
     use gapbeam_solution, only: close_all
     use gapbeam_pieces, only: acting_type, acting_piece, gapbeam_open, gapbeam_bilateral
     use gapbeam_cases, only: case_loads_type, split_loads
@@ -195,7 +195,7 @@ contains
 
     !> Where the searches start
     pure subroutine start_closed(lowered, start)
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: lowered
         integer, intent(out) :: start(:)
         logical :: closed(size(start))
 
@@ -205,7 +205,7 @@ contains
 
     !> Refuse what prepare_cases has not made, or has made from another beam
     subroutine require_cases(lowered, cases, error)
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: lowered
         type(cases_type), intent(in) :: cases
         type(error_type), allocatable, intent(out) :: error
 
@@ -240,7 +240,7 @@ contains
 
     !> Refuse other supports by case where they cannot be
     subroutine require_own_supports(lowered, error)
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: lowered
         type(error_type), allocatable, intent(inout) :: error
 
         if (allocated(error)) return
@@ -253,7 +253,7 @@ contains
 
     !> Refuse numbers that a support cannot have; those of the model are always right
     subroutine check_values(lowered, cases, values, key, error)
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: lowered
         integer, intent(in) :: cases
         !> Shape (nsupport, cases), and what they are
         real(wp), intent(in) :: values(:, :)
@@ -322,7 +322,7 @@ contains
 
     !> Reactions in the order of the model; of a law the sum of those of its kinks
     pure subroutine give_reactions(lowered, status, found, reaction)
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: lowered
         integer, intent(in) :: status(:)
         real(wp), intent(in) :: found(:, :)
         real(wp), intent(out) :: reaction(:, :)
@@ -331,7 +331,7 @@ contains
         do k = 1, size(lowered%model%supports)
             j = lowered%beam_support(k)
             if (j > 0) then
-                last = last_kink(lowered%beam%supports, j)
+                last = last_breakpoint(lowered%beam%supports, j)
                 do i = 1, size(status)
                     reaction(k, i) = sum(found(j:last, i))
                 end do
@@ -346,7 +346,7 @@ contains
 
     !> Conditions in the order of the model, as gapbeam_support_values has them
     pure subroutine give_conditions(lowered, status, closed, condition)
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: lowered
         integer, intent(in) :: status(:), closed(:, :)
         integer, intent(out) :: condition(:, :)
         type(acting_type) :: acting
@@ -356,7 +356,7 @@ contains
             associate (side => lowered%model%supports(k)%side)
                 j = lowered%beam_support(k)
                 if (j > 0) then
-                    last = last_kink(lowered%beam%supports, j)
+                    last = last_breakpoint(lowered%beam%supports, j)
                     do i = 1, size(status)
                         acting = acting_piece(lowered%beam%supports(j:last), side, closed(j:last, i) /= 0)
                         condition(k, i) = acting%condition

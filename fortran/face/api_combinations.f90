@@ -63,7 +63,7 @@ contains
             call check_loads(loads, beam%lowered%ends, any(model%supports%direction == gapbeam_axial), error)
         end associate
         if (.not. allocated(error)) call combine(beam%lowered, factors, moves, made, error)
-        if (.not. allocated(error)) call move_alloc(made%lowered, combined%lowered)
+        if (.not. allocated(error)) call move_alloc(made%assembled, combined%lowered)
         call ieee_set_status(environment)
     end subroutine combine_loads
 

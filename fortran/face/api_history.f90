@@ -5,10 +5,11 @@ module gapbeam_api_history
         ieee_set_rounding_mode, ieee_nearest, ieee_all, ieee_is_finite
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input, gapbeam_not_converged, gapbeam_not_prepared
-    use gapbeam_referee, only: rule_given
+    use gapbeam_extended_precision, only: rule_given
     use gapbeam_words, only: shown, whole
-    use gapbeam_lowered, only: lowered_type
-    use gapbeam_state, only: event_type, solve_state, name_range
+    use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_state, only: solve_state, name_range
+    use gapbeam_events, only: event_type
     use gapbeam_history, only: path_type => history_type, found_type => stretch_type, follow_path_through => follow_history, &
         gapbeam_limit_stop => at_limit_stop, gapbeam_limit_jump => at_limit_jump, gapbeam_limit_follow => at_limit_follow, &
         gapbeam_limit_point => limit_point, gapbeam_bifurcation => bifurcation, gapbeam_mechanism => mechanism, &
@@ -165,7 +166,7 @@ contains
     !> Are the laws on a stretch not those of the beam any more
     pure function differ(stretch, lowered) result(they_do)
         type(found_type), intent(in) :: stretch
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: lowered
         logical :: they_do
 
         they_do = allocated(stretch%laws)
@@ -259,7 +260,7 @@ contains
 
     !> What users look at
     subroutine describe(lowered, factors, history, stat)
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: lowered
         real(wp), intent(in) :: factors(:)
         !> The path in, the rest out
         type(history_type), intent(inout) :: history

@@ -5,7 +5,7 @@ module gapbeam_api_objects
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_bad_input, gapbeam_not_prepared
     use gapbeam_words, only: shown
     use gapbeam_search, only: rule_block, rule_single
-    use gapbeam_lowered, only: lowered_type
+    use gapbeam_assembled_model, only: assembled_type
     use gapbeam_solution, only: state_type, new_state
     implicit none
     private
@@ -14,7 +14,7 @@ module gapbeam_api_objects
 
     !> A prepared beam: opaque
     type :: prepared_type
-        type(lowered_type), allocatable :: lowered
+        type(assembled_type), allocatable :: lowered
     end type prepared_type
 
     !> How a beam is solved

@@ -17,10 +17,10 @@ module gapbeam_api_trains
         gapbeam_bad_input, gapbeam_not_prepared
     use gapbeam_words, only: shown, whole
     use gapbeam_scene, only: gapbeam_unchanged
-    use gapbeam_lowered, only: lowered_type, point_x
+    use gapbeam_assembled_model, only: assembled_type, point_x
     use gapbeam_query, only: find_pieces
     use gapbeam_train, only: train_type, uniform_type, track_type, new_track
-    use gapbeam_train_passage, only: passage_type, gapbeam_moves_freely => not_unique
+    use gapbeam_train_traversal, only: traversal_type, gapbeam_moves_freely => not_unique
     use gapbeam_train_path, only: pass_train
     use gapbeam_train_events, only: train_event_type, find_events
     use gapbeam_train_ties, only: extreme_type
@@ -75,7 +75,7 @@ module gapbeam_api_trains
         integer :: fingerprint = 0
         type(train_type) :: train
         type(track_type) :: track
-        type(passage_type) :: passage
+        type(traversal_type) :: passage
     end type passing_type
 
 contains
@@ -190,7 +190,7 @@ contains
 
     !> Refuse beams over which no train is followed
     subroutine require_no_more(lowered, error)
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: lowered
         type(error_type), allocatable, intent(out) :: error
 
         if (allocated(lowered%layers)) then
@@ -201,7 +201,7 @@ contains
 
     !> Refuse a train that makes no sense, and find its positions
     subroutine check_train(lowered, train, from, to, error)
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: lowered
         type(moving_train_type), intent(in) :: train
         real(wp), intent(out) :: from, to
         type(error_type), allocatable, intent(out) :: error
@@ -269,7 +269,7 @@ contains
 
     !> Stretches that are not solved, joined where they are alike
     subroutine find_gaps(passage, backwards, gaps, error)
-        type(passage_type), intent(in) :: passage
+        type(traversal_type), intent(in) :: passage
         logical, intent(in) :: backwards
         type(train_gap_type), allocatable, intent(out) :: gaps(:)
         type(error_type), allocatable, intent(out) :: error

@@ -4,7 +4,7 @@ module gapbeam_capi
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_bad_input, gapbeam_no_memory, &
         gapbeam_not_prepared, gapbeam_other_version
     use gapbeam_scene, only: model_type, load_type
-    use gapbeam_state, only: event_type
+    use gapbeam_events, only: event_type
     use gapbeam_api, only: prepared_type, options_type, result_type, certificate_type, prepare_model, replace_loads, &
         count_supports, count_nodes, solve_beam, follow_load, get_supports, get_fields, get_extremes, get_motion, get_certificate
     use gapbeam_capi_model, only: c_model, is_model_size, empty_model, model_from_c, loads_from_c

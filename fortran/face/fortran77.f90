@@ -166,7 +166,7 @@ end subroutine gbsolv
 ! Follow the load from factor 0: every change of the working scheme at its exact load factor
 subroutine gbevnt(work, iwork, factor, rule, maxev, state, lstate, istate, listat, nev, evfact, ievent, info)
     use gapbeam_error, only: error_type, gapbeam_bad_input
-    use gapbeam_state, only: event_type
+    use gapbeam_events, only: event_type
     use gapbeam_api, only: prepared_type, result_type, options_type, follow_load
     use gapbeam_work, only: begin_result, put_result
     implicit none

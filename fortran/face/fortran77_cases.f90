@@ -4,7 +4,7 @@
 ! digits are those of each case alone
 subroutine gbmany(work, iwork, ncase, factor, nvary, supval, rule, istat, react, icond, defl, bmleft, bmrigt, info)
     use gapbeam_error, only: error_type, gapbeam_bad_input
-    use gapbeam_refusal, only: of_loads, of_supports
+    use gapbeam_input_error, only: of_loads, of_supports
     use gapbeam_api, only: prepared_type, count_supports, count_nodes
     use gapbeam_work, only: take_beam
     use gapbeam_work_cases, only: solve_shaped

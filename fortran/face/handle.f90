@@ -1,4 +1,4 @@
-!> Prepared beams as numbers that Python keeps: the address of what gapbeam_lower made of a scene
+!> Prepared beams as numbers that Python keeps: the address of what gapbeam_assemble made of a scene
 module gapbeam_handle
     use, intrinsic :: iso_fortran_env, only: int64
     use, intrinsic :: iso_c_binding, only: c_int, c_ptr, c_loc, c_funloc, c_f_pointer, c_null_ptr
@@ -6,8 +6,8 @@ module gapbeam_handle
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved
     use gapbeam_watch, only: watch_type, begin_watch, end_watched
     use gapbeam_scene, only: model_type
-    use gapbeam_lowered, only: lowered_type
-    use gapbeam_lower, only: lower_model
+    use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_assemble, only: assemble_model
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_cases, only: case_loads_type
     use gapbeam_many_cases, only: case_room_type
@@ -29,7 +29,7 @@ module gapbeam_handle
         !> On calls with it, and the thread that hears signals
         type(watch_type) :: watch
         integer(int64) :: thread = 0
-        type(lowered_type) :: lowered
+        type(assembled_type) :: lowered
         !> Its loads one by one, where they have been asked for
         type(case_loads_type), allocatable :: cases
         !> The way of the load followed last
@@ -82,7 +82,7 @@ contains
         type(model_type), intent(inout) :: model
         !> The handle; 0 where an error is found
         integer(int64), intent(out) :: address
-        !> As for lower_model
+        !> As for assemble_model
         type(error_type), allocatable, intent(out) :: error
         type(handle_type), pointer :: handle
         integer :: stat
@@ -104,7 +104,7 @@ contains
             call move_alloc(model%ground_law, kept%ground_law)
             call move_alloc(model%loads, kept%loads)
         end associate
-        call lower_model(handle%lowered, error)
+        call assemble_model(handle%lowered, error)
         if (allocated(error)) then
             deallocate (handle)
         else
@@ -183,7 +183,7 @@ contains
 
     !> A state from the numbers that were taken out of it
     subroutine state_of(lowered, factor, closed, w, ml, mr, shear, react, state, error)
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: lowered
         !> As in state_type; closed 1, open 0
         real(wp), intent(in) :: factor
         integer, intent(in) :: closed(:)
@@ -248,7 +248,7 @@ contains
 
     !> The same back, as far as what is asked of it needs it
     pure subroutine unpack_ground(lowered, values, solution)
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: lowered
         real(wp), intent(in) :: values(:, :)
         type(ground_solution_type), intent(out) :: solution
         integer :: i, m, n

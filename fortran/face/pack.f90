@@ -5,7 +5,7 @@ module gapbeam_pack
     use gapbeam_model, only: node_support_type
     use gapbeam_scene, only: model_type
     use gapbeam_units, only: units_type
-    use gapbeam_lowered, only: lowered_type
+    use gapbeam_assembled_model, only: assembled_type
     use gapbeam_solution, only: state_type
     use gapbeam_tape, only: tape_type, exchange, exchange_size, reading
     use gapbeam_pack_ground, only: exchange_foundations, exchange_layers, exchange_solution
@@ -20,7 +20,7 @@ contains
         !> Measures, writes or reads
         type(tape_type), intent(inout) :: tape
         !> Without any array when it is to be read
-        type(lowered_type), intent(inout) :: lowered
+        type(assembled_type), intent(inout) :: lowered
 
         call exchange_model(tape, lowered%model)
         call exchange_foundations(tape, lowered%model)
@@ -295,7 +295,7 @@ contains
                 call exchange(tape, s%side)
                 call exchange(tape, s%stiffness)
                 call exchange(tape, s%contact)
-                call exchange(tape, s%kink)
+                call exchange(tape, s%breakpoint)
                 call exchange(tape, s%more)
                 call exchange(tape, s%passed)
                 call exchange(tape, s%force)

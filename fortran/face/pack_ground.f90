@@ -6,7 +6,7 @@ module gapbeam_pack_ground
     use gapbeam_layers, only: pieces_of_law
     use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type
     use gapbeam_ground, only: zones_type, full_contact
-    use gapbeam_lowered, only: lowered_type
+    use gapbeam_assembled_model, only: assembled_type
     use gapbeam_state, only: ground_of
     use gapbeam_ground_solver, only: ground_solution_type
     use gapbeam_tape, only: tape_type, exchange, exchange_size, reading
@@ -93,7 +93,7 @@ contains
     subroutine exchange_layers(tape, lowered)
         type(tape_type), intent(inout) :: tape
         !> Without these arrays when they are to be read
-        type(lowered_type), intent(inout) :: lowered
+        type(assembled_type), intent(inout) :: lowered
         integer :: number, i, stat
 
         call exchange(tape, lowered%foundation_from, 1)
@@ -217,7 +217,7 @@ contains
     !> Add the lengths that a solution hardly ever exceeds: how many zones there are is known only when it is found
     subroutine add_likely_solution(lowered, reals, integers)
         !> With layers
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: lowered
         integer(int64), intent(inout) :: reals, integers
         type(zones_type) :: zones
         integer(int64) :: stretches, layers

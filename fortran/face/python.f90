@@ -28,7 +28,7 @@ subroutine gbmake(mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw,
     integer(8), intent(in) :: thread
     ! The handle; 0 where it is refused
     integer(8), intent(out) :: beam
-    ! Why: as in gapbeam_error and gapbeam_refusal; entries count from 1
+    ! Why: as in gapbeam_error and gapbeam_input_error; entries count from 1
     integer, intent(out) :: status, reason, table, entry, partner
     character(len=16), intent(out) :: key
     character(len=240), intent(out) :: message
@@ -176,8 +176,8 @@ subroutine gbplac(beam, np, nl, ns, nm, xend, xpoint, ispan, piece, dead, live, 
                   snode, level)
     use gapbeam_handle, only: handle_type, handle_of
     use gapbeam_units, only: rotation_unit, moment_unit
-    use gapbeam_lowered, only: point_x, piece_length, stiffness_of, in_bending, in_shear
-    use gapbeam_lower_supports, only: contact_level
+    use gapbeam_assembled_model, only: point_x, piece_length, stiffness_of, in_bending, in_shear
+    use gapbeam_assemble_supports, only: contact_level
     implicit none
     integer(8), intent(in) :: beam
     integer, intent(in) :: np, nl, ns, nm
@@ -232,7 +232,7 @@ end subroutine gbplac
 subroutine gblaws(beam, ns, laws, copy, status, message)
     use gapbeam_error, only: error_type, gapbeam_solved
     use gapbeam_handle, only: handle_type, handle_of, copy_handle
-    use gapbeam_lower_laws, only: depends_on_path
+    use gapbeam_assemble_laws, only: depends_on_path
     implicit none
     integer(8), intent(in) :: beam
     ! As from GBHGET
@@ -260,7 +260,7 @@ subroutine gblaws(beam, ns, laws, copy, status, message)
         s%force = laws(2, :ns - 1)
         s%stiffness = laws(3, :ns - 1)
         s%before = laws(4, :ns - 1)
-        s%passed = s%kink > 0 .and. .not. abs(s%stiffness - s%before) > 0.0d0
+        s%passed = s%breakpoint > 0 .and. .not. abs(s%stiffness - s%before) > 0.0d0
     end associate
     handle%lowered%depends_on_path = depends_on_path(handle%lowered)
 end subroutine gblaws

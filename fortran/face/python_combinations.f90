@@ -68,14 +68,14 @@ subroutine gbcomb(beam, ns, nd, nm, nc, nx, nv, np, nf, factor, settle, supp, sp
         if (nf > 1) varied%moduli => modul(:nf - 1, i)
         call combine(handle%lowered, factor(:nd - 1, i), settle(:nm - 1, i), combined, error, varied)
         if (.not. allocated(error)) then
-            call solve_combination(combined%lowered, rule, closed(:ns - 1, i) /= 0, state, error)
+            call solve_combination(combined%assembled, rule, closed(:ns - 1, i) /= 0, state, error)
         end if
         closed(:, i) = 0
         if (.not. allocated(error)) then
             solves(i) = max(found(i) - 1, 0) + state%solves   ! the last one again, for all that is asked of it
             status(i) = state%status
             if (state%status == gapbeam_solved) then
-                call values_of_combination(combined%lowered, state, piece(:nx - 1), dist(:nx - 1), value(:nm - 1, :, i), &
+                call values_of_combination(combined%assembled, state, piece(:nx - 1), dist(:nx - 1), value(:nm - 1, :, i), &
                                            extr(:, :, i), place(:, :, i), field(:, :nx - 1, i), error)
                 closed(:ns - 1, i) = merge(1, 0, state%closed)
             end if

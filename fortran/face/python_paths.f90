@@ -7,7 +7,7 @@ subroutine gbpath(most, beam, nl, ns, limit, factor, closed, margin, events, at,
     use gapbeam_handle, only: handle_type, handle_of, report
     use gapbeam_memory, only: for_following
     use gapbeam_scheme, only: outcome_type
-    use gapbeam_referee, only: reserve_for
+    use gapbeam_extended_precision, only: reserve_for
     use gapbeam_path, only: follow_path, path_type
     use gapbeam_state, only: detail_of, name_range
     implicit none

@@ -61,7 +61,7 @@ subroutine gbsolv(beam, nl, ns, nm, nb, factor, rule, closed, undec, w, ml, mr, 
     call report(error, status, message)
     if (allocated(error)) return
     status = state%status
-    counts(:5) = [state%solves, state%method, merge(1, 0, state%indifferent), merge(1, 0, state%came_back), &
+    counts(:5) = [state%solves, state%method, merge(1, 0, state%indifferent), merge(1, 0, state%cycled), &
                   merge(1, 0, state%slides)]
     motion = state%motion
     if (status /= gapbeam_solved) return

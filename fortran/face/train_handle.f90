@@ -4,9 +4,9 @@ module gapbeam_train_handle
     use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer, c_null_ptr
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
-    use gapbeam_lowered, only: lowered_type
+    use gapbeam_assembled_model, only: assembled_type
     use gapbeam_train, only: train_type, uniform_type, track_type, new_track
-    use gapbeam_train_passage, only: passage_type
+    use gapbeam_train_traversal, only: traversal_type
     use gapbeam_train_path, only: pass_train
     use gapbeam_train_events, only: train_event_type, find_events
     use gapbeam_train_ties, only: extreme_type
@@ -18,7 +18,7 @@ module gapbeam_train_handle
     type :: train_handle_type
         type(train_type) :: train
         type(track_type) :: track
-        type(passage_type) :: passage
+        type(traversal_type) :: passage
         type(train_event_type), allocatable :: events(:)
     end type train_handle_type
 
@@ -27,7 +27,7 @@ contains
     !> Move a train over a beam and keep its way
     subroutine new_train(lowered, offset, force, uniform, from, to, backwards, address, sizes, error)
         !> The beam
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: lowered
         !> As in train_type; uniform loads, and between which distances, shape (3, n)
         real(wp), intent(in) :: offset(:), force(:), uniform(:, :)
         !> Positions of the train

@@ -10,7 +10,7 @@ module gapbeam_work
     use gapbeam_api, only: prepared_type, result_type, prepare_model
     use gapbeam_api_objects, only: summarise
     use gapbeam_layers, only: parameters_of_law
-    use gapbeam_refusal, only: of_foundations, not_expected
+    use gapbeam_input_error, only: of_foundations, not_expected
     use gapbeam_arrays, only: model_from_arrays, foundations_from_arrays
     use gapbeam_tape, only: tape_type, writing, reading
     use gapbeam_pack, only: exchange_beam, exchange_state

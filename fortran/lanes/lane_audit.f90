@@ -1,15 +1,16 @@
-!> Whether the numbers of solved cases are a solution, whatever found them. Forces and couples balance at every node, and with that
-!> those on every part of the beam; rotations are those of one beam, but at hinges; supports and restraints lie on their laws at the
-!> deflections that are told, in the states that are told, and no contact is violated. Every sum may be off by what rounding makes
-!> of its terms, conditions of signs by nothing
+!> Audit of the solutions of eight cases: equilibrium, compatibility, support laws.
+!> Whatever found the solutions: forces and couples balance at every node, and with that those on every part of the beam; rotations
+!> are those of one beam, but at hinges; supports and restraints lie on their laws at the deflections that are told, in the states
+!> that are told, and no contact is violated. Every sum may be off by what rounding makes of its terms, conditions of signs by
+!> nothing
 module gapbeam_lane_audit
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type, link_numbers, link_faa, link_fab, link_fbb
-    use gapbeam_lane_each, only: each
+    use gapbeam_lane_stiffness, only: stiffness_lanes
     implicit none
     private
     public :: audit_pack, audit_along
-    public :: is_joined, look_at_link, look_at_support, look_at_restraint, wrong_way   ! for gapbeam_lane_measures
+    public :: is_joined, check_link, check_support, check_restraint, wrong_way   ! for gapbeam_lane_measures
 
     !> Roundings of a term, at most
     real(wp), parameter :: roundings = 16.0_wp, unit = roundings*epsilon(1.0_wp)
@@ -62,7 +63,7 @@ contains
         type(lane_beam_type), intent(in) :: beam
         integer, intent(in) :: n
         !> Numbers of the links (pack_type)
-        real(wp), intent(in) :: links(each, link_numbers, n)
+        real(wp), intent(in) :: links(stiffness_lanes, link_numbers, n)
         real(wp), intent(in), dimension(lanes, 0:n) :: left, right, shear, stiffness, rigid, contact, closed, w, ml, mr, reaction
         !> By how much sums are off beyond the rounding of their terms, raised; sizes of these, added
         real(wp), intent(inout), dimension(lanes, sums) :: excess, total
@@ -91,16 +92,16 @@ contains
             changing = beam%changes(i)*beam%side(i)
             !$omp simd private(start, end, link_size, next, next_size, off_law, held, held_size, spring_size, off, size)
             do l = 1, lanes
-                call look_at_link(w(l, i), w(l, k), mr(l, i), ml(l, k), inverse, links(min(l, each), link_faa, k), &
-                                  links(min(l, each), link_fab, k), links(min(l, each), link_fbb, k), start, end, link_size, next, &
-                                  next_size)
+                call check_link(w(l, i), w(l, k), mr(l, i), ml(l, k), inverse, links(min(l, stiffness_lanes), link_faa, k), &
+                                links(min(l, stiffness_lanes), link_fab, k), links(min(l, stiffness_lanes), link_fbb, k), &
+                                start, end, link_size, next, next_size)
                 off = joined*abs(start - turned(l) + (left(l, i) + right(l, i)))
                 ! What loads make of it is not above the sum of the others
                 size = link_size + turned_size(l)
                 turn(l) = larger(turn(l), off - unit*size)
                 all_turns(l) = all_turns(l) + size
-                call look_at_support(stiffness(l, i), rigid(l, i), contact(l, i), closed(l, i), w(l, i), reaction(l, i), off_law, &
-                                     held, held_size, spring_size)
+                call check_support(stiffness(l, i), rigid(l, i), contact(l, i), closed(l, i), w(l, i), reaction(l, i), off_law, &
+                                   held, held_size, spring_size)
                 off = abs(next - passed(l) + (shear(l, i) - reaction(l, i)))
                 size = next_size + passed_size(l) + (spring_size + abs(reaction(l, i)))
                 force(l) = larger(force(l), off - unit*size)
@@ -174,8 +175,8 @@ contains
             force(:, i) = force(:, i) + sizes
             reaction(:, i) = sizes
             do j = beam%last_place(g - 1) + 1, beam%last_place(g)
-                call look_at_support(stiffness(:, j), rigid(:, j), contact(:, j), closed(:, j), w(:, i), reaction(:, j), off, &
-                                     held, held_size, spring_size)
+                call check_support(stiffness(:, j), rigid(:, j), contact(:, j), closed(:, j), w(:, i), reaction(:, j), off, &
+                                   held, held_size, spring_size)
                 excess(:) = larger(excess, off - unit*(held_size + (closed(:, j) - held)*sizes))
                 off(:) = wrong_way(beam%changes(j)*beam%side(j), contact(:, j), closed(:, j), w(:, i), reaction(:, j))
                 excess(:) = larger(larger(excess, off), (1.0_wp - abs(beam%side(j)))*(1.0_wp - closed(:, j)))
@@ -224,21 +225,21 @@ contains
 
         do m = 1, size(beam%restrained)
             do k = max(beam%restrained(m), 1), min(beam%restrained(m) + 1, beam%n)
-                call look_at_restraint(beam, pack%links, beam%n, m, k, pack%left, pack%right, pack%couple, pack%w, pack%ml, &
-                                       pack%mr, off, size_of_off)
+                call check_restraint(beam, pack%links, beam%n, m, k, pack%left, pack%right, pack%couple, pack%w, pack%ml, &
+                                     pack%mr, off, size_of_off)
                 excess(:) = larger(excess, off - unit*size_of_off)
             end do
         end do
     end subroutine audit_restraints
 
     !> How far the rotation of a restraint, which its couple makes, is from that of a link
-    pure subroutine look_at_restraint(beam, links, n, m, k, left, right, couple, w, ml, mr, off, size_of_off)
+    pure subroutine check_restraint(beam, links, n, m, k, left, right, couple, w, ml, mr, off, size_of_off)
         type(lane_beam_type), intent(in) :: beam
         integer, intent(in) :: n
         !> The restraint, and the link left or right of it
         integer, intent(in) :: m, k
         !> As for audit_nodes
-        real(wp), intent(in) :: links(each, link_numbers, n)
+        real(wp), intent(in) :: links(stiffness_lanes, link_numbers, n)
         real(wp), intent(in), dimension(lanes, 0:n) :: left, right, couple, w, ml, mr
         real(wp), intent(out), dimension(lanes) :: off, size_of_off
         real(wp) :: start, end, link_size, next, next_size, turn
@@ -246,9 +247,9 @@ contains
 
         i = beam%restrained(m)
         do l = 1, lanes
-            call look_at_link(w(l, k - 1), w(l, k), mr(l, k - 1), ml(l, k), beam%inverse(k), links(min(l, each), link_faa, k), &
-                              links(min(l, each), link_fab, k), links(min(l, each), link_fbb, k), start, end, link_size, next, &
-                              next_size)
+            call check_link(w(l, k - 1), w(l, k), mr(l, k - 1), ml(l, k), beam%inverse(k), &
+                            links(min(l, stiffness_lanes), link_faa, k), links(min(l, stiffness_lanes), link_fab, k), &
+                            links(min(l, stiffness_lanes), link_fbb, k), start, end, link_size, next, next_size)
             turn = beam%compliance(m)*(ml(l, i) - mr(l, i) + couple(l, i))
             size_of_off(l) = beam%compliance(m)*(abs(ml(l, i)) + abs(mr(l, i)) + abs(couple(l, i)))
             if (k > i) then
@@ -259,7 +260,7 @@ contains
                 size_of_off(l) = size_of_off(l) + (link_size + abs(left(l, i)))
             end if
         end do
-    end subroutine look_at_restraint
+    end subroutine check_restraint
 
     !> Audit a long beam without hinges, restraints and couples, at most one support at a node, of which neighbouring nodes are side
     !> by side
@@ -298,8 +299,8 @@ contains
             !$omp simd private(k)
             do i = max(from, 1), min(to + 1, n)
                 k = i - from
-                call look_at_link(w(i - 1), w(i), m(i - 1), m(i), inverse(i), faa(i), fab(i), fbb(i), start(k), end(k), &
-                                  link_size(k), next(k), next_size(k))
+                call check_link(w(i - 1), w(i), m(i - 1), m(i), inverse(i), faa(i), fab(i), fbb(i), start(k), end(k), &
+                                link_size(k), next(k), next_size(k))
             end do
             !$omp simd private(k, off, size, off_law, held, held_size, spring_size, joined) reduction(max: turn, force, law) &
             !$omp   reduction(+: all_turns, all_forces, all_laws)
@@ -310,8 +311,8 @@ contains
                 size = link_size(k + 1) + link_size(k)
                 turn = max(turn, off - unit*size)
                 all_turns = all_turns + size
-                call look_at_support(stiffness(i), rigid(i), contact(i), closed(i), w(i), reaction(i), off_law, held, held_size, &
-                                     spring_size)
+                call check_support(stiffness(i), rigid(i), contact(i), closed(i), w(i), reaction(i), off_law, held, held_size, &
+                                   spring_size)
                 off = abs(next(k + 1) - next(k) + (shear(i) - reaction(i)))
                 size = next_size(k + 1) + next_size(k) + (spring_size + abs(reaction(i)))
                 force = max(force, off - unit*size)
@@ -327,7 +328,7 @@ contains
     end subroutine audit_along
 
     !> Rotations of both ends of a link, without those that loads on it make, and its shear, with sizes of the terms
-    elemental subroutine look_at_link(w_a, w_b, m_a, m_b, inverse, faa, fab, fbb, start, end, link_size, shear, shear_size)
+    elemental subroutine check_link(w_a, w_b, m_a, m_b, inverse, faa, fab, fbb, start, end, link_size, shear, shear_size)
         real(wp), intent(in) :: w_a, w_b, m_a, m_b, inverse, faa, fab, fbb
         !> The size is of both rotations: fab is not above half of faa + fbb
         real(wp), intent(out) :: start, end, link_size, shear, shear_size
@@ -340,10 +341,10 @@ contains
         moments = abs(m_a) + abs(m_b)
         link_size = (abs(w_a) + abs(w_b))*inverse + (faa + fbb)*moments
         shear_size = moments*inverse
-    end subroutine look_at_link
+    end subroutine check_link
 
     !> How far a support is from its law: in force where it is elastic or open, in deflection where it is rigid
-    elemental subroutine look_at_support(stiffness, rigid, contact, closed, w, reaction, off, held, held_size, spring_size)
+    elemental subroutine check_support(stiffness, rigid, contact, closed, w, reaction, off, held, held_size, spring_size)
         !> As in pack_type
         real(wp), intent(in) :: stiffness, rigid, contact, closed, w, reaction
         !> Does it hold its node rigidly; sizes of the terms of its deflection, if it does, and of its spring, if that acts
@@ -357,7 +358,7 @@ contains
         off = abs((1.0_wp - held)*(reaction - spring*pressed) + held*pressed)
         held_size = held*level
         spring_size = spring*level
-    end subroutine look_at_support
+    end subroutine check_support
 
     !> How far a support pulls that may only push, or the beam has gone into it
     elemental function wrong_way(changing, contact, closed, w, reaction) result(off)

@@ -1,27 +1,26 @@
-!> How good the solutions of eight cases are: gapbeam_certificate side by side. Where that compares with a solution in quadruple
-!> precision and estimates movements, residuals in twice the working precision are taken here as one more thing by which the rows
-!> are off, and all movements are bounds (gapbeam_lane_movements). Both are bounds of the same errors, none always the smaller.
+!> Certificates of eight cases: residuals and error bounds, as of gapbeam_certificate.
+!> Where that compares with a solution in quadruple precision and estimates movements, residuals in twice the working precision are
+!> taken here as one more thing by which the rows are off, and all movements are bounds (gapbeam_lane_error_ellipses). Both are
+!> bounds of the same errors, none always the smaller.
 module gapbeam_lane_certificate
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes, lane_beam_type, lane_rounding_type, pack_type, &
         link_faa, link_fab, link_fbb, link_sum_a, link_sum_b, link_bending
     use gapbeam_lane_search, only: add_loads, apply_scheme
+    use gapbeam_lane_row_errors, only: unit => rounding_unit, greatest, find_sizes, limit_range
     use gapbeam_lane_residual, only: find_rest, find_rest_at_restraints
     use gapbeam_lane_reactions, only: complete
     use gapbeam_lane_audit, only: audit_pack
     use gapbeam_lane_measures, only: measure_pack
     use gapbeam_lane_fields, only: find_rotations
-    use gapbeam_lane_movements, only: find_movements, kinds_of_movement, of_deflection, of_moment, of_shear, of_rotation
+    use gapbeam_lane_error_ellipses, only: find_movements, kinds_of_movement, of_deflection, of_moment, of_shear, &
+        of_rotation
     implicit none
     private
     public :: certify_pack
 
-    !> As safety and roundings of gapbeam_certificate
-    real(wp), parameter :: unit = 4*epsilon(1.0_wp)
     !> What is off is of first order only, so long as bounds are smaller shares of what they bound
-    real(wp), parameter :: largest_share = 2.0_wp**(-20), second_order = 1 + 2.0_wp**(-16)
-    !> Numbers beyond these leave too little room for their squares
-    real(wp), parameter :: greatest = 1e70_wp, smallest = 1e-70_wp
+    real(wp), parameter :: largest_share = 2.0_wp**(-20)
 
 contains
 
@@ -52,7 +51,7 @@ contains
         call measure_pack(beam, pack, found(:, :3))
         call apply_scheme(n, pack%shear, pack%stiffness, pack%rigid, pack%contact, pack%closed, pack%held, pack%known, &
                           pack%spring, pack%force)
-        pack%nothing(:, :) = pack%reaction
+        pack%spare(:, :) = pack%reaction
         call complete(beam, n, pack, poor)
         call find_rest(beam, pack%links, n, pack%left, pack%right, pack%force, pack%held, pack%known, pack%spring, pack%w, &
                        pack%ml, pack%mr, pack%turn_rest, pack%force_rest, pack%known_rest)
@@ -60,11 +59,11 @@ contains
             call find_rest_at_restraints(beam, pack%links, n, pack%left, pack%right, pack%couple, pack%w, pack%ml, pack%mr, &
                                          pack%left_rest, pack%turn_rest)
         end if
-        call look_at_known(n, pack%known_rest, poor)
+        call find_wrong_levels(n, pack%known_rest, poor)
         call find_sizes(beam, n, rounding, pack%left, pack%right, pack%force, pack%couple, pack%load_size, pack%turn_size, &
                         pack%held, pack%spring, pack%w, pack%ml, pack%mr, pack%left_rest, pack%turn_rest, pack%force_rest, &
                         pack%dw, pack%dl, pack%dr)
-        call look_at_range(n, pack%dw, pack%dl, pack%dr, poor)
+        call limit_range(n, pack%dw, pack%dl, pack%dr, poor)
         call find_movements(beam, n, pack%held, pack%spring, pack%dw, pack%dl, pack%dr, moves, lost)
         poor(:) = poor + lost
         call find_rotations(beam, pack%links, n, pack%left, pack%right, pack%w, pack%ml, pack%mr, pack%room)
@@ -77,7 +76,7 @@ contains
     end subroutine certify_pack
 
     !> Cases with a known deflection that is another
-    pure subroutine look_at_known(n, known_rest, poor)
+    pure subroutine find_wrong_levels(n, known_rest, poor)
         integer, intent(in) :: n
         real(wp), intent(in) :: known_rest(lanes, 0:n)
         real(wp), intent(inout) :: poor(lanes)
@@ -89,140 +88,7 @@ contains
                 poor(l) = poor(l) + merge(1.0_wp, 0.0_wp, abs(known_rest(l, i)) > 0.0_wp)
             end do
         end do
-    end subroutine look_at_known
-
-    !> By how much the rows are off: residuals, rounding of coefficients, last digits of the data
-    pure subroutine find_sizes(beam, n, rounding, left, right, force, couple, load_size, turn_size, held, spring, w, ml, mr, &
-                               left_rest, turn_rest, force_rest, left_off, turn_off, force_off)
-        type(lane_beam_type), intent(in) :: beam
-        integer, intent(in) :: n
-        type(lane_rounding_type), intent(in) :: rounding
-        real(wp), intent(in), dimension(lanes, 0:n) :: left, right, force, couple, load_size, turn_size, held, spring, w, ml, mr
-        !> The first at restraints only
-        real(wp), intent(in), dimension(lanes, 0:n) :: left_rest, turn_rest, force_rest
-        !> Of compatibility left of restraints, 0 elsewhere; of compatibility, 0 at hinges and at ends without restraint; of
-        !> equilibrium, at nodes that are held what it does to the reaction there
-        real(wp), intent(out), dimension(lanes, 0:n) :: left_off, turn_off, force_off
-        real(wp) :: h, faa, fab, fbb, soft, long, slope, step, a, b, apart, compliance, size_of_turn, size_of_shear, both, of_load
-        real(wp) :: couple_size
-        integer :: i, k, l
-
-        left_off(:, :) = 0.0_wp
-        turn_off(:, :) = 0.0_wp
-        force_off(:, :) = 0.0_wp
-        of_load = larger(unit, epsilon(1.0_wp) + rounding%of_loads)
-        ! Sums of the absolute values of the terms, first without those of loads
-        do k = 1, n
-            h = beam%inverse(k)
-            faa = beam%links(1, link_faa, k)
-            fab = beam%links(1, link_fab, k)
-            fbb = beam%links(1, link_fbb, k)
-            apart = merge(1.0_wp, 0.0_wp, beam%restraint(k) > 0)
-            !$omp simd private(a, b, slope, step)
-            do l = 1, lanes
-                a = abs(mr(l, k - 1))
-                b = abs(ml(l, k))
-                slope = h*(abs(w(l, k) - w(l, k - 1)) + epsilon(1.0_wp)*(abs(w(l, k)) + abs(w(l, k - 1))) &
-                           + (held(l, k - 1)*abs(w(l, k - 1)) + held(l, k)*abs(w(l, k)))/8)
-                step = h*(abs(ml(l, k) - mr(l, k - 1)) + epsilon(1.0_wp)*(a + b))
-                turn_off(l, k - 1) = turn_off(l, k - 1) + (slope + faa*a + abs(fab)*b)
-                turn_off(l, k) = turn_off(l, k) + (1.0_wp - apart)*(slope + abs(fab)*a + fbb*b)
-                left_off(l, k) = left_off(l, k) + apart*(slope + abs(fab)*a + fbb*b)
-                force_off(l, k - 1) = force_off(l, k - 1) + step
-                force_off(l, k) = force_off(l, k) + step
-            end do
-        end do
-        do i = 0, n
-            both = merge(1.0_wp - beam%hinge(i), 0.0_wp, (i > 0 .and. i < n) .or. beam%restraint(i) > 0)
-            apart = 0.0_wp
-            compliance = 0.0_wp
-            if (beam%restraint(i) > 0) then
-                compliance = beam%compliance(beam%restraint(i))
-                apart = 1.0_wp
-            end if
-            !$omp simd private(size_of_turn, size_of_shear, b)
-            do l = 1, lanes
-                ! The rotation of a restraint
-                b = compliance*abs(ml(l, i) - mr(l, i) + couple(l, i))
-                size_of_turn = apart*(left_off(l, i) + b + abs(left(l, i)))
-                left_off(l, i) = apart*(unit*size_of_turn + abs(left_rest(l, i)) + of_load*compliance*abs(couple(l, i)))
-                size_of_turn = both*(turn_off(l, i) + b + (1.0_wp - apart)*abs(left(l, i)) + abs(right(l, i)))
-                size_of_shear = force_off(l, i) + abs(force(l, i)) + abs(spring(l, i)*w(l, i))
-                turn_off(l, i) = unit*size_of_turn + abs(turn_rest(l, i)) + of_load*compliance*abs(couple(l, i))
-                force_off(l, i) = unit*size_of_shear + of_load*load_size(l, i) + abs(force_rest(l, i))
-            end do
-        end do
-        do k = 1, n
-            h = beam%inverse(k)
-            soft = rounding%flexibility(k)
-            long = rounding%length(k)*h
-            apart = merge(1.0_wp, 0.0_wp, beam%restraint(k) > 0)
-            !$omp simd private(a, b)
-            do l = 1, lanes
-                a = of_load*turn_size(l, k) + soft*(abs(mr(l, k - 1)) + abs(ml(l, k))) + long*abs(w(l, k) - w(l, k - 1))
-                b = long*abs(ml(l, k) - mr(l, k - 1))
-                turn_off(l, k - 1) = turn_off(l, k - 1) + a
-                turn_off(l, k) = turn_off(l, k) + (1.0_wp - apart)*a
-                left_off(l, k) = left_off(l, k) + apart*a
-                force_off(l, k - 1) = force_off(l, k - 1) + b
-                force_off(l, k) = force_off(l, k) + b
-            end do
-        end do
-        if (beam%with_couples) then
-            ! Couples are steps of the moment: what one side of a step does to its link is as uncertain
-            do i = 0, n
-                if (beam%restraint(i) > 0) cycle
-                k = min(i + 1, n)
-                faa = merge(beam%links(1, link_faa, k), abs(beam%links(1, link_fab, k)), i < n)
-                fbb = merge(abs(beam%links(1, link_fab, k)), beam%links(1, link_fbb, k), i < n)
-                h = beam%inverse(k)
-                apart = merge(1.0_wp, 0.0_wp, beam%restraint(k) > 0)
-                !$omp simd private(couple_size)
-                do l = 1, lanes
-                    couple_size = of_load*abs(couple(l, i))
-                    turn_off(l, k - 1) = turn_off(l, k - 1) + faa*couple_size
-                    turn_off(l, k) = turn_off(l, k) + (1.0_wp - apart)*fbb*couple_size
-                    left_off(l, k) = left_off(l, k) + apart*fbb*couple_size
-                    force_off(l, k - 1) = force_off(l, k - 1) + h*couple_size
-                    force_off(l, k) = force_off(l, k) + h*couple_size
-                end do
-            end do
-        end if
-        do i = 0, n
-            both = merge(1.0_wp - beam%hinge(i), 0.0_wp, (i > 0 .or. beam%restraint(i) > 0) .and. i < n)
-            turn_off(:, i) = second_order*both*turn_off(:, i)
-            left_off(:, i) = second_order*merge(1.0_wp, 0.0_wp, i > 0)*left_off(:, i)
-            force_off(:, i) = second_order*force_off(:, i)
-        end do
-    end subroutine find_sizes
-
-    !> Numbers too far from 1 for their squares
-    pure subroutine look_at_range(n, left_off, turn_off, force_off, poor)
-        integer, intent(in) :: n
-        real(wp), intent(inout), dimension(lanes, 0:n) :: left_off, turn_off, force_off
-        real(wp), intent(inout) :: poor(lanes)
-        real(wp), dimension(lanes) :: turn, force
-        real(wp) :: keep
-        integer :: i, l
-
-        turn(:) = 0.0_wp
-        force(:) = 0.0_wp
-        do i = 0, n
-            !$omp simd
-            do l = 1, lanes
-                turn(l) = turn(l) + (left_off(l, i) + turn_off(l, i))
-                force(l) = force(l) + force_off(l, i)
-            end do
-        end do
-        do l = 1, lanes
-            keep = merge(1.0_wp, 0.0_wp, min(turn(l), force(l)) >= smallest .and. max(turn(l), force(l)) <= greatest)
-            if (keep > 0.5_wp) cycle
-            poor(l) = poor(l) + 1.0_wp
-            left_off(l, :) = 0.0_wp
-            turn_off(l, :) = 0.0_wp
-            force_off(l, :) = 0.0_wp
-        end do
-    end subroutine look_at_range
+    end subroutine find_wrong_levels
 
     !> Errors of the shears and rotations of links as they are found for fields: by their own ends, or through a neighbour
     pure subroutine bound_links(beam, n, rounding, right, turn_size, held, spring, force, w, ml, mr, couple, room, moves)
@@ -324,10 +190,10 @@ contains
                 right = merge(pack%room(l, after, 5), 0.0_wp, i < n)
                 right_error = merge(moves(l, after, of_shear), 0.0_wp, i < n)
                 own = pack%shear(l, i) - (left - right)
-                error = left_error + right_error + abs(pack%nothing(l, i) - own) + of_load*pack%load_size(l, i) &
+                error = left_error + right_error + abs(pack%spare(l, i) - own) + of_load*pack%load_size(l, i) &
                     + unit*(abs(pack%shear(l, i)) + abs(left) + abs(right))
                 own = pack%stiffness(l, i)*(pack%w(l, i) - pack%contact(l, i))
-                other = pack%stiffness(l, i)*moves(l, i, of_deflection) + abs(pack%nothing(l, i) - own) &
+                other = pack%stiffness(l, i)*moves(l, i, of_deflection) + abs(pack%spare(l, i) - own) &
                     + unit*pack%stiffness(l, i)*(abs(pack%w(l, i)) + abs(pack%contact(l, i)))
                 other = merge(other, error, other < error .and. pack%rigid(l, i) < 0.5_wp)
                 reaction(l) = larger(reaction(l), there*pack%closed(l, i)*other)
@@ -336,7 +202,7 @@ contains
                 moment(l) = larger(moment(l), moves(l, i, of_moment))
                 largest_w(l) = larger(largest_w(l), abs(pack%w(l, i)))
                 largest_m(l) = larger(largest_m(l), larger(abs(pack%ml(l, i)), abs(pack%mr(l, i))))
-                largest_r(l) = larger(largest_r(l), there*abs(pack%nothing(l, i)))
+                largest_r(l) = larger(largest_r(l), there*abs(pack%spare(l, i)))
             end do
         end do
         do l = 1, lanes

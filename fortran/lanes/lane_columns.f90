@@ -1,5 +1,5 @@
-!> Cases put into the lanes, and taken out of them: arrays with a column for each case are turned, eight columns at a time, which
-!> compilers do in registers
+!> Transposition of cases into the lanes and out of them.
+!> Arrays with a column for each case are turned, eight columns at a time, which compilers do in registers.
 module gapbeam_lane_columns
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type

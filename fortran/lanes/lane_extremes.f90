@@ -1,10 +1,11 @@
-!> Largest and smallest values of the fields of eight cases, and where they are: at the ends of the pieces, and inside them where
-!> the derivative changes sign. Shear and moment by the roots of a line and a parabola; rotation and deflection in those pieces
-!> only in which there may be more than is known, eight such pieces at a time.
+!> Largest and smallest values of the fields of eight cases, and their places.
+!> They are at the ends of the pieces, and inside them where the derivative changes sign. Shear and moment by the roots of a line
+!> and a parabola; rotation and deflection in those pieces only in which there may be more than is known, eight such pieces at a
+!> time.
 module gapbeam_lane_extremes
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes, lane_beam_type, lane_pieces_type, pack_type, piece_pack_type
-    use gapbeam_lane_each, only: each
+    use gapbeam_lane_stiffness, only: stiffness_lanes
     use gapbeam_lane_fields, only: recover_pack
     use gapbeam_lane_values, only: deflection, rotation, moment, shear, find_values, deflection_at, rotation_at
     use gapbeam_lane_roots, only: find_open, count_turns, find_only_root, find_roots
@@ -46,20 +47,20 @@ contains
         call recover_pack(beam, pieces, factors, pack, fields, poor)
         do k = deflection, shear
             if (.not. wanted(k)) cycle
-            call look_at_ends(pieces, n, k, fields%loads, fields%starts, extremes(:, :, k), fields%room)
+            call take_values_at_ends(pieces, n, k, fields%loads, fields%starts, extremes(:, :, k), fields%room)
             select case (k)
             case (shear)
-                call look_at_shear(pieces, n, fields%loads, fields%starts, extremes(:, :, k))
+                call take_shear_extremes(pieces, n, fields%loads, fields%starts, extremes(:, :, k))
             case (moment)
-                call look_at_moment(pieces, n, fields%loads, fields%starts, extremes(:, :, k), poor)
+                call take_moment_extremes(pieces, n, fields%loads, fields%starts, extremes(:, :, k), poor)
             case default
-                call look_inside(pieces, n, k, fields%loads, fields%starts, fields%room, extremes(:, :, k))
+                call search_inside(pieces, n, k, fields%loads, fields%starts, fields%room, extremes(:, :, k))
             end select
         end do
     end subroutine extremes_of_pack
 
     !> Ends of all pieces. Room 1 is what is known of the inside, the field in the middle, and room 2 is that at the right end
-    pure subroutine look_at_ends(pieces, n, k, loads, starts, best, room)
+    pure subroutine take_values_at_ends(pieces, n, k, loads, starts, best, room)
         type(lane_pieces_type), intent(in) :: pieces
         !> Pieces, and the field
         integer, intent(in) :: n, k
@@ -85,10 +86,10 @@ contains
                 call consider(x, real(j, wp), length, best(l, 1), best(l, 2), best(l, 3), best(l, 4), best(l, 5), best(l, 6))
             end do
         end do
-    end subroutine look_at_ends
+    end subroutine take_values_at_ends
 
     !> Shear inside pieces: where a linear load changes sign
-    pure subroutine look_at_shear(pieces, n, loads, starts, best)
+    pure subroutine take_shear_extremes(pieces, n, loads, starts, best)
         type(lane_pieces_type), intent(in) :: pieces
         integer, intent(in) :: n
         real(wp), intent(in) :: loads(lanes, n, 5), starts(lanes, n, 4)
@@ -112,10 +113,10 @@ contains
                 call consider(x, real(j, wp), s, best(l, 1), best(l, 2), best(l, 3), best(l, 4), best(l, 5), best(l, 6))
             end do
         end do
-    end subroutine look_at_shear
+    end subroutine take_shear_extremes
 
     !> Moment inside pieces: where the shear, a parabola, is zero
-    pure subroutine look_at_moment(pieces, n, loads, starts, best, poor)
+    pure subroutine take_moment_extremes(pieces, n, loads, starts, best, poor)
         type(lane_pieces_type), intent(in) :: pieces
         integer, intent(in) :: n
         real(wp), intent(in) :: loads(lanes, n, 5), starts(lanes, n, 4)
@@ -158,10 +159,10 @@ contains
                 call consider(x, real(j, wp), s, best(l, 1), best(l, 2), best(l, 3), best(l, 4), best(l, 5), best(l, 6))
             end do
         end do
-    end subroutine look_at_moment
+    end subroutine take_moment_extremes
 
     !> Deflection or rotation inside pieces
-    subroutine look_inside(pieces, n, k, loads, starts, room, best)
+    subroutine search_inside(pieces, n, k, loads, starts, room, best)
         type(lane_pieces_type), intent(in) :: pieces
         integer, intent(in) :: n, k
         real(wp), intent(in) :: loads(lanes, n, 5), starts(lanes, n, 4), room(lanes, n, 3)
@@ -187,15 +188,15 @@ contains
             if (k == rotation) then
                 !$omp simd private(f)
                 do l = 1, lanes
-                    f = pieces%flexibility(min(l, each), j)
+                    f = pieces%flexibility(min(l, stiffness_lanes), j)
                     call derive_rotation(length, f, loads(l, j, 1), loads(l, j, 2), loads(l, j, 3), starts(l, j, 3), &
                                          starts(l, j, 4), c(l, 0), c(l, 1), c(l, 2), c(l, 3), c(l, 4))
                 end do
             else
                 !$omp simd private(f, g)
                 do l = 1, lanes
-                    f = pieces%flexibility(min(l, each), j)
-                    g = pieces%shear_flexibility(min(l, each), j)
+                    f = pieces%flexibility(min(l, stiffness_lanes), j)
+                    g = pieces%shear_flexibility(min(l, stiffness_lanes), j)
                     call derive_deflection(length, f, g, loads(l, j, 1), loads(l, j, 2), loads(l, j, 3), starts(l, j, 2), &
                                            starts(l, j, 3), starts(l, j, 4), c(l, 0), c(l, 1), c(l, 2), c(l, 3), c(l, 4))
                 end do
@@ -211,17 +212,17 @@ contains
                     queue%piece(queue%waiting) = j
                 end associate
                 do m = one_root, some_roots
-                    if (queues(m)%waiting == lanes) call look_at_roots(pieces, n, k, m, loads, starts, queues(m), best)
+                    if (queues(m)%waiting == lanes) call take_values_at_roots(pieces, n, k, m, loads, starts, queues(m), best)
                 end do
             end do
         end do
         do m = one_root, some_roots
-            if (queues(m)%waiting > 0) call look_at_roots(pieces, n, k, m, loads, starts, queues(m), best)
+            if (queues(m)%waiting > 0) call take_values_at_roots(pieces, n, k, m, loads, starts, queues(m), best)
         end do
-    end subroutine look_inside
+    end subroutine search_inside
 
     !> The field where its derivative changes sign, in the pieces of a queue, which is empty then
-    subroutine look_at_roots(pieces, n, k, kind, loads, starts, queue, best)
+    subroutine take_values_at_roots(pieces, n, k, kind, loads, starts, queue, best)
         type(lane_pieces_type), intent(in) :: pieces
         !> Pieces, the field, and which queue it is
         integer, intent(in) :: n, k, kind
@@ -236,8 +237,8 @@ contains
             m = merge(i, 1, i <= queue%waiting)
             associate (j => queue%piece(m), l => queue%lane(m))
                 length(i) = pieces%length(j)
-                f = pieces%flexibility(min(l, each), j)
-                g = pieces%shear_flexibility(min(l, each), j)
+                f = pieces%flexibility(min(l, stiffness_lanes), j)
+                g = pieces%shear_flexibility(min(l, stiffness_lanes), j)
                 if (k == rotation) then
                     call derive_rotation(length(i), f, loads(l, j, 1), loads(l, j, 2), loads(l, j, 3), &
                                          starts(l, j, 3), starts(l, j, 4), c(i, 0), c(i, 1), c(i, 2), c(i, 3), c(i, 4))
@@ -258,8 +259,8 @@ contains
             do m = 1, merge(1, 4, kind == one_root)
                 if (there(i, m) < 0.5_wp) cycle
                 associate (j => queue%piece(i), s => roots(i, m))
-                    f = pieces%flexibility(min(l, each), j)
-                    g = pieces%shear_flexibility(min(l, each), j)
+                    f = pieces%flexibility(min(l, stiffness_lanes), j)
+                    g = pieces%shear_flexibility(min(l, stiffness_lanes), j)
                     if (k == rotation) then
                         x = rotation_at(s, length(i), f, loads(l, j, 1), loads(l, j, 2), loads(l, j, 3), &
                                         starts(l, j, 2), starts(l, j, 3), starts(l, j, 4))
@@ -273,7 +274,7 @@ contains
             end do
         end do
         queue%waiting = 0
-    end subroutine look_at_roots
+    end subroutine take_values_at_roots
 
     !> Coefficients of the derivative of the rotation along a piece
     elemental subroutine derive_rotation(length, f, qa, qb, kappa, m, v, c0, c1, c2, c3, c4)

@@ -1,10 +1,11 @@
-!> Fields at the left ends of all pieces of eight cases, from their solutions at the nodes: gapbeam_recover and recover_link of
-!> gapbeam_link side by side. Places are the same in all cases, so sums of lengths are made once (lane_pieces_type).
+!> Fields at the left ends of all pieces of eight cases, from their solutions at the nodes.
+!> That is gapbeam_recover and recover_link of gapbeam_link side by side. Places are the same in all cases, so sums of lengths are
+!> made once (lane_pieces_type).
 module gapbeam_lane_fields
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes, lane_beam_type, lane_pieces_type, pack_type, piece_pack_type, link_numbers, link_faa, &
         link_fab, link_sum_a, link_sum_b, link_bending
-    use gapbeam_lane_each, only: each
+    use gapbeam_lane_stiffness, only: stiffness_lanes
     use gapbeam_lane_search, only: add_loads, apply_scheme
     use gapbeam_lane_reactions, only: find_shears
     use gapbeam_lane_shared, only: keep_loads, join_supports
@@ -12,8 +13,8 @@ module gapbeam_lane_fields
     private
     public :: recover_pack, find_rotations
 
-    !> Rounding error of a shear, relative to the largest, from which on it has too few digits; worst_digits of gapbeam_referee,
-    !> with a digit to spare
+    !> Rounding error of a shear, relative to the largest, from which on it has too few digits (worst_digits of
+    !> gapbeam_extended_precision), with a digit to spare
     real(wp), parameter :: worst_digits = 1e-9_wp
     !> Numbers beyond these leave too little room for their products
     real(wp), parameter :: greatest = 1e100_wp, smallest = 1e-100_wp
@@ -49,11 +50,11 @@ contains
                           pack%spring, pack%force)
         call find_shears(beam, n, pack%held, pack%spring, pack%force, pack%w, pack%ml, pack%mr, pack%room)
         call find_rotations(beam, pack%links, n, pack%left, pack%right, pack%w, pack%ml, pack%mr, pack%room)
-        call look_at_shears(n, pack%room, poor)
+        call check_shears(n, pack%room, poor)
         call add_piece_loads(pieces, size(pieces%length), factors, fields%loads)
         call recover(beam, pieces, n, size(pieces%length), fields%loads, pack%w, pack%ml, pack%mr, pack%room, fields%room, &
                      fields%starts)
-        call look_at_range(size(pieces%length), fields%starts, poor)
+        call check_range(size(pieces%length), fields%starts, poor)
     end subroutine recover_pack
 
     !> Rotations at the left ends of the links in room 1, with room 2 to 4: end_rotations of gapbeam_recover
@@ -61,7 +62,7 @@ contains
         type(lane_beam_type), intent(in) :: beam
         integer, intent(in) :: n
         !> Numbers of the links (pack_type)
-        real(wp), intent(in) :: links(each, link_numbers, n)
+        real(wp), intent(in) :: links(stiffness_lanes, link_numbers, n)
         real(wp), intent(in), dimension(lanes, 0:n) :: left, right, w, ml, mr
         real(wp), intent(inout) :: room(lanes, 0:n, 10)
         real(wp) :: faa, fab, sum_a, sum_b, bending
@@ -71,11 +72,11 @@ contains
         do i = 1, n
             !$omp simd private(faa, fab, sum_a, sum_b, bending, turn_a, turn_b, m, z)
             do l = 1, lanes
-                faa = links(min(l, each), link_faa, i)
-                fab = links(min(l, each), link_fab, i)
-                sum_a = links(min(l, each), link_sum_a, i)
-                sum_b = links(min(l, each), link_sum_b, i)
-                bending = links(min(l, each), link_bending, i)
+                faa = links(min(l, stiffness_lanes), link_faa, i)
+                fab = links(min(l, stiffness_lanes), link_fab, i)
+                sum_a = links(min(l, stiffness_lanes), link_sum_a, i)
+                sum_b = links(min(l, stiffness_lanes), link_sum_b, i)
+                bending = links(min(l, stiffness_lanes), link_bending, i)
                 turn_a = right(l, i - 1)
                 turn_b = left(l, i)
                 m = mr(l, i - 1)
@@ -116,7 +117,7 @@ contains
     end subroutine find_rotations
 
     !> In which cases some shear has few digits
-    pure subroutine look_at_shears(n, room, poor)
+    pure subroutine check_shears(n, room, poor)
         integer, intent(in) :: n
         real(wp), intent(in) :: room(lanes, 0:n, 10)
         real(wp), intent(out) :: poor(lanes)
@@ -135,7 +136,7 @@ contains
         do l = 1, lanes
             poor(l) = merge(0.0_wp, 1.0_wp, worst(l) <= worst_digits*largest(l))
         end do
-    end subroutine look_at_shears
+    end subroutine check_shears
 
     !> Loads of all pieces
     pure subroutine add_piece_loads(pieces, number, factors, loads)
@@ -250,8 +251,8 @@ contains
             inside = merge(1.0_wp, 0.0_wp, j < last)
             !$omp simd private(f, g, m0, m1, right)
             do l = 1, lanes
-                f = pieces%flexibility(min(l, each), j)
-                g = pieces%shear_flexibility(min(l, each), j)
+                f = pieces%flexibility(min(l, stiffness_lanes), j)
+                g = pieces%shear_flexibility(min(l, stiffness_lanes), j)
                 m0 = (1 - xi)*(mr(l, i - 1) + (high(l) + low(l))) + xi*(ml(l, i) + before(l))
                 starts(l, j, 3) = m0
                 starts(l, j, 4) = room(l, i, 5) + (before(l) - (high(l) + low(l)))/length
@@ -303,7 +304,7 @@ contains
     end subroutine recover_link
 
     !> Numbers too far from 1 for what is made of them here
-    pure subroutine look_at_range(n, starts, poor)
+    pure subroutine check_range(n, starts, poor)
         integer, intent(in) :: n
         real(wp), intent(in) :: starts(lanes, n, 4)
         real(wp), intent(inout) :: poor(lanes)
@@ -322,7 +323,7 @@ contains
         do l = 1, lanes
             if (.not. (total(l) >= smallest .and. total(l) <= greatest)) poor(l) = 1.0_wp
         end do
-    end subroutine look_at_range
+    end subroutine check_range
 
     !> Moment of a piece's own load about the left end of the link, the piece beginning at x0
     elemental function load_moment(x0, l, qa, qb) result(moment)

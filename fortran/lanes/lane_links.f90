@@ -1,5 +1,5 @@
-!> Links of eight cases whose spans have other stiffnesses, and what loads with factor 1 do to them: condense_link of gapbeam_link
-!> side by side, number by number
+!> Links of eight cases whose spans have other stiffnesses, with loads of factor 1.
+!> That is condense_link of gapbeam_link side by side, number by number.
 module gapbeam_lane_links
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes, lane_spans_type, link_numbers, link_faa, link_fab, link_fbb, link_sum_a, link_sum_b, &

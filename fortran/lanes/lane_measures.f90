@@ -1,9 +1,9 @@
-!> By how much the sums that gapbeam_lane_audit looks at are off, for certificates of eight cases
+!> Relative residuals of eight cases for their certificates (gapbeam_lane_audit).
 module gapbeam_lane_measures
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type, link_faa, link_fab, link_fbb
-    use gapbeam_lane_each, only: each
-    use gapbeam_lane_audit, only: is_joined, look_at_link, look_at_support, look_at_restraint, wrong_way
+    use gapbeam_lane_stiffness, only: stiffness_lanes
+    use gapbeam_lane_audit, only: is_joined, check_link, check_support, check_restraint, wrong_way
     implicit none
     private
     public :: measure_pack
@@ -32,14 +32,14 @@ contains
             passed_size = 0.0_wp
             do i = 0, beam%n
                 k = min(i + 1, beam%n)
-                associate (link => pack%links(min(l, each), :, k), w => pack%w(l, i), r => pack%reaction(l, i), &
+                associate (link => pack%links(min(l, stiffness_lanes), :, k), w => pack%w(l, i), r => pack%reaction(l, i), &
                            c => pack%contact(l, i), closed => pack%closed(l, i))
-                    call look_at_link(w, pack%w(l, k), pack%mr(l, i), pack%ml(l, k), beam%inverse(k)*merge(1, 0, i < beam%n), &
-                                      link(link_faa), link(link_fab), link(link_fbb), start, end, link_size, next, next_size)
+                    call check_link(w, pack%w(l, k), pack%mr(l, i), pack%ml(l, k), beam%inverse(k)*merge(1, 0, i < beam%n), &
+                                    link(link_faa), link(link_fab), link(link_fbb), start, end, link_size, next, next_size)
                     off = start - turned + (pack%left(l, i) + pack%right(l, i))
                     size_of_off = link_size + turned_size
                     if (is_joined(beam, i)) call raise(abs(off), size_of_off, far(turns), most(turns))
-                    call look_at_support(pack%stiffness(l, i), pack%rigid(l, i), c, closed, w, r, law, held, held_size, spring_size)
+                    call check_support(pack%stiffness(l, i), pack%rigid(l, i), c, closed, w, r, law, held, held_size, spring_size)
                     off = next - passed + (pack%shear(l, i) - r)
                     force_size = next_size + passed_size + (spring_size + abs(r))
                     call raise(abs(off), force_size, far(forces), most(forces))
@@ -58,7 +58,7 @@ contains
             end do
             do m = 1, size(beam%restrained)
                 do k = max(beam%restrained(m), 1), min(beam%restrained(m) + 1, beam%n)
-                    call look_at_restraint(beam, pack%links, beam%n, m, k, pack%left, pack%right, pack%couple, pack%w, pack%ml, &
+                    call check_restraint(beam, pack%links, beam%n, m, k, pack%left, pack%right, pack%couple, pack%w, pack%ml, &
                                            pack%mr, of_restraint, size_of_restraint)
                     call raise(of_restraint(l), size_of_restraint(l), far(turns), most(turns))
                 end do

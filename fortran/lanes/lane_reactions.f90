@@ -1,15 +1,15 @@
-!> What follows from the solutions of eight cases: shears, reactions, and which of them rounding could turn. gapbeam_reactions and
-!> gapbeam_law for ordinary supports, number by number
+!> Shears and reactions of eight cases, and which of them rounding could turn.
+!> That is gapbeam_reactions and gapbeam_law for ordinary supports, number by number.
 module gapbeam_lane_reactions
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type, link_numbers, link_fixity, link_reach
-    use gapbeam_lane_each, only: each
+    use gapbeam_lane_stiffness, only: stiffness_lanes
     use gapbeam_lane_shared, only: find_levels, share_forces
     implicit none
     private
     public :: complete, find_shears, doubt_corrections
 
-    !> As first_width of gapbeam_rules, worst_digits and worst_correction of gapbeam_referee
+    !> As first_width of gapbeam_rules, worst_digits and worst_correction of gapbeam_extended_precision
     real(wp), parameter :: width = 32.0_wp, worst_digits = 1e-8_wp, worst_correction = 1e-6_wp
 
 contains
@@ -44,7 +44,7 @@ contains
         type(lane_beam_type), intent(in) :: beam
         integer, intent(in) :: n
         !> Numbers of the links (pack_type)
-        real(wp), intent(in) :: links(each, link_numbers, n)
+        real(wp), intent(in) :: links(stiffness_lanes, link_numbers, n)
         real(wp), intent(in), dimension(lanes, 0:n) :: held, contact, closed, load_size, turn_size, w, ml, mr
         real(wp), intent(inout) :: room(lanes, 0:n, 10)
         real(wp) :: moment, turn, by_shear, by_deflection, share, s, d, inverse, fixity, reach
@@ -62,8 +62,8 @@ contains
             inverse = beam%inverse(i)
             !$omp simd private(fixity, reach, moment, turn, by_shear, by_deflection)
             do l = 1, lanes
-                fixity = links(min(l, each), link_fixity, i)
-                reach = links(min(l, each), link_reach, i)
+                fixity = links(min(l, stiffness_lanes), link_fixity, i)
+                reach = links(min(l, stiffness_lanes), link_reach, i)
                 turn = turn_size(l, i) + (abs(contact(l, i))*closed(l, i) + abs(contact(l, i - 1))*closed(l, i - 1))*inverse
                 moment = larger(larger(abs(mr(l, i - 1)), abs(ml(l, i))), turn*fixity)
                 by_shear = 2*moment*inverse
@@ -218,7 +218,7 @@ contains
         end do
     end subroutine find_reactions
 
-    !> Are deflections known to few digits, as in digits_lost of gapbeam_referee
+    !> Are deflections known to few digits, as in digits_lost of gapbeam_extended_precision
     pure subroutine doubt_corrections(n, w, dw, room, doubtful)
         integer, intent(in) :: n
         !> Deflections and their corrections; sizes of deflections in room 2, by find_sizes

@@ -1,8 +1,8 @@
-!> What the rows of eight cases still lack, in twice the working precision: gapbeam_residual, number by number
+!> Residuals of eight cases in twice the working precision: gapbeam_residual, number by number.
 module gapbeam_lane_residual
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes, lane_beam_type, link_numbers, link_faa, link_fab, link_fbb
-    use gapbeam_lane_each, only: each
+    use gapbeam_lane_stiffness, only: stiffness_lanes
     implicit none
     private
     public :: find_rest, find_rest_at_restraints, find_rest_along
@@ -20,7 +20,7 @@ contains
         type(lane_beam_type), intent(in) :: beam
         integer, intent(in) :: n
         !> Numbers of the links (pack_type)
-        real(wp), intent(in) :: links(each, link_numbers, n)
+        real(wp), intent(in) :: links(stiffness_lanes, link_numbers, n)
         !> Right-hand sides and scheme, shape (lanes, 0:n)
         real(wp), intent(in) :: left(lanes, 0:n), right(lanes, 0:n), force(lanes, 0:n)
         real(wp), intent(in) :: held(lanes, 0:n), known(lanes, 0:n), spring(lanes, 0:n)
@@ -47,9 +47,9 @@ contains
             !$omp simd private(faa, fab, fbb, start_high, start_low, high, low, other_high, other_low, turned, turned_rest, &
             !$omp   passed, passed_rest)
             do l = 1, lanes
-                faa = links(min(l, each), link_faa, k)
-                fab = links(min(l, each), link_fab, k)
-                fbb = links(min(l, each), link_fbb, k)
+                faa = links(min(l, stiffness_lanes), link_faa, k)
+                fab = links(min(l, stiffness_lanes), link_fab, k)
+                fbb = links(min(l, stiffness_lanes), link_fbb, k)
                 turned = turned_high(l)
                 turned_rest = turned_low(l)
                 passed = passed_high(l)
@@ -94,7 +94,7 @@ contains
         type(lane_beam_type), intent(in) :: beam
         !> As for find_rest
         integer, intent(in) :: n
-        real(wp), intent(in) :: links(each, link_numbers, n)
+        real(wp), intent(in) :: links(stiffness_lanes, link_numbers, n)
         real(wp), intent(in), dimension(lanes, 0:n) :: left, right, couple, w, ml, mr
         !> Left and right of them; those of other nodes stay
         real(wp), intent(inout), dimension(lanes, 0:n) :: left_rest, turn_rest
@@ -119,8 +119,8 @@ contains
                     low = 0.0_wp
                     call add(high, low, -w(l, i))
                     call divide(high, low, beam%length(i + 1))
-                    call add_product(high, low, links(min(l, each), link_faa, i + 1), mr(l, i))
-                    call add_product(high, low, links(min(l, each), link_fab, i + 1), ml(l, i + 1))
+                    call add_product(high, low, links(min(l, stiffness_lanes), link_faa, i + 1), mr(l, i))
+                    call add_product(high, low, links(min(l, stiffness_lanes), link_fab, i + 1), ml(l, i + 1))
                     call add(high, low, -turn_high)
                     call add(high, low, -turn_low)
                     call add(high, low, right(l, i))
@@ -131,8 +131,8 @@ contains
                     low = 0.0_wp
                     call add(high, low, -w(l, i - 1))
                     call divide(high, low, beam%length(i))
-                    call add_product(high, low, -links(min(l, each), link_fab, i), mr(l, i - 1))
-                    call add_product(high, low, -links(min(l, each), link_fbb, i), ml(l, i))
+                    call add_product(high, low, -links(min(l, stiffness_lanes), link_fab, i), mr(l, i - 1))
+                    call add_product(high, low, -links(min(l, stiffness_lanes), link_fbb, i), ml(l, i))
                     call add(turn_high, turn_low, -high)
                     call add(turn_high, turn_low, -low)
                     call add(turn_high, turn_low, left(l, i))

@@ -1,5 +1,5 @@
-!> Polynomials of eight cases along a piece: what their Bernstein coefficients say (Lane and Riesenfeld 1981), and where they change
-!> sign, as gapbeam_fields and gapbeam_polynomial do for one
+!> Roots of polynomials of eight cases along a piece, by Bernstein coefficients.
+!> As gapbeam_fields and gapbeam_polynomial find them for one (Lane and Riesenfeld 1981).
 module gapbeam_lane_roots
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes

@@ -1,26 +1,24 @@
-!> The working schemes of eight cases, and their solutions.
+!> Active-set search for the contact states of eight cases side by side.
 !>
 !> The search changes every wrong support at once, and where that makes no progress those at every other node. It may take
-!> signs as they come, for what it ends with is looked at as gapbeam_referee does: the final solution is refined, and where any sign
-!> is within its rounding error, or no scheme was found, the case is doubtful and goes to gapbeam_referee itself. A scheme without
-!> doubt is the only one there is, so it does not matter how it was found.
+!> signs as they come, for what it ends with is looked at as gapbeam_extended_precision does: the final solution is refined
+!> (gapbeam_lane_finish), and where any sign is within its rounding error, or no scheme was found, the case is doubtful and goes to
+!> gapbeam_extended_precision itself. A scheme without doubt is the only one there is, so it does not matter how it was found.
 module gapbeam_lane_search
     use gapbeam_kinds, only: wp
-    use gapbeam_lane_types, only: lanes, link_numbers, lane_beam_type, pack_type, by_both_ends, by_three_moments, by_chain
-    use gapbeam_lane_each, only: each
-    use gapbeam_lane_sweeps, only: sweep_three_moments, sweep_chain
-    use gapbeam_lane_passes, only: pass_both_ends, find_wrong_between, correct_both_ends
-    use gapbeam_lane_residual, only: find_rest, find_rest_at_restraints
-    use gapbeam_lane_reactions, only: complete, doubt_corrections
+    use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type, by_both_ends, by_three_moments, by_chain
+    use gapbeam_lane_stiffness, only: stiffness_lanes
+    use gapbeam_lane_sweeps, only: sweep_chain
+    use gapbeam_lane_two_sided_sweep, only: pass_both_ends, find_wrong_between
     use gapbeam_lane_shared, only: keep_loads, join_supports, find_wrong_beside, wait_beside
     implicit none
     private
-    public :: search_pack, finish_pack, add_loads, apply_scheme
+    public :: search_pack, add_loads, apply_scheme
 
     !> Solves before a case is given up
     integer, parameter :: most_solves = 80
     !> Solves without progress before fewer supports are changed at a time
-    real(wp), parameter :: patience = 4.5_wp
+    real(wp), parameter :: non_monotone_steps = 4.5_wp
 
 contains
 
@@ -71,12 +69,12 @@ contains
             k = beam%link_load(j)
             !$omp simd
             do l = 1, lanes
-                right(l, i - 1) = right(l, i - 1) + factors(l, k)*beam%to_link(min(l, each), 1, j)
-                left(l, i) = left(l, i) + factors(l, k)*beam%to_link(min(l, each), 2, j)
-                room(l, i, 1) = room(l, i, 1) + factors(l, k)*beam%to_link(min(l, each), 3, j)
-                room(l, i, 2) = room(l, i, 2) + factors(l, k)*beam%to_link(min(l, each), 4, j)
-                room(l, i, 3) = room(l, i, 3) + abs(factors(l, k))*beam%to_link(min(l, each), 5, j)
-                turn_size(l, i) = turn_size(l, i) + abs(factors(l, k))*beam%to_link(min(l, each), 6, j)
+                right(l, i - 1) = right(l, i - 1) + factors(l, k)*beam%to_link(min(l, stiffness_lanes), 1, j)
+                left(l, i) = left(l, i) + factors(l, k)*beam%to_link(min(l, stiffness_lanes), 2, j)
+                room(l, i, 1) = room(l, i, 1) + factors(l, k)*beam%to_link(min(l, stiffness_lanes), 3, j)
+                room(l, i, 2) = room(l, i, 2) + factors(l, k)*beam%to_link(min(l, stiffness_lanes), 4, j)
+                room(l, i, 3) = room(l, i, 3) + abs(factors(l, k))*beam%to_link(min(l, stiffness_lanes), 5, j)
+                turn_size(l, i) = turn_size(l, i) + abs(factors(l, k))*beam%to_link(min(l, stiffness_lanes), 6, j)
             end do
         end do
         do j = 1, size(beam%node)
@@ -102,7 +100,7 @@ contains
         integer, intent(out) :: solves(lanes)
         !> Which cases are given up
         logical, intent(out) :: lost(lanes)
-        real(wp), dimension(lanes) :: wrong, fewest, idle, moves, alive, looked_at, ease, count
+        real(wp), dimension(lanes) :: wrong, fewest, idle, moves, alive, looked_at, proximal_weight, count
         real(wp) :: left, longest
         integer :: solve, last, l
         logical :: is_easy
@@ -114,7 +112,7 @@ contains
         fewest(:) = huge(1.0_wp)
         idle(:) = 0.0_wp
         alive(:) = 1.0_wp
-        ease(:) = 0.0_wp
+        proximal_weight(:) = 0.0_wp
         count(:) = 0.0_wp
         do solve = 1, most_solves
             if (last > n) call join_supports(beam, n, last, pack%load, pack%turn_rest, pack%closed, pack%stiffness, pack%rigid, &
@@ -133,11 +131,11 @@ contains
                 pack%closed(:, :) = abs(pack%closed - pack%turn_rest)
                 call apply_scheme(n, pack%shear, pack%stiffness, pack%rigid, pack%contact, pack%closed, pack%held, pack%known, &
                                   pack%spring, pack%force)
-                if (any(ease > 0.0_wp)) pack%spring(:, :) = pack%spring + spread(ease, 2, n + 1)
+                if (any(proximal_weight > 0.0_wp)) pack%spring(:, :) = pack%spring + spread(proximal_weight, 2, n + 1)
                 call sweep_chain(beam, pack%links, n, pack%left, pack%right, pack%force, pack%couple, pack%held, pack%known, &
                                  pack%spring, pack%room, pack%turning, pack%w, pack%ml, pack%mr, moves)
                 ! A scheme that moves is solved once more, with weak springs, as by gapbeam_scheme
-                ease(:) = ease + moves*[(beam%ease(min(l, each)), l=1, lanes)]
+                proximal_weight(:) = proximal_weight + moves*[(beam%proximal_weight(min(l, stiffness_lanes)), l=1, lanes)]
                 looked_at(:) = alive*(1.0_wp - moves)
                 call find_wrong(beam, n, looked_at, pack%shear, pack%stiffness, pack%contact, pack%held, pack%closed, pack%w, &
                                 pack%ml, pack%mr, pack%turn_rest, wrong)
@@ -148,9 +146,9 @@ contains
             end if
             call note_progress(wrong, alive, fewest, idle, left, longest)
             if (.not. left > 0.5_wp) exit
-            if (.not. longest > patience) cycle
+            if (.not. longest > non_monotone_steps) cycle
             call keep_every_other(n, solve, idle, pack%turn_rest)
-            if (last > n) call wait_beside(beam, last, solve, merge(1.0_wp, 0.0_wp, idle > patience), pack%turn_rest)
+            if (last > n) call wait_beside(beam, last, solve, merge(1.0_wp, 0.0_wp, idle > non_monotone_steps), pack%turn_rest)
         end do
         solves(:) = nint(count)
         lost = alive > 0.5_wp
@@ -229,17 +227,6 @@ contains
         hold = least > 0.0_wp
     end function ends_hold
 
-    !> Moments right of the nodes, where there are no couples
-    pure subroutine copy_moments(n, ml, mr)
-        integer, intent(in) :: n
-        real(wp), intent(inout) :: ml(lanes, 0:n)
-        real(wp), intent(out) :: mr(lanes, 0:n)
-
-        mr(:, :) = ml
-        ml(:, 0) = 0.0_wp
-        mr(:, n) = 0.0_wp
-    end subroutine copy_moments
-
     !> Which supports have the wrong state, and by how much
     pure subroutine find_wrong(beam, n, alive, shear, stiffness, contact, held, closed, w, ml, mr, wrong, number)
         type(lane_beam_type), intent(in) :: beam
@@ -290,7 +277,7 @@ contains
         do i = modulo(solve, 2), n, 2
             !$omp simd
             do l = 1, lanes
-                wrong(l, i) = wrong(l, i)*merge(0.0_wp, 1.0_wp, idle(l) > patience)
+                wrong(l, i) = wrong(l, i)*merge(0.0_wp, 1.0_wp, idle(l) > non_monotone_steps)
             end do
         end do
     end subroutine keep_every_other
@@ -331,86 +318,5 @@ contains
             end associate
         end do
     end subroutine choose_methods
-
-    !> Solve working schemes as gapbeam_system does, refine the solutions once, and find reactions
-    subroutine finish_pack(beam, method, pack, doubtful)
-        type(lane_beam_type), intent(in) :: beam
-        !> How all of them are to be solved, not 0
-        integer, intent(in) :: method
-        !> Loads, supports and schemes in, solutions out
-        type(pack_type), intent(inout) :: pack
-        !> In which cases the scheme moves, a sign is wrong or within its rounding error, digits are lost, or numbers are not finite
-        logical, intent(out) :: doubtful(lanes)
-        real(wp) :: doubt(lanes), moves(lanes)
-        integer :: n
-
-        n = beam%n
-        moves(:) = 0.0_wp
-        if (.not. pack%is_solved) then
-            call apply_scheme(n, pack%shear, pack%stiffness, pack%rigid, pack%contact, pack%closed, pack%held, pack%known, &
-                              pack%spring, pack%force)
-            if (method == by_both_ends) then
-                pack%turn(:, :) = pack%left + pack%right
-                pack%turn_rest(:, :) = 0.0_wp   ! no support is to be changed
-                call pass_both_ends(beam, pack%links, n, pack%turn, pack%shear, pack%stiffness, pack%rigid, pack%contact, &
-                                    pack%turn_rest, pack%closed, pack%room, pack%w, pack%ml)
-            else
-                call solve(beam, pack%links, n, method, pack%left, pack%right, pack%force, pack%couple, pack%held, pack%known, &
-                           pack%spring, pack%room, pack%turning, pack%w, pack%ml, pack%mr, moves)
-            end if
-        end if
-        if (method == by_both_ends) call copy_moments(n, pack%ml, pack%mr)
-        call find_rest(beam, pack%links, n, pack%left, pack%right, pack%force, pack%held, pack%known, pack%spring, pack%w, &
-                       pack%ml, pack%mr, pack%turn_rest, pack%force_rest, pack%known_rest)
-        if (size(beam%restrained) > 0) then
-            call find_rest_at_restraints(beam, pack%links, n, pack%left, pack%right, pack%couple, pack%w, pack%ml, pack%mr, &
-                                         pack%left_rest, pack%turn_rest)
-            if (method == by_both_ends) pack%turn_rest(:, n) = pack%turn_rest(:, n) + pack%left_rest(:, n)
-        end if
-        if (method == by_both_ends) then
-            call correct_both_ends(beam, pack%links, n, pack%turn_rest, pack%force_rest, pack%held, pack%known_rest, pack%room, &
-                                   pack%dw, pack%dl)
-            call copy_moments(n, pack%dl, pack%dr)
-        else
-            call solve(beam, pack%links, n, method, pack%left_rest, pack%turn_rest, pack%force_rest, pack%nothing, pack%held, &
-                       pack%known_rest, pack%spring, pack%room, pack%turning, pack%dw, pack%dl, pack%dr, moves)
-        end if
-        call add_correction(n, pack%dw, pack%dl, pack%dr, pack%w, pack%ml, pack%mr)
-        call complete(beam, n, pack, doubt)
-        call doubt_corrections(n, pack%w, pack%dw, pack%room, doubt)
-        doubtful = doubt + moves > 0.5_wp
-    end subroutine finish_pack
-
-    !> The ways but that from both ends
-    pure subroutine solve(beam, links, n, method, left, right, force, couple, held, known, spring, room, turning, w, ml, mr, &
-                          moves)
-        type(lane_beam_type), intent(in) :: beam
-        integer, intent(in) :: n, method
-        !> Numbers of the links (pack_type)
-        real(wp), intent(in) :: links(each, link_numbers, n)
-        real(wp), intent(in), dimension(lanes, 0:n) :: left, right, force, couple, held, known, spring
-        real(wp), intent(inout), dimension(lanes, 0:n) :: w, ml, mr
-        real(wp), intent(inout) :: room(lanes, 0:n, 10), turning(lanes, size(beam%restrained), 5)
-        !> 1 for mechanisms
-        real(wp), intent(out) :: moves(lanes)
-
-        moves(:) = 0.0_wp
-        if (method == by_three_moments) then
-            call sweep_three_moments(beam, links, n, left, right, force, couple, held, known, room, w, ml, mr)
-        else
-            call sweep_chain(beam, links, n, left, right, force, couple, held, known, spring, room, turning, w, ml, mr, moves)
-        end if
-    end subroutine solve
-
-    !> Solutions refined
-    pure subroutine add_correction(n, dw, dl, dr, w, ml, mr)
-        integer, intent(in) :: n
-        real(wp), intent(in), dimension(lanes, 0:n) :: dw, dl, dr
-        real(wp), intent(inout), dimension(lanes, 0:n) :: w, ml, mr
-
-        w(:, :) = w + dw
-        ml(:, :) = ml + dl
-        mr(:, :) = mr + dr
-    end subroutine add_correction
 
 end module gapbeam_lane_search

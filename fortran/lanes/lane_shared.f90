@@ -1,6 +1,7 @@
-!> Nodes with several supports in eight cases: what those that act make of their node, which of them are wrong, and what each has of
-!> the force there. gapbeam_law for ordinary supports, number by number. The scheme makes one support of those at a node: a rigid
-!> one or a spring that always acts, with their forces beside the load
+!> Nodes with several supports in eight cases: common stiffness, wrong states, shares of the force.
+!> What those that act make of their node, which of them are wrong, and what each has of the force there. gapbeam_law for ordinary
+!> supports, number by number. The scheme makes one support of those at a node: a rigid one or a spring that always acts, with
+!> their forces beside the load
 module gapbeam_lane_shared
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes, lane_beam_type

@@ -1,10 +1,11 @@
-!> Systems of eight cases solved side by side, with the arithmetic of gapbeam_three_moment and gapbeam_band, number by number: the
-!> bits are theirs. Branches are masks here, and what a mask strikes out is kept finite.
+!> Systems of eight cases solved side by side by sweeps from end to end.
+!> That is the arithmetic of gapbeam_three_moment and gapbeam_band, number by number: the bits are theirs. Branches are masks here,
+!> and what a mask strikes out is kept finite.
 module gapbeam_lane_sweeps
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes, lane_beam_type, link_numbers, link_faa, link_fab, link_fbb, link_sum_a, link_sum_b, &
         link_bending, link_determinant
-    use gapbeam_lane_each, only: each
+    use gapbeam_lane_stiffness, only: stiffness_lanes
     implicit none
     private
     public :: sweep_three_moments, sweep_chain
@@ -16,7 +17,7 @@ contains
         type(lane_beam_type), intent(in) :: beam
         integer, intent(in) :: n
         !> Numbers of the links (pack_type)
-        real(wp), intent(in) :: links(each, link_numbers, n)
+        real(wp), intent(in) :: links(stiffness_lanes, link_numbers, n)
         !> Right-hand sides, shape (lanes, 0:n)
         real(wp), intent(in) :: left(lanes, 0:n), right(lanes, 0:n), shear(lanes, 0:n), couple(lanes, 0:n)
         !> Is the deflection known, and which is it
@@ -52,10 +53,10 @@ contains
         do i = 0, n - 1
             !$omp simd private(faa, fab, fbb, determinant, chord, a, y, z, first, flexible, begin)
             do l = 1, lanes
-                faa = links(min(l, each), link_faa, i + 1)
-                fab = links(min(l, each), link_fab, i + 1)
-                fbb = links(min(l, each), link_fbb, i + 1)
-                determinant = links(min(l, each), link_determinant, i + 1)
+                faa = links(min(l, stiffness_lanes), link_faa, i + 1)
+                fab = links(min(l, stiffness_lanes), link_fab, i + 1)
+                fbb = links(min(l, stiffness_lanes), link_fbb, i + 1)
+                determinant = links(min(l, stiffness_lanes), link_determinant, i + 1)
                 ! Does the row of the first support stand here: with a tip at node 1
                 first = merge(free, 0.0_wp, i == 0)
                 if (i == 1) first = 1.0_wp - held(l, 0)
@@ -100,24 +101,24 @@ contains
             root = mr(l, 0)
             y = couple(l, 0)
             mr(l, 0) = merge(y, root, tip > 0.5_wp)
-            faa = links(min(l, each), link_faa, 2)
-            fab = links(min(l, each), link_fab, 2)
+            faa = links(min(l, stiffness_lanes), link_faa, 2)
+            fab = links(min(l, stiffness_lanes), link_fab, 2)
             psi = (w(l, 2) - w(l, 1))/beam%length(2) + faa*mr(l, 1) + fab*ml(l, 2) + right(l, 1)
             root = w(l, 0)
-            fab = links(min(l, each), link_fab, 1)
-            fbb = links(min(l, each), link_fbb, 1)
+            fab = links(min(l, stiffness_lanes), link_fab, 1)
+            fbb = links(min(l, stiffness_lanes), link_fbb, 1)
             y = w(l, 1) - beam%length(1)*(psi + left(l, 1) + fab*mr(l, 0) + fbb*ml(l, 1))
             w(l, 0) = merge(y, root, tip > 0.5_wp)
         end do
         !$omp simd private(faa, fab, fbb, psi, tip, root, y)
         do l = 1, lanes
             tip = 1.0_wp - held(l, n)
-            fab = links(min(l, each), link_fab, n - 1)
-            fbb = links(min(l, each), link_fbb, n - 1)
+            fab = links(min(l, stiffness_lanes), link_fab, n - 1)
+            fbb = links(min(l, stiffness_lanes), link_fbb, n - 1)
             psi = (w(l, n - 1) - w(l, n - 2))/beam%length(n - 1) - fab*mr(l, n - 2) - fbb*ml(l, n - 1) - left(l, n - 1)
             root = w(l, n)
-            faa = links(min(l, each), link_faa, n)
-            fab = links(min(l, each), link_fab, n)
+            faa = links(min(l, stiffness_lanes), link_faa, n)
+            fab = links(min(l, stiffness_lanes), link_fab, n)
             y = w(l, n - 1) + beam%length(n)*(psi - right(l, n - 1) - faa*mr(l, n - 1) - fab*ml(l, n))
             w(l, n) = merge(y, root, tip > 0.5_wp)
         end do
@@ -128,7 +129,7 @@ contains
         type(lane_beam_type), intent(in) :: beam
         integer, intent(in) :: n
         !> Numbers of the links (pack_type)
-        real(wp), intent(in) :: links(each, link_numbers, n)
+        real(wp), intent(in) :: links(stiffness_lanes, link_numbers, n)
         !> Right-hand sides, shape (lanes, 0:n)
         real(wp), intent(in) :: left(lanes, 0:n), right(lanes, 0:n), shear(lanes, 0:n), couple(lanes, 0:n)
         !> Is the deflection known, which is it, stiffness
@@ -166,13 +167,13 @@ contains
             !$omp simd private(faa, fab, fbb, sum_a, sum_b, bending, determinant, a, b, c, d, r, g, k, rigid, starts, rests, &
             !$omp   denominator, reciprocal, m_star, w_star, new_e, new_p, given, new_phi, new_beta, new_delta, moment, deflection)
             do l = 1, lanes
-                faa = links(min(l, each), link_faa, i + 1)
-                fab = links(min(l, each), link_fab, i + 1)
-                fbb = links(min(l, each), link_fbb, i + 1)
-                sum_a = links(min(l, each), link_sum_a, i + 1)
-                sum_b = links(min(l, each), link_sum_b, i + 1)
-                bending = links(min(l, each), link_bending, i + 1)
-                determinant = links(min(l, each), link_determinant, i + 1)
+                faa = links(min(l, stiffness_lanes), link_faa, i + 1)
+                fab = links(min(l, stiffness_lanes), link_fab, i + 1)
+                fbb = links(min(l, stiffness_lanes), link_fbb, i + 1)
+                sum_a = links(min(l, stiffness_lanes), link_sum_a, i + 1)
+                sum_b = links(min(l, stiffness_lanes), link_sum_b, i + 1)
+                bending = links(min(l, stiffness_lanes), link_bending, i + 1)
+                determinant = links(min(l, stiffness_lanes), link_determinant, i + 1)
                 k = free*couple(l, i)
                 r = right(l, i)
                 g = shear(l, i) + p(l)
@@ -271,9 +272,9 @@ contains
             length = beam%length(i + 1)
             !$omp simd private(faa, fab, fbb, a, b, c, d, r, g, reciprocal, rigid, moment, deflection, next_m, next_w, y, k)
             do l = 1, lanes
-                faa = links(min(l, each), link_faa, i + 1)
-                fab = links(min(l, each), link_fab, i + 1)
-                fbb = links(min(l, each), link_fbb, i + 1)
+                faa = links(min(l, stiffness_lanes), link_faa, i + 1)
+                fab = links(min(l, stiffness_lanes), link_fab, i + 1)
+                fbb = links(min(l, stiffness_lanes), link_fbb, i + 1)
                 a = room(l, i, 1)
                 b = room(l, i, 2)
                 c = room(l, i, 3)

@@ -1,5 +1,6 @@
-!> Many cases of one beam side by side: the lanes of every array here are cases, lane index first, so that the processor does in one
-!> instruction what is the same for all of them. Masks are reals, 1 or 0, which multiply.
+!> Types for many cases of one beam side by side: the lanes of every array are cases.
+!> The lane index comes first, so that the processor does in one instruction what is the same for all of them. Masks are reals, 1
+!> or 0, which multiply.
 module gapbeam_lane_types
     use gapbeam_kinds, only: wp
     implicit none
@@ -20,11 +21,11 @@ module gapbeam_lane_types
     integer, parameter :: by_both_ends = 1, by_three_moments = 2, by_chain = 3
 
     !> What cases have in common: links, shape (n), and supports, shape (0:n). What follows from stiffnesses is by lane where these
-    !> differ from case to case, and belongs to the eight cases at hand; else the first extent is 1 (gapbeam_lane_each)
+    !> differ from case to case, and belongs to the eight cases at hand; else the first extent is 1 (gapbeam_lane_stiffness)
     type :: lane_beam_type
         integer :: n = 0
         !> Stiffness of the weak springs that hold a scheme which moves, shape (1 or lanes)
-        real(wp), allocatable :: ease(:)
+        real(wp), allocatable :: proximal_weight(:)
         !> As in link_type
         real(wp), allocatable, dimension(:) :: length, inverse
         !> Numbers of the links, shape (1 or lanes, link_numbers, n)
@@ -75,7 +76,7 @@ module gapbeam_lane_types
         !> Solution: deflection, moments; reaction by places
         real(wp), allocatable, dimension(:, :) :: w, ml, mr, reaction
         !> Residuals or, after elimination, corrections; the first also which supports are wrong, by places
-        real(wp), allocatable, dimension(:, :) :: turn_rest, force_rest, known_rest, dw, dl, dr, nothing
+        real(wp), allocatable, dimension(:, :) :: turn_rest, force_rest, known_rest, dw, dl, dr, spare
         !> Residuals left of restraints, 0 at other nodes
         real(wp), allocatable :: left_rest(:, :)
         !> Right-hand side of compatibility at plain nodes
@@ -185,12 +186,12 @@ contains
                   pack%w(lanes, 0:n), pack%ml(lanes, 0:n), pack%mr(lanes, 0:n), pack%reaction(lanes, 0:last), &
                   pack%turn_rest(lanes, 0:last), pack%force_rest(lanes, 0:n), pack%known_rest(lanes, 0:n), &
                   pack%dw(lanes, 0:n), pack%dl(lanes, 0:n), pack%dr(lanes, 0:n), pack%turn(lanes, 0:n), &
-                  pack%nothing(lanes, 0:n), pack%left_rest(lanes, 0:n), pack%room(lanes, 0:n, 10), &
+                  pack%spare(lanes, 0:n), pack%left_rest(lanes, 0:n), pack%room(lanes, 0:n, 10), &
                   pack%turning(lanes, size(beam%restrained), 5), pack%links(size(beam%links, 1), link_numbers, n), stat=stat)
         made = stat == 0
         if (.not. made) return
         pack%links(:, :, :) = beam%links
-        pack%nothing(:, :) = 0.0_wp
+        pack%spare(:, :) = 0.0_wp
         pack%left_rest(:, :) = 0.0_wp
     end subroutine new_pack
 

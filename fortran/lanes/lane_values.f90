@@ -2,7 +2,7 @@
 module gapbeam_lane_values
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes, lane_beam_type, lane_pieces_type, pack_type, piece_pack_type
-    use gapbeam_lane_each, only: each
+    use gapbeam_lane_stiffness, only: stiffness_lanes
     use gapbeam_lane_fields, only: recover_pack
     implicit none
     private
@@ -57,15 +57,15 @@ contains
             case (deflection)
                 !$omp simd private(f, g)
                 do l = 1, lanes
-                    f = pieces%flexibility(min(l, each), j)
-                    g = pieces%shear_flexibility(min(l, each), j)
+                    f = pieces%flexibility(min(l, stiffness_lanes), j)
+                    g = pieces%shear_flexibility(min(l, stiffness_lanes), j)
                     values(l, i) = deflection_at(s, length, f, g, loads(l, j, 1), loads(l, j, 2), loads(l, j, 3), &
                                                  starts(l, j, 1), starts(l, j, 2), starts(l, j, 3), starts(l, j, 4))
                 end do
             case (rotation)
                 !$omp simd private(f)
                 do l = 1, lanes
-                    f = pieces%flexibility(min(l, each), j)
+                    f = pieces%flexibility(min(l, stiffness_lanes), j)
                     values(l, i) = rotation_at(s, length, f, loads(l, j, 1), loads(l, j, 2), loads(l, j, 3), starts(l, j, 2), &
                                                starts(l, j, 3), starts(l, j, 4))
                 end do

@@ -1,18 +1,18 @@
-!> The solution of a long beam in segments: refined, with reactions, and whether its scheme is beyond doubt; gapbeam_system,
-!> gapbeam_reactions and gapbeam_law for ordinary supports, one at a node, number by number
+!> Solution of a long beam in segments, refined, with reactions and doubts.
+!> That is gapbeam_system, gapbeam_reactions and gapbeam_law for ordinary supports, one at a node, number by number
 module gapbeam_segment_finish
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes
     use gapbeam_lane_residual, only: find_rest_along
     use gapbeam_lane_audit, only: audit_along
     use gapbeam_segment_types, only: segment_beam_type, segment_room_type, node_of, half
-    use gapbeam_segment_passes, only: solve_segments
+    use gapbeam_segment_two_sided_sweep, only: solve_segments
     use gapbeam_segment_search, only: search_segments
     implicit none
     private
     public :: solve_long_beam, audit_long_beam
 
-    !> As first_width of gapbeam_rules and worst_digits of gapbeam_referee
+    !> As first_width of gapbeam_rules and worst_digits of gapbeam_extended_precision
     real(wp), parameter :: width = 32.0_wp, worst_digits = 1e-8_wp
 
 contains

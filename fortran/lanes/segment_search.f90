@@ -1,4 +1,4 @@
-!> The working scheme of a long beam in segments.
+!> Active-set search for the contact state of a long beam in segments.
 !>
 !> Every wrong support but those of the ends, which hold the beam, is changed at once; where that makes no progress, one in every
 !> neighbourhood. Where nothing helps, or an end is wrong at last, the case is given up. Signs are taken as they come: the scheme
@@ -7,17 +7,17 @@ module gapbeam_segment_search
     use gapbeam_kinds, only: wp
     use gapbeam_lane_types, only: lanes
     use gapbeam_segment_types, only: segment_beam_type, segment_room_type, node_of, half
-    use gapbeam_segment_passes, only: solve_segments
+    use gapbeam_segment_two_sided_sweep, only: solve_segments
     implicit none
     private
     public :: search_segments
 
     !> Solves at most, without progress, and with an end that is wrong
-    integer, parameter :: most_solves = 50, patience = 5, end_patience = 3
+    integer, parameter :: most_solves = 50, non_monotone_steps = 5, end_non_monotone_steps = 3
     !> Without progress so few wrong supports, or as many as there are after so many solves, are changed only where others near them
-    !> are not. Before that fronts move, which takes long step by step
+    !> are not. Before that boundaries move, which takes long step by step
     integer, parameter :: few = 16, few_solves = 2
-    !> Rounds of a solve (gapbeam_segment_passes): what is not yet exact goes on with the next one
+    !> Rounds of a solve (gapbeam_segment_two_sided_sweep): what is not yet exact goes on with the next one
     integer, parameter :: most_rounds = 2
     !> So many nodes farther on supports hardly turn each other round
     integer, parameter :: neighbourhood = 20
@@ -60,11 +60,11 @@ contains
             found = number == 0 .and. ends_are_right .and. exact
             if (found) call take_scheme(beam, room)
             with_wrong_end = merge(0, with_wrong_end + 1, ends_are_right)
-            if (number == 0 .and. exact .or. with_wrong_end == end_patience) return
+            if (number == 0 .and. exact .or. with_wrong_end == end_non_monotone_steps) return
             if (number == 0) cycle
             idle = merge(0, idle + 1, number < fewest)
             fewest = min(fewest, number)
-            if (idle > patience) return
+            if (idle > non_monotone_steps) return
             if (idle > 0 .and. (number <= few .or. idle > few_solves)) call keep_local_worst(beam, &
                 room%changed(:columns), room)
             call change(room%changed(:columns), room%wrong, room%support, room%row)

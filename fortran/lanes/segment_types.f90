@@ -1,4 +1,4 @@
-!> A long beam cut into eight segments, which are solved side by side: the lanes of an array (gapbeam_lane_types) are segments here.
+!> Types for a long beam cut into eight segments: the lanes of an array are segments.
 !>
 !> The node in the middle stands alone. Four segments lie left of it and four right of it; column 1 is the node of a segment that is
 !> farthest from the middle. Segments have as many columns each, so those at the ends may begin with some that are no nodes.

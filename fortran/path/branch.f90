@@ -1,19 +1,21 @@
-!> The path of a beam whose supports may soften, break or unload otherwise than along their law: from kink to kink, through limit
-!> points, in quadruple precision.
+!> Path of a beam whose supports soften, break or unload off their law, through limit points.
+!> It goes from breakpoint to breakpoint, in quadruple precision.
 !>
-!> The solution is followed along itself (gapbeam_ways), so the load factor may fall; nothing is stepped and nothing iterates.
-!> As no cell is crossed twice, a path of laws without memory has finitely many segments (docs/method.md 11). A support that
-!> unloads in a way of its own has its law written anew from the point where it is: its kinks up to there become one, at
+!> The solution is followed along itself (gapbeam_outgoing_directions), so the load factor may fall; nothing is stepped and nothing
+!> iterates.
+!> As no region is crossed twice, a path of laws without memory has finitely many segments (docs/method.md 11). A support that
+!> unloads in a way of its own has its law written anew from the point where it is: its breakpoints up to there become one, at
 !> that point, before which lies a line with the slope of the first piece, down to its set.
 module gapbeam_branch
     use gapbeam_kinds, only: wp => qp
     use gapbeam_error, only: error_type
-    use gapbeam_polyline_quad, only: node_support_type, piece_that_acts, last_kink
-    use gapbeam_law_quad, only: margin_in_scheme, is_watched_in
+    use gapbeam_polyline_quad, only: node_support_type, piece_that_acts, last_breakpoint
+    use gapbeam_law_margins_quad, only: margin_in_scheme, is_watched_in
     use gapbeam_model_quad, only: beam_type
-    use gapbeam_line_quad, only: value_at, width_at, zero_of
-    use gapbeam_lines, only: lines_type, way_type, new_lines, solve_lines, are_one, turn, from_nowhere
-    use gapbeam_ways, only: find_ways
+    use gapbeam_affine_response_quad, only: value_at, width_at, zero_of
+    use gapbeam_region_responses, only: responses_type, outgoing_type, new_responses, solve_responses, are_one, turn, &
+        from_nowhere
+    use gapbeam_outgoing_directions, only: find_outgoing
     implicit none
     private
     public :: branch_type, segment_type, start_branch, step_branch, goes_on, arrived, no_way_on, never_ends, not_told
@@ -21,24 +23,24 @@ module gapbeam_branch
 
     !> How a support unloads
     integer, parameter :: along_law = 0, parallel = 1, stays_broken = 2
-    !> What a step came to: the next kink; the factor asked for; the end of the path; no further kink, whatever the load; supports
-    !> of which nothing tells how they share a change of load
+    !> What a step came to: the next breakpoint; the factor asked for; the end of the path; no further breakpoint, whatever the
+    !> load; supports of which nothing tells how they share a change of load
     integer, parameter :: goes_on = 0, arrived = 1, no_way_on = 2, never_ends = 3, not_told = 4
 
     !> A path on its way
     type :: branch_type
         !> The beam, with the laws as they have become
         type(beam_type) :: beam
-        type(lines_type) :: lines
+        type(responses_type) :: responses
         !> How each support unloads, shape (size(supports)); slopes of the first pieces
         integer, allocatable :: unloading(:)
         real(wp), allocatable :: first_slope(:)
         real(wp) :: factor = 0.0_wp
-        type(way_type) :: way
+        type(outgoing_type) :: way
         !> Deflections of the nodes, shape (0:n)
         real(wp), allocatable :: deflection(:)
-        !> Ways on there were at the last kink, and which is taken
-        type(way_type), allocatable :: ways(:)
+        !> Ways on there were at the last breakpoint, and which is taken
+        type(outgoing_type), allocatable :: outgoing(:)
         integer :: taken = 0
         !> Direction of the load times (-1)**index: it stays along the path (Eaves and Scarf 1976)
         integer :: sense = 0
@@ -74,18 +76,18 @@ contains
         branch%unloading = unloading
         branch%first_slope = beam%supports%stiffness
         branch%factor = factor
-        call new_lines(beam, branch%lines)
-        branch%lines%settling(:) = settling
+        call new_responses(beam, branch%responses)
+        branch%responses%settling(:) = settling
         allocate (branch%deflection(0:size(beam%links)))
         branch%deflection(:) = 0.0_wp
-        call solve_lines(branch%beam, closed, branch%lines)
+        call solve_responses(branch%beam, closed, branch%responses)
         branch%way%closed = closed
         branch%way%direction = direction
-        if (branch%lines%regular) call note_place(branch)
+        if (branch%responses%regular) call note_place(branch)
         call go_on(branch, direction, direction, spread(.false., 1, size(closed)), outcome, error)
     end subroutine start_branch
 
-    !> Go on to the next kink, or to a factor
+    !> Go on to the next breakpoint, or to a factor
     subroutine step_branch(branch, target, leg, segment, outcome, error)
         type(branch_type), intent(inout) :: branch
         !> The factor at which the path ends, if it comes there in the direction of the leg (rise or fall)
@@ -108,7 +110,7 @@ contains
             outcome = never_ends
             if (.not. any(at_hand)) return
         else
-            call look_ahead(branch, target, next, at_hand)
+            call enter_next_interval(branch, target, next, at_hand)
             if (direction == leg .and. direction*(next - target) >= 0.0_wp) then
                 branch%factor = target
                 segment%to = target
@@ -129,11 +131,11 @@ contains
     subroutine go_on(branch, leg, wanted, at_hand, outcome, error)
         type(branch_type), intent(inout) :: branch
         integer, intent(in) :: leg, wanted
-        !> Kinks that are reached
+        !> Breakpoints that are reached
         logical, intent(in) :: at_hand(:)
         integer, intent(out) :: outcome
         type(error_type), allocatable, intent(out) :: error
-        type(way_type), allocatable :: ways(:)
+        type(outgoing_type), allocatable :: outgoing(:)
         logical, allocatable :: reached(:), broken(:), other(:)
         integer :: v, w, best, came
 
@@ -145,26 +147,28 @@ contains
         came = branch%way%direction
         ! What is gone leaves the same line, to go either way
         if (wanted /= turn .or. any(broken)) came = from_nowhere
-        call find_ways(branch%beam, branch%factor, branch%way%closed, came, wanted, branch%deflection, broken, reached, &
-                       branch%lines, ways, error)
+        call find_outgoing(branch%beam, branch%factor, branch%way%closed, came, wanted, branch%deflection, broken, reached, &
+                           branch%responses, outgoing, error)
         outcome = no_way_on
         if (allocated(error)) return
-        call move_alloc(ways, branch%ways)
-        if (size(branch%ways) == 0) return
+        call move_alloc(outgoing, branch%outgoing)
+        if (size(branch%outgoing) == 0) return
         best = 1
-        do w = 2, size(branch%ways)
-            if (preference(branch%ways(w)) < preference(branch%ways(best))) best = w
+        do w = 2, size(branch%outgoing)
+            if (preference(branch%outgoing(w)) < preference(branch%outgoing(best))) best = w
         end do
-        branch%way = branch%ways(best)
-        allocate (other(size(branch%ways)))
+        branch%way = branch%outgoing(best)
+        allocate (other(size(branch%outgoing)))
         do w = 1, size(other)
-            other(w) = w == best .or. .not. are_one(branch%ways(w), branch%way)
-            if (other(w) .and. w /= best) other(w) = .not. any([(are_one(branch%ways(w), branch%ways(v)), v=1, w - 1)])
+            other(w) = w == best .or. .not. are_one(branch%outgoing(w), branch%way)
+            if (other(w) .and. w /= best) other(w) = .not. any([(are_one(branch%outgoing(w), branch%outgoing(v)), v=1, w - 1)])
         end do
         branch%taken = count(other(:best))
-        branch%ways = branch%ways(pack([(w, w=1, size(other))], other))
+        branch%outgoing = branch%outgoing(pack([(w, w=1, size(other))], other))
         if (branch%way%direction /= turn) branch%sense = sense_of(branch%way)
-        if (any(branch%lines%closed .neqv. branch%way%closed)) call solve_lines(branch%beam, branch%way%closed, branch%lines)
+        if (any(branch%responses%closed .neqv. branch%way%closed)) then
+            call solve_responses(branch%beam, branch%way%closed, branch%responses)
+        end if
         outcome = goes_on
         if (branch%way%direction /= turn) call find_shared(branch)
         if (all(branch%shared > 0)) outcome = not_told
@@ -173,7 +177,7 @@ contains
 
         !> Stable ways come first; of equals the one in which the load goes where it should
         pure function preference(way) result(last)
-            type(way_type), intent(in) :: way
+            type(outgoing_type), intent(in) :: way
             !> The less the better
             integer :: last
 
@@ -186,7 +190,7 @@ contains
 
         !> Direction of the load times (-1)**index
         pure function sense_of(way) result(sense)
-            type(way_type), intent(in) :: way
+            type(outgoing_type), intent(in) :: way
             integer :: sense
 
             sense = way%direction*merge(1, -1, modulo(way%index, 2) == 0)
@@ -207,16 +211,17 @@ contains
                 associate (s => beam%supports(k))
                     acts = closed(k)
                     slope = s%stiffness
-                    if (s%kink > 0) call piece_that_acts(beam%supports, closed, k, acts, slope)
+                    if (s%breakpoint > 0) call piece_that_acts(beam%supports, closed, k, acts, slope)
                     if (.not. (acts .and. slope > huge(slope))) cycle
-                    rate = branch%way%direction*s%side*branch%lines%live%reaction(k)
+                    rate = branch%way%direction*s%side*branch%responses%live%reaction(k)
                     do i = beam%first(s%node), beam%first(s%node + 1) - 1
                         j = beam%order(i)
                         associate (other => beam%supports(j))
                             if (branch%unloading(j) /= parallel .or. other%passed .or. other%side /= s%side) cycle
                             if (abs(other%contact - s%contact) > 64*epsilon(rate)*abs(s%contact)) cycle
                             rigid = rate < 0.0_wp .and. ends_at(beam%supports, closed, j) .and. other%before > huge(rate)
-                            if (other%kink == 1 .and. .not. closed(j)) rigid = rate > 0.0_wp .and. other%stiffness > huge(rate)
+                            if (other%breakpoint == 1 .and. .not. closed(j)) rigid = rate > 0.0_wp &
+                                .and. other%stiffness > huge(rate)
                             if (rigid) branch%shared = [k, j]
                         end associate
                     end do
@@ -225,7 +230,7 @@ contains
         end associate
     end subroutine find_shared
 
-    !> Is a closed kink the last one that is not passed before the piece that acts
+    !> Is a closed breakpoint the last one that is not passed before the piece that acts
     pure function ends_at(supports, closed, k) result(last)
         type(node_support_type), intent(in) :: supports(:)
         logical, intent(in) :: closed(:)
@@ -242,14 +247,14 @@ contains
         if (supports(j)%more) last = last .and. .not. closed(j + 1)
     end function ends_at
 
-    !> The next kink along a line
-    subroutine look_ahead(branch, target, next, at_hand)
+    !> The next breakpoint along a line
+    subroutine enter_next_interval(branch, target, next, at_hand)
         type(branch_type), intent(in) :: branch
         !> What is there but for rounding is there, and so it is at 0
         real(wp), intent(in) :: target
         !> Its load factor; huge if there is none
         real(wp), intent(out) :: next
-        !> The kinks there
+        !> The breakpoints there
         logical, allocatable, intent(out) :: at_hand(:)
         real(wp), allocatable :: zeros(:)
         real(wp) :: passed, slack
@@ -259,15 +264,15 @@ contains
         next = direction*huge(next)
         passed = abs(branch%factor)
         if (abs(target) < huge(target)) passed = max(passed, abs(target))
-        associate (supports => branch%beam%supports, closed => branch%way%closed, lines => branch%lines%line)
+        associate (supports => branch%beam%supports, closed => branch%way%closed, responses => branch%responses%response)
             allocate (at_hand(size(closed)), zeros(size(closed)))
             at_hand(:) = .false.
             do k = 1, size(closed)
-                at_hand(k) = is_watched_in(supports, closed, k) .and. direction*lines(k)%v1 < -lines(k)%error_of_v1
+                at_hand(k) = is_watched_in(supports, closed, k) .and. direction*responses(k)%v1 < -responses(k)%error_of_v1
                 if (.not. at_hand(k)) cycle
                 associate (zero => zeros(k))
-                    zero = zero_of(lines(k))
-                    slack = max(64*epsilon(zero)*passed, width_at(lines(k), zero)/abs(lines(k)%v1))
+                    zero = zero_of(responses(k))
+                    slack = max(64*epsilon(zero)*passed, width_at(responses(k), zero)/abs(responses(k)%v1))
                     if (abs(zero) <= slack) zero = 0.0_wp
                     if (abs(zero - target) <= slack) zero = target
                     ! What is behind by rounding is here
@@ -278,10 +283,11 @@ contains
             do k = 1, size(closed)
                 if (.not. at_hand(k)) cycle
                 ! What ends the stretch is at hand, whatever rounding leaves of it there
-                at_hand(k) = direction*zeros(k) <= direction*next .or. value_at(lines(k), next) <= 2*width_at(lines(k), next)
+                at_hand(k) = direction*zeros(k) <= direction*next &
+                    .or. value_at(responses(k), next) <= 2*width_at(responses(k), next)
             end do
         end associate
-    end subroutine look_ahead
+    end subroutine enter_next_interval
 
     !> Turn until something holds the beam
     subroutine turn_on(branch, at_hand)
@@ -299,8 +305,8 @@ contains
             way(:) = huge(way)
             do k = 1, size(closed)
                 if (.not. is_watched_in(supports, closed, k)) cycle
-                associate (settling => branch%lines%settling(k), node => supports(k)%node)
-                    call margin_in_scheme(branch%lines%incremental%supports, closed, k, motion(node) + settling, 0.0_wp, none, &
+                associate (settling => branch%responses%settling(k), node => supports(k)%node)
+                    call margin_in_scheme(branch%responses%incremental%supports, closed, k, motion(node) + settling, 0.0_wp, none, &
                                           none, speed, rounding, by_force)
                     if (by_force .or. .not. speed < 0.0_wp) cycle
                     call margin_in_scheme(supports, closed, k, branch%deflection(node) - branch%factor*settling, 0.0_wp, none, &
@@ -319,13 +325,13 @@ contains
     subroutine note_place(branch)
         type(branch_type), intent(inout) :: branch
 
-        branch%deflection(:) = branch%lines%dead%answers%deflection + branch%factor*branch%lines%live%answers%deflection
+        branch%deflection(:) = branch%responses%dead%answers%deflection + branch%factor*branch%responses%live%answers%deflection
     end subroutine note_place
 
     !> Break supports that stay broken at the end of a drop of their force: what lies before it is gone
     subroutine break_supports(branch, at_hand, broken)
         type(branch_type), intent(inout) :: branch
-        !> Kinks that are reached in, without those out
+        !> Breakpoints that are reached in, without those out
         logical, intent(inout) :: at_hand(:)
         !> Those of them at which supports break
         logical, intent(out) :: broken(:)
@@ -339,8 +345,8 @@ contains
                 broken(k) = .true.
                 at_hand(k) = .false.
                 branch%way%closed(k) = .true.
-                ! One line, on both sides of its kinks
-                first = k - s(k)%kink + 1
+                ! One line, on both sides of its breakpoints
+                first = k - s(k)%breakpoint + 1
                 s(first:k)%contact = s(k)%contact
                 s(first:k)%force = s(k)%force
                 s(first:k)%before = s(k)%stiffness
@@ -359,10 +365,10 @@ contains
 
         k = 1
         do while (k <= size(branch%way%closed))
-            last = last_kink(branch%beam%supports, k)
+            last = last_breakpoint(branch%beam%supports, k)
             top = k - 1 + count(branch%way%closed(k:last))
             if (branch%unloading(k) == parallel .and. top > k) then
-                associate (s => branch%beam%supports, work => branch%lines)
+                associate (s => branch%beam%supports, work => branch%responses)
                     call piece_that_acts(s, branch%way%closed, top, acts, slope)
                     ! Beside its own movement, which goes on
                     deflection = branch%deflection(s(k)%node) - branch%factor*work%settling(k)

@@ -1,6 +1,6 @@
-!> The path of the solution over the load factor, from one change of the working scheme to the next.
+!> Path of the solution over the load factor, from one change of the contact state to the next.
 !>
-!> While a scheme acts, all values are linear in the load factor (gapbeam_line). The next event is the smallest factor
+!> While a scheme acts, all values are linear in the load factor (gapbeam_affine_response). The next event is the smallest factor
 !> ahead at which the reaction of a closed support or the opening of an open one becomes zero; it follows from v0 and v1
 !> directly, so nothing accumulates along the path. v0 and v1 are kept up to date around the supports that change
 !> (gapbeam_update), and a queue holds the factors at which the supports reach zero, so an event costs what it changes, not
@@ -9,7 +9,7 @@
 !> 1. What moves through zero changes, and then moves the right way. Mostly this is all there is to it.
 !> 2. The scheme at a factor a little further up, found by the search, if every value of it is right from the event to there.
 !>    So coincident events, and beams that turn until something holds them, are settled at once.
-!> 3. The same in quadruple precision with proof (gapbeam_cell).
+!> 3. The same in quadruple precision with proof (gapbeam_linear_region).
 !>
 !> A support that changes again at the factor at which it has just changed goes to 2 and 3, so at one factor the first
 !> way is taken once for every support at most; 2 and 3 end beyond the factor. A scheme acts on one interval of factors
@@ -24,22 +24,22 @@ module gapbeam_path
     use gapbeam_rules, only: find_doubtful
     use gapbeam_search, only: rule_block
     use gapbeam_scheme, only: find_scheme, outcome_type
-    use gapbeam_line, only: line_type, value_at, width_at, falls, stays_at_zero
-    use gapbeam_redundancy, only: find_redundancy
+    use gapbeam_affine_response, only: response_type, value_at, width_at, falls, stays_at_zero
+    use gapbeam_static_indeterminacy, only: find_indeterminacy
     use gapbeam_refined, only: detail_type, refine_beam
-    use gapbeam_referee, only: decide_scheme, reserve_for, rule_given
+    use gapbeam_extended_precision, only: decide_scheme, reserve_for, rule_given
     use gapbeam_scheme_quad, only: fine_outcome_type => outcome_type
-    use gapbeam_line_quad, only: fine_value_at => value_at, fine_width_at => width_at
-    use gapbeam_cell, only: find_cell
+    use gapbeam_affine_response_quad, only: fine_value_at => value_at, fine_width_at => width_at
+    use gapbeam_linear_region, only: find_region
     use gapbeam_path_events, only: path_type, add_event, note_changes, event_opens, event_closes, event_turns
     use gapbeam_stretch, only: stretch_type, new_stretch, start_stretch, change_supports, add_those_at_zero, next_in_queue, &
-        line_in, same_factor
+        response_in, same_factor
     implicit none
     private
     public :: follow_path, path_type, event_opens, event_closes, event_turns
 
     !> How much further up the scheme is looked for
-    real(wp), parameter :: look_ahead = 2.0_wp**(-20)
+    real(wp), parameter :: enter_next_interval = 2.0_wp**(-20)
     !> Factors in double and quadruple precision that differ by less, relative to the way, are the same
     real(wp), parameter :: agreement = 1e-9_wp
     !> Links up to which doubt is a reason for quadruple precision; in longer beams only if the end of the path is wrong
@@ -147,19 +147,19 @@ contains
             done = .false.
             if (.not. stretch%closely) then
                 call change_in_place(beam, factor, closed, at_zero, stretch, path, done)
-                if (.not. done) call look_further(beam, factor, limit, at_zero, closed, stretch, path, done)
+                if (.not. done) call try_next_event(beam, factor, limit, at_zero, closed, stretch, path, done)
                 stretch%closely = stretch%in_doubt .and. size(beam%links) <= short_beam
                 done = done .and. .not. stretch%closely
             end if
             if (.not. done) then
-                call look_closely(beam, detail, exactly, limit, at_zero, closed, stretch, path, outcome, error)
+                call decide_in_quadruple(beam, detail, exactly, limit, at_zero, closed, stretch, path, outcome, error)
                 if (allocated(error) .or. outcome%status /= gapbeam_solved) exit
             end if
             here = exactly
             call find_next(beam, closed, factor, limit, stretch, at_zero, exactly)
             if (stretch%in_doubt .and. size(beam%links) <= short_beam .and. .not. stretch%closely) then
                 stretch%closely = .true.
-                call look_closely(beam, detail, here, limit, at_zero, closed, stretch, path, outcome, error)
+                call decide_in_quadruple(beam, detail, here, limit, at_zero, closed, stretch, path, outcome, error)
                 if (allocated(error) .or. outcome%status /= gapbeam_solved) exit
                 call find_next(beam, closed, factor, limit, stretch, at_zero, exactly)
             end if
@@ -201,7 +201,7 @@ contains
         integer :: node
 
         ! Not even if the beam touched every support that is open
-        call find_redundancy(beam, closed, .not. closed, node)
+        call find_indeterminacy(beam, closed, .not. closed, node)
         if (node < 0 .or. .not. to > from) return
         middle = real(from + (to - from)/2, wp)
         allocate (acting(size(closed)))
@@ -228,12 +228,12 @@ contains
 
         done = .false.
         if (.not. stretch%current) return
-        moving = pack(at_zero, [(falls(line_in(beam, closed, at_zero(j), stretch)), j=1, size(at_zero))])
+        moving = pack(at_zero, [(falls(response_in(beam, closed, at_zero(j), stretch)), j=1, size(at_zero))])
         if (any(factor - stretch%last_change(moving) <= same_factor*abs(factor))) return
         call change_supports(beam, moving, factor, closed, stretch)
-        if (stretch%current) done = .not. any([(falls(line_in(beam, closed, at_zero(j), stretch)), j=1, size(at_zero))])
+        if (stretch%current) done = .not. any([(falls(response_in(beam, closed, at_zero(j), stretch)), j=1, size(at_zero))])
         do j = 1, size(moving)
-            if (beam%supports(moving(j))%kink == 0) cycle
+            if (beam%supports(moving(j))%breakpoint == 0) cycle
             associate (i => beam%supports(moving(j))%node)
                 ! Two that hold a node share what is there as nothing tells
                 associate (numbers => beam%order(beam%first(i):beam%first(i + 1) - 1))
@@ -251,12 +251,12 @@ contains
         do j = 1, size(moving)
             call add_event(path, factor, moving(j), merge(event_closes, event_opens, closed(moving(j))))
         end do
-        at_zero = pack(at_zero, [(stays_at_zero(line_in(beam, closed, at_zero(j), stretch), factor), j=1, size(at_zero))])
+        at_zero = pack(at_zero, [(stays_at_zero(response_in(beam, closed, at_zero(j), stretch), factor), j=1, size(at_zero))])
 
     end subroutine change_in_place
 
     !> Find the scheme a little further up, and whether it acts all the way from the event
-    subroutine look_further(beam, factor, limit, at_zero, closed, stretch, path, done)
+    subroutine try_next_event(beam, factor, limit, at_zero, closed, stretch, path, done)
         type(beam_type), intent(in) :: beam
         real(wp), intent(in) :: factor, limit
         !> Supports at zero, those that stay there out
@@ -269,14 +269,14 @@ contains
         type(outcome_type) :: outcome
         type(error_type), allocatable :: error
         logical, allocatable :: after(:), doubtful(:), was_far(:), is_far(:)
-        type(line_type) :: line
+        type(response_type) :: response
         real(wp) :: trial
         integer :: k
 
         done = .false.
         allocate (after(size(closed)), doubtful(size(closed)), was_far(size(closed)), is_far(size(closed)))
         after(:) = closed
-        trial = factor + look_ahead*max(abs(factor), limit - factor)
+        trial = factor + enter_next_interval*max(abs(factor), limit - factor)
         call new_workspace(beam, work)
         call set_loads(beam, trial, work)
         call find_scheme(beam, trial, rule_block, after, work, outcome, error)
@@ -288,22 +288,22 @@ contains
         was_far(:) = .true.
         was_far(at_zero) = .false.
         do k = 1, size(closed)
-            line = line_in(beam, after, k, stretch)
-            if (value_at(line, factor) < -width_at(line, factor) .or. &
-                (doubtful(k) .and. .not. stays_at_zero(line, trial))) then
+            response = response_in(beam, after, k, stretch)
+            if (value_at(response, factor) < -width_at(response, factor) .or. &
+                (doubtful(k) .and. .not. stays_at_zero(response, trial))) then
                 stretch%current = .false.
                 return
             end if
-            is_far(k) = value_at(line, factor) > far*width_at(line, factor)
+            is_far(k) = value_at(response, factor) > far*width_at(response, factor)
         end do
         done = .true.
         call note_changes(factor, closed, after, was_far, is_far, stretch, path)
         closed(:) = after
-        at_zero = pack(at_zero, [(stays_at_zero(line_in(beam, closed, at_zero(k), stretch), factor), k=1, size(at_zero))])
-    end subroutine look_further
+        at_zero = pack(at_zero, [(stays_at_zero(response_in(beam, closed, at_zero(k), stretch), factor), k=1, size(at_zero))])
+    end subroutine try_next_event
 
     !> Find the next stretch in quadruple precision
-    subroutine look_closely(beam, detail, factor, limit, at_zero, closed, stretch, path, outcome, error)
+    subroutine decide_in_quadruple(beam, detail, factor, limit, at_zero, closed, stretch, path, outcome, error)
         type(beam_type), intent(in) :: beam
         type(detail_type), intent(in) :: detail
         real(qp), intent(in) :: factor
@@ -328,23 +328,23 @@ contains
         allocate (was_far(size(closed)), is_far(size(closed)))
         was_far(:) = .true.
         was_far(at_zero) = .false.
-        call find_cell(stretch%fine, factor, real(limit, qp), closed, stretch%cell, found, error)
-        stretch%solves = stretch%solves + stretch%cell%solves
+        call find_region(stretch%fine, factor, real(limit, qp), closed, stretch%region, found, error)
+        stretch%solves = stretch%solves + stretch%region%solves
         if (allocated(error)) return
         if (found%status /= gapbeam_solved) then
             outcome = outcome_type(status=found%status)
             outcome%motion = real(found%motion, wp)
             return
         end if
-        stretch%by_cell = .true.
+        stretch%by_region = .true.
         if (found%indifferent) stretch%indifferent = stretch%indifferent + 1
-        associate (line => stretch%cell%lines)
-            is_far(:) = fine_value_at(line, factor) > far*fine_width_at(line, factor)
+        associate (response => stretch%region%responses)
+            is_far(:) = fine_value_at(response, factor) > far*fine_width_at(response, factor)
         end associate
-        call note_changes(real(factor, wp), closed, stretch%cell%closed, was_far, is_far, stretch, path)
-        closed(:) = stretch%cell%closed
+        call note_changes(real(factor, wp), closed, stretch%region%closed, was_far, is_far, stretch, path)
+        closed(:) = stretch%region%closed
         at_zero = [integer ::]
-    end subroutine look_closely
+    end subroutine decide_in_quadruple
 
     !> The next event, and the supports at zero there
     subroutine find_next(beam, closed, factor, limit, stretch, at_zero, next)
@@ -360,13 +360,13 @@ contains
         real(wp) :: in_doubles
         integer :: k
 
-        if (.not. stretch%by_cell) then
+        if (.not. stretch%by_region) then
             call next_in_queue(beam, closed, factor, limit, stretch, at_zero, in_doubles)
             next = in_doubles
             return
         end if
         ! Lines in double precision will do again if they lead to the same event
-        to = stretch%cell%to
+        to = stretch%region%to
         if (.not. stretch%closely) call start_stretch(beam, closed, factor, stretch)
         if (stretch%current) then
             call next_in_queue(beam, closed, factor, limit, stretch, at_zero, in_doubles)
@@ -375,9 +375,9 @@ contains
         end if
         next = to
         if (stretch%current) return
-        stretch%by_cell = .true.
-        associate (line => stretch%cell%lines)
-            at_zero = pack([(k, k=1, size(closed))], abs(fine_value_at(line, to)) <= fine_width_at(line, to))
+        stretch%by_region = .true.
+        associate (response => stretch%region%responses)
+            at_zero = pack([(k, k=1, size(closed))], abs(fine_value_at(response, to)) <= fine_width_at(response, to))
         end associate
     end subroutine find_next
 

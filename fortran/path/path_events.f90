@@ -1,4 +1,4 @@
-!> The events along a path, as they are noted
+!> Events along a load path, noted in their order.
 module gapbeam_path_events
     use gapbeam_kinds, only: wp
     use gapbeam_stretch, only: stretch_type

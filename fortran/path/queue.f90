@@ -1,4 +1,4 @@
-!> Which of many supports comes first: a tournament tree (Knuth 1973, 5.4.1). One key changes in log2(size) comparisons
+!> Tournament tree of keys of supports: which comes first (Knuth 1973, 5.4.1).
 module gapbeam_queue
     use gapbeam_kinds, only: wp
     implicit none

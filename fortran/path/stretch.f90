@@ -1,19 +1,20 @@
-!> A stretch of the load path on which one scheme acts: the solution as lines over the load factor, kept up to date while supports
-!> change, and the queue of the factors at which they reach zero
+!> An interval of the load path with one contact state, updated while supports change.
+!> The solution as lines over the load factor, and the queue of the factors at which they reach zero.
 module gapbeam_stretch
     use gapbeam_kinds, only: wp
     use gapbeam_band, only: band_ok
-    use gapbeam_law, only: is_watched_in
+    use gapbeam_law_margins, only: is_watched_in
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_update, only: start_updates, update_scheme, find_groups
-    use gapbeam_line, only: line_type, line_of, without_dead_loads, value_at, width_at, zero_of, falls, stays_at_zero
+    use gapbeam_affine_response, only: response_type, response_of, without_dead_loads, value_at, width_at, zero_of, &
+        falls, stays_at_zero
     use gapbeam_queue, only: queue_type, new_queue, set_key, first_key, all_up_to
     use gapbeam_model_quad, only: fine_beam_type => beam_type
-    use gapbeam_cell, only: cell_type
+    use gapbeam_linear_region, only: region_type
     implicit none
     private
-    public :: stretch_type, new_stretch, start_stretch, change_supports, add_those_at_zero, next_in_queue, line_in, same_factor
+    public :: stretch_type, new_stretch, start_stretch, change_supports, add_those_at_zero, next_in_queue, response_in, same_factor
 
     !> What happens so near to each other, relative to the factor or the way, happens at the same factor
     real(wp), parameter :: same_factor = 1e-15_wp
@@ -34,8 +35,8 @@ module gapbeam_stretch
         real(wp), allocatable :: last_change(:)
         !> The beam in quadruple precision, and the stretch as found so, if it was
         type(fine_beam_type) :: fine
-        logical :: has_fine = .false., by_cell = .false.
-        type(cell_type) :: cell
+        logical :: has_fine = .false., by_region = .false.
+        type(region_type) :: region
         !> Linear solves of the whole beam; nodes at which the solution was made anew besides
         integer :: solves = 0, nodes = 0
         !> Was there a support of which doubles cannot tell whether it moves away from zero; are all stretches found in quadruple
@@ -74,7 +75,7 @@ contains
         logical :: solved, follows, live_follows
         integer :: k
 
-        stretch%by_cell = .false.
+        stretch%by_region = .false.
         call start_updates(beam, closed, stretch%dead, solved, follows)
         if (solved) call start_updates(stretch%incremental, closed, stretch%live, solved, live_follows)
         stretch%solves = stretch%solves + 2
@@ -115,16 +116,16 @@ contains
     end subroutine change_supports
 
     !> Reaction or opening of a support over the load factor
-    pure function line_in(beam, closed, k, stretch) result(line)
+    pure function response_in(beam, closed, k, stretch) result(response)
         !> The beam and its scheme, and the number of the support
         type(beam_type), intent(in) :: beam
         logical, intent(in) :: closed(:)
         integer, intent(in) :: k
         type(stretch_type), intent(in) :: stretch
-        type(line_type) :: line
+        type(response_type) :: response
 
-        line = line_of(beam, stretch%incremental, closed, k, stretch%dead, stretch%live)
-    end function line_in
+        response = response_of(beam, stretch%incremental, closed, k, stretch%dead, stretch%live)
+    end function response_in
 
     !> Supports that are at zero at a factor
     subroutine add_those_at_zero(beam, closed, factor, limit, stretch, at_zero)
@@ -136,7 +137,7 @@ contains
         !> Some of them in, all out
         integer, allocatable, intent(inout) :: at_zero(:)
         logical, allocatable :: there(:)
-        type(line_type) :: line
+        type(response_type) :: response
         integer :: k
 
         allocate (there(size(closed)))
@@ -144,10 +145,10 @@ contains
         there(at_zero) = .true.
         do k = 1, size(closed)
             if (.not. is_watched_in(beam%supports, closed, k)) cycle
-            line = line_in(beam, closed, k, stretch)
-            if (abs(value_at(line, factor)) > width_at(line, factor)) cycle
+            response = response_in(beam, closed, k, stretch)
+            if (abs(value_at(response, factor)) > width_at(response, factor)) cycle
             there(k) = .true.
-            stretch%in_doubt = stretch%in_doubt .or. apart(line, factor, limit)
+            stretch%in_doubt = stretch%in_doubt .or. apart(response, factor, limit)
         end do
         at_zero = pack([(k, k=1, size(closed))], there)
     end subroutine add_those_at_zero
@@ -166,7 +167,7 @@ contains
         real(wp), intent(out) :: next
         integer, allocatable :: near(:)
         logical, allocatable :: there(:)
-        type(line_type) :: line
+        type(response_type) :: response
         integer :: j, round
 
         next = huge(next)
@@ -175,28 +176,28 @@ contains
         near = all_up_to(stretch%queue, first_key(stretch%queue))
         do round = 1, 2
             do j = 1, size(near)
-                next = min(next, max(factor, zero_of(line_in(beam, closed, near(j), stretch))))
+                next = min(next, max(factor, zero_of(response_in(beam, closed, near(j), stretch))))
             end do
             near = all_up_to(stretch%queue, next)
         end do
         allocate (there(size(near)))
         do j = 1, size(near)
-            line = line_in(beam, closed, near(j), stretch)
-            there(j) = abs(value_at(line, next)) <= width_at(line, next)
-            if (there(j)) stretch%in_doubt = stretch%in_doubt .or. apart(line, next, limit) &
-                .or. width_at(line, next) > coarse*abs(next*line%v1)
+            response = response_in(beam, closed, near(j), stretch)
+            there(j) = abs(value_at(response, next)) <= width_at(response, next)
+            if (there(j)) stretch%in_doubt = stretch%in_doubt .or. apart(response, next, limit) &
+                .or. width_at(response, next) > coarse*abs(next*response%v1)
         end do
         at_zero = [at_zero, pack(near, there)]
     end subroutine next_in_queue
 
     !> Is a falling line that counts as zero at a factor zero at another one, so that it may be another event
-    pure function apart(line, factor, limit)
-        type(line_type), intent(in) :: line
+    pure function apart(response, factor, limit)
+        type(response_type), intent(in) :: response
         real(wp), intent(in) :: factor, limit
         logical :: apart
 
-        apart = falls(line)
-        if (apart) apart = abs(zero_of(line) - factor) > same_factor*max(abs(factor), limit - factor)
+        apart = falls(response)
+        if (apart) apart = abs(zero_of(response) - factor) > same_factor*max(abs(factor), limit - factor)
     end function apart
 
     !> Put a support into the queue with the first factor at which it counts as zero
@@ -206,16 +207,16 @@ contains
         integer, intent(in) :: k
         real(wp), intent(in) :: factor
         type(stretch_type), intent(inout) :: stretch
-        type(line_type) :: line
+        type(response_type) :: response
         real(wp) :: zero
 
-        line = line_in(beam, closed, k, stretch)
-        if (falls(line)) then
-            zero = max(factor, zero_of(line))
-            call set_key(stretch%queue, k, zero - width_at(line, zero)/abs(line%v1))
+        response = response_in(beam, closed, k, stretch)
+        if (falls(response)) then
+            zero = max(factor, zero_of(response))
+            call set_key(stretch%queue, k, zero - width_at(response, zero)/abs(response%v1))
         else
             call set_key(stretch%queue, k, huge(zero))
-            if (stays_at_zero(line, factor) .and. max(abs(line%v0), abs(line%v1)) > 0.0_wp) stretch%in_doubt = .true.
+            if (stays_at_zero(response, factor) .and. max(abs(response%v0), abs(response%v1)) > 0.0_wp) stretch%in_doubt = .true.
         end if
     end subroutine queue_support
 

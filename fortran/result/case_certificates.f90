@@ -1,5 +1,5 @@
-!> Certificates of many solved cases of a beam, eight side by side where lanes hold them and nothing is in doubt
-!> (gapbeam_lane_certificate), the others one by one (gapbeam_certificate)
+!> Certificates of many solved cases of a beam, eight side by side where lanes hold them.
+!> Where something is in doubt, or lanes do not hold them (gapbeam_lane_certificate), one by one (gapbeam_certificate).
 module gapbeam_case_certificates
     use gapbeam_kinds, only: wp, qp
     use gapbeam_watch, only: is_stopped
@@ -10,15 +10,16 @@ module gapbeam_case_certificates
     use gapbeam_refined, only: refine_beam
     use gapbeam_certificate, only: certificate_type
     use gapbeam_units, only: moment_unit, rotation_unit, bound_outside
-    use gapbeam_lowered, only: lowered_type, find_length_errors
+    use gapbeam_assembled_model, only: assembled_type, find_length_errors
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_state, only: certify_state, detail_of
     use gapbeam_cases, only: case_loads_type
     use gapbeam_combinations, only: combination_type, varied_type, combine, solve_combination
     use gapbeam_lane_types, only: lanes, lane_beam_type, lane_rounding_type, pack_type, new_pack
-    use gapbeam_lane_movements, only: kinds_of_movement
-    use gapbeam_lane_levels, only: take_columns_at, take_numbers_at, certify_pack_at, best_level
-    use gapbeam_lane_cases, only: fits_lanes, prepare_lanes, take_supports, take_starts, units_of_supports
+    use gapbeam_lane_error_ellipses, only: kinds_of_movement
+    use gapbeam_cpu_dispatch, only: take_columns_at, take_numbers_at, certify_pack_at, best_level
+    use gapbeam_lane_cases, only: fits_lanes
+    use gapbeam_lane_model, only: prepare_lanes, take_supports, take_starts, units_of_supports
     implicit none
     private
     public :: certify_cases, certificate_numbers
@@ -30,9 +31,9 @@ module gapbeam_case_certificates
 contains
 
     !> Certify cases
-    subroutine certify_cases(lowered, loads, factors, values, spans, moduli, rule, given, closed, w, ml, mr, reaction, found, &
+    subroutine certify_cases(assembled, loads, factors, values, spans, moduli, rule, given, closed, w, ml, mr, reaction, found, &
                              known, status, level)
-        type(lowered_type), intent(in), target :: lowered
+        type(assembled_type), intent(in), target :: assembled
         !> By split_loads, not allocated on the ground; factor of every load, shape (nload, ncase)
         type(case_loads_type), allocatable, intent(in) :: loads
         real(wp), intent(in), contiguous :: factors(:, :)
@@ -69,8 +70,8 @@ contains
         at_level = best_level()
         if (present(level)) at_level = level
         if (given .and. allocated(loads) .and. size(spans) + size(moduli) == 0) then
-            if (fits_lanes(lowered)) then
-                call certify_in_lanes(lowered, loads, factors, values, closed, w, ml, mr, reaction, at_level, found, done, stat)
+            if (fits_lanes(assembled)) then
+                call certify_in_lanes(assembled, loads, factors, values, closed, w, ml, mr, reaction, at_level, found, done, stat)
                 if (stat /= 0) then
                     status(:) = gapbeam_no_memory
                     return
@@ -79,10 +80,10 @@ contains
             end if
         end if
         do i = 1, size(status)
-            if (is_stopped(lowered%beam%watch)) exit
+            if (is_stopped(assembled%beam%watch)) exit
             if (.not. done(i)) call certify_alone(i)
         end do
-        if (is_stopped(lowered%beam%watch)) status(:) = gapbeam_stopped
+        if (is_stopped(assembled%beam%watch)) status(:) = gapbeam_stopped
 
     contains
 
@@ -97,21 +98,21 @@ contains
             if (size(values) > 0) varied%supports => values(:, :, i)
             if (size(spans) > 0) varied%spans => spans(:, :, i)
             if (size(moduli) > 0) varied%moduli => moduli(:, i)
-            associate (still => 0*lowered%model%supports%settlement, m => size(lowered%beam%supports))
-                call combine(lowered, factors(:size(lowered%model%loads), i), still, combined, error, varied)
+            associate (still => 0*assembled%model%supports%settlement, m => size(assembled%beam%supports))
+                call combine(assembled, factors(:size(assembled%model%loads), i), still, combined, error, varied)
                 if (.not. allocated(error)) then
                     if (given) then
-                        call take_state(combined%lowered, closed(:m, i) /= 0, w(:, i), ml(:, i), mr(:, i), reaction(:m, i), state, &
-                                        error)
+                        call take_state(combined%assembled, closed(:m, i) /= 0, w(:, i), ml(:, i), mr(:, i), reaction(:m, i), &
+                                        state, error)
                     else
-                        call solve_combination(combined%lowered, rule, closed(:m, i) /= 0, state, error)
+                        call solve_combination(combined%assembled, rule, closed(:m, i) /= 0, state, error)
                     end if
                 end if
             end associate
             if (.not. allocated(error)) then
                 status(i) = state%status
                 if (state%status /= gapbeam_solved) return
-                call certify_state(combined%lowered, state, certificate, error)
+                call certify_state(combined%assembled, state, certificate, error)
             end if
             if (allocated(error)) then
                 status(i) = error%code
@@ -124,16 +125,16 @@ contains
                     return
                 end if
                 known(i) = c%known
-                found(:, i) = in_scene(combined%lowered, [c%compatibility, c%equilibrium, c%complementarity, c%of_nodes, &
-                                                          c%reaction, c%deflection, c%rotation, c%moment, c%shear])
+                found(:, i) = in_scene(combined%assembled, [c%compatibility, c%equilibrium, c%complementarity, c%of_nodes, &
+                                                            c%reaction, c%deflection, c%rotation, c%moment, c%shear])
             end associate
         end subroutine certify_alone
 
     end subroutine certify_cases
 
     !> The state whose numbers are given
-    subroutine take_state(lowered, closed, w, ml, mr, reaction, state, error)
-        type(lowered_type), intent(in) :: lowered
+    subroutine take_state(assembled, closed, w, ml, mr, reaction, state, error)
+        type(assembled_type), intent(in) :: assembled
         logical, intent(in) :: closed(:)
         !> In the scene's units
         real(wp), intent(in) :: w(:), ml(:), mr(:), reaction(:)
@@ -142,9 +143,9 @@ contains
         type(error_type), allocatable, intent(out) :: error
         type(workspace_type) :: work
 
-        call new_state(lowered, state, error)
+        call new_state(assembled, state, error)
         if (allocated(error)) return
-        associate (units => lowered%units, n => size(lowered%beam%links))
+        associate (units => assembled%units, n => size(assembled%beam%links))
             state%status = gapbeam_solved
             state%factor = 1.0_wp
             state%closed(:) = closed
@@ -152,20 +153,20 @@ contains
             state%moment_left(:) = scale(ml, -moment_unit(units))
             state%moment_right(:) = scale(mr, -moment_unit(units))
             state%reaction(:) = scale(reaction, -units%force)
-            call new_workspace(lowered%beam, work)
-            call set_loads(lowered%beam, 1.0_wp, work)
-            call apply_scheme(lowered%beam, closed, [0, n], work)
+            call new_workspace(assembled%beam, work)
+            call set_loads(assembled%beam, 1.0_wp, work)
+            call apply_scheme(assembled%beam, closed, [0, n], work)
             work%answers%deflection = state%deflection
             work%answers%moment_left = state%moment_left
             work%answers%moment_right = state%moment_right
-            call find_shears(lowered%beam, [1, n], work)
+            call find_shears(assembled%beam, [1, n], work)
             state%shear(:) = work%shear
         end associate
     end subroutine take_state
 
     !> Certify the cases of a beam that lanes hold, as far as nothing is in doubt
-    subroutine certify_in_lanes(lowered, loads, factors, values, closed, w, ml, mr, reaction, level, found, done, stat)
-        type(lowered_type), intent(in), target :: lowered
+    subroutine certify_in_lanes(assembled, loads, factors, values, closed, w, ml, mr, reaction, level, found, done, stat)
+        type(assembled_type), intent(in), target :: assembled
         !> As for certify_cases
         type(case_loads_type), intent(in) :: loads
         real(wp), intent(in), contiguous :: factors(:, :), values(:, :, :)
@@ -186,12 +187,12 @@ contains
         integer :: case_of(lanes), first, i, k, l, number
         logical :: made, lost
 
-        call prepare_lanes(lowered, loads, .false., beam, made)
+        call prepare_lanes(assembled, loads, .false., beam, made)
         stat = 0
         ! Several supports at a place have certificates by themselves
         if (made .and. size(beam%shared) > 0) return
         if (made) call new_pack(beam, pack, made)
-        if (made) call find_rounding(lowered, beam, rounding, made)
+        if (made) call find_rounding(assembled, beam, rounding, made)
         if (.not. made) stat = 1
         if (stat /= 0) return
         allocate (factors_of(lanes, size(factors, 1)), moves(lanes, 0:beam%n, kinds_of_movement), wanted(count(.not. done)), &
@@ -203,41 +204,41 @@ contains
             number = number + 1
             wanted(number) = i
         end do
-        call take_supports(lowered, beam%place, pack)
+        call take_supports(assembled, beam%place, pack)
         pack%reaction(:, :) = 0.0_wp
         moves(:, :, :) = 0.0_wp
         do first = 1, number, lanes
-            if (is_stopped(lowered%beam%watch)) return
+            if (is_stopped(assembled%beam%watch)) return
             ! The last lanes repeat the last case
             case_of = [(wanted(min(first + l, number)), l=0, lanes - 1)]
             if (size(values, 2) > 0) then
-                call take_numbers_at(level, beam, units_of_supports(lowered), values, case_of, turned, pack, lost)
+                call take_numbers_at(level, beam, units_of_supports(assembled), values, case_of, turned, pack, lost)
                 if (lost) cycle
             end if
             call take_columns_at(level, size(factors, 1), size(factors, 2), factors, case_of, factors_of)
             call take_columns_at(level, beam%n + 1, size(w, 2), w, case_of, pack%w)
             call take_columns_at(level, beam%n + 1, size(ml, 2), ml, case_of, pack%ml)
             call take_columns_at(level, beam%n + 1, size(mr, 2), mr, case_of, pack%mr)
-            do k = 1, size(lowered%beam%supports)
-                pack%reaction(:, lowered%beam%supports(k)%node) = reaction(k, case_of)
+            do k = 1, size(assembled%beam%supports)
+                pack%reaction(:, assembled%beam%supports(k)%node) = reaction(k, case_of)
             end do
-            call take_starts(lowered, beam%place, closed, case_of, pack)
-            pack%w(:, :) = scale(1.0_wp, -lowered%units%deflection)*pack%w
-            pack%ml(:, :) = scale(1.0_wp, -moment_unit(lowered%units))*pack%ml
-            pack%mr(:, :) = scale(1.0_wp, -moment_unit(lowered%units))*pack%mr
-            pack%reaction(:, :) = scale(1.0_wp, -lowered%units%force)*pack%reaction
+            call take_starts(assembled, beam%place, closed, case_of, pack)
+            pack%w(:, :) = scale(1.0_wp, -assembled%units%deflection)*pack%w
+            pack%ml(:, :) = scale(1.0_wp, -moment_unit(assembled%units))*pack%ml
+            pack%mr(:, :) = scale(1.0_wp, -moment_unit(assembled%units))*pack%mr
+            pack%reaction(:, :) = scale(1.0_wp, -assembled%units%force)*pack%reaction
             call certify_pack_at(level, beam, rounding, factors_of, pack, moves, numbers, poor)
             do l = 1, min(lanes, number - first + 1)
                 if (poor(l) > 0.5_wp) cycle
-                found(:, case_of(l)) = in_scene(lowered, numbers(l, :))
+                found(:, case_of(l)) = in_scene(assembled, numbers(l, :))
                 done(case_of(l)) = .true.
             end do
         end do
     end subroutine certify_in_lanes
 
     !> What is rounded in all cases of a beam: links beside those condensed in quadruple precision, and loads by their number
-    subroutine find_rounding(lowered, lane_beam, rounding, made)
-        type(lowered_type), intent(in), target :: lowered
+    subroutine find_rounding(assembled, lane_beam, rounding, made)
+        type(assembled_type), intent(in), target :: assembled
         type(lane_beam_type), intent(in) :: lane_beam
         type(lane_rounding_type), intent(out) :: rounding
         !> False where memory ends
@@ -252,7 +253,7 @@ contains
                   length_error(n), stat=stat)
         made = stat == 0
         if (.not. made) return
-        call refine_beam(lowered%beam, detail_of(lowered), fine)
+        call refine_beam(assembled%beam, detail_of(assembled), fine)
         shares(:) = 0
         do k = 1, size(lane_beam%link)
             shares(lane_beam%link(k)) = shares(lane_beam%link(k)) + 1
@@ -261,17 +262,17 @@ contains
             shares(n + lane_beam%node(k)) = shares(n + lane_beam%node(k)) + 1
         end do
         ! Half a unit for every product and sum, and what condensing a load costs
-        call find_length_errors(lowered, length_error)
+        call find_length_errors(assembled, length_error)
         rounding%of_loads = epsilon(1.0_wp)*(2 + 0.5_wp*maxval(shares)) + maxval(length_error)
         do k = 1, n
-            associate (a => lowered%beam%links(k), b => fine%links(k))
+            associate (a => assembled%beam%links(k), b => fine%links(k))
                 rounding%flexibility(k) = real(max(abs(a%faa - b%faa), abs(a%fab - b%fab), abs(a%fbb - b%fbb), &
                                                    abs(a%sum_a - b%sum_a), abs(a%sum_b - b%sum_b))*(1 + epsilon(1.0_wp)), wp) &
                     + length_error(k)*max(a%faa, abs(a%fab), a%fbb, abs(a%sum_a), abs(a%sum_b))
                 rounding%length(k) = real(abs(a%length - b%length)/b%length, wp) + epsilon(1.0_wp) + length_error(k)
             end associate
-            associate (first => lowered%node_point(k - 1) + 1, last => lowered%node_point(k))
-                rounding%slip(k) = sum(lowered%pieces(first:last)%shear_flexibility*lowered%pieces(first:last)%length)
+            associate (first => assembled%node_point(k - 1) + 1, last => assembled%node_point(k))
+                rounding%slip(k) = sum(assembled%pieces(first:last)%shear_flexibility*assembled%pieces(first:last)%length)
                 ! A link of one piece has nothing to be summed
                 rounding%of_fields(k) = 0.0_wp
                 if (last > first) rounding%of_fields(k) = rounding%of_loads + 6*epsilon(1.0_wp)
@@ -280,13 +281,13 @@ contains
     end subroutine find_rounding
 
     !> The numbers of a certificate in the scene's units
-    pure function in_scene(lowered, numbers) result(found)
-        type(lowered_type), intent(in) :: lowered
+    pure function in_scene(assembled, numbers) result(found)
+        type(assembled_type), intent(in) :: assembled
         !> In the engine's units
         real(wp), intent(in) :: numbers(certificate_numbers)
         real(wp) :: found(certificate_numbers)
 
-        associate (u => lowered%units)
+        associate (u => assembled%units)
             found = numbers
             found(4:) = bound_outside(numbers(4:), [u%deflection, u%force, u%deflection, rotation_unit(u), moment_unit(u), u%force])
         end associate

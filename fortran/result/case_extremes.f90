@@ -1,21 +1,22 @@
-!> Largest and smallest values of the fields of many solved cases of a beam, eight side by side (fortran/lanes), from the solutions
-!> at the nodes: whatever solved them, and whatever the company of a case, its digits are the same
+!> Largest and smallest values of the fields of many solved cases of a beam.
+!> Eight side by side (fortran/lanes), from the solutions at the nodes: whatever solved them, and whatever the company of a case,
+!> its digits are the same.
 module gapbeam_case_extremes
     use gapbeam_kinds, only: wp
     use gapbeam_watch, only: is_stopped
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_memory, gapbeam_stopped
     use gapbeam_law, only: has_laws
     use gapbeam_units, only: moment_unit, rotation_unit, stiffness_unit
-    use gapbeam_lowered, only: lowered_type, point_x
+    use gapbeam_assembled_model, only: assembled_type, point_x
     use gapbeam_solution, only: state_type
     use gapbeam_query, only: extremes_of_fields, fields_in_pieces, field_count
     use gapbeam_cases, only: case_loads_type
     use gapbeam_combinations, only: combination_type, varied_type, combine, solve_combination
     use gapbeam_lane_types, only: lanes, lane_beam_type, lane_pieces_type, pack_type, piece_pack_type, new_pack, new_piece_pack
-    use gapbeam_lane_levels, only: take_columns_at, take_numbers_at, extremes_of_pack_at, fields_of_pack_at, best_level
+    use gapbeam_cpu_dispatch, only: take_columns_at, take_numbers_at, extremes_of_pack_at, fields_of_pack_at, best_level
     use gapbeam_lane_pieces, only: prepare_pieces
     use gapbeam_lane_spans, only: span_room_type, prepare_spans, take_spans, make_pack_links
-    use gapbeam_lane_cases, only: prepare_lanes, take_supports, take_starts, units_of_supports
+    use gapbeam_lane_model, only: prepare_lanes, take_supports, take_starts, units_of_supports
     implicit none
     private
     public :: has_lane_extremes, extremes_of_cases
@@ -26,21 +27,21 @@ module gapbeam_case_extremes
 contains
 
     !> Are the extremes of the cases of a beam found here: no ground, laws, axial system
-    pure function has_lane_extremes(lowered) result(yes)
-        type(lowered_type), intent(in) :: lowered
+    pure function has_lane_extremes(assembled) result(yes)
+        type(assembled_type), intent(in) :: assembled
         logical :: yes
 
-        associate (beam => lowered%beam, units => lowered%units)
-            yes = .not. (allocated(beam%ground) .or. has_laws(beam%supports) .or. allocated(lowered%axial%point)) &
+        associate (beam => assembled%beam, units => assembled%units)
+            yes = .not. (allocated(beam%ground) .or. has_laws(beam%supports) .or. allocated(assembled%axial%point)) &
                 .and. max(abs(units%deflection), abs(units%force), abs(units%length), abs(moment_unit(units)), &
                           abs(rotation_unit(units)), abs(stiffness_unit(units))) < most_power
         end associate
     end function has_lane_extremes
 
     !> Find the extremes of solved cases of such a beam, and fields at places
-    subroutine extremes_of_cases(lowered, loads, factors, values, spans, rule, closed, w, ml, mr, wanted, extremes, places, &
+    subroutine extremes_of_cases(assembled, loads, factors, values, spans, rule, closed, w, ml, mr, wanted, extremes, places, &
                                  piece, distance, fields, status, level)
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: assembled
         !> As for solve_in_lanes
         type(case_loads_type), intent(in) :: loads
         real(wp), intent(in), contiguous :: factors(:, :), values(:, :, :)
@@ -77,9 +78,9 @@ contains
 
         at_level = best_level()
         if (present(level)) at_level = level
-        call prepare_lanes(lowered, loads, size(spans, 2) > 0, beam, made)
-        if (made) call prepare_pieces(lowered, size(beam%links, 1), pieces, made)
-        if (made .and. size(spans, 2) > 0) call prepare_spans(lowered, loads, span_room, made)
+        call prepare_lanes(assembled, loads, size(spans, 2) > 0, beam, made)
+        if (made) call prepare_pieces(assembled, size(beam%links, 1), pieces, made)
+        if (made .and. size(spans, 2) > 0) call prepare_spans(assembled, loads, span_room, made)
         if (made) call new_pack(beam, pack, made)
         if (made) call new_piece_pack(size(pieces%length), along, made)
         stat = 0
@@ -95,16 +96,16 @@ contains
             number = number + 1
             solved(number) = i
         end do
-        call take_supports(lowered, beam%place, pack)
+        call take_supports(assembled, beam%place, pack)
         found(:, :, :) = 0.0_wp
         outside(:) = .false.
         do first = 1, number, lanes
-            if (is_stopped(lowered%beam%watch)) exit
+            if (is_stopped(assembled%beam%watch)) exit
             ! The last lanes repeat the last case
             case_of = [(solved(min(first + l, number)), l=0, lanes - 1)]
             lost = .false.
             if (size(values, 2) > 0) then
-                call take_numbers_at(at_level, beam, units_of_supports(lowered), values, case_of, turned, pack, lost)
+                call take_numbers_at(at_level, beam, units_of_supports(assembled), values, case_of, turned, pack, lost)
             end if
             if (size(spans, 2) > 0) then
                 do l = 1, lanes
@@ -118,27 +119,27 @@ contains
             call take_columns_at(at_level, beam%n + 1, size(w, 2), w, case_of, pack%w)
             call take_columns_at(at_level, beam%n + 1, size(ml, 2), ml, case_of, pack%ml)
             call take_columns_at(at_level, beam%n + 1, size(mr, 2), mr, case_of, pack%mr)
-            call take_starts(lowered, beam%place, closed, case_of, pack)
-            pack%w(:, :) = scale(1.0_wp, -lowered%units%deflection)*pack%w
-            pack%ml(:, :) = scale(1.0_wp, -moment_unit(lowered%units))*pack%ml
-            pack%mr(:, :) = scale(1.0_wp, -moment_unit(lowered%units))*pack%mr
+            call take_starts(assembled, beam%place, closed, case_of, pack)
+            pack%w(:, :) = scale(1.0_wp, -assembled%units%deflection)*pack%w
+            pack%ml(:, :) = scale(1.0_wp, -moment_unit(assembled%units))*pack%ml
+            pack%mr(:, :) = scale(1.0_wp, -moment_unit(assembled%units))*pack%mr
             poor(:) = 1.0_wp
             if (any(wanted) .and. .not. lost) then
                 call extremes_of_pack_at(at_level, beam, pieces, wanted, factors_of, pack, along, found, poor)
             end if
             if (size(piece) > 0 .and. .not. lost) then
                 call fields_of_pack_at(at_level, beam, pieces, factors_of, pack, along, piece, &
-                                       scale(distance, -lowered%units%length), at_places, poor)
+                                       scale(distance, -assembled%units%length), at_places, poor)
             end if
             do l = 1, min(lanes, number - first + 1)
                 i = case_of(l)
                 fits = poor(l) < 0.5_wp .and. .not. outside(l)
-                if (fits) call give_extremes(lowered, wanted, found, l, extremes(:, :, i), places(:, :, i), fits)
-                if (fits) call give_fields(lowered, at_places, l, fields(:, :, i), fits)
+                if (fits) call give_extremes(assembled, wanted, found, l, extremes(:, :, i), places(:, :, i), fits)
+                if (fits) call give_fields(assembled, at_places, l, fields(:, :, i), fits)
                 if (.not. fits) call solve_alone(i)
             end do
         end do
-        if (is_stopped(lowered%beam%watch)) status(:) = gapbeam_stopped
+        if (is_stopped(assembled%beam%watch)) status(:) = gapbeam_stopped
 
     contains
 
@@ -159,10 +160,10 @@ contains
                 own_spans(:, :) = spans(:, :, i)
                 varied%spans => own_spans
             end if
-            associate (still => 0*lowered%model%supports%settlement, m => size(lowered%beam%supports))
-                call combine(lowered, factors(:size(lowered%model%loads), i), still, combined, error, varied)
+            associate (still => 0*assembled%model%supports%settlement, m => size(assembled%beam%supports))
+                call combine(assembled, factors(:size(assembled%model%loads), i), still, combined, error, varied)
                 if (.not. allocated(error)) then
-                    call solve_combination(combined%lowered, rule, closed(:m, i) /= 0, state, error)
+                    call solve_combination(combined%assembled, rule, closed(:m, i) /= 0, state, error)
                 end if
             end associate
             if (allocated(error)) then
@@ -171,10 +172,10 @@ contains
             end if
             status(i) = state%status
             if (state%status /= gapbeam_solved) return
-            call extremes_of_fields(combined%lowered, state, value, x, error)
+            call extremes_of_fields(combined%assembled, state, value, x, error)
             if (.not. allocated(error)) then
-                call fields_in_pieces(combined%lowered, 1.0_wp, state%starts, state%displacement, state%tension, piece, distance, &
-                                      all_fields, error)
+                call fields_in_pieces(combined%assembled, 1.0_wp, state%starts, state%displacement, state%tension, piece, &
+                                      distance, all_fields, error)
             end if
             if (allocated(error)) then
                 status(i) = error%code
@@ -191,8 +192,8 @@ contains
     end subroutine extremes_of_cases
 
     !> The extremes of a case in the scene's units, if these hold them
-    pure subroutine give_extremes(lowered, wanted, found, l, extremes, places, made)
-        type(lowered_type), intent(in) :: lowered
+    pure subroutine give_extremes(assembled, wanted, found, l, extremes, places, made)
+        type(assembled_type), intent(in) :: assembled
         logical, intent(in) :: wanted(4)
         !> By extremes_of_pack, and the lane
         real(wp), intent(in) :: found(lanes, 6, 4)
@@ -202,7 +203,7 @@ contains
         real(wp) :: value
         integer :: powers(4), i, k, piece
 
-        powers = powers_of(lowered)
+        powers = powers_of(assembled)
         made = .true.
         do k = 1, 4
             if (.not. wanted(k)) cycle
@@ -211,14 +212,14 @@ contains
                 made = made .and. abs(value) <= huge(value)
                 piece = int(found(l, 3*i - 1, k))
                 extremes(i, k) = value
-                places(i, k) = point_x(lowered, piece - 1) + scale(found(l, 3*i, k), lowered%units%length)
+                places(i, k) = point_x(assembled, piece - 1) + scale(found(l, 3*i, k), assembled%units%length)
             end do
         end do
     end subroutine give_extremes
 
     !> Fields of a case at places likewise
-    pure subroutine give_fields(lowered, found, l, fields, made)
-        type(lowered_type), intent(in) :: lowered
+    pure subroutine give_fields(assembled, found, l, fields, made)
+        type(assembled_type), intent(in) :: assembled
         !> By fields_of_pack, and the lane
         real(wp), intent(in) :: found(:, :, :)
         integer, intent(in) :: l
@@ -226,7 +227,7 @@ contains
         logical, intent(out) :: made
         integer :: powers(4), i
 
-        powers = powers_of(lowered)
+        powers = powers_of(assembled)
         do i = 1, size(fields, 2)
             fields(:, i) = scale(found(l, i, :), powers)
         end do
@@ -234,11 +235,11 @@ contains
     end subroutine give_fields
 
     !> Exponents of the units of the fields
-    pure function powers_of(lowered) result(powers)
-        type(lowered_type), intent(in) :: lowered
+    pure function powers_of(assembled) result(powers)
+        type(assembled_type), intent(in) :: assembled
         integer :: powers(4)
 
-        associate (units => lowered%units)
+        associate (units => assembled%units)
             powers = [units%deflection, rotation_unit(units), moment_unit(units), units%force]
         end associate
     end function powers_of

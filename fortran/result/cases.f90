@@ -1,4 +1,5 @@
-!> Many load cases of one beam. What each load does alone is condensed once; a case is a sum of that, each load times a factor.
+!> Many load cases of one beam as sums of its loads, each condensed once.
+!> A case is a sum of what each load does alone, times a factor.
 module gapbeam_cases
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved, gapbeam_not_finite, gapbeam_bad_input
@@ -6,14 +7,14 @@ module gapbeam_cases
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, set_loads
     use gapbeam_scheme, only: outcome_type
-    use gapbeam_referee, only: decide_scheme, detail_type
+    use gapbeam_extended_precision, only: decide_scheme, detail_type
     use gapbeam_scene, only: gapbeam_force, gapbeam_couple, gapbeam_axial_force, gapbeam_live
     use gapbeam_units, only: moment_unit
     use gapbeam_law, only: both
-    use gapbeam_lowered, only: lowered_type, is_stretch
-    use gapbeam_lower_supports, only: is_room
-    use gapbeam_lower_loads, only: spread_load, lower_loads
-    use gapbeam_lower_units, only: load_in_units, support_in_units
+    use gapbeam_assembled_model, only: assembled_type, is_stretch
+    use gapbeam_assemble_supports, only: is_room
+    use gapbeam_assemble_loads, only: spread_load, assemble_loads
+    use gapbeam_assemble_units, only: load_in_units, support_in_units
     implicit none
     private
     public :: case_loads_type, split_loads, replace_supports, leave_room, solve_case, take_case, give_case
@@ -37,13 +38,13 @@ module gapbeam_cases
     end type case_loads_type
 
     !> No load on a piece
-    type(piece_load_type), parameter :: nothing = piece_load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
+    type(piece_load_type), parameter :: no_load = piece_load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
 
 contains
 
     !> Condense the loads of a beam one by one
-    subroutine split_loads(lowered, loads, error)
-        type(lowered_type), intent(in) :: lowered
+    subroutine split_loads(assembled, loads, error)
+        type(assembled_type), intent(in) :: assembled
         type(case_loads_type), intent(out) :: loads
         !> No memory
         type(error_type), allocatable, intent(out) :: error
@@ -52,24 +53,24 @@ contains
         real(wp), allocatable :: work(:)
         integer :: i, k, shares, at_nodes, stat
 
-        allocate (on_pieces(size(lowered%pieces)), work(size(lowered%pieces)), link_of(size(lowered%pieces)), stat=stat)
+        allocate (on_pieces(size(assembled%pieces)), work(size(assembled%pieces)), link_of(size(assembled%pieces)), stat=stat)
         if (stat /= 0) then
             call no_memory(error)
             return
         end if
-        on_pieces(:) = nothing
-        do i = 1, size(lowered%beam%links)
-            link_of(lowered%node_point(i - 1) + 1:lowered%node_point(i)) = i
+        on_pieces(:) = no_load
+        do i = 1, size(assembled%beam%links)
+            link_of(assembled%node_point(i - 1) + 1:assembled%node_point(i)) = i
         end do
         shares = 0
         at_nodes = 0
-        do k = 1, size(lowered%model%loads)
-            associate (a => lowered%load_from(k), b => lowered%load_to(k), load => lowered%model%loads(k))
+        do k = 1, size(assembled%model%loads)
+            associate (a => assembled%load_from(k), b => assembled%load_to(k), load => assembled%model%loads(k))
                 if (load%kind == gapbeam_axial_force) cycle
                 if (is_stretch(load) .and. a == b) cycle
                 if (is_stretch(load)) then
                     shares = shares + link_of(b) - link_of(a + 1) + 1
-                else if (lowered%node_of_point(a) >= 0) then
+                else if (assembled%node_of_point(a) >= 0) then
                     at_nodes = at_nodes + 1
                 else
                     shares = shares + 1
@@ -83,28 +84,28 @@ contains
         end if
         shares = 0
         at_nodes = 0
-        do k = 1, size(lowered%model%loads)
-            associate (a => lowered%load_from(k), b => lowered%load_to(k), load => lowered%model%loads(k))
+        do k = 1, size(assembled%model%loads)
+            associate (a => assembled%load_from(k), b => assembled%load_to(k), load => assembled%model%loads(k))
                 if (load%kind == gapbeam_axial_force) cycle
                 if (is_stretch(load) .and. a == b) cycle
                 if (is_stretch(load)) then
-                    call spread_load(lowered, load, a, b, on_pieces)
+                    call spread_load(assembled, load, a, b, on_pieces)
                     do i = a + 1, b
-                        call load_in_units(on_pieces(i), lowered%units)
+                        call load_in_units(on_pieces(i), assembled%units)
                     end do
                     do i = link_of(a + 1), link_of(b)
                         call condense(i)
                     end do
-                    on_pieces(a + 1:b) = nothing
-                else if (lowered%node_of_point(a) >= 0) then
+                    on_pieces(a + 1:b) = no_load
+                else if (assembled%node_of_point(a) >= 0) then
                     at_nodes = at_nodes + 1
-                    loads%of_nodes(at_nodes) = at_node(lowered, k)
+                    loads%of_nodes(at_nodes) = at_node(assembled, k)
                 else
                     if (load%kind == gapbeam_force) on_pieces(a)%force = load%value
                     if (load%kind == gapbeam_couple) on_pieces(a)%couple = load%value
-                    call load_in_units(on_pieces(a), lowered%units)
+                    call load_in_units(on_pieces(a), assembled%units)
                     call condense(link_of(a))
-                    on_pieces(a) = nothing
+                    on_pieces(a) = no_load
                 end if
             end associate
         end do
@@ -116,9 +117,9 @@ contains
             integer, intent(in) :: i
             type(link_type) :: link
 
-            link = lowered%beam%links(i)
-            associate (first => lowered%node_point(i - 1) + 1, last => lowered%node_point(i))
-                call condense_loads(lowered%pieces(first:last), on_pieces(first:last), link, 1, work)
+            link = assembled%beam%links(i)
+            associate (first => assembled%node_point(i - 1) + 1, last => assembled%node_point(i))
+                call condense_loads(assembled%pieces(first:last), on_pieces(first:last), link, 1, work)
             end associate
             shares = shares + 1
             loads%of_links(shares) = share_type(k, i, link%turn_a(1), link%turn_b(1), link%shear_a(1), link%shear_b(1), &
@@ -128,22 +129,22 @@ contains
     end subroutine split_loads
 
     !> What a load does to the node it is at
-    pure function at_node(lowered, load) result(share)
-        type(lowered_type), intent(in) :: lowered
+    pure function at_node(assembled, load) result(share)
+        type(assembled_type), intent(in) :: assembled
         integer, intent(in) :: load
         type(node_share_type) :: share
 
-        share = node_share_type(load, lowered%node_of_point(lowered%load_from(load)), 0.0_wp, 0.0_wp)
-        associate (given => lowered%model%loads(load), units => lowered%units)
+        share = node_share_type(load, assembled%node_of_point(assembled%load_from(load)), 0.0_wp, 0.0_wp)
+        associate (given => assembled%model%loads(load), units => assembled%units)
             if (given%kind == gapbeam_force) share%force = scale(given%value, -units%force)
             if (given%kind == gapbeam_couple) share%couple = scale(given%value, -moment_unit(units))
         end associate
     end function at_node
 
     !> Give the supports of a case other numbers
-    pure subroutine replace_supports(lowered, values, beam, status)
+    pure subroutine replace_supports(assembled, values, beam, status)
         !> The beam, none of whose supports has a law
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: assembled
         !> Settlement, gap and stiffness of every support of the scene, in its units, shape (3, nsupport)
         real(wp), intent(in) :: values(:, :)
         !> The beam of the cases
@@ -155,25 +156,25 @@ contains
 
         status = gapbeam_solved
         do k = 1, size(beam%supports)
-            associate (s => beam%supports(k), given => values(:, lowered%normal(k)))
-                call support_in_units(lowered%units, given(3), given(1) + s%side*given(2), s%stiffness, s%contact, &
+            associate (s => beam%supports(k), given => values(:, assembled%normal(k)))
+                call support_in_units(assembled%units, given(3), given(1) + s%side*given(2), s%stiffness, s%contact, &
                                       lost_stiffness, lost_level)
                 if (lost_stiffness .or. lost_level) status = gapbeam_not_finite
             end associate
         end do
-        if (.not. leave_room(lowered, values)) status = gapbeam_bad_input
+        if (.not. leave_room(assembled, values)) status = gapbeam_bad_input
     end subroutine replace_supports
 
     !> Do rigid supports at one place leave room for each other in a case, as those of a scene must
-    pure function leave_room(lowered, values) result(room)
+    pure function leave_room(assembled, values) result(room)
         !> As for replace_supports
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: assembled
         real(wp), intent(in) :: values(:, :)
         logical :: room
         integer :: i, j, k, lower, upper
 
         room = .true.
-        associate (beam => lowered%beam)
+        associate (beam => assembled%beam)
             do i = 0, size(beam%links)
                 do j = beam%first(i) + 1, beam%first(i + 1) - 1
                     do k = beam%first(i), j - 1
@@ -183,7 +184,7 @@ contains
                             lower = beam%order(k)
                             upper = beam%order(j)
                         end if
-                        associate (a => values(:, lowered%normal(lower)), b => values(:, lowered%normal(upper)), &
+                        associate (a => values(:, assembled%normal(lower)), b => values(:, assembled%normal(upper)), &
                                    side => beam%supports(lower)%side, other => beam%supports(upper)%side)
                             if (min(a(3), b(3)) <= huge(1.0_wp)) cycle
                             room = room .and. side > other &
@@ -252,17 +253,17 @@ contains
     end subroutine solve_case
 
     !> Make the loads of a case those of the beam: all live, each times its factor
-    subroutine take_case(factors, lowered, error)
+    subroutine take_case(factors, assembled, error)
         !> Factor of every load
         real(wp), intent(in) :: factors(:)
-        type(lowered_type), intent(inout) :: lowered
+        type(assembled_type), intent(inout) :: assembled
         !> Numbers out of range, or no memory
         type(error_type), allocatable, intent(out) :: error
 
-        lowered%model%loads%value = factors*lowered%model%loads%value
-        lowered%model%loads%value_to = factors*lowered%model%loads%value_to
-        lowered%model%loads%case = gapbeam_live
-        call lower_loads(lowered, error)
+        assembled%model%loads%value = factors*assembled%model%loads%value
+        assembled%model%loads%value_to = factors*assembled%model%loads%value_to
+        assembled%model%loads%case = gapbeam_live
+        call assemble_loads(assembled, error)
     end subroutine take_case
 
     !> Put the solution of a case into columns of the scene's units, which hold it

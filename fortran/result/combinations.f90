@@ -1,12 +1,12 @@
-!> Combinations of loads: every load times a factor, dead ones as dead ones, and supports that have moved; each solved in a
-!> working scheme of its own, from the same start, so that none depends on those before it
+!> Combinations of loads and moved supports, each solved in a contact state of its own.
+!> Every load is taken times a factor, dead ones as dead ones; each begins from the same start, so none depends on those before.
 module gapbeam_combinations
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_scene, only: model_type
-    use gapbeam_lowered, only: lowered_type, copy_model
-    use gapbeam_lower, only: lower_model
-    use gapbeam_lower_loads, only: lower_loads
+    use gapbeam_assembled_model, only: assembled_type, copy_model
+    use gapbeam_assemble, only: assemble_model
+    use gapbeam_assemble_loads, only: assemble_loads
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_state, only: solve_state
     use gapbeam_support_values, only: support_values
@@ -28,7 +28,7 @@ module gapbeam_combinations
 
     !> A beam under a combination, made again for the next one
     type :: combination_type
-        type(lowered_type), allocatable :: lowered
+        type(assembled_type), allocatable :: assembled
         !> Have supports moved
         logical :: moved = .false.
     end type combination_type
@@ -38,7 +38,7 @@ contains
     !> Put a combination on a beam
     subroutine combine(base, factors, settlements, combined, error, varied)
         !> The beam
-        type(lowered_type), intent(in) :: base
+        type(assembled_type), intent(in) :: base
         !> Factor of every load, shape (nload); the products are within range
         real(wp), intent(in) :: factors(:)
         !> Further movement of every support, down (of an axial one to the right), shape (nsupport)
@@ -55,28 +55,28 @@ contains
         if (present(varied)) moves = moves .or. associated(varied%supports)
         stat = 0
         if (moves .or. combined%moved) then
-            if (allocated(combined%lowered)) deallocate (combined%lowered)
-            allocate (combined%lowered, stat=stat)
-            if (stat == 0) call copy_model(base%model, combined%lowered%model, stat)
-        else if (.not. allocated(combined%lowered)) then
-            allocate (combined%lowered, source=base, stat=stat)
+            if (allocated(combined%assembled)) deallocate (combined%assembled)
+            allocate (combined%assembled, stat=stat)
+            if (stat == 0) call copy_model(base%model, combined%assembled%model, stat)
+        else if (.not. allocated(combined%assembled)) then
+            allocate (combined%assembled, source=base, stat=stat)
         end if
         if (stat /= 0) then
             call no_memory(error)
             return
         end if
-        associate (lowered => combined%lowered, loads => base%model%loads)
-            lowered%model%loads%value = factors*loads%value
-            lowered%model%loads%value_to = factors*loads%value_to
-            if (present(varied)) call take_varied(varied, lowered%model)
+        associate (assembled => combined%assembled, loads => base%model%loads)
+            assembled%model%loads%value = factors*loads%value
+            assembled%model%loads%value_to = factors*loads%value_to
+            if (present(varied)) call take_varied(varied, assembled%model)
             if (moves .or. combined%moved) then
-                lowered%model%supports%settlement = lowered%model%supports%settlement + settlements
-                call lower_model(lowered, error)
+                assembled%model%supports%settlement = assembled%model%supports%settlement + settlements
+                call assemble_model(assembled, error)
             else
-                call lower_loads(lowered, error)
+                call assemble_loads(assembled, error)
             end if
         end associate
-        combined%lowered%beam%watch = base%beam%watch
+        combined%assembled%beam%watch = base%beam%watch
         ! What an error leaves behind is no beam to go on with
         combined%moved = moves .or. allocated(error)
     end subroutine combine
@@ -104,9 +104,9 @@ contains
     end subroutine take_varied
 
     !> Solve a combination at full load
-    subroutine solve_combination(lowered, rule, closed, state, error)
+    subroutine solve_combination(assembled, rule, closed, state, error)
         !> By combine
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: assembled
         !> rule_block or rule_single of gapbeam_search
         integer, intent(in) :: rule
         !> Where the search for the scheme starts, shape (size(beam%supports))
@@ -116,15 +116,15 @@ contains
         !> As for solve_state
         type(error_type), allocatable, intent(out) :: error
 
-        call new_state(lowered, state, error)
+        call new_state(assembled, state, error)
         if (allocated(error)) return
         state%closed(:) = closed
-        call solve_state(lowered, 1.0_wp, rule, state, error)
+        call solve_state(assembled, 1.0_wp, rule, state, error)
     end subroutine solve_combination
 
     !> What a solved combination says, in the user's units
-    subroutine values_of_combination(lowered, state, piece, distance, at_supports, extremes, places, fields, error)
-        type(lowered_type), intent(in) :: lowered
+    subroutine values_of_combination(assembled, state, piece, distance, at_supports, extremes, places, fields, error)
+        type(assembled_type), intent(in) :: assembled
         type(state_type), intent(inout) :: state
         !> Places of the fields: piece, and distance from its left end, shape (n)
         integer, intent(in) :: piece(:)
@@ -139,21 +139,22 @@ contains
         type(error_type), allocatable, intent(out) :: error
         integer :: conditions(size(at_supports, 1))
 
-        call support_values(lowered, state, at_supports(:, 1), at_supports(:, 2), at_supports(:, 3), at_supports(:, 4), conditions)
+        call support_values(assembled, state, at_supports(:, 1), at_supports(:, 2), at_supports(:, 3), at_supports(:, 4), &
+                            conditions)
         extremes(:, field_count + 1) = 0.0_wp
         places(:, field_count + 1) = 0.0_wp
-        call extremes_of_fields(lowered, state, extremes(:, :field_count), places(:, :field_count), error)
+        call extremes_of_fields(assembled, state, extremes(:, :field_count), places(:, :field_count), error)
         if (allocated(state%ground) .and. .not. allocated(error)) then
-            call extremes_of_pressure(lowered, state%ground, extremes(:, field_count + 1), places(:, field_count + 1), error)
+            call extremes_of_pressure(assembled, state%ground, extremes(:, field_count + 1), places(:, field_count + 1), error)
         end if
         if (allocated(error) .or. size(piece) == 0) return
-        if (.not. allocated(state%ground)) call make_starts(lowered, state, error)
+        if (.not. allocated(state%ground)) call make_starts(assembled, state, error)
         if (allocated(error)) return
         fields(field_count + 1, :) = 0.0_wp
-        call fields_in_pieces(lowered, 1.0_wp, state%starts, state%displacement, state%tension, piece, distance, &
+        call fields_in_pieces(assembled, 1.0_wp, state%starts, state%displacement, state%tension, piece, distance, &
                               fields(:field_count, :), error, state%ground)
         if (allocated(state%ground) .and. .not. allocated(error)) then
-            call pressure_in_pieces(lowered, state%ground, piece, distance, fields(field_count + 1, :), error)
+            call pressure_in_pieces(assembled, state%ground, piece, distance, fields(field_count + 1, :), error)
         end if
     end subroutine values_of_combination
 

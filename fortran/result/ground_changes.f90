@@ -1,10 +1,10 @@
-!> Zones of contact as the load changes them: which there are at a load factor, and how those of one become those of another
+!> Zones of contact at one load factor matched with those at another.
 module gapbeam_ground_changes
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_scene, only: gapbeam_both, gapbeam_below, gapbeam_above
-    use gapbeam_lowered, only: lowered_type, point_x
+    use gapbeam_assembled_model, only: assembled_type, point_x
     use gapbeam_ground_solver, only: ground_solution_type
     use gapbeam_ground_zones, only: run_type, ground_runs
     use gapbeam_pieces, only: gapbeam_appears, gapbeam_vanishes, gapbeam_merges, gapbeam_splits, gapbeam_reaches, gapbeam_leaves
@@ -13,7 +13,7 @@ module gapbeam_ground_changes
     public :: zone_type, zone_change_type, find_zones, same_zones, compare_zones
 
     !> Zones of a smaller share of the beam only touch: rounding of the load factor makes them and takes them away
-    real(wp), parameter :: thinnest = 2.0_wp**(-46)
+    real(wp), parameter :: min_zone_length = 2.0_wp**(-46)
 
     !> A zone in which a layer of one-sided ground acts at least on some branch of its law; 1 is the zone of contact
     type :: zone_type
@@ -37,9 +37,9 @@ module gapbeam_ground_changes
 contains
 
     !> The zones of all branches
-    subroutine find_zones(lowered, solution, zones, error)
+    subroutine find_zones(assembled, solution, zones, error)
         !> The beam, and its solution on the ground
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: assembled
         type(ground_solution_type), intent(in) :: solution
         !> By foundation, below before above, by branch, from left to right
         type(zone_type), allocatable, intent(out) :: zones(:)
@@ -50,10 +50,10 @@ contains
         logical, allocatable :: holds_both_ways(:)
         integer :: first, last, branch, most, number, stat
 
-        call ground_runs(lowered, solution, runs, error, only_acts=.true.)
+        call ground_runs(assembled, solution, runs, error, only_acts=.true.)
         if (allocated(error)) return
-        call join_thin(thinnest*point_x(lowered, size(lowered%pieces)), runs)
-        holds_both_ways = find_two_sided(lowered)
+        call join_thin(min_zone_length*point_x(assembled, size(assembled%pieces)), runs)
+        holds_both_ways = find_two_sided(assembled)
         most = 0
         if (size(runs) > 0) most = sum(max(runs%acts, 0))
         allocate (found(most), stat=stat)
@@ -129,21 +129,21 @@ contains
     end function same_layer
 
     !> Which foundations hold both ways without a gap, by a law
-    pure function find_two_sided(lowered) result(two_sided)
-        type(lowered_type), intent(in) :: lowered
+    pure function find_two_sided(assembled) result(two_sided)
+        type(assembled_type), intent(in) :: assembled
         !> Shape (number of foundations)
         logical, allocatable :: two_sided(:)
         logical, allocatable :: below(:), above(:), with_gap(:)
         integer :: k
 
-        associate (n => size(lowered%model%foundations))
+        associate (n => size(assembled%model%foundations))
             allocate (two_sided(n), below(n), above(n), with_gap(n))
         end associate
         below(:) = .false.
         above(:) = .false.
         with_gap(:) = .false.
-        do k = 1, size(lowered%layers)
-            associate (layer => lowered%layers(k), f => lowered%layers(k)%foundation)
+        do k = 1, size(assembled%layers)
+            associate (layer => assembled%layers(k), f => assembled%layers(k)%foundation)
                 below(f) = below(f) .or. layer%side == gapbeam_below
                 above(f) = above(f) .or. layer%side == gapbeam_above
                 with_gap(f) = with_gap(f) .or. abs(layer%contact_a) > 0.0_wp .or. abs(layer%contact_b) > 0.0_wp

@@ -1,4 +1,4 @@
-!> How far a solved beam is from the ground, and where it touches the ground without pressing it
+!> Distance of a solved beam from the ground, and places where it touches without pressing.
 module gapbeam_ground_distance
     use gapbeam_kinds, only: wp
     use gapbeam_element, only: field_type
@@ -6,7 +6,7 @@ module gapbeam_ground_distance
     use gapbeam_ground_laws, only: contact_line, along
     use gapbeam_ground_fields, only: deflection_size
     use gapbeam_ground_solver, only: ground_solution_type
-    use gapbeam_lowered, only: lowered_type
+    use gapbeam_assembled_model, only: assembled_type
     use gapbeam_ground_query, only: values_in, curved_in, peaks_in
     implicit none
     private
@@ -19,8 +19,8 @@ contains
 
     !> Where the distance between the beam and the line at which a layer begins to act is stationary inside a stretch: their
     !> difference is the deflection under the load less what the ground would take of it along the line
-    subroutine peaks_beside(lowered, solution, i, k, xi, number)
-        type(lowered_type), intent(in) :: lowered
+    subroutine peaks_beside(assembled, solution, i, k, xi, number)
+        type(assembled_type), intent(in) :: assembled
         type(ground_solution_type), intent(in) :: solution
         !> Stretch and layer
         integer, intent(in) :: i, k
@@ -29,15 +29,15 @@ contains
         type(curved_type), allocatable :: curved
         real(wp) :: line(2)
 
-        call curved_in(lowered, solution, i, curved)
-        line(:) = contact_line(lowered%layers(k), [solution%from(i), solution%to(i)], lowered%pieces(solution%piece(i))%length)
+        call curved_in(assembled, solution, i, curved)
+        line(:) = contact_line(assembled%layers(k), [solution%from(i), solution%to(i)], assembled%pieces(solution%piece(i))%length)
         call peaks_in(solution, i, 1, (line(2) - line(1))/solution%stretches(i)%length, curved, xi, number)
     end subroutine peaks_beside
 
     !> Largest distance of the beam from every layer under its stretches, and where it touches one without pressing it
-    subroutine largest_ways(lowered, solution, way, touch)
+    subroutine largest_ways(assembled, solution, way, touch)
         !> The beam, and its solution
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: assembled
         type(ground_solution_type), intent(in) :: solution
         !> In the engine's units, 0 where the layer acts all along, shape (most layers, stretches)
         real(wp), intent(out) :: way(:, :)
@@ -50,15 +50,15 @@ contains
         way(:, :) = 0.0_wp
         touch(:, :, :) = -1.0_wp
         do i = 1, size(solution%piece)
-            associate (first => lowered%layer_first(solution%piece(i)), last => lowered%layer_first(solution%piece(i) + 1) - 1)
+            associate (first => assembled%layer_first(solution%piece(i)), last => assembled%layer_first(solution%piece(i) + 1) - 1)
                 do k = first, last
                     if (solution%acts(k - first + 1, i) > 0) cycle
-                    call peaks_beside(lowered, solution, i, k, xi, number)
-                    call look_at(0.0_wp)
+                    call peaks_beside(assembled, solution, i, k, xi, number)
+                    call check_at(0.0_wp)
                     do j = 1, number
-                        call look_at(xi(j))
+                        call check_at(xi(j))
                     end do
-                    call look_at(1.0_wp)
+                    call check_at(1.0_wp)
                 end do
             end associate
         end do
@@ -66,13 +66,13 @@ contains
     contains
 
         !> Ask for the distance at a place of the stretch
-        subroutine look_at(at)
+        subroutine check_at(at)
             real(wp), intent(in) :: at
             real(wp) :: distance, rounding
 
-            call distance_at(lowered, solution, i, k, at, distance, rounding)
-            associate (most => way(k - lowered%layer_first(solution%piece(i)) + 1, i), &
-                       places => touch(:, k - lowered%layer_first(solution%piece(i)) + 1, i))
+            call distance_at(assembled, solution, i, k, at, distance, rounding)
+            associate (most => way(k - assembled%layer_first(solution%piece(i)) + 1, i), &
+                       places => touch(:, k - assembled%layer_first(solution%piece(i)) + 1, i))
                 most = max(most, distance)
                 if (abs(distance) > touching*rounding) return
                 if (places(1) < 0.0_wp) then
@@ -81,14 +81,14 @@ contains
                     places(2) = at
                 end if
             end associate
-        end subroutine look_at
+        end subroutine check_at
 
     end subroutine largest_ways
 
     !> Distance between the beam and the line at which a layer begins to act, and the size of what it is the difference of
-    pure subroutine distance_at(lowered, solution, i, k, at, distance, rounding)
+    pure subroutine distance_at(assembled, solution, i, k, at, distance, rounding)
         !> As for largest_ways
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: assembled
         type(ground_solution_type), intent(in) :: solution
         !> Stretch, layer, and share of the stretch
         integer, intent(in) :: i, k
@@ -98,19 +98,19 @@ contains
         type(field_type) :: field
         real(wp) :: line
 
-        associate (layer => lowered%layers(k))
-            call values_in(lowered, solution, i, at, field)
+        associate (layer => assembled%layers(k))
+            call values_in(assembled, solution, i, at, field)
             line = contact_line(layer, along(solution%from(i), solution%to(i), at, 1.0_wp), &
-                                lowered%pieces(solution%piece(i))%length)
+                                assembled%pieces(solution%piece(i))%length)
             distance = layer%side*(line - field%deflection)
             rounding = deflection_size(solution, i) + abs(line)
         end associate
     end subroutine distance_at
 
     !> Is a stretch in which a layer acts pressed into it by nothing but rounding
-    pure function is_shallow(lowered, solution, i, k) result(shallow)
+    pure function is_shallow(assembled, solution, i, k) result(shallow)
         !> As for largest_ways
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: assembled
         type(ground_solution_type), intent(in) :: solution
         !> Stretch and layer
         integer, intent(in) :: i, k
@@ -120,7 +120,7 @@ contains
 
         shallow = .true.
         do j = 0, 4
-            call distance_at(lowered, solution, i, k, j/4.0_wp, distance, rounding)
+            call distance_at(assembled, solution, i, k, j/4.0_wp, distance, rounding)
             shallow = shallow .and. abs(distance) <= touching*rounding
         end do
     end function is_shallow

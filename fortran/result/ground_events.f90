@@ -1,17 +1,17 @@
-!> The load path of a beam on the ground, event by event and segment by segment
+!> Load path of a beam on the ground, event by event and segment by segment.
 module gapbeam_ground_events
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
-    use gapbeam_polyline, only: last_kink
-    use gapbeam_lowered, only: lowered_type, point_x
-    use gapbeam_pieces, only: acting_type, acting_piece, what_happens, nothing, gapbeam_merges, gapbeam_splits
+    use gapbeam_polyline, only: last_breakpoint
+    use gapbeam_assembled_model, only: assembled_type, point_x
+    use gapbeam_pieces, only: acting_type, acting_piece, what_happens, no_change, gapbeam_merges, gapbeam_splits
     use gapbeam_zone_margin, only: change_type
     use gapbeam_ground_start, only: ground_start_type
     use gapbeam_ground_changes, only: zone_type, zone_change_type, same_zones, compare_zones
     implicit none
     private
     public :: ground_path_type, ground_event_type, ground_segment_type, held_type, new_path, &
-              note_changes, list_changes, add_segment, alike
+              note_changes, list_changes, add_segment, same_contact
 
     !> A change of what holds the beam
     type :: ground_event_type
@@ -23,7 +23,7 @@ module gapbeam_ground_events
         integer :: branch = 1
         !> Of a support: gapbeam_opens, gapbeam_closes, with a law also gapbeam_yields, gapbeam_hardens, gapbeam_unloads; of a zone:
         !> gapbeam_appears, gapbeam_vanishes, gapbeam_merges, gapbeam_splits; of its ends: gapbeam_reaches, gapbeam_leaves
-        integer :: change = nothing
+        integer :: change = no_change
     end type ground_event_type
 
     !> Between two load factors the same acts
@@ -69,8 +69,8 @@ contains
     end subroutine new_path
 
     !> The events between two factors in the order of their factors; at the same one of supports, then of zones
-    subroutine note_changes(lowered, before, after, factor, place, path, error)
-        type(lowered_type), intent(in) :: lowered
+    subroutine note_changes(assembled, before, after, factor, place, path, error)
+        type(assembled_type), intent(in) :: assembled
         type(held_type), intent(in) :: before, after
         !> Of the changes as listed by list_changes: load factor, and place in the user's units; that of a zone below zero: where it
         !> is between the zones before and after
@@ -83,15 +83,15 @@ contains
 
         begin = path%number
         n = 0
-        associate (supports => lowered%beam%supports, changed => before%closed .neqv. after%closed)
+        associate (supports => assembled%beam%supports, changed => before%closed .neqv. after%closed)
             k = 1
             do while (k <= size(supports))
                 last = k
-                if (supports(k)%kink > 0) last = last_kink(supports, k)
-                what = change_of(lowered, k, last, before, after)
-                if (what /= nothing) then
-                    associate (s => lowered%normal(k), point => lowered%support_point(lowered%normal(k)))
-                        call add_event(ground_event_type(factor(n + 1), point_x(lowered, point), support=s, change=what), begin, &
+                if (supports(k)%breakpoint > 0) last = last_breakpoint(supports, k)
+                what = change_of(assembled, k, last, before, after)
+                if (what /= no_change) then
+                    associate (s => assembled%normal(k), point => assembled%support_point(assembled%normal(k)))
+                        call add_event(ground_event_type(factor(n + 1), point_x(assembled, point), support=s, change=what), begin, &
                                        path, error)
                     end associate
                     if (allocated(error)) return
@@ -111,8 +111,8 @@ contains
     end subroutine note_changes
 
     !> The changes between two factors as the engine looks for them
-    subroutine list_changes(lowered, before, after, list)
-        type(lowered_type), intent(in) :: lowered
+    subroutine list_changes(assembled, before, after, list)
+        type(assembled_type), intent(in) :: assembled
         type(held_type), intent(in) :: before, after
         !> Of supports, then of zones
         type(change_type), allocatable, intent(out) :: list(:)
@@ -128,7 +128,7 @@ contains
             list(n) = change_type(support=k, closed=before%closed(k))
         end do
         do k = 1, number
-            associate (c => changes(k), power => -lowered%units%length)
+            associate (c => changes(k), power => -assembled%units%length)
                 list(n + k) = change_type(foundation=c%foundation, side=c%side, branch=c%branch, from=scale(c%from, power), &
                                           to=scale(c%to, power), &
                                           greatest=c%change /= gapbeam_merges .and. c%change /= gapbeam_splits)
@@ -136,17 +136,18 @@ contains
         end do
     end subroutine list_changes
 
-    !> What happens to a support, one entry of the engine or the kinks of a law
-    function change_of(lowered, first, last, before, after) result(change)
-        type(lowered_type), intent(in) :: lowered
+    !> What happens to a support, one entry of the engine or the breakpoints of a law
+    function change_of(assembled, first, last, before, after) result(change)
+        type(assembled_type), intent(in) :: assembled
         integer, intent(in) :: first, last
         type(held_type), intent(in) :: before, after
         integer :: change
         type(acting_type) :: was, is
 
-        associate (kinks => lowered%beam%supports(first:last), side => lowered%model%supports(lowered%normal(first))%side)
-            was = acting_piece(kinks, side, before%closed(first:last))
-            is = acting_piece(kinks, side, after%closed(first:last))
+        associate (breakpoints => assembled%beam%supports(first:last), &
+                   side => assembled%model%supports(assembled%normal(first))%side)
+            was = acting_piece(breakpoints, side, before%closed(first:last))
+            is = acting_piece(breakpoints, side, after%closed(first:last))
         end associate
         change = what_happens(was, is)
     end function change_of
@@ -210,13 +211,13 @@ contains
     end subroutine add_segment
 
     !> Does the same hold the beam: the same supports, and as many zones with ends of the same kind
-    pure function alike(held, other) result(same)
+    pure function same_contact(held, other) result(same)
         type(held_type), intent(in) :: held, other
         logical :: same
 
         same = held%stands .and. other%stands
         if (same) same = all(held%closed .eqv. other%closed)
         if (same) same = same_zones(held%zones, other%zones)
-    end function alike
+    end function same_contact
 
 end module gapbeam_ground_events

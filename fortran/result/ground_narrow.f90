@@ -1,4 +1,5 @@
-!> The first change of what holds a beam on the ground between two load factors: its own factor, and states on both sides of it.
+!> First change of the contact of a beam on the ground between two load factors.
+!> Its own factor, and states on both sides of it.
 !>
 !> Where the change is to be expected is computed (gapbeam_ground_crossing); states next to that factor tell whether it is so. What
 !> cannot be computed is found by bisection. The last factor below which there is equilibrium is where loads begin to do work along
@@ -9,8 +10,8 @@ module gapbeam_ground_narrow
     use gapbeam_kinematics, only: work_of_loads
     use gapbeam_zone_margin, only: change_type
     use gapbeam_ground_crossing, only: crossing_type, find_crossing, refine_crossing
-    use gapbeam_lowered, only: lowered_type, point_x
-    use gapbeam_ground_events, only: held_type, list_changes, alike
+    use gapbeam_assembled_model, only: assembled_type, point_x
+    use gapbeam_ground_events, only: held_type, list_changes, same_contact
     use gapbeam_ground_walk, only: walk_type, hold, make_sure
     implicit none
     private
@@ -33,9 +34,9 @@ module gapbeam_ground_narrow
 contains
 
     !> Factors around the first change between two, what holds the beam there, and factors and places of what changes
-    subroutine narrow(lowered, walk, low, below, high, above, earlier, at_earlier, levels_off, factors, places, error)
+    subroutine narrow(assembled, walk, low, below, high, above, earlier, at_earlier, levels_off, factors, places, error)
         !> The beam on its way
-        type(lowered_type), intent(in), target :: lowered
+        type(assembled_type), intent(in), target :: assembled
         type(walk_type), intent(inout) :: walk
         !> Load factors around the change, and what holds the beam there
         real(wp), intent(inout) :: low, high
@@ -57,33 +58,33 @@ contains
         logical :: found
 
         found = .false.
-        if (.not. above%stands) call approach_limit(lowered, walk, low, below, high, above, error)
+        if (.not. above%stands) call approach_limit(assembled, walk, low, below, high, above, error)
         if (allocated(error)) return
         do guesses = 1, most_guesses
             far_low = low
             far_high = high
             far_below = below
             far_above = above
-            call guess_factor(lowered, walk, low, below, high, above, crossing, found)
+            call guess_factor(assembled, walk, low, below, high, above, crossing, found)
             if (.not. found .and. earlier < low) then
                 ! It may have happened next to the lower factor already
-                call guess_factor(lowered, walk, earlier, at_earlier, high, above, crossing, found)
+                call guess_factor(assembled, walk, earlier, at_earlier, high, above, crossing, found)
                 found = found .and. crossing%factor > low*(1 - farthest)
                 if (found) far_low = earlier
                 if (found) far_below = at_earlier
             end if
             if (.not. found) exit
-            call confirm(lowered, walk, crossing, low, below, high, above, found, error)
+            call confirm(assembled, walk, crossing, low, below, high, above, found, error)
             if (allocated(error)) return
             if (found .or. .not. above%stands) exit
         end do
-        if (.not. found) call bisect(lowered, walk, low, below, high, above, levels_off, error)
+        if (.not. found) call bisect(assembled, walk, low, below, high, above, levels_off, error)
         if (allocated(error)) return
-        call make_sure(lowered, walk, low, below, error)
+        call make_sure(assembled, walk, low, below, error)
         if (allocated(error) .or. walk%misled .or. .not. above%stands) return
-        call make_sure(lowered, walk, high, above, error)
+        call make_sure(assembled, walk, high, above, error)
         if (allocated(error) .or. walk%misled) return
-        call list_changes(lowered, below, above, changes)
+        call list_changes(assembled, below, above, changes)
         allocate (factors(size(changes)), places(size(changes)))
         factors(:) = high
         places(:) = -1.0_wp
@@ -97,14 +98,14 @@ contains
                 if (.not. found .or. abs(crossing%factor - factors(i)) > high - low) cycle
                 factors(i) = crossing%factor
             end if
-            if (changes(i)%to > changes(i)%from) places(i) = place_of(lowered, crossing%place)
+            if (changes(i)%to > changes(i)%from) places(i) = place_of(assembled, crossing%place)
         end do
     end subroutine narrow
 
     !> Is a factor that of the first change between two others: states just below and just above it tell
-    subroutine confirm(lowered, walk, crossing, low, below, high, above, found, error)
+    subroutine confirm(assembled, walk, crossing, low, below, high, above, found, error)
         !> As for narrow
-        type(lowered_type), intent(in), target :: lowered
+        type(assembled_type), intent(in), target :: assembled
         type(walk_type), intent(inout) :: walk
         type(crossing_type), intent(in) :: crossing
         real(wp), intent(inout) :: low, high
@@ -112,26 +113,26 @@ contains
         logical, intent(out) :: found
         !> As for solve_state
         type(error_type), allocatable, intent(out) :: error
-        type(held_type) :: between, beside
+        type(held_type) :: between, neighbour
         real(wp) :: guess, reach
         logical :: others
 
         found = .false.
         guess = crossing%factor
-        beside%stands = .true.
-        beside%start = crossing%start
+        neighbour%stands = .true.
+        neighbour%start = crossing%start
         reach = nearest*guess
         do while (guess - reach > low)
-            call hold(lowered, walk, guess - reach, between, error, beside)
+            call hold(assembled, walk, guess - reach, between, error, neighbour)
             if (allocated(error)) return
             if (between%stands .or. .not. allocated(walk%trouble)) then
-                if (alike(below, between)) then
+                if (same_contact(below, between)) then
                     low = guess - reach
                     below = between
                     exit
                 end if
                 ! There is another change before, or states do not tell so near to it
-                others = .not. alike(between, above)
+                others = .not. same_contact(between, above)
                 high = guess - reach
                 above = between
                 if (others) return
@@ -141,10 +142,10 @@ contains
         end do
         reach = nearest*guess
         do while (guess + reach < high)
-            call hold(lowered, walk, guess + reach, between, error, beside)
+            call hold(assembled, walk, guess + reach, between, error, neighbour)
             if (allocated(error)) return
             if (between%stands .or. .not. allocated(walk%trouble)) then
-                if (.not. alike(below, between)) then
+                if (.not. same_contact(below, between)) then
                     high = guess + reach
                     above = between
                     exit
@@ -159,9 +160,9 @@ contains
     end subroutine confirm
 
     !> Where the first change between two factors is to be expected
-    subroutine guess_factor(lowered, walk, low, below, high, above, first, found)
+    subroutine guess_factor(assembled, walk, low, below, high, above, first, found)
         !> As for narrow
-        type(lowered_type), intent(in), target :: lowered
+        type(assembled_type), intent(in), target :: assembled
         type(walk_type), intent(inout) :: walk
         real(wp), intent(in) :: low, high
         type(held_type), intent(in) :: below, above
@@ -175,7 +176,7 @@ contains
 
         found = .false.
         if (.not. above%stands) return
-        call list_changes(lowered, below, above, changes)
+        call list_changes(assembled, below, above, changes)
         do i = 1, size(changes)
             call find_crossing(walk%ground, walk%rule, changes(i), low, below%start, high, above%start, crossing, &
                                walk%solves, known)
@@ -191,9 +192,9 @@ contains
     end subroutine guess_factor
 
     !> Bring two factors nearer to the one above which there is no equilibrium: where it begins, loads do no work along the motion
-    subroutine approach_limit(lowered, walk, low, below, high, above, error)
+    subroutine approach_limit(assembled, walk, low, below, high, above, error)
         !> As for narrow
-        type(lowered_type), intent(in), target :: lowered
+        type(assembled_type), intent(in), target :: assembled
         type(walk_type), intent(inout) :: walk
         real(wp), intent(inout) :: low, high
         type(held_type), intent(inout) :: below, above
@@ -210,18 +211,18 @@ contains
             ! States may end before, where they are told from others
             if (guess*(1 - reach) >= high .and. guess*(1 - wider*reach) < high) reach = wider*reach
             if (.not. (guess*(1 - reach) > low .and. guess*(1 - reach) < high)) return
-            call hold(lowered, walk, guess*(1 - reach), between, error, below)
+            call hold(assembled, walk, guess*(1 - reach), between, error, below)
             if (allocated(error)) return
-            if (alike(below, between)) exit
+            if (same_contact(below, between)) exit
             if (.not. between%stands .and. allocated(walk%trouble)) return
             high = guess*(1 - reach)
             above = between
         end do
-        if (above%stands .or. .not. alike(below, between)) return
+        if (above%stands .or. .not. same_contact(below, between)) return
         low = guess*(1 - reach)
         below = between
         if (guess*(1 + reach) >= high) return
-        call hold(lowered, walk, guess*(1 + reach), between, error)
+        call hold(assembled, walk, guess*(1 + reach), between, error)
         if (allocated(error) .or. between%stands) return
         high = guess*(1 + reach)
         above = between
@@ -245,9 +246,9 @@ contains
     end function factor_without_work
 
     !> Neighbouring factors around the first change between two, and what holds the beam there
-    subroutine bisect(lowered, walk, low, below, high, above, levels_off, error)
+    subroutine bisect(assembled, walk, low, below, high, above, levels_off, error)
         !> As for narrow
-        type(lowered_type), intent(in), target :: lowered
+        type(assembled_type), intent(in), target :: assembled
         type(walk_type), intent(inout) :: walk
         real(wp), intent(inout) :: low, high
         type(held_type), intent(inout) :: below, above
@@ -269,9 +270,9 @@ contains
                 if (allocated(walk%trouble) .and. high - low <= near*high) exit
                 if (levels_off .and. high - low <= near_on_curves*high) exit
             end if
-            call hold(lowered, walk, middle, between, error, below)
+            call hold(assembled, walk, middle, between, error, below)
             if (allocated(error)) return
-            if (alike(below, between)) then
+            if (same_contact(below, between)) then
                 low = middle
                 below = between
             else
@@ -286,18 +287,18 @@ contains
     end subroutine bisect
 
     !> A place in the user's units; next to an end of a piece of the beam that end, since rounding tells no more
-    pure function place_of(lowered, distance) result(x)
-        type(lowered_type), intent(in) :: lowered
+    pure function place_of(assembled, distance) result(x)
+        type(assembled_type), intent(in) :: assembled
         !> From the left end of the beam
         real(wp), intent(in) :: distance
         real(wp) :: x
         integer :: j
 
-        x = max(0.0_wp, scale(distance, lowered%units%length))
-        associate (n => size(lowered%pieces))
+        x = max(0.0_wp, scale(distance, assembled%units%length))
+        associate (n => size(assembled%pieces))
             do j = 0, n
-                if (abs(x - point_x(lowered, j)) > 4*epsilon(x)*point_x(lowered, n)) cycle
-                x = point_x(lowered, j)
+                if (abs(x - point_x(assembled, j)) > 4*epsilon(x)*point_x(assembled, n)) cycle
+                x = point_x(assembled, j)
                 return
             end do
         end associate

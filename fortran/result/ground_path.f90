@@ -1,4 +1,4 @@
-!> The load path of a beam on the ground: every change of zones of contact and of supports at its load factor.
+!> Load path of a beam on the ground: changes of zones of contact and supports at their factors.
 !>
 !> Between two changes the ends of the zones move smoothly with the load, and no formula gives the factor of the next change. So
 !> the beam is looked at on a grid of factors, and where what acts differs between two neighbours, the changes between them are
@@ -8,11 +8,11 @@ module gapbeam_ground_path
     use gapbeam_error, only: error_type
     use gapbeam_layers, only: has_limit, has_curves
     use gapbeam_ground_solver, only: limit_on_ground
-    use gapbeam_lowered, only: lowered_type
+    use gapbeam_assembled_model, only: assembled_type
     use gapbeam_solution, only: state_type
     use gapbeam_state, only: detail_of
-    use gapbeam_ground_events, only: ground_path_type, held_type, new_path, note_changes, add_segment, alike
-    use gapbeam_ground_walk, only: walk_type, begin_walk, look, hold, make_sure
+    use gapbeam_ground_events, only: ground_path_type, held_type, new_path, note_changes, add_segment, same_contact
+    use gapbeam_ground_walk, only: walk_type, begin_walk, solve_near, hold, make_sure
     use gapbeam_ground_narrow, only: narrow
     implicit none
     private
@@ -30,9 +30,9 @@ module gapbeam_ground_path
 contains
 
     !> Follow the load from factor 0 upwards
-    subroutine follow_on_ground(lowered, factor, rule, state, path, error)
+    subroutine follow_on_ground(assembled, factor, rule, state, path, error)
         !> A beam on the ground
-        type(lowered_type), intent(in), target :: lowered
+        type(assembled_type), intent(in), target :: assembled
         !> Where the path ends, above 0
         real(wp), intent(in) :: factor
         !> rule_block or rule_single
@@ -45,17 +45,17 @@ contains
         type(error_type), allocatable, intent(out) :: error
         type(walk_type) :: walk
 
-        call begin_walk(lowered, factor, rule, state, walk)
+        call begin_walk(assembled, factor, rule, state, walk)
         call new_path(path)
         path%beyond = factor
-        call go_along(lowered, walk, path, error)
+        call go_along(assembled, walk, path, error)
         path%solves = walk%solves
         state = walk%state
     end subroutine follow_on_ground
 
     !> Go along the whole way
-    subroutine go_along(lowered, walk, path, error)
-        type(lowered_type), intent(in), target :: lowered
+    subroutine go_along(assembled, walk, path, error)
+        type(assembled_type), intent(in), target :: assembled
         type(walk_type), intent(inout) :: walk
         type(ground_path_type), intent(inout) :: path
         !> As for solve_state
@@ -68,12 +68,12 @@ contains
         logical :: yields, levels_off
         integer :: k
 
-        call find_limits(lowered, yields, levels_off)
+        call find_limits(assembled, yields, levels_off)
         associate (factor => walk%last)
             do k = 1, size(begin_powers)
                 at = factor*2.0_wp**begin_powers(k)
                 if (allocated(walk%trouble)) deallocate (walk%trouble)
-                call hold(lowered, walk, at, now, error)
+                call hold(assembled, walk, at, now, error)
                 if (allocated(error)) return
                 if (.not. allocated(walk%trouble)) exit
             end do
@@ -91,21 +91,21 @@ contains
             k = 1
             do while (k <= parts)
                 next = factor*(real(k, wp)/parts)
-                call look(lowered, walk, next, now, then, error)
+                call solve_near(assembled, walk, next, now, then, error)
                 if (allocated(error)) return
-                do while (.not. alike(now, then))
+                do while (.not. same_contact(now, then))
                     low = at
                     high = next
                     below = now
                     above = then
                     if (.not. then%stands) then
-                        call make_sure(lowered, walk, low, below, error)
+                        call make_sure(assembled, walk, low, below, error)
                         if (allocated(error)) return
                         if (walk%misled) exit
                         call go_to_limit(low, high, below, above)
                         if (allocated(error) .or. path%at_limit) return
                     end if
-                    call narrow(lowered, walk, low, below, high, above, at_earlier, earlier, levels_off, factors, places, error)
+                    call narrow(assembled, walk, low, below, high, above, at_earlier, earlier, levels_off, factors, places, error)
                     if (allocated(error)) return
                     if (walk%misled) exit
                     if (.not. above%stands) then
@@ -114,7 +114,7 @@ contains
                         path%at_limit = yields .and. low > 0.0_wp
                         return
                     end if
-                    call note_changes(lowered, below, above, factors, places, path, error)
+                    call note_changes(assembled, below, above, factors, places, path, error)
                     if (allocated(error)) return
                     call add_segment(minval(factors), above, path, error)
                     if (allocated(error)) return
@@ -149,7 +149,7 @@ contains
                 k = k + 1
             end do
             path%last = factor
-            if (walk%state%factor < factor) call hold(lowered, walk, factor, now, error)
+            if (walk%state%factor < factor) call hold(assembled, walk, factor, now, error)
         end associate
 
     contains
@@ -168,22 +168,22 @@ contains
             if (.not. levels_off) return
             bears = low
             beyond = high
-            call limit_on_ground(walk%ground, detail_of(lowered), bears, beyond, found)
+            call limit_on_ground(walk%ground, detail_of(assembled), bears, beyond, found)
             if (.not. found) return
             do k = 1, size(missing_powers)
                 last = bears*(1 - 2.0_wp**missing_powers(k))
                 if (last <= low) return
-                call hold(lowered, walk, last, held, error, below)
+                call hold(assembled, walk, last, held, error, below)
                 if (allocated(error)) return
                 if (held%stands) exit
             end do
             if (.not. held%stands) return
-            if (.not. alike(below, held)) then
+            if (.not. same_contact(below, held)) then
                 high = last
                 above = held
                 return
             end if
-            call hold(lowered, walk, beyond, held, error)
+            call hold(assembled, walk, beyond, held, error)
             if (allocated(error)) return
             path%last = last
             path%beyond = beyond
@@ -200,13 +200,13 @@ contains
             path%beyond = last
             if (.not. allocated(walk%trouble)) then
                 if (levels_off) path%beyond = above
-                call hold(lowered, walk, above, held, error)
+                call hold(assembled, walk, above, held, error)
                 return
             end if
             allocate (first_trouble, source=walk%trouble)
             do power = -50, -9, 4
                 path%beyond = last*(1 + 2.0_wp**power)
-                call hold(lowered, walk, path%beyond, held, error)
+                call hold(assembled, walk, path%beyond, held, error)
                 if (allocated(error)) return
                 if (.not. held%stands .and. .not. allocated(walk%trouble)) return
             end do
@@ -216,16 +216,16 @@ contains
     end subroutine go_along
 
     !> Does some ground carry no more than so much, and does it come to that on a curve
-    pure subroutine find_limits(lowered, yields, levels_off)
-        type(lowered_type), intent(in) :: lowered
+    pure subroutine find_limits(assembled, yields, levels_off)
+        type(assembled_type), intent(in) :: assembled
         logical, intent(out) :: yields, levels_off
         integer :: k
 
         yields = .false.
         levels_off = .false.
-        do k = 1, size(lowered%layers)
-            associate (layer => lowered%layers(k))
-                if (.not. has_limit(layer, lowered%law_pieces)) cycle
+        do k = 1, size(assembled%layers)
+            associate (layer => assembled%layers(k))
+                if (.not. has_limit(layer, assembled%law_pieces)) cycle
                 yields = .true.
                 levels_off = levels_off .or. has_curves(layer)
             end associate

@@ -1,4 +1,4 @@
-!> The pressure of the ground on a solved beam, anywhere along it, and its extremes
+!> Pressure of the ground on a solved beam, anywhere along it, and its extremes.
 module gapbeam_ground_pressure
     use gapbeam_kinds, only: wp
     use gapbeam_element, only: field_type
@@ -6,7 +6,7 @@ module gapbeam_ground_pressure
     use gapbeam_curved, only: curved_type
     use gapbeam_ground_laws, only: contact_line, slope_of_layer, along, push_of_layer
     use gapbeam_ground_solver, only: ground_solution_type
-    use gapbeam_lowered, only: lowered_type
+    use gapbeam_assembled_model, only: assembled_type
     use gapbeam_ground_query, only: stretch_of, share_of, values_in, peaks_in
     implicit none
     private
@@ -15,9 +15,9 @@ module gapbeam_ground_pressure
 contains
 
     !> Pressure of all ground on the beam at distances from the left ends of pieces, force per length, up
-    pure subroutine ground_pressure(lowered, solution, piece, distance, pressure)
+    pure subroutine ground_pressure(assembled, solution, piece, distance, pressure)
         !> The beam, and its solution
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: assembled
         type(ground_solution_type), intent(in) :: solution
         !> As for ground_values
         integer, intent(in) :: piece(:)
@@ -28,13 +28,13 @@ contains
 
         do k = 1, size(piece)
             i = stretch_of(solution, piece(k), distance(k))
-            pressure(k) = pressure_in(lowered, solution, i, share_of(solution, i, distance(k)))
+            pressure(k) = pressure_in(assembled, solution, i, share_of(solution, i, distance(k)))
         end do
     end subroutine ground_pressure
 
     !> Pressure of all layers inside a stretch
-    pure function pressure_in(lowered, solution, i, xi) result(pressure)
-        type(lowered_type), intent(in) :: lowered
+    pure function pressure_in(assembled, solution, i, xi) result(pressure)
+        type(assembled_type), intent(in) :: assembled
         type(ground_solution_type), intent(in) :: solution
         integer, intent(in) :: i
         real(wp), intent(in) :: xi
@@ -43,21 +43,21 @@ contains
         integer :: k
 
         pressure = 0.0_wp
-        call values_in(lowered, solution, i, xi, field)
+        call values_in(assembled, solution, i, xi, field)
         associate (j => solution%piece(i))
             place = along(solution%from(i), solution%to(i), xi, 1.0_wp)
-            do k = lowered%layer_first(j), lowered%layer_first(j + 1) - 1
-                pressure = pressure + push_of_layer(lowered%layers(k), lowered%law_pieces, &
-                                                    solution%acts(k - lowered%layer_first(j) + 1, i), place, &
-                                                    lowered%pieces(j)%length, field%deflection)
+            do k = assembled%layer_first(j), assembled%layer_first(j + 1) - 1
+                pressure = pressure + push_of_layer(assembled%layers(k), assembled%law_pieces, &
+                                                    solution%acts(k - assembled%layer_first(j) + 1, i), place, &
+                                                    assembled%pieces(j)%length, field%deflection)
             end do
         end associate
     end function pressure_in
 
     !> Where the pressure of all layers is stationary inside a stretch in which no modulus varies: it is the sum of the moduli by
     !> the distance of the deflection from the mean of the lines at which the layers begin to act, weighted by these
-    subroutine peaks_of_pressure(lowered, solution, i, xi, number)
-        type(lowered_type), intent(in) :: lowered
+    subroutine peaks_of_pressure(assembled, solution, i, xi, number)
+        type(assembled_type), intent(in) :: assembled
         type(ground_solution_type), intent(in) :: solution
         !> Stretch
         integer, intent(in) :: i
@@ -70,11 +70,11 @@ contains
         modulus = 0.0_wp
         rise = 0.0_wp
         associate (j => solution%piece(i))
-            do k = lowered%layer_first(j), lowered%layer_first(j + 1) - 1
-                acts = solution%acts(k - lowered%layer_first(j) + 1, i)
+            do k = assembled%layer_first(j), assembled%layer_first(j + 1) - 1
+                acts = solution%acts(k - assembled%layer_first(j) + 1, i)
                 if (acts == 0) cycle
-                associate (layer => lowered%layers(k), length => lowered%pieces(j)%length)
-                    slope = slope_of_layer(layer, law_piece(layer, lowered%law_pieces, acts), acts, solution%from(i), length)
+                associate (layer => assembled%layers(k), length => assembled%pieces(j)%length)
+                    slope = slope_of_layer(layer, law_piece(layer, assembled%law_pieces, acts), acts, solution%from(i), length)
                     line(:) = contact_line(layer, [solution%from(i), solution%to(i)], length)
                 end associate
                 modulus = modulus + slope
@@ -86,14 +86,14 @@ contains
     end subroutine peaks_of_pressure
 
     !> Is the pressure in a stretch more than multiples of the deflection beside lines
-    pure function varies(lowered, solution, i)
-        type(lowered_type), intent(in) :: lowered
+    pure function varies(assembled, solution, i)
+        type(assembled_type), intent(in) :: assembled
         type(ground_solution_type), intent(in) :: solution
         integer, intent(in) :: i
         logical :: varies
 
         associate (j => solution%piece(i))
-            associate (layers => lowered%layers(lowered%layer_first(j):lowered%layer_first(j + 1) - 1))
+            associate (layers => assembled%layers(assembled%layer_first(j):assembled%layer_first(j + 1) - 1))
                 varies = any(solution%acts(:size(layers), i) > 0 .and. (layers%law /= law_by_points .or. law_varies(layers) .or. &
                                                                         abs(layers%modulus_a - layers%modulus_b) > 0.0_wp))
             end associate
@@ -106,7 +106,7 @@ contains
             type(layer_type), intent(in) :: layer
             logical :: law_varies
 
-            associate (pieces => lowered%law_pieces(layer%law_first:layer%law_last))
+            associate (pieces => assembled%law_pieces(layer%law_first:layer%law_last))
                 law_varies = any(abs(pieces%force_a - pieces%force_b) > 0.0_wp .or. abs(pieces%slope_a - pieces%slope_b) > 0.0_wp)
             end associate
         end function law_varies
@@ -114,8 +114,8 @@ contains
     end function varies
 
     !> Largest and smallest pressure, and where it is: at an end of a stretch, or where the deflection is extreme beside the ground
-    subroutine pressure_extremes(lowered, solution, values, piece, distance)
-        type(lowered_type), intent(in) :: lowered
+    subroutine pressure_extremes(assembled, solution, values, piece, distance)
+        type(assembled_type), intent(in) :: assembled
         type(ground_solution_type), intent(in) :: solution
         !> Maximum (1) and minimum (2), their pieces and distances, shape (2)
         real(wp), intent(out) :: values(2), distance(2)
@@ -130,12 +130,12 @@ contains
         do i = 1, size(solution%piece)
             call consider(0.0_wp)
             call consider(1.0_wp)
-            if (varies(lowered, solution, i)) then
+            if (varies(assembled, solution, i)) then
                 call consider(peak_where_it_varies(1))
                 call consider(peak_where_it_varies(-1))
                 cycle
             end if
-            call peaks_of_pressure(lowered, solution, i, xi, number)
+            call peaks_of_pressure(assembled, solution, i, xi, number)
             do j = 1, number
                 call consider(xi(j))
             end do
@@ -155,14 +155,14 @@ contains
             integer :: n
 
             do n = 0, places
-                found(n) = way*pressure_in(lowered, solution, i, real(n, wp)/places)
+                found(n) = way*pressure_in(assembled, solution, i, real(n, wp)/places)
             end do
             n = maxloc(found, 1) - 1
             low = max(n - 1, 0)/real(places, wp)
             high = min(n + 1, places)/real(places, wp)
             do n = 1, halvings
                 inner = [high - golden*(high - low), low + golden*(high - low)]
-                if (way*pressure_in(lowered, solution, i, inner(1)) > way*pressure_in(lowered, solution, i, inner(2))) then
+                if (way*pressure_in(assembled, solution, i, inner(1)) > way*pressure_in(assembled, solution, i, inner(2))) then
                     high = inner(2)
                 else
                     low = inner(1)
@@ -175,7 +175,7 @@ contains
         subroutine consider(at)
             real(wp), intent(in) :: at
 
-            pressure = pressure_in(lowered, solution, i, at)
+            pressure = pressure_in(assembled, solution, i, at)
             if (pressure > values(1)) call keep(1, at)
             if (pressure < values(2)) call keep(2, at)
         end subroutine consider

@@ -1,4 +1,4 @@
-!> What a solved beam on the ground says: fields along it and their extremes
+!> Fields of a solved beam on the ground, and their extremes.
 module gapbeam_ground_query
     use gapbeam_kinds, only: wp
     use gapbeam_element, only: field_type
@@ -6,9 +6,9 @@ module gapbeam_ground_query
     use gapbeam_foundation_roots, only: find_peaks
     use gapbeam_curved, only: curved_type
     use gapbeam_ground_laws, only: along
-    use gapbeam_ground_fields, only: inside_type, look_inside, field_at_end, field_inside, curved_stretch
+    use gapbeam_ground_fields, only: inside_type, prepare_inside, field_at_end, field_inside, curved_stretch
     use gapbeam_ground_solver, only: ground_solution_type
-    use gapbeam_lowered, only: lowered_type
+    use gapbeam_assembled_model, only: assembled_type
     implicit none
     private
     public :: ground_values, ground_extremes
@@ -22,9 +22,9 @@ module gapbeam_ground_query
 contains
 
     !> Deflection, rotation, moment and shear at distances from the left ends of pieces
-    pure subroutine ground_values(lowered, solution, piece, distance, fields)
+    pure subroutine ground_values(assembled, solution, piece, distance, fields)
         !> The beam, and its solution
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: assembled
         type(ground_solution_type), intent(in) :: solution
         !> Pieces of the beam, and distances in the engine's units, shape (n)
         integer, intent(in) :: piece(:)
@@ -35,7 +35,7 @@ contains
 
         do k = 1, size(piece)
             i = stretch_of(solution, piece(k), distance(k))
-            call values_in(lowered, solution, i, share_of(solution, i, distance(k)), fields(k))
+            call values_in(assembled, solution, i, share_of(solution, i, distance(k)), fields(k))
         end do
     end subroutine ground_values
 
@@ -72,8 +72,8 @@ contains
     end function share_of
 
     !> Fields inside a stretch, at its ends as they were solved
-    pure subroutine values_in(lowered, solution, i, xi, field)
-        type(lowered_type), intent(in) :: lowered
+    pure subroutine values_in(assembled, solution, i, xi, field)
+        type(assembled_type), intent(in) :: assembled
         type(ground_solution_type), intent(in) :: solution
         integer, intent(in) :: i
         real(wp), intent(in) :: xi
@@ -85,30 +85,30 @@ contains
             return
         end if
         associate (j => solution%piece(i))
-            call look_inside(lowered%layers(lowered%layer_first(j):lowered%layer_first(j + 1) - 1), lowered%law_pieces, &
-                             lowered%pieces(j)%length, solution, i, inside)
+            call prepare_inside(assembled%layers(assembled%layer_first(j):assembled%layer_first(j + 1) - 1), assembled%law_pieces, &
+                                assembled%pieces(j)%length, solution, i, inside)
         end associate
         call field_inside(inside, xi, field)
     end subroutine values_in
 
     !> A stretch on which ground acts by curves
-    pure subroutine curved_in(lowered, solution, i, curved)
-        type(lowered_type), intent(in) :: lowered
+    pure subroutine curved_in(assembled, solution, i, curved)
+        type(assembled_type), intent(in) :: assembled
         type(ground_solution_type), intent(in) :: solution
         integer, intent(in) :: i
         !> Not allocated if the ground is linear there
         type(curved_type), allocatable, intent(out) :: curved
 
         associate (j => solution%piece(i))
-            call curved_stretch(lowered%layers(lowered%layer_first(j):lowered%layer_first(j + 1) - 1), lowered%law_pieces, &
-                                lowered%pieces(j)%length, solution, i, curved)
+            call curved_stretch(assembled%layers(assembled%layer_first(j):assembled%layer_first(j + 1) - 1), assembled%law_pieces, &
+                                assembled%pieces(j)%length, solution, i, curved)
         end associate
     end subroutine curved_in
 
     !> Largest and smallest deflection, rotation, moment and shear, and where they are
-    subroutine ground_extremes(lowered, solution, values, piece, distance)
+    subroutine ground_extremes(assembled, solution, values, piece, distance)
         !> As for ground_values
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: assembled
         type(ground_solution_type), intent(in) :: solution
         !> Maximum (1) and minimum (2), shape (2, 4)
         real(wp), intent(out) :: values(:, :)
@@ -126,16 +126,16 @@ contains
         distance(:, :) = 0.0_wp
         do i = 1, size(solution%piece)
             do j = 0, 1
-                call values_in(lowered, solution, i, real(j, wp), field)
+                call values_in(assembled, solution, i, real(j, wp), field)
                 do k = 1, 4
                     call consider(real(j, wp))
                 end do
             end do
-            call curved_in(lowered, solution, i, curved)
+            call curved_in(assembled, solution, i, curved)
             do k = 1, 4
                 call peaks_in(solution, i, k, 0.0_wp, curved, xi, number)
                 do j = 1, number
-                    call values_in(lowered, solution, i, xi(j), field)
+                    call values_in(assembled, solution, i, xi(j), field)
                     call consider(xi(j))
                 end do
             end do

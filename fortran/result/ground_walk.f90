@@ -1,4 +1,4 @@
-!> A beam on the ground at one load factor after another: what holds it there
+!> States of a beam on the ground at one load factor after another.
 module gapbeam_ground_walk
     use gapbeam_kinds, only: wp
     use gapbeam_watch, only: end_if_stopped
@@ -10,14 +10,14 @@ module gapbeam_ground_walk
     use gapbeam_refined_ground, only: refine_ground
     use gapbeam_ground_solution, only: ground_solution_type
     use gapbeam_ground_start, only: start_from, settle_nearby, take_zones
-    use gapbeam_lowered, only: lowered_type
+    use gapbeam_assembled_model, only: assembled_type
     use gapbeam_solution, only: state_type
     use gapbeam_state, only: solve_state, ground_of, detail_of
     use gapbeam_ground_changes, only: find_zones
-    use gapbeam_ground_events, only: held_type, alike
+    use gapbeam_ground_events, only: held_type, same_contact
     implicit none
     private
-    public :: walk_type, begin_walk, look, hold, make_sure
+    public :: walk_type, begin_walk, solve_near, hold, make_sure
 
     !> Zones of this share of the beam have next to no length
     real(wp), parameter :: shortest = 2.0_wp**(-24)
@@ -45,8 +45,8 @@ module gapbeam_ground_walk
 contains
 
     !> Make ready
-    subroutine begin_walk(lowered, last, rule, state, walk)
-        type(lowered_type), intent(in), target :: lowered
+    subroutine begin_walk(assembled, last, rule, state, walk)
+        type(assembled_type), intent(in), target :: assembled
         !> The last factor, and the rule
         real(wp), intent(in) :: last
         integer, intent(in) :: rule
@@ -54,8 +54,8 @@ contains
         type(state_type), intent(in) :: state
         type(walk_type), intent(out) :: walk
 
-        walk%ground = ground_of(lowered)
-        call refine_ground(walk%ground, detail_of(lowered), walk%fine)
+        walk%ground = ground_of(assembled)
+        call refine_ground(walk%ground, detail_of(assembled), walk%fine)
         walk%rule = rule
         walk%last = last
         walk%state = state
@@ -64,8 +64,8 @@ contains
     end subroutine begin_walk
 
     !> What holds the beam at a load factor, as far as double precision tells; where that does not tell, for sure
-    subroutine look(lowered, walk, at, near, held, error)
-        type(lowered_type), intent(in), target :: lowered
+    subroutine solve_near(assembled, walk, at, near, held, error)
+        type(assembled_type), intent(in), target :: assembled
         type(walk_type), intent(inout) :: walk
         real(wp), intent(in) :: at
         !> What holds it at a load factor nearby
@@ -81,24 +81,24 @@ contains
         if (.not. walk%carefully .and. at < walk%last) then
             held%start = near%start
             call settle_nearby(walk%ground, at, walk%rule, held%start, grounded, work, walk%solves, settled, solved)
-            call end_if_stopped(lowered%beam%watch, error)
+            call end_if_stopped(assembled%beam%watch, error)
             if (allocated(error)) return
             if (settled .and. .not. has_short_zone(held%start%zones)) then
                 allocate (held%closed(size(walk%start)))
                 held%closed(:) = held%start%closed
                 call take_zones(held%start%zones, solution)
-                call find_zones(lowered, solution, held%zones, error)
+                call find_zones(assembled, solution, held%zones, error)
                 held%stands = .true.
                 return
             end if
         end if
-        call hold(lowered, walk, at, held, error, near)
-    end subroutine look
+        call hold(assembled, walk, at, held, error, near)
+    end subroutine solve_near
 
     !> What holds the beam at a load factor. Just below the last one next to nothing does: what cannot be settled there is put
     !> down as no equilibrium, and prove_end sees to it that there is none
-    subroutine hold(lowered, walk, at, held, error, near)
-        type(lowered_type), intent(in), target :: lowered
+    subroutine hold(assembled, walk, at, held, error, near)
+        type(assembled_type), intent(in), target :: assembled
         type(walk_type), intent(inout) :: walk
         real(wp), intent(in) :: at
         type(held_type), intent(out) :: held
@@ -112,9 +112,9 @@ contains
         stands_nearby = .false.
         if (present(near)) stands_nearby = near%stands
         if (stands_nearby) then
-            call solve_state(lowered, at, walk%rule, walk%state, error, near%start)
+            call solve_state(assembled, at, walk%rule, walk%state, error, near%start)
         else
-            call solve_state(lowered, at, walk%rule, walk%state, error)
+            call solve_state(assembled, at, walk%rule, walk%state, error)
         end if
         if (allocated(error)) then
             if (error%code == gapbeam_not_converged .or. error%code == gapbeam_not_finite) then
@@ -136,12 +136,12 @@ contains
         allocate (held%closed(size(walk%start)))
         held%closed(:) = walk%state%closed
         call start_from(walk%state%ground, walk%state%closed, held%start)
-        call find_zones(lowered, walk%state%ground, held%zones, error)
+        call find_zones(assembled, walk%state%ground, held%zones, error)
     end subroutine hold
 
     !> Solve at a factor that was only looked at
-    subroutine make_sure(lowered, walk, at, held, error)
-        type(lowered_type), intent(in), target :: lowered
+    subroutine make_sure(assembled, walk, at, held, error)
+        type(assembled_type), intent(in), target :: assembled
         type(walk_type), intent(inout) :: walk
         real(wp), intent(in) :: at
         type(held_type), intent(inout) :: held
@@ -150,9 +150,9 @@ contains
         type(held_type) :: solved
 
         if (held%sure) return
-        call hold(lowered, walk, at, solved, error, held)
+        call hold(assembled, walk, at, solved, error, held)
         if (allocated(error)) return
-        walk%misled = .not. alike(held, solved)
+        walk%misled = .not. same_contact(held, solved)
         held = solved
     end subroutine make_sure
 

@@ -1,13 +1,13 @@
-!> Where the ground acts on the beam, and where the beam hangs free above it, in the user's units: for all languages
+!> Zones of contact and free spans of a beam on the ground, in the user's units.
 module gapbeam_ground_zones
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_words, only: shown
-    use gapbeam_refusal, only: refuse_range, named, of_foundations
+    use gapbeam_input_error, only: refuse_range, named, of_foundations
     use gapbeam_scene, only: gapbeam_both, gapbeam_below
     use gapbeam_layers, only: branches_of_law
-    use gapbeam_lowered, only: lowered_type, point_x
+    use gapbeam_assembled_model, only: assembled_type, point_x
     use gapbeam_layers, only: layer_type
     use gapbeam_ground_solver, only: ground_solution_type
     use gapbeam_ground_distance, only: largest_ways, is_shallow
@@ -62,9 +62,9 @@ module gapbeam_ground_zones
 contains
 
     !> Zones in which the ground acts
-    subroutine find_contact(lowered, solution, zones, error)
+    subroutine find_contact(assembled, solution, zones, error)
         !> The beam, and its solution on the ground
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: assembled
         type(ground_solution_type), intent(in) :: solution
         !> Foundation by foundation from left to right
         type(contact_type), allocatable, intent(out) :: zones(:)
@@ -73,7 +73,7 @@ contains
         type(run_type), allocatable :: runs(:)
         integer :: i, n, stat
 
-        call ground_runs(lowered, solution, runs, error)
+        call ground_runs(assembled, solution, runs, error)
         if (allocated(error)) return
         allocate (zones(count(runs%acts > 0 .or. runs%touches)), stat=stat)
         if (stat /= 0) then
@@ -85,7 +85,7 @@ contains
             associate (run => runs(i))
                 if (run%acts == 0 .and. .not. run%touches) cycle
                 if (.not. abs(run%resultant) <= huge(run%resultant)) then
-                    call refuse_run(lowered, run, "the force", "force", error)
+                    call refuse_run(assembled, run, "the force", "force", error)
                     return
                 end if
                 n = n + 1
@@ -113,9 +113,9 @@ contains
     end function condition_of
 
     !> Stretches in which the beam has no contact with one-sided ground
-    subroutine find_free_spans(lowered, solution, spans, error)
+    subroutine find_free_spans(assembled, solution, spans, error)
         !> As for find_contact
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: assembled
         type(ground_solution_type), intent(in) :: solution
         !> Foundation by foundation from left to right; of one that holds both ways there are none
         type(free_span_type), allocatable, intent(out) :: spans(:)
@@ -125,11 +125,12 @@ contains
         logical, allocatable :: free(:)
         integer :: i, n, stat
 
-        call ground_runs(lowered, solution, runs, error)
+        call ground_runs(assembled, solution, runs, error)
         if (allocated(error)) return
         allocate (free(size(runs)), stat=stat)
         if (stat == 0) then
-            free(:) = runs%acts == 0 .and. .not. runs%touches .and. lowered%model%foundations(runs%foundation)%side /= gapbeam_both
+            free(:) = runs%acts == 0 .and. .not. runs%touches &
+                .and. assembled%model%foundations(runs%foundation)%side /= gapbeam_both
             allocate (spans(count(free)), stat=stat)
         end if
         if (stat /= 0) then
@@ -141,7 +142,7 @@ contains
             if (.not. free(i)) cycle
             associate (run => runs(i))
                 if (.not. run%way <= huge(run%way)) then
-                    call refuse_run(lowered, run, "the distance to the ground", "length", error)
+                    call refuse_run(assembled, run, "the distance to the ground", "length", error)
                     return
                 end if
                 n = n + 1
@@ -151,9 +152,9 @@ contains
     end subroutine find_free_spans
 
     !> All layers, stretches in which one does the same joined
-    subroutine ground_runs(lowered, solution, runs, error, only_acts)
+    subroutine ground_runs(assembled, solution, runs, error, only_acts)
         !> As for find_contact
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: assembled
         type(ground_solution_type), intent(in) :: solution
         !> By foundation, of one with two layers the lower first, and from left to right; where a beam touches in a stretch without
         !> contact after that stretch. At most three times as many as stretches have layers
@@ -176,18 +177,19 @@ contains
         bare = .false.
         if (present(only_acts)) bare = only_acts
         m = size(solution%piece)
-        length = point_x(lowered, size(lowered%pieces))
+        length = point_x(assembled, size(assembled%pieces))
         total = 0
         do i = 1, m
-            total = total + lowered%layer_first(solution%piece(i) + 1) - lowered%layer_first(solution%piece(i))
+            total = total + assembled%layer_first(solution%piece(i) + 1) - assembled%layer_first(solution%piece(i))
         end do
-        allocate (way(size(solution%acts, 1), m), touch(2, size(solution%acts, 1), m), supported(0:size(lowered%pieces)), stat=stat)
+        allocate (way(size(solution%acts, 1), m), touch(2, size(solution%acts, 1), m), supported(0:size(assembled%pieces)), &
+                  stat=stat)
         if (stat == 0 .and. .not. bare) then
-            call largest_ways(lowered, solution, way, touch)
+            call largest_ways(assembled, solution, way, touch)
             total = total + count(touch >= 0.0_wp, kind=int64)
         end if
         if (stat == 0) stat = merge(1, 0, total > huge(n))
-        associate (keys => 2*size(lowered%model%foundations))
+        associate (keys => 2*size(assembled%model%foundations))
             if (stat == 0) allocate (found(total), key(total), last_run(keys), last_stretch(keys), last_touch(keys), stat=stat)
         end associate
         if (stat /= 0) then
@@ -195,16 +197,16 @@ contains
             return
         end if
         supported(:) = .false.
-        do k = 1, size(lowered%beam%supports)
-            if (lowered%beam%supports(k)%stiffness > huge(1.0_wp)) supported(lowered%beam%supports(k)%node) = .true.
+        do k = 1, size(assembled%beam%supports)
+            if (assembled%beam%supports(k)%stiffness > huge(1.0_wp)) supported(assembled%beam%supports(k)%node) = .true.
         end do
         last_run(:) = 0
         last_stretch(:) = 0
         last_touch(:) = -huge(1.0_wp)
         n = 0
         do i = 1, m
-            associate (j => solution%piece(i), first => lowered%layer_first(solution%piece(i)))
-                do k = first, lowered%layer_first(j + 1) - 1
+            associate (j => solution%piece(i), first => assembled%layer_first(solution%piece(i)))
+                do k = first, assembled%layer_first(j + 1) - 1
                     run = run_of(k, k - first + 1)
                     associate (of_layer => 2*run%foundation - merge(1, 0, run%side == gapbeam_below))
                         if (begins(of_layer, run)) then
@@ -236,22 +238,22 @@ contains
             integer, intent(in) :: layer, row
             type(run_type) :: made
 
-            associate (l => lowered%layers(layer), j => solution%piece(i), units => lowered%units)
+            associate (l => assembled%layers(layer), j => solution%piece(i), units => assembled%units)
                 made%foundation = l%foundation
                 made%side = l%side
                 made%law_pieces = branches_of_law(l)
                 made%acts = solution%acts(row, i)
-                made%from = point_x(lowered, j - 1) + scale(solution%from(i), units%length)
-                made%to = point_x(lowered, j)
+                made%from = point_x(assembled, j - 1) + scale(solution%from(i), units%length)
+                made%to = point_x(assembled, j)
                 if (i < m) then
-                    if (solution%piece(i + 1) == j) made%to = point_x(lowered, j - 1) + scale(solution%to(i), units%length)
+                    if (solution%piece(i + 1) == j) made%to = point_x(assembled, j - 1) + scale(solution%to(i), units%length)
                 end if
                 if (bare) return
                 made%resultant = scale(solution%resultant(row, i), units%force)
                 made%way = max(0.0_wp, scale(way(row, i), units%deflection))
                 if (made%acts == 1 .and. made%side /= gapbeam_both .and. made%to - made%from <= one_place*length) then
                     made%touches = acts_beside(i - 1, l) <= 0 .and. acts_beside(i + 1, l) <= 0 .and. &
-                        is_shallow(lowered, solution, i, layer)
+                        is_shallow(assembled, solution, i, layer)
                 end if
             end associate
         end function run_of
@@ -274,9 +276,9 @@ contains
 
             acts = -1
             if (other < 1 .or. other > m) return
-            associate (first => lowered%layer_first(solution%piece(other)))
-                do row = first, lowered%layer_first(solution%piece(other) + 1) - 1
-                    if (lowered%layers(row)%foundation == layer%foundation .and. lowered%layers(row)%side == layer%side) then
+            associate (first => assembled%layer_first(solution%piece(other)))
+                do row = first, assembled%layer_first(solution%piece(other) + 1) - 1
+                    if (assembled%layers(row)%foundation == layer%foundation .and. assembled%layers(row)%side == layer%side) then
                         acts = solution%acts(row - first + 1, other)
                     end if
                 end do
@@ -290,8 +292,8 @@ contains
             real(wp) :: x, from, to
             integer :: t, left, right
 
-            left = acts_beside(i - 1, lowered%layers(layer))
-            right = acts_beside(i + 1, lowered%layers(layer))
+            left = acts_beside(i - 1, assembled%layers(layer))
+            right = acts_beside(i + 1, assembled%layers(layer))
             from = run%from
             to = run%to
             do t = 1, 2
@@ -367,14 +369,14 @@ contains
     end subroutine sort
 
     !> What is said of a run left the range of double precision in the user's units
-    pure subroutine refuse_run(lowered, run, what, unit, error)
-        type(lowered_type), intent(in) :: lowered
+    pure subroutine refuse_run(assembled, run, what, unit, error)
+        type(assembled_type), intent(in) :: assembled
         type(run_type), intent(in) :: run
         !> What it is, and what it is measured in
         character(len=*), intent(in) :: what, unit
         type(error_type), allocatable, intent(out) :: error
 
-        call refuse_range(error, what//" of "//trim(named(of_foundations, run%foundation, size(lowered%model%foundations)))// &
+        call refuse_range(error, what//" of "//trim(named(of_foundations, run%foundation, size(assembled%model%foundations)))// &
                           " from x = "//trim(shown(run%from))//" is too great", "choose a greater unit of "//unit)
     end subroutine refuse_run
 

@@ -1,23 +1,23 @@
-!> The load followed through factors in turn, by the path itself: past limit points, with supports that soften, break or keep a set
+!> Load path through given factors, past limit points, with supports that soften, break or keep a set.
 module gapbeam_history
     use gapbeam_kinds, only: wp, qp
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_not_converged, gapbeam_indeterminate, no_memory
     use gapbeam_words, only: shown
     use gapbeam_memory, only: for_following_closely
-    use gapbeam_polyline, only: node_support_type, last_kink
+    use gapbeam_polyline, only: node_support_type
     use gapbeam_polyline_quad, only: fine_support_type => node_support_type
     use gapbeam_model_quad, only: beam_type
-    use gapbeam_line_quad, only: drop_live
+    use gapbeam_affine_response_quad, only: drop_live
     use gapbeam_scheme_quad, only: outcome_type
     use gapbeam_refined, only: refine_beam
-    use gapbeam_referee, only: reserve_for
-    use gapbeam_cell, only: find_cell, cell_type
-    use gapbeam_lines, only: way_type, rise, fall, turn
+    use gapbeam_extended_precision, only: reserve_for
+    use gapbeam_region_responses, only: outgoing_type, rise, fall, turn
     use gapbeam_branch, only: branch_type, segment_type, start_branch, step_branch, goes_on, no_way_on, never_ends, not_told
-    use gapbeam_scene, only: gapbeam_elastic, gapbeam_both
-    use gapbeam_lowered, only: lowered_type, point_x
+    use gapbeam_scene, only: gapbeam_elastic
+    use gapbeam_assembled_model, only: assembled_type, point_x
     use gapbeam_state, only: detail_of
+    use gapbeam_history_start, only: find_beginning, find_movements, has_dead_loads, find_rest
     implicit none
     private
     public :: history_type, stretch_type, limit_type, other_way_type, follow_history, laws_at
@@ -26,10 +26,10 @@ module gapbeam_history
 
     !> What to do where the load cannot go on: end there; go on from the next stable state at the same factor; follow the path
     integer, parameter :: at_limit_stop = 0, at_limit_jump = 1, at_limit_follow = 2
-    !> Kinds of limit. A path may also have ended without an end in sight: no further kink, whatever the load; or after so many
-    !> stretches
+    !> Kinds of limit. A path may also have ended without an end in sight: no further breakpoint, whatever the load; or after so
+    !> many stretches
     integer, parameter :: no_limit = 0, limit_point = 1, bifurcation = 2, mechanism = 3, ended = 4, cut_off = 5
-    !> Stretches without length in turn, beyond four for every kink, after which the path is given up
+    !> Stretches without length in turn, beyond four for every breakpoint, after which the path is given up
     integer, parameter :: most_idle = 1000
 
     !> A stretch of the path on which all pieces of all laws stay the same
@@ -90,9 +90,9 @@ module gapbeam_history
 contains
 
     !> Put on the dead loads, and with them settlements and lacks of fit, then go through load factors in turn
-    subroutine follow_history(lowered, factors, at_limit, most, history, error)
+    subroutine follow_history(assembled, factors, at_limit, most, history, error)
         !> The beam
-        type(lowered_type), intent(in), target :: lowered
+        type(assembled_type), intent(in), target :: assembled
         !> Load factors to go to
         real(wp), intent(in) :: factors(:)
         !> at_limit_stop, at_limit_jump or at_limit_follow
@@ -111,16 +111,16 @@ contains
         real(qp) :: factor
         integer :: leg
 
-        call reserve_for(for_following_closely, lowered%beam, detail_of(lowered), error)
+        call reserve_for(for_following_closely, assembled%beam, detail_of(assembled), error)
         if (allocated(error)) return
-        call refine_beam(lowered%beam, detail_of(lowered), beam)
+        call refine_beam(assembled%beam, detail_of(assembled), beam)
         allocate (history%stretches(16), history%limits(0), history%others(0))
         allocate (unloading(size(beam%supports)), closed(size(beam%supports)))
-        unloading(:) = lowered%model%supports(lowered%normal)%unloading
+        unloading(:) = assembled%model%supports(assembled%normal)%unloading
         laws = beam%supports
-        call find_rest(lowered, closed)
+        call find_rest(assembled, closed)
         allocate (settling(size(laws)))
-        call find_movements(lowered, settling)
+        call find_movements(assembled, settling)
         if (has_dead_loads(beam) .or. any(abs(settling) > 0.0_qp)) then
             call drop_live(beam, dead)
             laws%contact = laws%contact - settling
@@ -155,8 +155,9 @@ contains
             integer, intent(in) :: leg
             real(qp), intent(in) :: from, to
             type(segment_type) :: segment
+            type(outcome_type) :: beginning
             integer :: way, outcome, index, direction, taken, idle
-            type(way_type), allocatable :: ways(:)
+            type(outgoing_type), allocatable :: ways(:)
             logical :: stable, moves
             real(qp) :: target
             logical :: acting(size(closed)), first(size(closed))
@@ -166,13 +167,19 @@ contains
             way = merge(rise, fall, to > from)
             beam%supports = laws
             if (history%number == 0) then
-                call find_beginning(beam, to, closed, history, error)
-                if (allocated(error) .or. history%ending /= no_limit) return
+                call find_beginning(beam, to, closed, history%solves, beginning, error)
+                if (allocated(error)) return
+                if (beginning%status /= gapbeam_solved) then
+                    history%limits = [limit_type(mechanism, 0, 0.0_wp, 0)]
+                    if (allocated(beginning%motion)) history%motion = real(beginning%motion, wp)
+                    history%ending = mechanism
+                    return
+                end if
             end if
             call start_branch(beam, unloading, settling, closed, from, way, branch, outcome, error)
             if (history%number == 0 .and. .not. allocated(error) .and. outcome == goes_on .and. branch%way%index > 0) then
                 ! No force falls in a beam without load: the search has gone too far
-                call find_rest(lowered, closed)
+                call find_rest(assembled, closed)
                 call start_branch(beam, unloading, settling, closed, from, way, branch, outcome, error)
                 if (.not. allocated(error) .and. outcome == goes_on .and. branch%way%index > 0) outcome = no_way_on
                 if (.not. allocated(error) .and. outcome == no_way_on) then
@@ -196,7 +203,7 @@ contains
                 acting(:) = branch%way%closed
                 index = branch%way%index
                 direction = branch%way%direction
-                ways = branch%ways
+                ways = branch%outgoing
                 taken = branch%taken
                 laws_before(:) = branch%beam%supports
                 stable = index == 0 .and. direction /= -way
@@ -225,12 +232,12 @@ contains
                     end if
                     call add(leg, segment, direction, index, size(ways), acting, laws_before)
                     call add_others(ways, taken)
-                    if (stable) call look_for_landings(way)
+                    if (stable) call find_landings(way)
                 end if
                 if (outcome == goes_on) then
                     if (stable .and. (branch%way%index > 0 .or. branch%way%direction == -way)) then
                         call note_limit(merge(limit_point, bifurcation, branch%way%direction == -way .and. &
-                                              size(branch%ways) == 1), leg, real(segment%to, wp))
+                                              size(branch%outgoing) == 1), leg, real(segment%to, wp))
                     end if
                 else if (outcome == no_way_on .or. outcome == never_ends) then
                     history%ending = merge(ended, mechanism, outcome == never_ends .and. direction /= turn)
@@ -239,7 +246,7 @@ contains
                 if (at_limit == at_limit_stop .and. size(history%limits) > 0 .and. .not. is_jumping()) history%ending = ended
                 if (history%ending /= no_limit) exit
             end do
-            history%solves = history%solves + branch%lines%solves
+            history%solves = history%solves + branch%responses%solves
             closed(:) = branch%way%closed
             laws = branch%beam%supports
         end subroutine go_leg
@@ -250,7 +257,7 @@ contains
             real(wp) :: x
 
             if (allocated(error) .or. outcome /= not_told) return
-            x = point_x(lowered, lowered%support_point(lowered%normal(branch%shared(1))))
+            x = point_x(assembled, assembled%support_point(assembled%normal(branch%shared(1))))
             call fatal_error(error, gapbeam_indeterminate, "two supports at x = "//trim(shown(x))//" have yielded to the same "// &
                              "deflection and unload rigidly from there at load factor "//trim(shown(real(branch%factor, wp)))// &
                              ", so statics cannot tell what each of them takes: give one of them a finite stiffness")
@@ -280,13 +287,13 @@ contains
                 ! No negative zeros
                 s = stretch_type(leg, real(segment%from, wp) + 0.0_wp, real(segment%to, wp) + 0.0_wp, direction, index, ways, &
                                  .false., acting)
-                if (any(unloading /= gapbeam_elastic)) s%laws = rounded(now, lowered%beam%supports)
+                if (any(unloading /= gapbeam_elastic)) s%laws = rounded(now, assembled%beam%supports)
             end associate
         end subroutine add
 
         !> Keep the ways that the last stretch is not
         subroutine add_others(ways, taken)
-            type(way_type), intent(in) :: ways(:)
+            type(outgoing_type), intent(in) :: ways(:)
             integer, intent(in) :: taken
             integer :: w
 
@@ -316,7 +323,7 @@ contains
         end function is_jumping
 
         !> From which limits the beam lands on the last stretch, which is stable and passes their load factors
-        subroutine look_for_landings(way)
+        subroutine find_landings(way)
             integer, intent(in) :: way
             integer :: j, k
 
@@ -334,105 +341,9 @@ contains
                     end associate
                 end do
             end associate
-        end subroutine look_for_landings
+        end subroutine find_landings
 
     end subroutine follow_history
-
-    !> The scheme at the first factor above 0
-    subroutine find_beginning(beam, to, closed, history, error)
-        type(beam_type), intent(in) :: beam
-        real(qp), intent(in) :: to
-        !> Start in, scheme out
-        logical, intent(inout) :: closed(:)
-        type(history_type), intent(inout) :: history
-        type(error_type), allocatable, intent(out) :: error
-        type(beam_type) :: mirrored
-        type(cell_type) :: cell
-        type(outcome_type) :: outcome
-
-        mirrored = beam
-        if (to < 0.0_qp) call reverse_live(mirrored)
-        call find_cell(mirrored, 0.0_qp, abs(to), closed, cell, outcome, error)
-        history%solves = history%solves + cell%solves
-        if (allocated(error)) then
-            ! Only that the search does not know its way among falling forces: every combination is tried instead
-            if (error%code == gapbeam_not_converged) deallocate (error)
-            return
-        end if
-        if (outcome%status == gapbeam_solved) then
-            closed(:) = cell%closed
-        else
-            history%limits = [limit_type(mechanism, 0, 0.0_wp, 0)]
-            if (allocated(outcome%motion)) history%motion = real(outcome%motion, wp)
-            history%ending = mechanism
-        end if
-    end subroutine find_beginning
-
-    !> Settlements and lacks of fit, in the engine's units
-    pure subroutine find_movements(lowered, movement)
-        type(lowered_type), intent(in) :: lowered
-        !> Of the supports of the engine
-        real(qp), intent(out) :: movement(:)
-        integer :: k
-
-        do k = 1, size(movement)
-            associate (s => lowered%model%supports(lowered%normal(k)))
-                movement(k) = scale(s%settlement + s%side*min(s%gap, 0.0_wp), -lowered%units%deflection)
-            end associate
-        end do
-    end subroutine find_movements
-
-    !> Let the live loads act the other way
-    subroutine reverse_live(beam)
-        type(beam_type), intent(inout) :: beam
-        integer :: i
-
-        beam%force(2, :) = -beam%force(2, :)
-        beam%couple(2, :) = -beam%couple(2, :)
-        do i = 1, size(beam%links)
-            associate (link => beam%links(i))
-                link%turn_a(2) = -link%turn_a(2)
-                link%turn_b(2) = -link%turn_b(2)
-                link%shear_a(2) = -link%shear_a(2)
-                link%shear_b(2) = -link%shear_b(2)
-            end associate
-        end do
-    end subroutine reverse_live
-
-    !> Are there any dead loads
-    pure function has_dead_loads(beam) result(has)
-        type(beam_type), intent(in) :: beam
-        logical :: has
-        integer :: i
-
-        has = any(abs(beam%force(1, :)) > 0.0_qp) .or. any(abs(beam%couple(1, :)) > 0.0_qp)
-        do i = 1, size(beam%links)
-            associate (link => beam%links(i))
-                has = has .or. link%load_sum(1) > 0.0_qp .or. link%turn_sum(1) > 0.0_qp
-            end associate
-        end do
-    end function has_dead_loads
-
-    !> Where supports are before any load: on the piece on which the straight beam is
-    subroutine find_rest(lowered, closed)
-        type(lowered_type), intent(in) :: lowered
-        logical, intent(out) :: closed(:)
-        integer :: k, last, middle
-
-        k = 1
-        do while (k <= size(closed))
-            last = last_kink(lowered%beam%supports, k)
-            middle = 1
-            if (lowered%model%supports(lowered%normal(k))%side == gapbeam_both) then
-                middle = max(1, (last - k + 1)/2)
-            else if (lowered%beam%supports(k)%side*lowered%beam%supports(k)%contact > 0.0_wp) then
-                middle = 0
-            end if
-            closed(k:last) = .false.
-            closed(k:k + middle - 1) = .true.
-            k = last + 1
-        end do
-    end subroutine find_rest
 
     !> Laws in double precision
     pure function rounded(fine, like) result(laws)
@@ -445,16 +356,16 @@ contains
         laws%before = real(fine%before, wp)
         laws%contact = real(fine%contact, wp)
         laws%force = real(fine%force, wp)
-        laws%passed = like%kink > 0 .and. .not. (laws%stiffness < laws%before .or. laws%stiffness > laws%before)
+        laws%passed = like%breakpoint > 0 .and. .not. (laws%stiffness < laws%before .or. laws%stiffness > laws%before)
     end function rounded
 
     !> The laws of a stretch
-    pure function laws_at(lowered, stretch) result(laws)
-        type(lowered_type), intent(in) :: lowered
+    pure function laws_at(assembled, stretch) result(laws)
+        type(assembled_type), intent(in) :: assembled
         type(stretch_type), intent(in) :: stretch
         type(node_support_type), allocatable :: laws(:)
 
-        laws = lowered%beam%supports
+        laws = assembled%beam%supports
         if (allocated(stretch%laws)) laws = stretch%laws
     end function laws_at
 

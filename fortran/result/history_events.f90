@@ -1,10 +1,11 @@
-!> What happens to the supports on the way of the load, from stretch to stretch
+!> Events of the supports along a load path, from stretch to stretch.
 module gapbeam_history_events
     use gapbeam_kinds, only: wp
-    use gapbeam_polyline, only: last_kink
-    use gapbeam_lowered, only: lowered_type
-    use gapbeam_pieces, only: acting_type, acting_piece, what_happens, nothing, gapbeam_turns, gapbeam_opens, gapbeam_closes
-    use gapbeam_state, only: event_type
+    use gapbeam_polyline, only: last_breakpoint
+    use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_pieces, only: acting_type, acting_piece, what_happens, no_change, gapbeam_turns, gapbeam_opens, &
+        gapbeam_closes
+    use gapbeam_events, only: event_type
     use gapbeam_history, only: history_type, stretch_type
     implicit none
     private
@@ -13,8 +14,8 @@ module gapbeam_history_events
 contains
 
     !> All events but those while the dead loads are put on
-    subroutine find_events(lowered, path, found, stat)
-        type(lowered_type), intent(in) :: lowered
+    subroutine find_events(assembled, path, found, stat)
+        type(assembled_type), intent(in) :: assembled
         !> By follow_history
         type(history_type), intent(in) :: path
         !> In their order
@@ -38,7 +39,7 @@ contains
                 end if
                 if (s(k)%direction == 0 .and. k < size(s) .and. s(k)%leg > 0) then
                     j = findloc(s(k + 1)%closed .and. .not. s(k)%closed, .true., 1)
-                    if (j > 0) call add(event_type(s(k)%from, lowered%normal(j), gapbeam_turns, gapbeam_turns, k))
+                    if (j > 0) call add(event_type(s(k)%from, assembled%normal(j), gapbeam_turns, gapbeam_turns, k))
                 end if
                 if (s(k)%leg == 0) cycle
                 begins = .false.
@@ -71,21 +72,21 @@ contains
             integer :: i, first, change
 
             associate (a => path%stretches(one), b => path%stretches(other))
-                do i = 1, size(lowered%model%supports)
-                    first = lowered%beam_support(i)
+                do i = 1, size(assembled%model%supports)
+                    first = assembled%beam_support(i)
                     if (first == 0) cycle
-                    associate (last => last_kink(lowered%beam%supports, first))
+                    associate (last => last_breakpoint(assembled%beam%supports, first))
                         if (all(a%closed(first:last) .eqv. b%closed(first:last))) cycle
                     end associate
                     before = acts_on(a, i)
                     after = acts_on(b, i)
-                    change = nothing
-                    if (lowered%beam%supports(first)%kink > 0) then
+                    change = no_change
+                    if (assembled%beam%supports(first)%breakpoint > 0) then
                         change = what_happens(before, after)
                     else
                         change = merge(gapbeam_closes, gapbeam_opens, b%closed(first))
                     end if
-                    if (change == nothing) cycle
+                    if (change == no_change) cycle
                     pending = pending + 1
                     call add(event_type(b%from, i, after%condition, change, other))
                 end do
@@ -99,13 +100,13 @@ contains
             type(acting_type) :: acting
             integer :: first, last
 
-            first = lowered%beam_support(support)
-            last = last_kink(lowered%beam%supports, first)
-            associate (side => lowered%model%supports(support)%side)
+            first = assembled%beam_support(support)
+            last = last_breakpoint(assembled%beam%supports, first)
+            associate (side => assembled%model%supports(support)%side)
                 if (allocated(stretch%laws)) then
                     acting = acting_piece(stretch%laws(first:last), side, stretch%closed(first:last))
                 else
-                    acting = acting_piece(lowered%beam%supports(first:last), side, stretch%closed(first:last))
+                    acting = acting_piece(assembled%beam%supports(first:last), side, stretch%closed(first:last))
                 end if
             end associate
         end function acts_on

@@ -1,24 +1,22 @@
-!> Many cases of a beam, eight side by side (fortran/lanes), where the beam is one that lanes hold. What comes out has the digits of
-!> solve_case of gapbeam_cases, which takes the other beams, and the cases that are doubtful here
+!> Many cases of a beam solved eight side by side (fortran/lanes).
+!> The beam is one that lanes hold. What comes out has the digits of solve_case of gapbeam_cases, which takes the other beams, and
+!> the cases that are doubtful here
 module gapbeam_lane_cases
     use gapbeam_kinds, only: wp
     use gapbeam_watch, only: is_stopped
     use gapbeam_error, only: error_type
-    use gapbeam_band, only: plain, hinge, restrained
-    use gapbeam_model, only: softest
-    use gapbeam_law, only: both, is_rigid, has_laws, may_change
+    use gapbeam_law, only: has_laws
     use gapbeam_units, only: moment_unit, stiffness_unit
-    use gapbeam_lowered, only: lowered_type
+    use gapbeam_assembled_model, only: assembled_type
     use gapbeam_cases, only: case_loads_type, split_loads, leave_room, give_case
-    use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type, new_pack, link_numbers, link_faa, link_fab, link_fbb, &
-        link_sum_a, link_sum_b, link_bending, link_determinant, link_fixity, link_reach
-    use gapbeam_lane_levels, only: take_columns_at, take_numbers_at, give_pack_at, search_pack_at, finish_pack_at, &
+    use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type, new_pack
+    use gapbeam_cpu_dispatch, only: take_columns_at, take_numbers_at, give_pack_at, search_pack_at, finish_pack_at, &
         audit_pack_at, best_level
-    use gapbeam_lane_spans, only: span_room_type, prepare_spans, take_spans, make_pack_links, ease_ratio
+    use gapbeam_lane_spans, only: span_room_type, prepare_spans, take_spans, make_pack_links
+    use gapbeam_lane_model, only: prepare_lanes, take_supports, take_starts, units_of_supports
     implicit none
     private
     public :: lane_room_type, fits_lanes, solve_in_lanes, find_schemes
-    public :: prepare_lanes, take_supports, take_starts, units_of_supports
 
     !> Most links: eight cases of longer beams leave the processor's memory, and a case alone is solved faster by itself. From 300
     !> links on gapbeam_search keeps a solution up to date, so that the last digits of solve_case may be others
@@ -53,12 +51,12 @@ module gapbeam_lane_cases
 contains
 
     !> Do lanes hold a beam: several links that bend, no ground and laws
-    pure function fits_lanes(lowered) result(fits)
-        type(lowered_type), intent(in) :: lowered
+    pure function fits_lanes(assembled) result(fits)
+        type(assembled_type), intent(in) :: assembled
         logical :: fits
         integer :: n
 
-        associate (beam => lowered%beam, units => lowered%units)
+        associate (beam => assembled%beam, units => assembled%units)
             n = size(beam%links)
             fits = n > 1 .and. n <= most_links .and. .not. allocated(beam%ground)
             if (.not. fits) return
@@ -69,8 +67,8 @@ contains
     end function fits_lanes
 
     !> Solve cases of a beam that fits
-    subroutine solve_in_lanes(lowered, loads, factors, values, spans, room, closed, w, ml, mr, reaction, solves, done, level)
-        type(lowered_type), intent(in) :: lowered
+    subroutine solve_in_lanes(assembled, loads, factors, values, spans, room, closed, w, ml, mr, reaction, solves, done, level)
+        type(assembled_type), intent(in) :: assembled
         !> By split_loads, and the factor of every load, shape (at least nload, ncase)
         type(case_loads_type), intent(in) :: loads
         real(wp), intent(in), contiguous :: factors(:, :)
@@ -88,7 +86,7 @@ contains
         integer, intent(inout) :: solves(:)
         !> Which cases are done; the others are as they were
         logical, intent(out) :: done(:)
-        !> Instructions (gapbeam_lane_levels); default the best that there are
+        !> Instructions (gapbeam_cpu_dispatch); default the best that there are
         integer, intent(in), optional :: level
         real(wp) :: units(3)
         integer :: first, l, kind, solves_of(lanes), method(lanes), case_of(lanes), at_level
@@ -98,22 +96,23 @@ contains
         at_level = best_level()
         if (present(level)) at_level = level
         ! As many factors in every call for the beam
-        if (.not. room%made) call make_room(lowered, loads, size(factors, 1), size(spans, 2) > 0, room)
+        if (.not. room%made) call make_room(assembled, loads, size(factors, 1), size(spans, 2) > 0, room)
         if (.not. room%made) return
         if (size(values, 2) > 0) room%with_own_supports = .false.
-        if (.not. room%with_own_supports) call take_supports(lowered, room%beam%place, room%pack)
+        if (.not. room%with_own_supports) call take_supports(assembled, room%beam%place, room%pack)
         room%with_own_supports = size(values, 2) == 0
         outside(:) = .false.
-        units = scale(1.0_wp, [lowered%units%deflection, moment_unit(lowered%units), lowered%units%force])
+        units = scale(1.0_wp, [assembled%units%deflection, moment_unit(assembled%units), assembled%units%force])
         do first = 1, size(done), lanes
-            if (is_stopped(lowered%beam%watch)) exit
+            if (is_stopped(assembled%beam%watch)) exit
             ! The last lanes repeat the last case
             case_of = [(min(first + l, size(done)), l=0, lanes - 1)]
             call take_columns_at(at_level, size(factors, 1), size(factors, 2), factors, case_of, room%factors)
             if (size(values, 2) > 0) then
-                call take_numbers_at(at_level, room%beam, units_of_supports(lowered), values, case_of, room%turned, room%pack, lost)
+                call take_numbers_at(at_level, room%beam, units_of_supports(assembled), values, case_of, room%turned, room%pack, &
+                                     lost)
                 do l = 1, merge(lanes, 0, size(room%beam%shared) > 0)
-                    if (.not. lost) lost = .not. leave_room(lowered, values(:, :, case_of(l)))
+                    if (.not. lost) lost = .not. leave_room(assembled, values(:, :, case_of(l)))
                 end do
                 if (lost) cycle
             end if
@@ -123,7 +122,7 @@ contains
                 end do
                 call make_pack_links(at_level, room%spans, room%beam, room%pack)
             end if
-            call take_starts(lowered, room%beam%place, closed, case_of, room%pack)
+            call take_starts(assembled, room%beam%place, closed, case_of, room%pack)
             call search_pack_at(at_level, room%beam, room%factors, room%pack, solves_of, method)
             where (outside) method = 0
             solves(case_of) = solves_of
@@ -202,8 +201,8 @@ contains
 
     !> Find the working schemes of many combinations (gapbeam_combinations) of a beam that fits. Those that are doubtful are left to
     !> their own searches, with the start that they have
-    subroutine find_schemes(lowered, factors, settlements, supports, closed, solves)
-        type(lowered_type), intent(in) :: lowered
+    subroutine find_schemes(assembled, factors, settlements, supports, closed, solves)
+        type(assembled_type), intent(in) :: assembled
         !> As for combine, shape (nload, ncase), (nsupport, ncase), (3, nsupport, ncase); nsupport 0: their own
         real(wp), intent(in) :: factors(:, :), settlements(:, :), supports(:, :, :)
         !> Starts in, schemes out where they have been found, shape (at least size(beam%supports), ncase)
@@ -219,7 +218,7 @@ contains
         integer :: i, m, stat
 
         solves(:) = 0
-        call split_loads(lowered, loads, error)
+        call split_loads(assembled, loads, error)
         if (allocated(error)) return
         m = size(solves)
         allocate (not_wanted(0, m), done(m), stat=stat)
@@ -231,21 +230,21 @@ contains
                 if (size(supports, 2) > 0) then
                     values(:, :, i) = supports(:, :, i)
                 else
-                    values(1, :, i) = lowered%model%supports%settlement
-                    values(2, :, i) = lowered%model%supports%gap
-                    values(3, :, i) = lowered%model%supports%stiffness
+                    values(1, :, i) = assembled%model%supports%settlement
+                    values(2, :, i) = assembled%model%supports%gap
+                    values(3, :, i) = assembled%model%supports%stiffness
                 end if
                 values(1, :, i) = values(1, :, i) + settlements(:, i)
             end do
         end if
-        call solve_in_lanes(lowered, loads, factors, values, own_spans, room, closed, not_wanted, not_wanted, not_wanted, &
+        call solve_in_lanes(assembled, loads, factors, values, own_spans, room, closed, not_wanted, not_wanted, not_wanted, &
                             not_wanted, solves, done)
         where (.not. done) solves = 0
     end subroutine find_schemes
 
     !> Room for cases of a beam
-    subroutine make_room(lowered, loads, number, with_own_spans, room)
-        type(lowered_type), intent(in) :: lowered
+    subroutine make_room(assembled, loads, number, with_own_spans, room)
+        type(assembled_type), intent(in) :: assembled
         type(case_loads_type), intent(in) :: loads
         !> How many factors a case has
         integer, intent(in) :: number
@@ -253,12 +252,12 @@ contains
         type(lane_room_type), intent(inout) :: room
         integer :: stat
 
-        call prepare_lanes(lowered, loads, with_own_spans, room%beam, room%made)
-        if (room%made .and. with_own_spans) call prepare_spans(lowered, loads, room%spans, room%made)
+        call prepare_lanes(assembled, loads, with_own_spans, room%beam, room%made)
+        if (room%made .and. with_own_spans) call prepare_spans(assembled, loads, room%spans, room%made)
         if (room%made) call new_pack(room%beam, room%pack, room%made)
         if (.not. room%made) return
         allocate (room%factors(lanes, number), &
-                  room%turned(lanes, max(3*size(lowered%model%supports) + 3, size(lowered%beam%supports))), stat=stat)
+                  room%turned(lanes, max(3*size(assembled%model%supports) + 3, size(assembled%beam%supports))), stat=stat)
         room%made = stat == 0
     end subroutine make_room
 
@@ -281,186 +280,6 @@ contains
         to%closed(m, :) = from%closed(l, :)
         to%load(m, :) = from%load(l, :)
     end subroutine take_lane
-
-    !> What all cases have in common
-    subroutine prepare_lanes(lowered, loads, with_own_spans, lane_beam, made)
-        type(lowered_type), intent(in) :: lowered
-        type(case_loads_type), intent(in) :: loads
-        !> Has every case stiffnesses of its own
-        logical, intent(in) :: with_own_spans
-        type(lane_beam_type), intent(out) :: lane_beam
-        !> False where memory ends
-        logical, intent(out) :: made
-        integer :: k, n, m, last, extent, stat
-
-        extent = merge(lanes, 1, with_own_spans)
-        n = size(lowered%beam%links)
-        call find_places(lowered, lane_beam, made)
-        if (made) call find_restraints(lowered, lane_beam, made)
-        if (.not. made) return
-        last = lane_beam%last_place(size(lane_beam%shared))
-        m = size(loads%of_links)
-        k = size(loads%of_nodes)
-        lane_beam%n = n
-        allocate (lane_beam%length(n), lane_beam%inverse(n), lane_beam%links(extent, link_numbers, n), lane_beam%ease(extent), &
-                  lane_beam%side(0:last), lane_beam%there(0:n), lane_beam%changes(0:last), &
-                  lane_beam%hinge(0:n), lane_beam%number(size(lowered%beam%supports)), lane_beam%link_load(m), &
-                  lane_beam%link(m), lane_beam%to_link(extent, 6, m), lane_beam%node_load(k), lane_beam%node(k), &
-                  lane_beam%to_node(2, k), stat=stat)
-        made = stat == 0
-        if (.not. made) return
-        associate (to => lane_beam, from => lowered%beam%links)
-            to%length(:) = from%length
-            to%inverse(:) = from%inverse
-            to%ease(:) = ease_ratio*softest(lowered%beam)
-            do k = 1, extent
-                to%links(k, link_faa, :) = from%faa
-                to%links(k, link_fab, :) = from%fab
-                to%links(k, link_fbb, :) = from%fbb
-                to%links(k, link_sum_a, :) = from%sum_a
-                to%links(k, link_sum_b, :) = from%sum_b
-                to%links(k, link_bending, :) = from%bending
-                to%links(k, link_determinant, :) = from%determinant
-                to%links(k, link_fixity, :) = 0.0_wp
-                where (from%bending > 0.0_wp) to%links(k, link_fixity, :) = 1/from%bending
-                to%links(k, link_reach, :) = max(from%bending, from%faa + from%fbb)*from%length
-            end do
-            to%side(:) = 0.0_wp
-            to%there(:) = 0.0_wp
-            to%changes(:) = 0.0_wp
-            to%hinge(:) = merge(1.0_wp, 0.0_wp, lowered%beam%kind == hinge)
-            to%is_plain = all(lowered%beam%kind(1:n - 1) == plain)
-            to%number(:) = lowered%normal
-            do k = 1, size(lowered%beam%supports)
-                associate (s => lowered%beam%supports(k), i => to%place(k))
-                    if (i <= n) to%there(i) = 1.0_wp
-                    to%side(i) = s%side
-                    if (may_change(s)) to%changes(i) = 1.0_wp
-                end associate
-            end do
-            do k = 1, size(loads%of_links)
-                associate (s => loads%of_links(k))
-                    to%link_load(k) = s%load
-                    to%link(k) = s%link
-                    to%to_link(:, :, k) = spread([s%turn_a, s%turn_b, s%shear_a, s%shear_b, s%load_sum, s%turn_sum], 1, extent)
-                end associate
-            end do
-            to%with_couples = any(abs(loads%of_nodes%couple) > 0.0_wp)
-            do k = 1, size(loads%of_nodes)
-                to%node_load(k) = loads%of_nodes(k)%load
-                to%node(k) = loads%of_nodes(k)%node
-                to%to_node(:, k) = [loads%of_nodes(k)%force, loads%of_nodes(k)%couple]
-            end do
-        end associate
-    end subroutine prepare_lanes
-
-    !> Rotational restraints
-    pure subroutine find_restraints(lowered, lane_beam, made)
-        type(lowered_type), intent(in) :: lowered
-        type(lane_beam_type), intent(inout) :: lane_beam
-        !> False where memory ends
-        logical, intent(out) :: made
-        integer :: i, m, n, stat
-
-        associate (beam => lowered%beam)
-            n = size(beam%links)
-            m = count(beam%kind == restrained)
-            allocate (lane_beam%restraint(0:n), lane_beam%restrained(m), lane_beam%compliance(m), stat=stat)
-            made = stat == 0
-            if (.not. made) return
-            m = 0
-            do i = 0, n
-                lane_beam%restraint(i) = 0
-                if (beam%kind(i) /= restrained) cycle
-                m = m + 1
-                lane_beam%restraint(i) = m
-                lane_beam%restrained(m) = i
-                lane_beam%compliance(m) = beam%compliance(i)
-            end do
-        end associate
-    end subroutine find_restraints
-
-    !> Places of the supports in arrays of them
-    pure subroutine find_places(lowered, lane_beam, made)
-        type(lowered_type), intent(in) :: lowered
-        type(lane_beam_type), intent(inout) :: lane_beam
-        !> False where memory ends
-        logical, intent(out) :: made
-        integer :: i, j, m, n, stat
-
-        associate (beam => lowered%beam)
-            n = size(beam%links)
-            m = count(beam%first(1:n + 1) - beam%first(0:n) > 1)
-            allocate (lane_beam%place(size(beam%supports)), lane_beam%shared(m), lane_beam%last_place(0:m), stat=stat)
-            made = stat == 0
-            if (.not. made) return
-            m = 0
-            lane_beam%last_place(0) = n
-            do i = 0, n
-                associate (there => beam%order(beam%first(i):beam%first(i + 1) - 1))
-                    lane_beam%place(there) = i
-                    if (size(there) < 2) cycle
-                    m = m + 1
-                    lane_beam%shared(m) = i
-                    lane_beam%last_place(m) = lane_beam%last_place(m - 1) + size(there)
-                    lane_beam%place(there) = [(lane_beam%last_place(m - 1) + j, j=1, size(there))]
-                end associate
-            end do
-        end associate
-    end subroutine find_places
-
-    !> The supports as they are in all cases, open
-    pure subroutine take_supports(lowered, place, pack)
-        type(lowered_type), intent(in) :: lowered
-        !> Their places (lane_beam_type)
-        integer, intent(in), contiguous :: place(:)
-        type(pack_type), intent(inout) :: pack
-        integer :: k
-
-        pack%stiffness(:, :) = 0.0_wp
-        pack%rigid(:, :) = 0.0_wp
-        pack%contact(:, :) = 0.0_wp
-        pack%closed(:, :) = 0.0_wp
-        do k = 1, size(lowered%beam%supports)
-            associate (s => lowered%beam%supports(k), i => place(k))
-                pack%contact(:, i) = s%contact
-                if (is_rigid(s)) then
-                    pack%rigid(:, i) = 1.0_wp
-                else
-                    pack%stiffness(:, i) = s%stiffness
-                end if
-            end associate
-        end do
-    end subroutine take_supports
-
-    !> What levels and stiffnesses of supports are multiplied by in the engine's units
-    pure function units_of_supports(lowered) result(units)
-        type(lowered_type), intent(in) :: lowered
-        real(wp) :: units(2)
-
-        units = scale(1.0_wp, [-lowered%units%deflection, -stiffness_unit(lowered%units)])
-    end function units_of_supports
-
-    !> Where the searches of cases start
-    pure subroutine take_starts(lowered, place, closed, case_of, pack)
-        type(lowered_type), intent(in) :: lowered
-        !> As for take_supports
-        integer, intent(in), contiguous :: place(:)
-        !> As for solve_in_lanes, and the case of every lane
-        integer, intent(in), contiguous :: closed(:, :)
-        integer, intent(in) :: case_of(lanes)
-        !> Open where there is no support
-        type(pack_type), intent(inout) :: pack
-        integer :: k, l
-
-        do k = 1, size(lowered%beam%supports)
-            associate (s => lowered%beam%supports(k))
-                do l = 1, lanes
-                    pack%closed(l, place(k)) = merge(1.0_wp, 0.0_wp, closed(k, case_of(l)) /= 0 .or. s%side == both)
-                end do
-            end associate
-        end do
-    end subroutine take_starts
 
     !> The largest absolute values of solutions in the engine's units
     pure function largest_values(w, ml, mr, reaction) result(largest)

@@ -4,22 +4,22 @@ module gapbeam_lane_pieces
     use gapbeam_element, only: sum_type, add, total
     use gapbeam_link, only: piece_load_type
     use gapbeam_scene, only: gapbeam_force, gapbeam_couple, gapbeam_axial_force
-    use gapbeam_lowered, only: lowered_type, is_stretch
-    use gapbeam_lower_loads, only: spread_load
-    use gapbeam_lower_units, only: load_in_units
+    use gapbeam_assembled_model, only: assembled_type, is_stretch
+    use gapbeam_assemble_loads, only: spread_load
+    use gapbeam_assemble_units, only: load_in_units
     use gapbeam_lane_types, only: lane_pieces_type
     implicit none
     private
     public :: prepare_pieces
 
     !> No load on a piece
-    type(piece_load_type), parameter :: nothing = piece_load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
+    type(piece_load_type), parameter :: no_load = piece_load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
 
 contains
 
     !> Pieces of the links, and what the loads with factor 1 put on them
-    subroutine prepare_pieces(lowered, extent, pieces, made)
-        type(lowered_type), intent(in) :: lowered
+    subroutine prepare_pieces(assembled, extent, pieces, made)
+        type(assembled_type), intent(in) :: assembled
         !> Numbers that follow from stiffnesses: 1 where all cases have the same, or lanes
         integer, intent(in) :: extent
         type(lane_pieces_type), intent(out) :: pieces
@@ -28,37 +28,37 @@ contains
         type(piece_load_type), allocatable :: on_pieces(:)
         integer :: j, k, n, shares, stat
 
-        n = size(lowered%pieces)
+        n = size(assembled%pieces)
         shares = 0
-        do k = 1, size(lowered%model%loads)
-            if (is_stretch(lowered%model%loads(k))) then
-                shares = shares + lowered%load_to(k) - lowered%load_from(k)
+        do k = 1, size(assembled%model%loads)
+            if (is_stretch(assembled%model%loads(k))) then
+                shares = shares + assembled%load_to(k) - assembled%load_from(k)
             else if (is_inside(k)) then
                 shares = shares + 1
             end if
         end do
-        allocate (pieces%last(0:size(lowered%beam%links)), pieces%length(n), pieces%flexibility(extent, n), &
+        allocate (pieces%last(0:size(assembled%beam%links)), pieces%length(n), pieces%flexibility(extent, n), &
                   pieces%shear_flexibility(extent, n), &
                   pieces%before(n), pieces%behind(n), pieces%number(n), pieces%half(n), pieces%load(shares), &
                   pieces%piece(shares), pieces%to_piece(5, shares), &
                   on_pieces(n), stat=stat)
         made = stat == 0
         if (.not. made) return
-        pieces%last(:) = lowered%node_point
-        pieces%length(:) = lowered%pieces%length
+        pieces%last(:) = assembled%node_point
+        pieces%length(:) = assembled%pieces%length
         pieces%half(:) = 0.5_wp*pieces%length
         pieces%number(:) = [(j, j=1, n)]
-        pieces%flexibility(:, :) = spread(lowered%pieces%flexibility, 1, extent)
-        pieces%shear_flexibility(:, :) = spread(lowered%pieces%shear_flexibility, 1, extent)
+        pieces%flexibility(:, :) = spread(assembled%pieces%flexibility, 1, extent)
+        pieces%shear_flexibility(:, :) = spread(assembled%pieces%shear_flexibility, 1, extent)
         do k = 1, ubound(pieces%last, 1)
             call find_distances(pieces%last(k - 1) + 1, pieces%last(k))
         end do
-        on_pieces(:) = nothing
+        on_pieces(:) = no_load
         shares = 0
-        do k = 1, size(lowered%model%loads)
-            associate (load => lowered%model%loads(k), a => lowered%load_from(k), b => lowered%load_to(k))
+        do k = 1, size(assembled%model%loads)
+            associate (load => assembled%model%loads(k), a => assembled%load_from(k), b => assembled%load_to(k))
                 if (is_stretch(load)) then
-                    call spread_load(lowered, load, a, b, on_pieces)
+                    call spread_load(assembled, load, a, b, on_pieces)
                     do j = a + 1, b
                         call take(j)
                     end do
@@ -77,8 +77,8 @@ contains
             integer, intent(in) :: load
             logical :: yes
 
-            yes = .not. is_stretch(lowered%model%loads(load)) .and. lowered%model%loads(load)%kind /= gapbeam_axial_force
-            if (yes) yes = lowered%node_of_point(lowered%load_from(load)) < 0
+            yes = .not. is_stretch(assembled%model%loads(load)) .and. assembled%model%loads(load)%kind /= gapbeam_axial_force
+            if (yes) yes = assembled%node_of_point(assembled%load_from(load)) < 0
         end function is_inside
 
         !> Distances of the pieces of a link from its ends
@@ -103,14 +103,14 @@ contains
         subroutine take(piece)
             integer, intent(in) :: piece
 
-            call load_in_units(on_pieces(piece), lowered%units)
+            call load_in_units(on_pieces(piece), assembled%units)
             shares = shares + 1
             pieces%load(shares) = k
             pieces%piece(shares) = piece
             associate (q => on_pieces(piece))
                 pieces%to_piece(:, shares) = [q%qa, q%qb, q%kappa, q%force, q%couple]
             end associate
-            on_pieces(piece) = nothing
+            on_pieces(piece) = no_load
         end subroutine take
 
     end subroutine prepare_pieces

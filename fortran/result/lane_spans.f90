@@ -1,21 +1,21 @@
-!> What links of cases whose spans have other stiffnesses are made of (gapbeam_lane_links)
+!> Links of cases whose spans have stiffnesses of their own (gapbeam_lane_links).
 module gapbeam_lane_spans
     use gapbeam_kinds, only: wp
     use gapbeam_element, only: moment_integrals
     use gapbeam_link, only: piece_type, piece_load_type, along_type, next_piece, moments_about_right_end
-    use gapbeam_law_forms, only: least_stiffness
+    use gapbeam_law_adapters, only: least_stiffness
     use gapbeam_units, only: turning_unit, rotation_unit
-    use gapbeam_lowered, only: lowered_type, in_bending, in_shear
+    use gapbeam_assembled_model, only: assembled_type, in_bending, in_shear
     use gapbeam_cases, only: case_loads_type
     use gapbeam_lane_types, only: lanes, lane_beam_type, lane_pieces_type, lane_spans_type, pack_type, link_bending
-    use gapbeam_lane_levels, only: make_links_at
+    use gapbeam_cpu_dispatch, only: make_links_at
     use gapbeam_lane_pieces, only: prepare_pieces
     implicit none
     private
-    public :: span_room_type, fits_spans, prepare_spans, take_spans, make_pack_links, ease_ratio
+    public :: span_room_type, fits_spans, prepare_spans, take_spans, make_pack_links, proximal_ratio
 
     !> Weak springs relative to the softest stiffness present, as in gapbeam_scheme
-    real(wp), parameter :: ease_ratio = 1e-5_wp
+    real(wp), parameter :: proximal_ratio = 1e-5_wp
     !> Stiffnesses between 2**-100 and 2**100 in the engine's units leave room for all products, in the units of the case too
     integer, parameter :: most_power = 100
     !> Exponents of the units of stiffnesses up to which powers of two and their products with these are doubles
@@ -23,7 +23,7 @@ module gapbeam_lane_spans
     !> Pieces of links times loads on them: beyond that they leave the processor's memory
     integer, parameter :: most_terms = 100000
     !> No load on a piece
-    type(piece_load_type), parameter :: nothing = piece_load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
+    type(piece_load_type), parameter :: no_load = piece_load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
 
     !> What eight cases with spans of their own need
     type :: span_room_type
@@ -37,32 +37,32 @@ module gapbeam_lane_spans
 contains
 
     !> Are loads on links of many pieces so few that lanes hold them
-    pure function fits_spans(lowered, loads) result(fits)
-        type(lowered_type), intent(in) :: lowered
+    pure function fits_spans(assembled, loads) result(fits)
+        type(assembled_type), intent(in) :: assembled
         type(case_loads_type), intent(in) :: loads
         logical :: fits
 
-        fits = terms_of(lowered, loads) <= most_terms
+        fits = terms_of(assembled, loads) <= most_terms
     end function fits_spans
 
     !> Pieces of links times loads on them, not much above most_terms
-    pure function terms_of(lowered, loads) result(number)
-        type(lowered_type), intent(in) :: lowered
+    pure function terms_of(assembled, loads) result(number)
+        type(assembled_type), intent(in) :: assembled
         type(case_loads_type), intent(in) :: loads
         integer :: number, k
 
         number = 0
         do k = 1, size(loads%of_links)
             associate (i => loads%of_links(k)%link)
-                number = number + lowered%node_point(i) - lowered%node_point(i - 1)
+                number = number + assembled%node_point(i) - assembled%node_point(i - 1)
             end associate
             if (number > most_terms) return
         end do
     end function terms_of
 
     !> What does not differ from case to case
-    subroutine prepare_spans(lowered, loads, room, made)
-        type(lowered_type), intent(in) :: lowered
+    subroutine prepare_spans(assembled, loads, room, made)
+        type(assembled_type), intent(in) :: assembled
         type(case_loads_type), intent(in) :: loads
         type(span_room_type), intent(out) :: room
         !> False where memory ends
@@ -70,14 +70,14 @@ contains
         type(lane_pieces_type) :: pieces
         integer :: j, m, n, stat, powers(2)
 
-        call prepare_pieces(lowered, 1, pieces, made)
+        call prepare_pieces(assembled, 1, pieces, made)
         if (.not. made) return
-        n = size(lowered%pieces)
+        n = size(assembled%pieces)
         m = size(loads%of_links)
-        associate (spans => room%spans, units => lowered%units)
-            allocate (spans%span(2, n), spans%own(2, n), spans%last(0:size(lowered%beam%links)), spans%length(n), spans%before(n), &
-                      spans%link(m), spans%last_term(0:m), spans%sizes(2, m), &
-                      spans%terms(10, terms_of(lowered, loads)), room%stiffness(lanes, 2, size(lowered%model%spans)), &
+        associate (spans => room%spans, units => assembled%units)
+            allocate (spans%span(2, n), spans%own(2, n), spans%last(0:size(assembled%beam%links)), spans%length(n), &
+                      spans%before(n), spans%link(m), spans%last_term(0:m), spans%sizes(2, m), &
+                      spans%terms(10, terms_of(assembled, loads)), room%stiffness(lanes, 2, size(assembled%model%spans)), &
                       room%flexibility(lanes, n), room%shear_flexibility(lanes, n), stat=stat)
             made = stat == 0
             if (.not. made) return
@@ -87,26 +87,26 @@ contains
                 spans%least = scale(1.0_wp, powers - most_power)
                 spans%most = scale(1.0_wp, powers + most_power)
             end if
-            spans%softest = least_stiffness(lowered%beam%supports)
+            spans%softest = least_stiffness(assembled%beam%supports)
             spans%last(:) = pieces%last
             spans%length(:) = pieces%length
             spans%before(:) = pieces%before
             do j = 1, n
-                spans%span(:, j) = lowered%point_span(j - 1) + 1
-                if (allocated(lowered%section_of)) then
-                    if (lowered%section_of(in_bending, j) > 0) spans%span(1, j) = 0
-                    if (lowered%section_of(in_shear, j) > 0) spans%span(2, j) = 0
+                spans%span(:, j) = assembled%point_span(j - 1) + 1
+                if (allocated(assembled%section_of)) then
+                    if (assembled%section_of(in_bending, j) > 0) spans%span(1, j) = 0
+                    if (assembled%section_of(in_shear, j) > 0) spans%span(2, j) = 0
                 end if
-                spans%own(:, j) = [lowered%pieces(j)%flexibility, lowered%pieces(j)%shear_flexibility]
+                spans%own(:, j) = [assembled%pieces(j)%flexibility, assembled%pieces(j)%shear_flexibility]
             end do
             spans%link(:) = loads%of_links%link
         end associate
-        call prepare_loads(lowered, loads, pieces, room%spans, made)
+        call prepare_loads(assembled, loads, pieces, room%spans, made)
     end subroutine prepare_spans
 
     !> What loads do to links, whatever the stiffnesses
-    subroutine prepare_loads(lowered, loads, pieces, spans, made)
-        type(lowered_type), intent(in) :: lowered
+    subroutine prepare_loads(assembled, loads, pieces, spans, made)
+        type(assembled_type), intent(in) :: assembled
         type(case_loads_type), intent(in) :: loads
         !> With the loads on them in the order of loads
         type(lane_pieces_type), intent(in) :: pieces
@@ -120,7 +120,7 @@ contains
         allocate (on_link(size(spans%length)), work(size(spans%length)), stat=stat)
         made = stat == 0
         if (.not. made) return
-        on_link(:) = nothing
+        on_link(:) = no_load
         spans%last_term(0) = 0
         j = 0
         do k = 1, size(spans%link)
@@ -142,10 +142,10 @@ contains
                         spans%sizes(:, k) = [abs(q%kappa)*l, (abs(q%qa) + abs(q%qb))*l*(l*l/l)]
                     end associate
                 else
-                    call go_along(lowered%beam%links(spans%link(k))%length, lowered%pieces(first:last), on_link(first:last), work, &
-                                  spans%terms(:, before + 1:spans%last_term(k)), spans%sizes(:, k))
+                    call go_along(assembled%beam%links(spans%link(k))%length, assembled%pieces(first:last), on_link(first:last), &
+                                  work, spans%terms(:, before + 1:spans%last_term(k)), spans%sizes(:, k))
                 end if
-                on_link(first:last) = nothing
+                on_link(first:last) = no_load
             end associate
         end do
     end subroutine prepare_loads
@@ -203,7 +203,7 @@ contains
 
     !> Make the links of eight cases whose stiffnesses have been taken
     subroutine make_pack_links(level, room, beam, pack)
-        !> Instructions (gapbeam_lane_levels)
+        !> Instructions (gapbeam_cpu_dispatch)
         integer, intent(in) :: level
         type(span_room_type), intent(inout) :: room
         !> What loads do to links, and weak springs, out
@@ -215,21 +215,22 @@ contains
         call make_links_at(level, room%spans, beam%length, room%stiffness, room%flexibility, room%shear_flexibility, pack%links, &
                            beam%to_link)
         do l = 1, lanes
-            beam%ease(l) = ease_of(room%spans%softest, sum(pack%links(l, link_bending, :)), sum(beam%length), beam%n)
+            beam%proximal_weight(l) = proximal_weight_of(room%spans%softest, sum(pack%links(l, link_bending, :)), &
+                                                         sum(beam%length), beam%n)
         end do
     end subroutine make_pack_links
 
     !> Stiffness of the weak springs of a case: softest of gapbeam_model
-    pure function ease_of(softest, bending, length, n) result(ease)
+    pure function proximal_weight_of(softest, bending, length, n) result(proximal_weight)
         !> Of the supports; of the beam: flexibility, length, links
         real(wp), intent(in) :: softest, bending, length
         integer, intent(in) :: n
-        real(wp) :: ease
+        real(wp) :: proximal_weight
 
-        ease = softest
-        if (bending > 0.0_wp) ease = min(ease, 1/(bending*length**2))
-        if (.not. ease < huge(ease)) ease = 1.0_wp
-        ease = ease_ratio*(ease/(n + 1))
-    end function ease_of
+        proximal_weight = softest
+        if (bending > 0.0_wp) proximal_weight = min(proximal_weight, 1/(bending*length**2))
+        if (.not. proximal_weight < huge(proximal_weight)) proximal_weight = 1.0_wp
+        proximal_weight = proximal_ratio*(proximal_weight/(n + 1))
+    end function proximal_weight_of
 
 end module gapbeam_lane_spans

@@ -1,4 +1,4 @@
-!> Cases of a beam: side by side in lanes where that can be (gapbeam_lane_cases), the others one by one
+!> Cases of a beam, side by side where lanes hold them (gapbeam_lane_cases), else one by one.
 module gapbeam_many_cases
     use gapbeam_kinds, only: wp
     use gapbeam_watch, only: is_stopped
@@ -8,8 +8,8 @@ module gapbeam_many_cases
     use gapbeam_workspace, only: workspace_type, new_workspace
     use gapbeam_search, only: rule_block
     use gapbeam_units, only: moment_unit
-    use gapbeam_lowered, only: lowered_type
-    use gapbeam_lower_loads, only: lower_loads
+    use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_assemble_loads, only: assemble_loads
     use gapbeam_cases, only: case_loads_type, split_loads, solve_case, replace_supports
     use gapbeam_lane_spans, only: fits_spans
     use gapbeam_lane_cases, only: lane_room_type, fits_lanes, solve_in_lanes
@@ -32,16 +32,16 @@ module gapbeam_many_cases
         type(workspace_type) :: work
         !> Of cases whose spans have other stiffnesses: the beam with them, and what loads do to it
         logical :: varied_is_sound = .false.
-        type(lowered_type), allocatable :: varied
+        type(assembled_type), allocatable :: varied
         type(case_loads_type) :: loads
     end type case_room_type
 
 contains
 
     !> Solve cases
-    subroutine solve_cases(lowered, loads, factors, values, spans, rule, room, closed, w, ml, mr, reaction, solves, status)
+    subroutine solve_cases(assembled, loads, factors, values, spans, rule, room, closed, w, ml, mr, reaction, solves, status)
         !> A beam without ground
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: assembled
         !> By split_loads, and the factor of every load, shape (at least nload, ncase)
         type(case_loads_type), intent(in) :: loads
         real(wp), intent(in), contiguous :: factors(:, :)
@@ -66,14 +66,14 @@ contains
         logical, allocatable :: acting(:), done(:)
         integer :: i, m, stat
 
-        m = size(lowered%beam%supports)
+        m = size(assembled%beam%supports)
         solves(:) = 0
         status(:) = gapbeam_no_memory
         if (.not. room%made) then
-            if (.not. enough_memory(for_solving, size(lowered%beam%links), m, 0)) return
-            room%is_long = fits_segments(lowered)
-            room%fits = fits_lanes(lowered)
-            room%fits_with_own_spans = room%fits .and. fits_spans(lowered, loads)
+            if (.not. enough_memory(for_solving, size(assembled%beam%links), m, 0)) return
+            room%is_long = fits_segments(assembled)
+            room%fits = fits_lanes(assembled)
+            room%fits_with_own_spans = room%fits .and. fits_spans(assembled, loads)
             room%made = .true.
         end if
         allocate (acting(m), done(size(status)), stat=stat)
@@ -82,11 +82,11 @@ contains
         if (rule == rule_block) then
             if (size(spans, 2) > 0) then
                 if (room%fits_with_own_spans) then
-                    call solve_in_lanes(lowered, loads, factors, values, spans, room%lanes_with_own_spans, closed, w, ml, mr, &
+                    call solve_in_lanes(assembled, loads, factors, values, spans, room%lanes_with_own_spans, closed, w, ml, mr, &
                                         reaction, solves, done)
                 end if
-            else if (room%is_long .and. (size(status) < few .or. size(lowered%beam%links) >= least_alone)) then
-                call solve_in_segments(lowered, loads, factors, values, room%segments, closed, w, ml, mr, reaction, solves, done)
+            else if (room%is_long .and. (size(status) < few .or. size(assembled%beam%links) >= least_alone)) then
+                call solve_in_segments(assembled, loads, factors, values, room%segments, closed, w, ml, mr, reaction, solves, done)
                 ! Lanes hold ends that open
                 do i = 1, size(status)
                     if (.not. (done(i) .or. .not. room%fits)) call solve_beside(i, i)
@@ -99,33 +99,33 @@ contains
         end if
         if (size(spans, 2) == 0) then
             if (.not. room%loaded_is_made) then
-                room%loaded = lowered%beam
+                room%loaded = assembled%beam
                 call new_workspace(room%loaded, room%work)
                 room%loaded_is_made = .true.
             end if
-            if (m > 0 .and. size(values, 2) == 0) room%loaded%supports(:) = lowered%beam%supports
-            room%loaded%watch = lowered%beam%watch
+            if (m > 0 .and. size(values, 2) == 0) room%loaded%supports(:) = assembled%beam%supports
+            room%loaded%watch = assembled%beam%watch
         end if
         do i = 1, size(status)
-            if (is_stopped(lowered%beam%watch)) exit
+            if (is_stopped(assembled%beam%watch)) exit
             if (done(i)) cycle
             acting(:) = closed(:m, i) /= 0
             solves(i) = 0
             if (size(spans, 2) > 0) then
-                call change_spans(lowered, spans(:, :, i), room, status(i))
+                call change_spans(assembled, spans(:, :, i), room, status(i))
                 if (status(i) == gapbeam_solved) call solve(room%varied, room%loads)
                 call give_case(room%varied, room%work, acting, closed(:, i), w(:, i), ml(:, i), mr(:, i), reaction(:, i), status(i))
             else
                 status(i) = gapbeam_solved
-                call solve(lowered, loads)
-                call give_case(lowered, room%work, acting, closed(:, i), w(:, i), ml(:, i), mr(:, i), reaction(:, i), status(i))
+                call solve(assembled, loads)
+                call give_case(assembled, room%work, acting, closed(:, i), w(:, i), ml(:, i), mr(:, i), reaction(:, i), status(i))
             end if
             if (status(i) == gapbeam_no_memory) then
                 status(:) = gapbeam_no_memory
                 return
             end if
         end do
-        if (is_stopped(lowered%beam%watch)) status(:) = gapbeam_stopped
+        if (is_stopped(assembled%beam%watch)) status(:) = gapbeam_stopped
 
     contains
 
@@ -136,14 +136,14 @@ contains
 
             from = merge(first, 1, size(values, 2) > 0)
             to = merge(last, size(values, 3), size(values, 2) > 0)
-            call solve_in_lanes(lowered, loads, factors(:, first:last), values(:, :, from:to), spans, room%lanes, &
+            call solve_in_lanes(assembled, loads, factors(:, first:last), values(:, :, from:to), spans, room%lanes, &
                                 closed(:, first:last), w(:, first:last), ml(:, first:last), mr(:, first:last), &
                                 reaction(:, first:last), solves(first:last), done(first:last))
         end subroutine solve_beside
 
         !> Solve the case at hand
         subroutine solve(beam, shares)
-            type(lowered_type), intent(in) :: beam
+            type(assembled_type), intent(in) :: beam
             type(case_loads_type), intent(in) :: shares
 
             if (size(values, 2) > 0) call replace_supports(beam, values(:, :, i), room%loaded, status(i))
@@ -155,8 +155,8 @@ contains
     end subroutine solve_cases
 
     !> Make the beam of a case whose spans have other stiffnesses
-    subroutine change_spans(lowered, spans, room, status)
-        type(lowered_type), intent(in) :: lowered
+    subroutine change_spans(assembled, spans, room, status)
+        type(assembled_type), intent(in) :: assembled
         !> EI and GA, shape (2, nspan)
         real(wp), intent(in) :: spans(:, :)
         type(case_room_type), intent(inout) :: room
@@ -170,13 +170,13 @@ contains
         ! What an error leaves behind is no beam to go on with
         if (allocated(room%varied) .and. .not. room%varied_is_sound) deallocate (room%varied)
         if (.not. allocated(room%varied)) then
-            allocate (room%varied, source=lowered, stat=stat)
+            allocate (room%varied, source=assembled, stat=stat)
             if (stat /= 0) return
         end if
-        room%varied%beam%watch = lowered%beam%watch
+        room%varied%beam%watch = assembled%beam%watch
         room%varied%model%spans%EI = spans(1, :)
         room%varied%model%spans%GA = spans(2, :)
-        call lower_loads(room%varied, error)
+        call assemble_loads(room%varied, error)
         if (.not. allocated(error)) call split_loads(room%varied, room%loads, error)
         room%varied_is_sound = .not. allocated(error)
         status = gapbeam_solved
@@ -189,8 +189,8 @@ contains
     end subroutine change_spans
 
     !> A case in the scene's units, where it is solved and these hold it
-    subroutine give_case(lowered, work, acting, closed, w, ml, mr, reaction, status)
-        type(lowered_type), intent(in) :: lowered
+    subroutine give_case(assembled, work, acting, closed, w, ml, mr, reaction, status)
+        type(assembled_type), intent(in) :: assembled
         type(workspace_type), intent(in) :: work
         logical, intent(in) :: acting(:)
         !> As for solve_cases
@@ -200,7 +200,7 @@ contains
 
         closed(:) = 0
         if (status == gapbeam_solved) then
-            associate (units => lowered%units, a => work%answers)
+            associate (units => assembled%units, a => work%answers)
                 if (all(abs(scale(a%deflection, units%deflection)) <= huge(1.0_wp)) &
                     .and. all(abs(scale(a%moment_left, moment_unit(units))) <= huge(1.0_wp)) &
                     .and. all(abs(scale(a%moment_right, moment_unit(units))) <= huge(1.0_wp)) &

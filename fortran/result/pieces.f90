@@ -1,4 +1,4 @@
-!> What a support does, and what happens to it, as codes: states of supports, pieces of laws, events
+!> Codes for states of supports, pieces of laws and events.
 module gapbeam_pieces
     use gapbeam_kinds, only: wp
     use gapbeam_polyline, only: node_support_type
@@ -6,7 +6,7 @@ module gapbeam_pieces
     use gapbeam_path, only: event_opens, event_closes, event_turns
     implicit none
     private
-    public :: acting_type, acting_piece, what_happens, nothing
+    public :: acting_type, acting_piece, what_happens, no_change
     public :: gapbeam_open, gapbeam_closed, gapbeam_bilateral, gapbeam_touching, gapbeam_branch
     public :: gapbeam_opens, gapbeam_closes, gapbeam_turns, gapbeam_yields, gapbeam_hardens, gapbeam_softens, gapbeam_breaks, &
         gapbeam_unloads
@@ -26,7 +26,7 @@ module gapbeam_pieces
     integer, parameter :: gapbeam_appears = 20, gapbeam_vanishes = 21, gapbeam_merges = 22, gapbeam_splits = 23, &
                           gapbeam_reaches = 24, gapbeam_leaves = 25
     !> No event
-    integer, parameter :: nothing = -1
+    integer, parameter :: no_change = -1
 
     !> What acts of a support
     type :: acting_type
@@ -40,9 +40,9 @@ module gapbeam_pieces
 contains
 
     !> What acts of a support
-    pure function acting_piece(kinks, side, closed) result(acting)
-        !> The support as the engine has it: the kinks of its law, or one entry
-        type(node_support_type), intent(in) :: kinks(:)
+    pure function acting_piece(breakpoints, side, closed) result(acting)
+        !> The support as the engine has it: the breakpoints of its law, or one entry
+        type(node_support_type), intent(in) :: breakpoints(:)
         !> Its side, and its part of the scheme
         integer, intent(in) :: side
         logical, intent(in) :: closed(:)
@@ -50,22 +50,22 @@ contains
         integer :: middle, number
 
         acting = acting_type(gapbeam_bilateral, 0.0_wp, 0)
-        if (kinks(1)%kink == 0) then
+        if (breakpoints(1)%breakpoint == 0) then
             if (side /= both) acting%condition = merge(gapbeam_closed, gapbeam_open, closed(1))
             return
         end if
         middle = 0
-        if (side == both) middle = size(kinks)/2
+        if (side == both) middle = size(breakpoints)/2
         number = abs(count(closed) - middle)
         if (side == both) then
-            if (abs(kinks(middle)%stiffness) > 0.0_wp) number = number + 1
+            if (abs(breakpoints(middle)%stiffness) > 0.0_wp) number = number + 1
         end if
         acting%condition = gapbeam_open
         acting%way = merge(1, -1, count(closed) >= middle)
         if (number == 0) return
         acting%condition = gapbeam_branch + number
-        acting%slope = kinks(1)%before
-        if (any(closed)) acting%slope = kinks(count(closed))%stiffness
+        acting%slope = breakpoints(1)%before
+        if (any(closed)) acting%slope = breakpoints(count(closed))%stiffness
     end function acting_piece
 
     !> The event between two pieces of a law, or none
@@ -78,15 +78,15 @@ contains
 
         same_slope = .not. (before%slope < after%slope .or. before%slope > after%slope)
         if (before%condition == after%condition .and. before%way == after%way .and. same_slope) then
-            event = nothing
+            event = no_change
         else if (before%condition == gapbeam_open .or. after%condition == gapbeam_open) then
             event = merge(gapbeam_opens, gapbeam_closes, after%condition == gapbeam_open)
         else if (same_slope) then
-            event = nothing
+            event = no_change
         else if (after%condition < before%condition) then
             event = gapbeam_unloads
         else if (before%slope < -huge(1.0_wp)) then
-            event = nothing  ! the foot of a drop; it has broken at its top
+            event = no_change  ! the foot of a drop; it has broken at its top
         else if (after%slope < 0.0_wp) then
             event = merge(gapbeam_breaks, gapbeam_softens, after%slope < -huge(1.0_wp))
         else

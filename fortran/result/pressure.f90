@@ -1,10 +1,10 @@
-!> Pressure of the ground on a beam, in the user's units: at places, and its extremes
+!> Pressure of the ground on a beam in the user's units: at places, and its extremes.
 module gapbeam_pressure
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_words, only: shown
-    use gapbeam_refusal, only: refuse_range
-    use gapbeam_lowered, only: lowered_type, point_x
+    use gapbeam_input_error, only: refuse_range
+    use gapbeam_assembled_model, only: assembled_type, point_x
     use gapbeam_ground_solver, only: ground_solution_type
     use gapbeam_ground_pressure, only: ground_pressure, pressure_extremes
     implicit none
@@ -14,9 +14,9 @@ module gapbeam_pressure
 contains
 
     !> Pressure at given distances from the left ends of pieces
-    subroutine pressure_in_pieces(lowered, solution, piece, distance, pressure, error)
+    subroutine pressure_in_pieces(assembled, solution, piece, distance, pressure, error)
         !> The beam, and its solution on the ground
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: assembled
         type(ground_solution_type), intent(in) :: solution
         !> The pieces, and the distances in the user's units, shape (n)
         integer, intent(in) :: piece(:)
@@ -33,21 +33,21 @@ contains
             call no_memory(error)
             return
         end if
-        call ground_pressure(lowered, solution, piece, scale(distance, -lowered%units%length), found)
-        found(:) = scale(found, pressure_unit(lowered))
+        call ground_pressure(assembled, solution, piece, scale(distance, -assembled%units%length), found)
+        found(:) = scale(found, pressure_unit(assembled))
         i = findloc(abs(found) <= huge(found), .false., 1)
         if (i == 0) then
             pressure(:) = found
         else
-            call refuse_pressure(point_x(lowered, piece(i) - 1) + distance(i), error)
+            call refuse_pressure(point_x(assembled, piece(i) - 1) + distance(i), error)
             error%entry = i
         end if
     end subroutine pressure_in_pieces
 
     !> Largest and smallest pressure
-    subroutine extremes_of_pressure(lowered, solution, value, x, error)
+    subroutine extremes_of_pressure(assembled, solution, value, x, error)
         !> As for pressure_in_pieces
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: assembled
         type(ground_solution_type), intent(in) :: solution
         !> Maximum (1) and minimum (2), force per length on the beam, up, and their places
         real(wp), intent(out) :: value(2), x(2)
@@ -56,21 +56,21 @@ contains
         real(wp) :: distance(2)
         integer :: piece(2), i
 
-        call pressure_extremes(lowered, solution, value, piece, distance)
-        value = scale(value, pressure_unit(lowered))
+        call pressure_extremes(assembled, solution, value, piece, distance)
+        value = scale(value, pressure_unit(assembled))
         do i = 1, 2
-            x(i) = point_x(lowered, piece(i) - 1) + scale(distance(i), lowered%units%length)
+            x(i) = point_x(assembled, piece(i) - 1) + scale(distance(i), assembled%units%length)
             if (abs(value(i)) <= huge(value) .or. allocated(error)) cycle
             call refuse_pressure(x(i), error)
         end do
     end subroutine extremes_of_pressure
 
     !> Exponent of the unit of force per length
-    pure function pressure_unit(lowered) result(power)
-        type(lowered_type), intent(in) :: lowered
+    pure function pressure_unit(assembled) result(power)
+        type(assembled_type), intent(in) :: assembled
         integer :: power
 
-        power = lowered%units%force - lowered%units%length
+        power = assembled%units%force - assembled%units%length
     end function pressure_unit
 
     !> A pressure is too great for the user's units

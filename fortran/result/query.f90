@@ -1,15 +1,15 @@
-!> What a solved state says, in the user's units: fields anywhere, their extremes, the free motion
+!> Fields of a solved state in the user's units: at places, extremes, the free motion.
 module gapbeam_query
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input
     use gapbeam_element, only: field_type
     use gapbeam_fields, only: values_at, find_extremes
     use gapbeam_units, only: moment_unit, rotation_unit
-    use gapbeam_lowered, only: lowered_type, point_x, piece_length
-    use gapbeam_places, only: locate, position_tolerance, end_tolerance
-    use gapbeam_lower_units, only: name_farthest
+    use gapbeam_assembled_model, only: assembled_type, point_x, piece_length
+    use gapbeam_stations, only: locate, position_tolerance, end_tolerance
+    use gapbeam_assemble_units, only: name_farthest
     use gapbeam_words, only: shown
-    use gapbeam_refusal, only: refuse_range
+    use gapbeam_input_error, only: refuse_range
     use gapbeam_memory, only: reserve_memory, for_fields
     use gapbeam_ground_solver, only: ground_solution_type
     use gapbeam_ground_query, only: ground_values, ground_extremes
@@ -29,30 +29,30 @@ module gapbeam_query
 contains
 
     !> Fields at the left ends of all pieces, if they are not there yet
-    subroutine make_starts(lowered, state, error)
-        type(lowered_type), intent(in) :: lowered
+    subroutine make_starts(assembled, state, error)
+        type(assembled_type), intent(in) :: assembled
         type(state_type), intent(inout) :: state
         type(error_type), allocatable, intent(out) :: error
         integer :: i
 
         if (state%has_starts) return
-        call reserve_memory(for_fields, size(lowered%beam%links), size(lowered%beam%supports), size(lowered%pieces), error)
+        call reserve_memory(for_fields, size(assembled%beam%links), size(assembled%beam%supports), size(assembled%pieces), error)
         if (allocated(error)) return
-        call recover_state(lowered, state, state%starts)
+        call recover_state(assembled, state, state%starts)
         do i = 1, size(state%starts)
             associate (a => state%starts(i))
                 if (all(abs([a%deflection, a%rotation, a%moment, a%shear]) <= huge(1.0_wp))) cycle
             end associate
-            call name_farthest(lowered, error)
+            call name_farthest(assembled, error)
             return
         end do
         state%has_starts = .true.
     end subroutine make_starts
 
     !> Fields of a state at given places
-    subroutine fields_at_places(lowered, state, x, from_left, fields, error)
+    subroutine fields_at_places(assembled, state, x, from_left, fields, error)
         !> The beam, and its solved state
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: assembled
         type(state_type), intent(inout) :: state
         !> The places, shape (n)
         real(wp), intent(in) :: x(:)
@@ -65,16 +65,16 @@ contains
         integer, allocatable :: piece(:)
         real(wp), allocatable :: distance(:)
 
-        call find_pieces(lowered, x, from_left, piece, distance, error)
-        if (.not. (allocated(error) .or. allocated(state%ground))) call make_starts(lowered, state, error)
+        call find_pieces(assembled, x, from_left, piece, distance, error)
+        if (.not. (allocated(error) .or. allocated(state%ground))) call make_starts(assembled, state, error)
         if (allocated(error)) return
-        call fields_in_pieces(lowered, state%factor, state%starts, state%displacement, state%tension, piece, distance, fields, &
+        call fields_in_pieces(assembled, state%factor, state%starts, state%displacement, state%tension, piece, distance, fields, &
                               error, state%ground)
     end subroutine fields_at_places
 
     !> Pieces of given places
-    subroutine find_pieces(lowered, x, from_left, piece, distance, error)
-        type(lowered_type), intent(in) :: lowered
+    subroutine find_pieces(assembled, x, from_left, piece, distance, error)
+        type(assembled_type), intent(in) :: assembled
         !> The places, shape (n), and on which side of what is between two pieces
         real(wp), intent(in) :: x(:)
         logical, intent(in) :: from_left
@@ -86,7 +86,7 @@ contains
         real(wp) :: end
         integer :: i, stat
 
-        end = lowered%ends(ubound(lowered%ends, 1))
+        end = assembled%ends(ubound(assembled%ends, 1))
         do i = 1, size(x)
             if (x(i) >= -end_tolerance*end .and. x(i) <= end + end_tolerance*end) cycle
             call fatal_error(error, gapbeam_bad_input, "x: "//trim(shown(x(i)))//" is outside the beam, which runs from x = 0 "// &
@@ -100,13 +100,13 @@ contains
             return
         end if
         do i = 1, size(x)
-            call find_piece(lowered, x(i), from_left, piece(i), distance(i))
+            call find_piece(assembled, x(i), from_left, piece(i), distance(i))
         end do
     end subroutine find_pieces
 
     !> Fields at given distances from the left ends of pieces
-    subroutine fields_in_pieces(lowered, factor, starts, displacement, tension, piece, distance, fields, error, ground)
-        type(lowered_type), intent(in) :: lowered
+    subroutine fields_in_pieces(assembled, factor, starts, displacement, tension, piece, distance, fields, error, ground)
+        type(assembled_type), intent(in) :: assembled
         !> Factor of the live loads, fields at the left ends of all pieces, and the solution along the axis (state_type)
         real(wp), intent(in) :: factor
         type(field_type), intent(in) :: starts(:)
@@ -129,19 +129,19 @@ contains
             call no_memory(error)
             return
         end if
-        powers = field_units(lowered)
-        found(1, :) = scale(distance, -lowered%units%length)
+        powers = field_units(assembled)
+        found(1, :) = scale(distance, -assembled%units%length)
         if (present(ground)) then
-            call ground_values(lowered, ground, piece, found(1, :), bent)
+            call ground_values(assembled, ground, piece, found(1, :), bent)
         else
-            call values_at(lowered%pieces, lowered%dead, lowered%live, factor, starts, piece, found(1, :), bent)
+            call values_at(assembled%pieces, assembled%dead, assembled%live, factor, starts, piece, found(1, :), bent)
         end if
         do i = 1, size(piece)
             found(1:4, i) = [bent(i)%deflection, bent(i)%rotation, bent(i)%moment, bent(i)%shear]
-            call axial_fields(lowered, displacement, tension, piece(i), distance(i), found(5, i), found(6, i))
+            call axial_fields(assembled, displacement, tension, piece(i), distance(i), found(5, i), found(6, i))
             k = findloc(abs(scale(found(:, i), powers)) <= huge(factor), .false., 1)
             if (k == 0) cycle
-            call refuse_field(lowered, k, found(k, i), point_x(lowered, piece(i) - 1) + distance(i), error)
+            call refuse_field(assembled, k, found(k, i), point_x(assembled, piece(i) - 1) + distance(i), error)
             error%entry = i
             return
         end do
@@ -151,18 +151,18 @@ contains
     end subroutine fields_in_pieces
 
     !> Exponents of the units of all fields
-    pure function field_units(lowered) result(powers)
-        type(lowered_type), intent(in) :: lowered
+    pure function field_units(assembled) result(powers)
+        type(assembled_type), intent(in) :: assembled
         integer :: powers(field_count)
 
-        associate (units => lowered%units, axial => lowered%axial%units)
+        associate (units => assembled%units, axial => assembled%axial%units)
             powers = [units%deflection, rotation_unit(units), moment_unit(units), units%force, axial%force, axial%deflection]
         end associate
     end function field_units
 
     !> A field is too great for the user's units, or no number
-    subroutine refuse_field(lowered, field, value, x, error)
-        type(lowered_type), intent(in) :: lowered
+    subroutine refuse_field(assembled, field, value, x, error)
+        type(assembled_type), intent(in) :: assembled
         !> Its number, its value in the engine's units, and the place
         integer, intent(in) :: field
         real(wp), intent(in) :: value, x
@@ -180,13 +180,13 @@ contains
             end select
             call refuse_range(error, "the "//trim(field_names(field))//" at x = "//trim(shown(x))//" is too great", trim(remedy))
         else
-            call name_farthest(lowered, error)
+            call name_farthest(assembled, error)
         end if
     end subroutine refuse_field
 
     !> Piece of a place, and the distance from its left end
-    pure subroutine find_piece(lowered, x, from_left, piece, distance)
-        type(lowered_type), intent(in) :: lowered
+    pure subroutine find_piece(assembled, x, from_left, piece, distance)
+        type(assembled_type), intent(in) :: assembled
         real(wp), intent(in) :: x
         logical, intent(in) :: from_left
         integer, intent(out) :: piece
@@ -194,39 +194,39 @@ contains
         real(wp) :: offset, tolerance, to_right
         integer :: span, low, high, middle
 
-        call locate(x, lowered%ends, span, offset)
-        tolerance = position_tolerance*(lowered%ends(span) + offset)
+        call locate(x, assembled%ends, span, offset)
+        tolerance = position_tolerance*(assembled%ends(span) + offset)
         ! The last point of the span that is not right of the place
-        low = lowered%end_point(span)
+        low = assembled%end_point(span)
         high = low + 1
-        if (span < ubound(lowered%ends, 1)) high = lowered%end_point(span + 1)
+        if (span < ubound(assembled%ends, 1)) high = assembled%end_point(span + 1)
         do while (high - low > 1)
             middle = low + (high - low)/2
-            if (lowered%point_offset(middle) <= offset) then
+            if (assembled%point_offset(middle) <= offset) then
                 low = middle
             else
                 high = middle
             end if
         end do
-        distance = offset - lowered%point_offset(low)
-        high = min(low + 1, ubound(lowered%point_span, 1))
-        to_right = lowered%point_offset(high) - offset
-        if (lowered%point_span(high) == span .and. to_right <= tolerance .and. to_right < distance) then
+        distance = offset - assembled%point_offset(low)
+        high = min(low + 1, ubound(assembled%point_span, 1))
+        to_right = assembled%point_offset(high) - offset
+        if (assembled%point_span(high) == span .and. to_right <= tolerance .and. to_right < distance) then
             low = high
             distance = 0.0_wp
         end if
         if (distance <= tolerance) distance = 0.0_wp
         piece = low + 1
         if (distance > 0.0_wp .or. low == 0) return
-        if (from_left .or. piece > size(lowered%pieces)) then
+        if (from_left .or. piece > size(assembled%pieces)) then
             piece = low
-            distance = piece_length(lowered, piece)
+            distance = piece_length(assembled, piece)
         end if
     end subroutine find_piece
 
     !> Normal force and displacement along the axis in units of the axial system; zero without one
-    pure subroutine axial_fields(lowered, displacements, tensions, piece, distance, tension, displacement)
-        type(lowered_type), intent(in) :: lowered
+    pure subroutine axial_fields(assembled, displacements, tensions, piece, distance, tension, displacement)
+        type(assembled_type), intent(in) :: assembled
         real(wp), intent(in) :: displacements(0:), tensions(:)
         integer, intent(in) :: piece
         real(wp), intent(in) :: distance
@@ -236,9 +236,9 @@ contains
 
         tension = 0.0_wp
         displacement = 0.0_wp
-        if (.not. allocated(lowered%axial%point)) return
+        if (.not. allocated(assembled%axial%point)) return
         ! The bar that the piece belongs to: bar i lies between points i - 1 and i
-        associate (point => lowered%axial%point)
+        associate (point => assembled%axial%point)
             low = 0
             high = ubound(point, 1)
             do while (high - low > 1)
@@ -250,32 +250,32 @@ contains
                 end if
             end do
             bar = high
-            way = lowered%axial%before(piece) + lowered%axial%softness(piece)*(distance/piece_length(lowered, piece))
+            way = assembled%axial%before(piece) + assembled%axial%softness(piece)*(distance/piece_length(assembled, piece))
         end associate
         tension = tensions(bar)
         displacement = displacements(bar - 1) + tension*way
     end subroutine axial_fields
 
     !> Largest and smallest values of all fields of a state, and where they are
-    subroutine extremes_of_fields(lowered, state, value, x, error)
+    subroutine extremes_of_fields(assembled, state, value, x, error)
         !> The beam, and its solved state
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: assembled
         type(state_type), intent(inout) :: state
         !> Maximum (1) and minimum (2) of every field, and their places, shape (2, field_count)
         real(wp), intent(out) :: value(:, :), x(:, :)
         !> A field out of range, or no memory
         type(error_type), allocatable, intent(out) :: error
 
-        if (.not. allocated(state%ground)) call make_starts(lowered, state, error)
+        if (.not. allocated(state%ground)) call make_starts(assembled, state, error)
         if (allocated(error)) return
-        call extremes_of_pieces(lowered, state%factor, state%starts, state%displacement, state%tension, value, x, error, &
+        call extremes_of_pieces(assembled, state%factor, state%starts, state%displacement, state%tension, value, x, error, &
                                 state%ground)
     end subroutine extremes_of_fields
 
     !> The same from the fields at the left ends of all pieces
-    subroutine extremes_of_pieces(lowered, factor, starts, displacement, tension, value, x, error, ground)
+    subroutine extremes_of_pieces(assembled, factor, starts, displacement, tension, value, x, error, ground)
         !> As for fields_in_pieces
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: assembled
         real(wp), intent(in) :: factor
         type(field_type), intent(in) :: starts(:)
         real(wp), intent(in) :: displacement(0:), tension(:)
@@ -287,57 +287,57 @@ contains
         integer :: piece(2, 4), powers(field_count), i, k
 
         if (present(ground)) then
-            call ground_extremes(lowered, ground, found(:, 1:4), piece, distance)
+            call ground_extremes(assembled, ground, found(:, 1:4), piece, distance)
         else
-            call find_extremes(lowered%pieces, lowered%dead, lowered%live, factor, starts, found(:, 1:4), piece, distance)
+            call find_extremes(assembled%pieces, assembled%dead, assembled%live, factor, starts, found(:, 1:4), piece, distance)
         end if
         do k = 1, 4
             do i = 1, 2
-                x(i, k) = point_x(lowered, piece(i, k) - 1) + scale(distance(i, k), lowered%units%length)
+                x(i, k) = point_x(assembled, piece(i, k) - 1) + scale(distance(i, k), assembled%units%length)
             end do
         end do
         found(:, 5:6) = 0.0_wp
         x(:, 5:6) = 0.0_wp
-        if (allocated(lowered%axial%point)) then
-            associate (point => lowered%axial%point)
+        if (allocated(assembled%axial%point)) then
+            associate (point => assembled%axial%point)
                 found(:, 5) = [maxval(tension), minval(tension)]
-                x(:, 5) = [point_x(lowered, point(maxloc(tension, 1) - 1)), point_x(lowered, point(minloc(tension, 1) - 1))]
+                x(:, 5) = [point_x(assembled, point(maxloc(tension, 1) - 1)), point_x(assembled, point(minloc(tension, 1) - 1))]
                 found(:, 6) = [maxval(displacement), minval(displacement)]
-                x(:, 6) = [point_x(lowered, point(maxloc(displacement, 1) - 1)), &
-                           point_x(lowered, point(minloc(displacement, 1) - 1))]
+                x(:, 6) = [point_x(assembled, point(maxloc(displacement, 1) - 1)), &
+                           point_x(assembled, point(minloc(displacement, 1) - 1))]
             end associate
         end if
-        powers = field_units(lowered)
+        powers = field_units(assembled)
         do k = 1, field_count
             value(:, k) = scale(found(:, k), powers(k))
             i = findloc(abs(value(:, k)) <= huge(factor), .false., 1)
             if (i == 0) cycle
-            call refuse_field(lowered, k, found(i, k), x(i, k), error)
+            call refuse_field(assembled, k, found(i, k), x(i, k), error)
             return
         end do
     end subroutine extremes_of_pieces
 
     !> x of all nodes
-    pure subroutine node_places(lowered, x)
-        type(lowered_type), intent(in) :: lowered
+    pure subroutine node_places(assembled, x)
+        type(assembled_type), intent(in) :: assembled
         !> Shape (0:n), n + 1 the number of nodes
         real(wp), intent(out) :: x(0:)
         integer :: i
 
         do i = 0, ubound(x, 1)
-            x(i) = point_x(lowered, lowered%node_point(i))
+            x(i) = point_x(assembled, assembled%node_point(i))
         end do
     end subroutine node_places
 
     !> The free motion where there is no equilibrium
-    pure subroutine motion_of_nodes(lowered, state, x, motion)
-        type(lowered_type), intent(in) :: lowered
+    pure subroutine motion_of_nodes(assembled, state, x, motion)
+        type(assembled_type), intent(in) :: assembled
         type(state_type), intent(in) :: state
         !> Places of the nodes and their displacements down, largest 1, straight between, shape (0:n); all 0 where the beam
         !> slides along its axis
         real(wp), intent(out) :: x(0:), motion(0:)
 
-        call node_places(lowered, x)
+        call node_places(assembled, x)
         motion(:) = state%motion
     end subroutine motion_of_nodes
 

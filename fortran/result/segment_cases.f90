@@ -1,17 +1,19 @@
-!> Cases of a long beam one by one, each in eight segments side by side (fortran/lanes), where the beam is such. What comes out has
-!> the digits of solve_case of gapbeam_cases, which takes the other beams, and the cases that are doubtful here
+!> Cases of a long beam one by one, each in eight segments side by side (fortran/lanes).
+!> The beam is such as fits. What comes out has the digits of solve_case of gapbeam_cases, which takes the other beams, and the
+!> cases that are doubtful here
 module gapbeam_segment_cases
     use gapbeam_kinds, only: wp
     use gapbeam_watch, only: is_stopped
     use gapbeam_band, only: plain
-    use gapbeam_law, only: both, is_rigid, has_laws, may_change
+    use gapbeam_law, only: both, is_rigid, has_laws
+    use gapbeam_law_margins, only: may_change
     use gapbeam_units, only: moment_unit
-    use gapbeam_lowered, only: lowered_type
-    use gapbeam_lower_units, only: support_in_units
+    use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_assemble_units, only: support_in_units
     use gapbeam_cases, only: case_loads_type, give_case
     use gapbeam_lane_types, only: lanes
     use gapbeam_segment_types, only: segment_beam_type, segment_room_type, new_segments, node_of
-    use gapbeam_lane_levels, only: solve_segments_at, audit_segments_at, best_level
+    use gapbeam_cpu_dispatch, only: solve_segments_at, audit_segments_at, best_level
     implicit none
     private
     public :: segments_type, fits_segments, solve_in_segments, least_alone
@@ -33,12 +35,12 @@ module gapbeam_segment_cases
 contains
 
     !> Is a beam such: long, of links that bend, without ground, hinges, restraints and laws, one support at a node
-    pure function fits_segments(lowered) result(fits)
-        type(lowered_type), intent(in) :: lowered
+    pure function fits_segments(assembled) result(fits)
+        type(assembled_type), intent(in) :: assembled
         logical :: fits
         integer :: n
 
-        associate (beam => lowered%beam, units => lowered%units)
+        associate (beam => assembled%beam, units => assembled%units)
             n = size(beam%links)
             fits = n >= least_links .and. .not. allocated(beam%ground)
             if (.not. fits) return
@@ -49,8 +51,8 @@ contains
     end function fits_segments
 
     !> Solve cases of a beam that fits
-    subroutine solve_in_segments(lowered, loads, factors, values, segments, closed, w, ml, mr, reaction, solves, done, level)
-        type(lowered_type), intent(in) :: lowered
+    subroutine solve_in_segments(assembled, loads, factors, values, segments, closed, w, ml, mr, reaction, solves, done, level)
+        type(assembled_type), intent(in) :: assembled
         !> As for solve_in_lanes of gapbeam_lane_cases
         type(case_loads_type), intent(in) :: loads
         real(wp), intent(in) :: factors(:, :), values(:, :, :)
@@ -70,28 +72,28 @@ contains
         done(:) = .false.
         at_level = best_level()
         if (present(level)) at_level = level
-        if (.not. segments%made) call make_segments(lowered, segments)
+        if (.not. segments%made) call make_segments(assembled, segments)
         if (.not. segments%made) return
-        units = scale(1.0_wp, [lowered%units%deflection, moment_unit(lowered%units), lowered%units%force])
+        units = scale(1.0_wp, [assembled%units%deflection, moment_unit(assembled%units), assembled%units%force])
         if (size(values, 2) > 0) segments%with_own_supports = .false.
         associate (room => segments%room)
-            if (size(values, 2) == 0 .and. .not. segments%with_own_supports) call take_supports(lowered, room)
+            if (size(values, 2) == 0 .and. .not. segments%with_own_supports) call take_supports(assembled, room)
             segments%with_own_supports = size(values, 2) == 0
             do i = 1, size(done)
-                if (is_stopped(lowered%beam%watch)) exit
+                if (is_stopped(assembled%beam%watch)) exit
                 lost = .false.
-                if (size(values, 2) > 0) call take_values(lowered, values(:, :, i), room, lost)
+                if (size(values, 2) > 0) call take_values(assembled, values(:, :, i), room, lost)
                 if (lost) cycle
                 call add_loads(loads, factors(:, i), segments%beam%n, room, couples)
                 if (couples) cycle
-                call take_start(lowered, closed(:, i), room)
+                call take_start(assembled, closed(:, i), room)
                 call solve_segments_at(at_level, segments%beam, room, solves(i), doubtful)
                 if (.not. doubtful) call audit_segments_at(at_level, segments%beam, room, doubtful)
                 if (doubtful) cycle
                 largest = max(maxval(abs(room%w)), maxval(abs(room%m)), maxval(abs(room%reaction)))
                 done(i) = largest <= huge(1.0_wp)/max(maxval(units), 1.0_wp)
                 if (.not. done(i)) cycle
-                call give_case(units, lowered%beam%supports%node, room%closed, room%w, room%m, room%m, room%reaction, &
+                call give_case(units, assembled%beam%supports%node, room%closed, room%w, room%m, room%m, room%reaction, &
                                closed(:, i), w(:, i), ml(:, i), mr(:, i), reaction(:, i))
                 ! Beyond the ends there is no moment
                 if (size(ml) > 0) ml(1, i) = 0.0_wp
@@ -101,14 +103,14 @@ contains
     end subroutine solve_in_segments
 
     !> Cut the beam
-    subroutine make_segments(lowered, segments)
-        type(lowered_type), intent(in) :: lowered
+    subroutine make_segments(assembled, segments)
+        type(assembled_type), intent(in) :: assembled
         type(segments_type), intent(inout) :: segments
         integer :: k, l, s, i, step, begin
 
-        call new_segments(size(lowered%beam%links), segments%beam, segments%room, segments%made)
+        call new_segments(size(assembled%beam%links), segments%beam, segments%room, segments%made)
         if (.not. segments%made) return
-        associate (to => segments%beam, from => lowered%beam%links)
+        associate (to => segments%beam, from => assembled%beam%links)
             to%length(:) = from%length
             to%inverse(:) = from%inverse
             to%faa(:) = from%faa
@@ -120,8 +122,8 @@ contains
             to%side(:) = 0.0_wp
             to%changing(:) = 0.0_wp
             to%there(:) = 0.0_wp
-            do k = 1, size(lowered%beam%supports)
-                associate (s => lowered%beam%supports(k))
+            do k = 1, size(assembled%beam%supports)
+                associate (s => assembled%beam%supports(k))
                     to%there(s%node) = 1.0_wp
                     to%side(s%node) = s%side
                     if (may_change(s)) to%changing(s%node) = s%side
@@ -192,14 +194,14 @@ contains
     end subroutine add_loads
 
     !> The supports of the beam
-    pure subroutine take_supports(lowered, room)
-        type(lowered_type), intent(in) :: lowered
+    pure subroutine take_supports(assembled, room)
+        type(assembled_type), intent(in) :: assembled
         type(segment_room_type), intent(inout) :: room
         integer :: k
 
         call forget_supports(room)
-        do k = 1, size(lowered%beam%supports)
-            associate (s => lowered%beam%supports(k))
+        do k = 1, size(assembled%beam%supports)
+            associate (s => assembled%beam%supports(k))
                 room%contact(s%node) = s%contact
                 if (is_rigid(s)) then
                     room%rigid(s%node) = 1.0_wp
@@ -221,8 +223,8 @@ contains
     end subroutine forget_supports
 
     !> The supports of a case, see replace_supports of gapbeam_cases
-    pure subroutine take_values(lowered, values, room, lost)
-        type(lowered_type), intent(in) :: lowered
+    pure subroutine take_values(assembled, values, room, lost)
+        type(assembled_type), intent(in) :: assembled
         real(wp), intent(in) :: values(:, :)
         type(segment_room_type), intent(inout) :: room
         !> Is a number out of range
@@ -233,9 +235,10 @@ contains
 
         lost = .false.
         call forget_supports(room)
-        do k = 1, size(lowered%beam%supports)
-            associate (s => lowered%beam%supports(k), given => values(:, lowered%normal(k)), i => lowered%beam%supports(k)%node)
-                call support_in_units(lowered%units, given(3), given(1) + s%side*given(2), stiffness, room%contact(i), &
+        do k = 1, size(assembled%beam%supports)
+            associate (s => assembled%beam%supports(k), given => values(:, assembled%normal(k)), &
+                       i => assembled%beam%supports(k)%node)
+                call support_in_units(assembled%units, given(3), given(1) + s%side*given(2), stiffness, room%contact(i), &
                                       lost_stiffness, lost_level)
                 lost = lost .or. lost_stiffness .or. lost_level
                 if (given(3) > huge(1.0_wp)) then
@@ -248,15 +251,15 @@ contains
     end subroutine take_values
 
     !> Where the search starts
-    pure subroutine take_start(lowered, closed, room)
-        type(lowered_type), intent(in) :: lowered
+    pure subroutine take_start(assembled, closed, room)
+        type(assembled_type), intent(in) :: assembled
         integer, intent(in) :: closed(:)
         !> Open where there is no support
         type(segment_room_type), intent(inout) :: room
         integer :: k
 
-        do k = 1, size(lowered%beam%supports)
-            associate (s => lowered%beam%supports(k))
+        do k = 1, size(assembled%beam%supports)
+            associate (s => assembled%beam%supports(k))
                 room%closed(s%node) = merge(1.0_wp, 0.0_wp, closed(k) /= 0 .or. s%side == both)
             end associate
         end do

@@ -1,16 +1,16 @@
-!> The state of a beam at one load factor as numbers: in which units, at which places, and whether they are numbers at all
+!> The state of a beam at one load factor as numbers, checked to be finite.
 module gapbeam_solution
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_element, only: field_type
-    use gapbeam_polyline, only: node_support_type, last_kink
+    use gapbeam_polyline, only: node_support_type, last_breakpoint
     use gapbeam_words, only: shown
-    use gapbeam_refusal, only: refuse_range
+    use gapbeam_input_error, only: refuse_range
     use gapbeam_ground_solver, only: ground_solution_type
     use gapbeam_units, only: moment_unit
-    use gapbeam_lowered, only: lowered_type, point_x
-    use gapbeam_lower_supports, only: contact_level
-    use gapbeam_lower_units, only: name_farthest
+    use gapbeam_assembled_model, only: assembled_type, point_x
+    use gapbeam_assemble_supports, only: contact_level
+    use gapbeam_assemble_units, only: name_farthest
     implicit none
     private
     public :: state_type, new_state, close_all, forget, check_range, couple_at_node, way_to_contact
@@ -29,7 +29,7 @@ module gapbeam_solution
         !> Can the beam move freely without work of the loads; does it slide along its axis
         logical :: indifferent = .false., slides = .false.
         !> Did the rule single come back to a scheme
-        logical :: came_back = .false.
+        logical :: cycled = .false.
         !> The scheme: which supports act, and whose reaction or opening is zero, so that they may be closed or open
         logical, allocatable :: closed(:), undecided(:)
         !> The laws of the supports as they have become, where they are not those of the beam
@@ -51,27 +51,27 @@ module gapbeam_solution
 contains
 
     !> A state for a beam, nothing solved, all supports closed, those with a law on its first piece
-    subroutine new_state(lowered, state, error)
+    subroutine new_state(assembled, state, error)
         !> The beam
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: assembled
         !> Ready for solve_state
         type(state_type), intent(out) :: state
         !> No memory
         type(error_type), allocatable, intent(out) :: error
         integer :: n, m, bars, stat
 
-        n = size(lowered%beam%links)
-        m = size(lowered%beam%supports)
+        n = size(assembled%beam%links)
+        m = size(assembled%beam%supports)
         bars = 0
-        if (allocated(lowered%axial%point)) bars = ubound(lowered%axial%point, 1)
+        if (allocated(assembled%axial%point)) bars = ubound(assembled%axial%point, 1)
         allocate (state%closed(m), state%undecided(m), state%reaction(m), state%deflection(0:n), state%moment_left(0:n), &
                   state%moment_right(0:n), state%motion(0:n), state%shear(n), state%displacement(0:bars), &
-                  state%axial_reaction(0:bars), state%tension(bars), state%starts(size(lowered%pieces)), stat=stat)
+                  state%axial_reaction(0:bars), state%tension(bars), state%starts(size(assembled%pieces)), stat=stat)
         if (stat /= 0) then
             call no_memory(error)
             return
         end if
-        call close_all(lowered, state%closed)
+        call close_all(assembled, state%closed)
         state%displacement(:) = 0.0_wp
         state%axial_reaction(:) = 0.0_wp
         state%tension(:) = 0.0_wp
@@ -80,19 +80,19 @@ contains
     end subroutine new_state
 
     !> The scheme that a search starts from: all supports closed, those with a law on its first piece
-    pure subroutine close_all(lowered, closed)
-        type(lowered_type), intent(in) :: lowered
+    pure subroutine close_all(assembled, closed)
+        type(assembled_type), intent(in) :: assembled
         !> Shape (size(beam%supports))
         logical, intent(out) :: closed(:)
         integer :: k, last, first_piece
 
         closed(:) = .true.
-        associate (supports => lowered%beam%supports)
+        associate (supports => assembled%beam%supports)
             do k = 1, size(closed)
-                if (supports(k)%kink /= 1) cycle
-                last = last_kink(supports, k)
+                if (supports(k)%breakpoint /= 1) cycle
+                last = last_breakpoint(supports, k)
                 first_piece = 1
-                if (lowered%model%supports(lowered%normal(k))%side == 0) first_piece = max(1, (last - k + 1)/2)
+                if (assembled%model%supports(assembled%normal(k))%side == 0) first_piece = max(1, (last - k + 1)/2)
                 closed(k + first_piece:last) = .false.
             end do
         end associate
@@ -107,7 +107,7 @@ contains
         state%method = 0
         state%indifferent = .false.
         state%slides = .false.
-        state%came_back = .false.
+        state%cycled = .false.
         state%has_starts = .false.
         if (allocated(state%ground)) deallocate (state%ground)
         state%undecided(:) = .false.
@@ -120,104 +120,105 @@ contains
     end subroutine forget
 
     !> Refuse a solution with numbers that are none, or none in the user's units
-    subroutine check_range(lowered, state, error)
-        type(lowered_type), intent(in) :: lowered
+    subroutine check_range(assembled, state, error)
+        type(assembled_type), intent(in) :: assembled
         type(state_type), intent(inout) :: state
         !> Set, and the state forgotten, where that is so
         type(error_type), allocatable, intent(out) :: error
         integer :: i, j, k
 
-        if (clearly_in_range(lowered, state)) return
-        associate (units => lowered%units, axial => lowered%axial)
+        if (clearly_in_range(assembled, state)) return
+        associate (units => assembled%units, axial => assembled%axial)
             do i = 0, ubound(state%deflection, 1)
-                call look(state%deflection(i), units%deflection, "deflection", "length", lowered%node_point(i))
-                call look(state%moment_left(i), moment_unit(units), "moment", "force", lowered%node_point(i))
-                call look(state%moment_right(i), moment_unit(units), "moment", "force", lowered%node_point(i))
-                if (i > 0) call look(state%shear(i), units%force, "shear", "force", lowered%node_point(i))
-                if (lowered%turning(i) > 0.0_wp) then
-                    call look(couple_at_node(lowered, state, i), moment_unit(units), "couple of the rotational restraint", &
-                              "force", lowered%node_point(i))
+                call check_finite(state%deflection(i), units%deflection, "deflection", "length", assembled%node_point(i))
+                call check_finite(state%moment_left(i), moment_unit(units), "moment", "force", assembled%node_point(i))
+                call check_finite(state%moment_right(i), moment_unit(units), "moment", "force", assembled%node_point(i))
+                if (i > 0) call check_finite(state%shear(i), units%force, "shear", "force", assembled%node_point(i))
+                if (assembled%turning(i) > 0.0_wp) then
+                    call check_finite(couple_at_node(assembled, state, i), moment_unit(units), &
+                                      "couple of the rotational restraint", "force", assembled%node_point(i))
                 end if
             end do
-            do k = 1, size(lowered%model%supports)
-                j = lowered%beam_support(k)
-                associate (point => lowered%support_point(k))
-                    if (j > 0) call look(sum(state%reaction(j:last_kink(lowered%beam%supports, j))), units%force, &
-                                         "reaction of the support", "force", point)
-                    if (lowered%model%supports(k)%side == 0) cycle
-                    call look(way_to_contact(lowered, state, k), units%deflection, "opening of the support", "length", point)
+            do k = 1, size(assembled%model%supports)
+                j = assembled%beam_support(k)
+                associate (point => assembled%support_point(k))
+                    if (j > 0) call check_finite(sum(state%reaction(j:last_breakpoint(assembled%beam%supports, j))), units%force, &
+                                                 "reaction of the support", "force", point)
+                    if (assembled%model%supports(k)%side == 0) cycle
+                    call check_finite(way_to_contact(assembled, state, k), units%deflection, "opening of the support", "length", &
+                                      point)
                 end associate
             end do
             if (.not. allocated(axial%point)) return
             do i = 0, ubound(axial%point, 1)
-                call look(state%displacement(i), axial%units%deflection, "axial displacement", "length", axial%point(i))
-                call look(state%axial_reaction(i), axial%units%force, "axial reaction", "force", axial%point(i))
-                if (i > 0) call look(state%tension(i), axial%units%force, "axial force", "force", axial%point(i))
+                call check_finite(state%displacement(i), axial%units%deflection, "axial displacement", "length", axial%point(i))
+                call check_finite(state%axial_reaction(i), axial%units%force, "axial reaction", "force", axial%point(i))
+                if (i > 0) call check_finite(state%tension(i), axial%units%force, "axial force", "force", axial%point(i))
             end do
         end associate
 
     contains
 
         !> Is a value finite in the user's units
-        subroutine look(value, power, what, unit, point)
+        subroutine check_finite(value, power, what, unit, point)
             real(wp), intent(in) :: value
             integer, intent(in) :: power, point
             character(len=*), intent(in) :: what, unit
 
             if (abs(scale(value, power)) <= huge(value) .or. allocated(error)) return
             if (abs(value) <= huge(value) .or. index(what, "axial") == 1) then
-                call refuse_range(error, "the "//what//" at x = "//trim(shown(point_x(lowered, point)))//" is too great", &
+                call refuse_range(error, "the "//what//" at x = "//trim(shown(point_x(assembled, point)))//" is too great", &
                                   "choose a greater unit of "//unit)
             else
-                call name_farthest(lowered, error)
+                call name_farthest(assembled, error)
             end if
             call forget(state)
-        end subroutine look
+        end subroutine check_finite
 
     end subroutine check_range
 
     !> Are all numbers far within the range of doubles, in units that are the user's
-    pure function clearly_in_range(lowered, state) result(so)
-        type(lowered_type), intent(in) :: lowered
+    pure function clearly_in_range(assembled, state) result(so)
+        type(assembled_type), intent(in) :: assembled
         type(state_type), intent(in) :: state
         logical :: so
         real(wp), parameter :: far_within = sqrt(huge(1.0_wp))
 
-        associate (units => lowered%units, beam => lowered%beam)
-            so = .not. allocated(lowered%axial%point) .and. all([units%length, units%force, units%deflection] == 0)
+        associate (units => assembled%units, beam => assembled%beam)
+            so = .not. allocated(assembled%axial%point) .and. all([units%length, units%force, units%deflection] == 0)
             if (so) so = all(abs(state%deflection) <= far_within) .and. all(abs(state%moment_left) <= far_within) &
                 .and. all(abs(state%moment_right) <= far_within) .and. all(abs(state%shear) <= far_within) &
                 .and. all(abs(state%reaction) <= far_within) .and. all(abs(beam%couple) <= far_within) &
                 .and. abs(state%factor) <= 1.0_wp &
-                .and. all(abs(lowered%model%supports%gap) <= far_within) &
-                .and. all(abs(lowered%model%supports%settlement) <= far_within)
+                .and. all(abs(assembled%model%supports%gap) <= far_within) &
+                .and. all(abs(assembled%model%supports%settlement) <= far_within)
         end associate
     end function clearly_in_range
 
     !> Couple of the rotational restraint of a node on the beam, in the engine's units: across a node the moment grows by the
     !> applied couple and that of the supports
-    pure function couple_at_node(lowered, state, node) result(couple)
+    pure function couple_at_node(assembled, state, node) result(couple)
         !> The beam, and its solved state
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: assembled
         type(state_type), intent(in) :: state
         integer, intent(in) :: node
         real(wp) :: couple
 
-        associate (applied => lowered%beam%couple(:, node))
+        associate (applied => assembled%beam%couple(:, node))
             couple = (state%moment_right(node) - state%moment_left(node)) - (applied(1) + state%factor*applied(2))
         end associate
     end function couple_at_node
 
     !> How far the beam is from a one-sided support of the model, in the engine's units; negative where it has gone past it
-    pure function way_to_contact(lowered, state, support) result(way)
+    pure function way_to_contact(assembled, state, support) result(way)
         !> The beam, and its solved state
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: assembled
         type(state_type), intent(in) :: state
         integer, intent(in) :: support
         real(wp) :: way
 
-        associate (s => lowered%model%supports(support), node => lowered%node_of_point(lowered%support_point(support)))
-            way = s%side*(scale(contact_level(s), -lowered%units%deflection) - state%deflection(node))
+        associate (s => assembled%model%supports(support), node => assembled%node_of_point(assembled%support_point(support)))
+            way = s%side*(scale(contact_level(s), -assembled%units%deflection) - state%deflection(node))
         end associate
     end function way_to_contact
 

@@ -1,4 +1,4 @@
-!> The state of a beam at one load factor: solved, certified, and followed from event to event
+!> The state of a beam at one load factor: solved, recovered and certified.
 module gapbeam_state
     use gapbeam_kinds, only: wp
     use gapbeam_watch, only: end_if_stopped
@@ -6,12 +6,11 @@ module gapbeam_state
         gapbeam_indeterminate, gapbeam_not_finite, gapbeam_not_converged
     use gapbeam_element, only: field_type
     use gapbeam_model, only: beam_type
-    use gapbeam_polyline, only: last_kink
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_recover, only: recover_beam
     use gapbeam_scheme, only: outcome_type
-    use gapbeam_redundancy, only: refuse_redundancy
-    use gapbeam_referee, only: rule_given, decide_scheme, detail_type, reserve_for
+    use gapbeam_static_indeterminacy, only: refuse_indeterminate
+    use gapbeam_extended_precision, only: rule_given, decide_scheme, detail_type, reserve_for
     use gapbeam_search, only: rule_block
     use gapbeam_ground, only: ground_type
     use gapbeam_ground_solver, only: solve_on_ground
@@ -20,44 +19,22 @@ module gapbeam_state
     use gapbeam_audit, only: audit_axial
     use gapbeam_ground_audit, only: audit_ground
     use gapbeam_certificate, only: certificate_type, certify
-    use gapbeam_path, only: follow_path, path_type, event_turns
-    use gapbeam_pieces, only: acting_type, acting_piece, what_happens, nothing
     use gapbeam_axial, only: solve_axial, axial_ok, axial_slides, axial_indeterminate
     use gapbeam_words, only: shown
-    use gapbeam_lowered, only: lowered_type, point_x, find_length_errors
-    use gapbeam_lower_units, only: name_farthest
-    use gapbeam_solution, only: state_type, close_all, forget, check_range
-    use gapbeam_memory, only: for_solving, for_following, for_certifying
+    use gapbeam_assembled_model, only: assembled_type, point_x, find_length_errors
+    use gapbeam_assemble_units, only: name_farthest
+    use gapbeam_solution, only: state_type, forget, check_range
+    use gapbeam_memory, only: for_solving, for_certifying
     implicit none
     private
-    public :: event_type, solve_state, solve_along_axis, ground_of, recover_state, certify_state, follow_events, detail_of, &
-        name_range
-
-    !> Changes of the scheme followed at a time
-    integer, parameter :: changes_at_a_time = 1000
-
-    !> A change of the working scheme
-    type :: event_type
-        !> Load factor at which it happens
-        real(wp) :: factor
-        !> Number of the support in the model, from 1
-        integer :: support
-        !> gapbeam_closed or gapbeam_open, or gapbeam_branch plus the number of the piece of its law: what the support is from here
-        !> on; gapbeam_turns: the beam has lost its hold and turns at constant load until this support holds it
-        integer :: state
-        !> gapbeam_opens, gapbeam_closes, gapbeam_turns; of a support with a law also gapbeam_yields, gapbeam_hardens,
-        !> gapbeam_softens, gapbeam_breaks, gapbeam_unloads
-        integer :: change = nothing
-        !> Of a history: the stretch that begins with it
-        integer :: stretch = 0
-    end type event_type
+    public :: solve_state, solve_along_axis, ground_of, recover_state, certify_state, detail_of, name_range
 
 contains
 
     !> Solve at one load factor; the search starts from the scheme the state holds
-    subroutine solve_state(lowered, factor, rule, state, error, near)
+    subroutine solve_state(assembled, factor, rule, state, error, near)
         !> The beam
-        type(lowered_type), intent(in), target :: lowered
+        type(assembled_type), intent(in), target :: assembled
         !> Factor of the live loads
         real(wp), intent(in) :: factor
         !> rule_block, rule_single, rule_given or rule_extended
@@ -76,8 +53,8 @@ contains
 
         call forget(state)
         state%factor = factor
-        state%fingerprint = lowered%fingerprint
-        call reserve_for(for_solving, lowered%beam, detail_of(lowered), error)
+        state%fingerprint = assembled%fingerprint
+        call reserve_for(for_solving, assembled%beam, detail_of(assembled), error)
         if (allocated(error)) return
         allocate (acting(size(state%closed)), stat=stat)
         if (stat /= 0) then
@@ -85,19 +62,19 @@ contains
             return
         end if
         acting(:) = state%closed
-        call solve_along_axis(lowered, state, error)
+        call solve_along_axis(assembled, state, error)
         if (allocated(error)) return
-        if (allocated(lowered%layers)) then
-            call settle_on_ground(ground_of(lowered))
+        if (allocated(assembled%layers)) then
+            call settle_on_ground(ground_of(assembled))
         else if (allocated(state%laws)) then
-            changed = lowered%beam
+            changed = assembled%beam
             changed%supports(:) = state%laws
             call settle(changed)
         else
-            call settle(lowered%beam)
+            call settle(assembled%beam)
         end if
-        if (.not. allocated(error) .and. state%status == gapbeam_solved) call check_range(lowered, state, error)
-        call end_if_stopped(lowered%beam%watch, error)
+        if (.not. allocated(error) .and. state%status == gapbeam_solved) call check_range(assembled, state, error)
+        call end_if_stopped(assembled%beam%watch, error)
 
     contains
 
@@ -108,16 +85,16 @@ contains
 
             call new_workspace(beam, work)
             call set_loads(beam, factor, work)
-            call decide_scheme(beam, detail_of(lowered), factor, rule, acting, work, outcome, error, fault)
+            call decide_scheme(beam, detail_of(assembled), factor, rule, acting, work, outcome, error, fault)
             if (fault%wrong /= 0) then
-                fault%piece = lowered%node_point(fault%piece) + 1
-                call name_fault(lowered, fault, error)
+                fault%piece = assembled%node_point(fault%piece) + 1
+                call name_fault(assembled, fault, error)
             end if
-            call name_range(lowered, error)
+            call name_range(assembled, error)
             if (allocated(error)) return
             state%solves = work%solves
             state%method = work%method
-            state%came_back = work%came_back
+            state%cycled = work%cycled
             if (state%slides) then
                 state%status = gapbeam_no_equilibrium
                 return
@@ -143,12 +120,12 @@ contains
             type(ledger_type) :: ledger
 
             allocate (state%ground)
-            call solve_on_ground(ground, detail_of(lowered), factor, merge(rule_block, rule, rule >= rule_given), acting, &
+            call solve_on_ground(ground, detail_of(assembled), factor, merge(rule_block, rule, rule >= rule_given), acting, &
                                  state%ground, outcome, error, near)
             if (.not. allocated(error) .and. outcome%status == gapbeam_solved) then
-                call refuse_redundancy(ground%beam, acting, state%ground%undecided, error)
+                call refuse_indeterminate(ground%beam, acting, state%ground%undecided, error)
             end if
-            call name_range(lowered, error)
+            call name_range(assembled, error)
             if (allocated(error)) return
             state%solves = state%ground%solves
             state%status = merge(gapbeam_no_equilibrium, outcome%status, state%slides)
@@ -165,56 +142,56 @@ contains
             state%moment_right(:) = state%ground%moment_right
             state%reaction(:) = state%ground%reaction
             call audit_ground(ground, factor, acting, state%ground, ledger, state%ground%residuals)
-            call name_fault(lowered, ledger, error)
+            call name_fault(assembled, ledger, error)
         end subroutine settle_on_ground
 
     end subroutine solve_state
 
     !> The beam with the ground under it
-    function ground_of(lowered) result(ground)
-        type(lowered_type), intent(in) :: lowered
+    function ground_of(assembled) result(ground)
+        type(assembled_type), intent(in) :: assembled
         type(ground_type) :: ground
 
-        ground%beam = lowered%beam
-        associate (n => size(lowered%pieces))
-            allocate (ground%pieces(n), ground%dead(n), ground%live(n), ground%layers(size(lowered%layers)), ground%first(n + 1), &
-                      ground%laws(size(lowered%law_pieces)))
+        ground%beam = assembled%beam
+        associate (n => size(assembled%pieces))
+            allocate (ground%pieces(n), ground%dead(n), ground%live(n), ground%layers(size(assembled%layers)), &
+                      ground%first(n + 1), ground%laws(size(assembled%law_pieces)))
         end associate
-        ground%pieces(:) = lowered%pieces
-        ground%dead(:) = lowered%dead
-        ground%live(:) = lowered%live
-        ground%layers(:) = lowered%layers
-        ground%first(:) = lowered%layer_first
-        ground%laws(:) = lowered%law_pieces
+        ground%pieces(:) = assembled%pieces
+        ground%dead(:) = assembled%dead
+        ground%live(:) = assembled%live
+        ground%layers(:) = assembled%layers
+        ground%first(:) = assembled%layer_first
+        ground%laws(:) = assembled%law_pieces
     end function ground_of
 
     !> Say what it was where the engine left the range of double precision
-    subroutine name_range(lowered, error)
-        type(lowered_type), intent(in) :: lowered
+    subroutine name_range(assembled, error)
+        type(assembled_type), intent(in) :: assembled
         !> The engine's error, if there is one
         type(error_type), allocatable, intent(inout) :: error
 
         if (.not. allocated(error)) return
-        if (error%code == gapbeam_not_finite) call name_farthest(lowered, error)
+        if (error%code == gapbeam_not_finite) call name_farthest(assembled, error)
     end subroutine name_range
 
     !> Refuse a state that does not stand its audit, in the user's words
-    subroutine name_fault(lowered, ledger, error)
-        type(lowered_type), intent(in) :: lowered
+    subroutine name_fault(assembled, ledger, error)
+        type(assembled_type), intent(in) :: assembled
         type(ledger_type), intent(in) :: ledger
         !> What is wrong, and where
         type(error_type), allocatable, intent(out) :: error
 
         if (ledger%wrong == 0) return
         call fatal_error(error, gapbeam_not_converged, "the result does not stand its own audit: at x = " &
-                         //trim(shown(point_x(lowered, ledger%piece - 1) + scale(ledger%distance, lowered%units%length))) &
+                         //trim(shown(point_x(assembled, ledger%piece - 1) + scale(ledger%distance, assembled%units%length))) &
                          //" "//trim(words_for(ledger%wrong))//", by "//trim(shown(real(nint(min(ledger%excess, 1e9_wp)), wp))) &
                          //" roundings or more; look for stiffnesses or lengths that lie far apart, and report the scene")
     end subroutine name_fault
 
     !> Solve the axial system, if there is one
-    subroutine solve_along_axis(lowered, state, error)
-        type(lowered_type), intent(in) :: lowered
+    subroutine solve_along_axis(assembled, state, error)
+        type(assembled_type), intent(in) :: assembled
         !> With its load factor in, displacements and forces along the axis out, or that the beam slides
         type(state_type), intent(inout) :: state
         !> Supports that hold a rigid stretch at both ends
@@ -222,8 +199,8 @@ contains
         type(ledger_type) :: ledger
         integer :: found, place
 
-        if (.not. allocated(lowered%axial%point)) return
-        associate (axial => lowered%axial)
+        if (.not. allocated(assembled%axial%point)) return
+        associate (axial => assembled%axial)
             call solve_axial(axial%flexibility, axial%force(1, :) + state%factor*axial%force(2, :), axial%stiffness, &
                              axial%settlement, state%displacement, state%tension, state%axial_reaction, found, place)
             state%slides = found == axial_slides
@@ -231,12 +208,12 @@ contains
                 call audit_axial(axial%flexibility, axial%force(1, :) + state%factor*axial%force(2, :), axial%stiffness, &
                                  axial%settlement, state%displacement, state%tension, state%axial_reaction, ledger)
                 ledger%piece = axial%point(ledger%piece) + 1
-                call name_fault(lowered, ledger, error)
+                call name_fault(assembled, ledger, error)
             end if
             if (found /= axial_indeterminate) return
             associate (point => axial%point(place))
                 call fatal_error(error, gapbeam_indeterminate, "the axial support at x = " &
-                                 //trim(shown(point_x(lowered, point)))// &
+                                 //trim(shown(point_x(assembled, point)))// &
                                  " and another one hold a stretch with infinite EA at both ends, so their forces cannot "// &
                                  "be told apart: give the beam a finite EA")
             end associate
@@ -244,35 +221,35 @@ contains
     end subroutine solve_along_axis
 
     !> What the links of a beam are made of
-    function detail_of(lowered) result(detail)
-        type(lowered_type), intent(in), target :: lowered
+    function detail_of(assembled) result(detail)
+        type(assembled_type), intent(in), target :: assembled
         type(detail_type) :: detail
 
-        detail%pieces => lowered%pieces
-        detail%dead => lowered%dead
-        detail%live => lowered%live
-        detail%last => lowered%node_point(1:)
+        detail%pieces => assembled%pieces
+        detail%dead => assembled%dead
+        detail%live => assembled%live
+        detail%last => assembled%node_point(1:)
     end function detail_of
 
     !> Fields of a solved state at the left ends of all pieces
-    pure subroutine recover_state(lowered, state, starts)
+    pure subroutine recover_state(assembled, state, starts)
         !> The beam and the state
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: assembled
         type(state_type), intent(in) :: state
         !> The fields, shape (npiece)
         type(field_type), intent(out) :: starts(:)
 
-        associate (n => size(lowered%beam%links))
-            call recover_beam(lowered%pieces, lowered%dead, lowered%live, state%factor, lowered%beam%links, &
-                              lowered%node_point(1:n), lowered%beam%kind, state%deflection, state%moment_left, &
+        associate (n => size(assembled%beam%links))
+            call recover_beam(assembled%pieces, assembled%dead, assembled%live, state%factor, assembled%beam%links, &
+                              assembled%node_point(1:n), assembled%beam%kind, state%deflection, state%moment_left, &
                               state%moment_right, state%shear, starts)
         end associate
     end subroutine recover_state
 
     !> Residuals of a solved state, and bounds for its errors in the engine's units
-    subroutine certify_state(lowered, state, certificate, error)
+    subroutine certify_state(assembled, state, certificate, error)
         !> The beam
-        type(lowered_type), intent(in), target :: lowered
+        type(assembled_type), intent(in), target :: assembled
         !> Solved
         type(state_type), intent(in) :: state
         !> How good it is
@@ -295,129 +272,21 @@ contains
             end associate
             return
         end if
-        call reserve_for(for_certifying, lowered%beam, detail_of(lowered), error)
+        call reserve_for(for_certifying, assembled%beam, detail_of(assembled), error)
         if (allocated(error)) return
-        allocate (starts(size(lowered%pieces)), length_error(size(lowered%beam%links)))
-        call recover_state(lowered, state, starts)
-        call find_length_errors(lowered, length_error)
+        allocate (starts(size(assembled%pieces)), length_error(size(assembled%beam%links)))
+        call recover_state(assembled, state, starts)
+        call find_length_errors(assembled, length_error)
         if (allocated(state%laws)) then
-            changed = lowered%beam
+            changed = assembled%beam
             changed%supports(:) = state%laws
-            call certify(changed, detail_of(lowered), state%factor, state%closed, state%deflection, state%moment_left, &
+            call certify(changed, detail_of(assembled), state%factor, state%closed, state%deflection, state%moment_left, &
                          state%moment_right, state%reaction, starts, length_error, certificate, error)
         else
-            call certify(lowered%beam, detail_of(lowered), state%factor, state%closed, state%deflection, state%moment_left, &
+            call certify(assembled%beam, detail_of(assembled), state%factor, state%closed, state%deflection, state%moment_left, &
                          state%moment_right, state%reaction, starts, length_error, certificate, error)
         end if
-        call end_if_stopped(lowered%beam%watch, error)
+        call end_if_stopped(assembled%beam%watch, error)
     end subroutine certify_state
-
-    !> Follow the load from factor 0 to `factor`: every change of the working scheme at its load factor. The state is that at
-    !> the end, or at the factor above which there is no equilibrium, with the motion that begins there
-    subroutine follow_events(lowered, factor, rule, state, events, number, error)
-        !> The beam
-        type(lowered_type), intent(in), target :: lowered
-        !> End of the path, above 0
-        real(wp), intent(in) :: factor
-        !> rule_block or rule_single
-        integer, intent(in) :: rule
-        !> From new_state or an earlier solve
-        type(state_type), intent(inout) :: state
-        !> The events in their order, the first `number` entries
-        type(event_type), allocatable, intent(out) :: events(:)
-        integer, intent(out) :: number
-        !> As for solve_state; or no single path
-        type(error_type), allocatable, intent(out) :: error
-        type(outcome_type) :: outcome
-        type(path_type) :: path
-        logical, allocatable :: now(:)
-        real(wp) :: at
-        integer :: solves, k, stat
-
-        number = 0
-        allocate (events(2*size(state%closed) + 8), now(size(state%closed)), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
-        call close_all(lowered, state%closed)
-        call solve_state(lowered, 0.0_wp, rule, state, error)
-        if (allocated(error) .or. state%status /= gapbeam_solved) return
-        at = 0.0_wp
-        now(:) = state%closed
-        solves = state%solves
-        do while (at < factor)
-            call reserve_for(for_following, lowered%beam, detail_of(lowered), error)
-            if (allocated(error)) return
-            call follow_path(lowered%beam, detail_of(lowered), factor, changes_at_a_time, at, state%closed, state%undecided, &
-                             path, outcome, error)
-            call end_if_stopped(lowered%beam%watch, error)
-            call name_range(lowered, error)
-            if (allocated(error)) then
-                error%message = "at load factor "//trim(shown(at))//": "//error%message
-                return
-            end if
-            solves = solves + path%solves
-            do k = 1, path%count
-                call note(path%factor(k), path%support(k), path%event(k))
-                if (allocated(error)) return
-            end do
-            if (outcome%status == gapbeam_no_equilibrium) then
-                call forget(state)
-                state%status = gapbeam_no_equilibrium
-                state%factor = at
-                state%solves = solves
-                if (allocated(outcome%motion)) state%motion(:) = outcome%motion
-                return
-            end if
-        end do
-        call solve_state(lowered, factor, rule_given, state, error)
-        if (.not. allocated(error)) state%solves = state%solves + solves
-
-    contains
-
-        !> Note what happens to a support. What changes at factor 0 is no event, unless the beam turns there
-        subroutine note(when, which, what)
-            real(wp), intent(in) :: when
-            integer, intent(in) :: which, what
-            type(event_type), allocatable :: longer(:)
-            type(acting_type) :: before, after
-            integer :: change
-
-            before = now_acts(which)
-            if (what /= event_turns) now(which) = .not. now(which)
-            after = now_acts(which)
-            change = what
-            if (lowered%beam%supports(which)%kink > 0 .and. what /= event_turns) change = what_happens(before, after)
-            if (change == nothing .or. (.not. when > 0.0_wp .and. what /= event_turns)) return
-            if (number == size(events)) then
-                allocate (longer(2*number), stat=stat)
-                if (stat /= 0) then
-                    call no_memory(error)
-                    return
-                end if
-                longer(1:number) = events
-                call move_alloc(longer, events)
-            end if
-            number = number + 1
-            events(number) = event_type(when, lowered%normal(which), merge(what, after%condition, what == event_turns), change)
-        end subroutine note
-
-        !> What acts of a support of the beam, which may be a kink of a law
-        pure function now_acts(which) result(acting)
-            integer, intent(in) :: which
-            type(acting_type) :: acting
-            integer :: first
-
-            associate (supports => lowered%beam%supports)
-                first = which - max(supports(which)%kink - 1, 0)
-                associate (last => last_kink(supports, which))
-                    acting = acting_piece(supports(first:last), lowered%model%supports(lowered%normal(which))%side, &
-                                          now(first:last))
-                end associate
-            end associate
-        end function now_acts
-
-    end subroutine follow_events
 
 end module gapbeam_state

@@ -1,11 +1,11 @@
-!> What a solved state says of the supports, in the user's units
+!> Reactions, openings and states of the supports in a solved state, in the user's units.
 module gapbeam_support_values
     use gapbeam_kinds, only: wp
     use gapbeam_model, only: node_support_type, both
-    use gapbeam_polyline, only: last_kink
+    use gapbeam_polyline, only: last_breakpoint
     use gapbeam_scene, only: gapbeam_axial
     use gapbeam_units, only: moment_unit
-    use gapbeam_lowered, only: lowered_type
+    use gapbeam_assembled_model, only: assembled_type
     use gapbeam_solution, only: state_type, couple_at_node, way_to_contact
     use gapbeam_pieces, only: acting_type, acting_piece, gapbeam_open, gapbeam_closed, gapbeam_bilateral, gapbeam_branch
     implicit none
@@ -15,9 +15,9 @@ module gapbeam_support_values
 contains
 
     !> Values at all supports, in the order of the model
-    pure subroutine support_values(lowered, state, reaction, deflection, opening, couple, condition)
+    pure subroutine support_values(assembled, state, reaction, deflection, opening, couple, condition)
         !> The beam, and its solved state
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: assembled
         type(state_type), intent(in) :: state
         !> Force on the beam, up; of an axial support to the right, shape (nsupport)
         real(wp), intent(out) :: reaction(:)
@@ -33,7 +33,7 @@ contains
         integer :: j, k, last
         logical :: has_law
 
-        associate (units => lowered%units, beam => lowered%beam, axial => lowered%axial)
+        associate (units => assembled%units, beam => assembled%beam, axial => assembled%axial)
             do k = 1, size(reaction)
                 reaction(k) = 0.0_wp
                 deflection(k) = 0.0_wp
@@ -41,8 +41,8 @@ contains
                 couple(k) = 0.0_wp
                 condition(k) = gapbeam_bilateral
                 ! One piece both ways is a spring
-                if (lowered%with_law(k)) condition(k) = gapbeam_branch + 1
-                associate (s => lowered%model%supports(k), node => lowered%node_of_point(lowered%support_point(k)))
+                if (assembled%with_law(k)) condition(k) = gapbeam_branch + 1
+                associate (s => assembled%model%supports(k), node => assembled%node_of_point(assembled%support_point(k)))
                     if (s%direction == gapbeam_axial) then
                         if (.not. allocated(axial%node)) cycle
                         reaction(k) = scale(state%axial_reaction(axial%node(k)), axial%units%force)
@@ -50,42 +50,42 @@ contains
                         cycle
                     end if
                     deflection(k) = scale(state%deflection(node), units%deflection)
-                    j = lowered%beam_support(k)
+                    j = assembled%beam_support(k)
                     last = j
                     has_law = .false.
                     if (j > 0) then
-                        last = last_kink(beam%supports, j)
-                        has_law = beam%supports(j)%kink > 0
-                        ! Of a law the kink whose piece acts has the force
+                        last = last_breakpoint(beam%supports, j)
+                        has_law = beam%supports(j)%breakpoint > 0
+                        ! Of a law the breakpoint whose piece acts has the force
                         reaction(k) = scale(sum(state%reaction(j:last)), units%force)
                     end if
                     if (has_law) then
                         if (allocated(state%laws)) then
-                            call look_at_law(state%laws(j:last), s%side, state%closed(j:last), state%deflection(node), &
-                                             condition(k), opening(k))
+                            call state_of_law(state%laws(j:last), s%side, state%closed(j:last), state%deflection(node), &
+                                              condition(k), opening(k))
                         else
-                            call look_at_law(beam%supports(j:last), s%side, state%closed(j:last), state%deflection(node), &
-                                             condition(k), opening(k))
+                            call state_of_law(beam%supports(j:last), s%side, state%closed(j:last), state%deflection(node), &
+                                              condition(k), opening(k))
                         end if
                         opening(k) = scale(opening(k), units%deflection)
                     else if (s%side /= both) then
                         condition(k) = gapbeam_open
                         if (j > 0) condition(k) = merge(gapbeam_closed, gapbeam_open, state%closed(j))
-                        opening(k) = scale(way_to_contact(lowered, state, k), units%deflection)
+                        opening(k) = scale(way_to_contact(assembled, state, k), units%deflection)
                         ! The beam goes past a support without stiffness
                         if (j > 0) opening(k) = merge(0.0_wp, max(0.0_wp, opening(k)), state%closed(j))
                     end if
-                    if (.not. lowered%couple_share(k) > 0.0_wp) cycle
-                    couple(k) = scale(couple_at_node(lowered, state, node)*lowered%couple_share(k), moment_unit(units))
+                    if (.not. assembled%couple_share(k) > 0.0_wp) cycle
+                    couple(k) = scale(couple_at_node(assembled, state, node)*assembled%couple_share(k), moment_unit(units))
                 end associate
             end do
         end associate
     end subroutine support_values
 
     !> Which piece of a law acts, as a condition, and how far it is open
-    pure subroutine look_at_law(kinks, side, closed, deflection, condition, opening)
-        type(node_support_type), intent(in) :: kinks(:)
-        !> Side of the support, and the scheme of its kinks
+    pure subroutine state_of_law(breakpoints, side, closed, deflection, condition, opening)
+        type(node_support_type), intent(in) :: breakpoints(:)
+        !> Side of the support, and the scheme of its breakpoints
         integer, intent(in) :: side
         logical, intent(in) :: closed(:)
         !> Of its node
@@ -94,40 +94,40 @@ contains
         real(wp), intent(out) :: opening
         type(acting_type) :: acting
 
-        acting = acting_piece(kinks, side, closed)
+        acting = acting_piece(breakpoints, side, closed)
         condition = acting%condition
         opening = 0.0_wp
-        if (condition == gapbeam_open) opening = way_to_law(kinks, side, deflection)
-    end subroutine look_at_law
+        if (condition == gapbeam_open) opening = way_to_law(breakpoints, side, deflection)
+    end subroutine state_of_law
 
     !> How far a law is open
-    pure function way_to_law(kinks, side, deflection) result(way)
-        type(node_support_type), intent(in) :: kinks(:)
+    pure function way_to_law(breakpoints, side, deflection) result(way)
+        type(node_support_type), intent(in) :: breakpoints(:)
         integer, intent(in) :: side
         real(wp), intent(in) :: deflection
         real(wp) :: way
 
-        associate (middle => size(kinks)/2)
+        associate (middle => size(breakpoints)/2)
             if (side == both) then
-                way = min(kinks(middle + 1)%contact - deflection, deflection - kinks(middle)%contact)
+                way = min(breakpoints(middle + 1)%contact - deflection, deflection - breakpoints(middle)%contact)
             else
-                way = side*(kinks(1)%contact - deflection)
+                way = side*(breakpoints(1)%contact - deflection)
             end if
         end associate
         way = max(0.0_wp, way)
     end function way_to_law
 
     !> Supports whose reaction or opening is zero: open or closed is not decided
-    pure subroutine find_undecided(lowered, state, undecided)
-        type(lowered_type), intent(in) :: lowered
+    pure subroutine find_undecided(assembled, state, undecided)
+        type(assembled_type), intent(in) :: assembled
         type(state_type), intent(in) :: state
         !> In the order of the model, shape (nsupport)
         logical, intent(out) :: undecided(:)
         integer :: j
 
         undecided(:) = .false.
-        do j = 1, size(lowered%normal)
-            undecided(lowered%normal(j)) = undecided(lowered%normal(j)) .or. state%undecided(j)
+        do j = 1, size(assembled%normal)
+            undecided(assembled%normal(j)) = undecided(assembled%normal(j)) .or. state%undecided(j)
         end do
     end subroutine find_undecided
 

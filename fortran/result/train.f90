@@ -1,17 +1,17 @@
-!> Loads that move together: axles and uniform loads on a beam at a place of the train.
+!> Loads that move together: axles and uniform loads on a beam at one position of the train.
 !>
 !> The place of a train is that of its first axle. While no axle, and no end of a uniform load, passes a point at which a piece
 !> of the beam ends, what it does to the links is a polynomial in the place: the rotations of the simple bar under a unit
 !> force are the deflections under unit moments at its ends (Maxwell), of degree 3 in every piece. Such a range of places is a
-!> reach.
+!> interval.
 module gapbeam_train
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_element, only: field_type
     use gapbeam_link, only: piece_load_type, recover_link
     use gapbeam_model, only: beam_type
-    use gapbeam_lowered, only: lowered_type, point_x
-    use gapbeam_places, only: position_tolerance
+    use gapbeam_assembled_model, only: assembled_type, point_x
+    use gapbeam_stations, only: position_tolerance
     implicit none
     private
     public :: train_type, uniform_type, track_type, new_track, degree_of, least_distance
@@ -52,28 +52,28 @@ module gapbeam_train
 contains
 
     !> Make a beam ready for trains
-    subroutine new_track(lowered, track, error)
+    subroutine new_track(assembled, track, error)
         !> The beam, without foundations
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: assembled
         type(track_type), intent(out) :: track
         !> No memory
         type(error_type), allocatable, intent(out) :: error
         integer :: i, j, n, first, stat
 
-        n = size(lowered%pieces)
+        n = size(assembled%pieces)
         allocate (track%x(0:n), track%link(n), track%before(n), track%length(n), track%turn_a(0:3, n), track%turn_b(0:3, n), &
-                  track%with_load(size(lowered%beam%links)), track%is_loaded(size(lowered%beam%links)), stat=stat)
+                  track%with_load(size(assembled%beam%links)), track%is_loaded(size(assembled%beam%links)), stat=stat)
         if (stat /= 0) then
             call no_memory(error)
             return
         end if
-        track%beam = lowered%beam
+        track%beam = assembled%beam
         track%is_loaded(:) = .false.
-        track%length_unit = lowered%units%length
-        track%force_unit = lowered%units%force
-        track%length(:) = lowered%pieces%length
+        track%length_unit = assembled%units%length
+        track%force_unit = assembled%units%force
+        track%length(:) = assembled%pieces%length
         do j = 0, n
-            track%x(j) = point_x(lowered, j)
+            track%x(j) = point_x(assembled, j)
         end do
         associate (beam => track%beam)
             beam%force(1, :) = beam%force(1, :) + beam%force(2, :)
@@ -82,7 +82,7 @@ contains
             beam%couple(2, :) = 0.0_wp
             first = 1
             do i = 1, size(beam%links)
-                associate (link => beam%links(i), last => lowered%node_point(i))
+                associate (link => beam%links(i), last => assembled%node_point(i))
                     link%turn_a = [sum(link%turn_a), 0.0_wp]
                     link%turn_b = [sum(link%turn_b), 0.0_wp]
                     link%shear_a = [sum(link%shear_a), 0.0_wp]
@@ -90,7 +90,7 @@ contains
                     link%load_sum = [sum(link%load_sum), 0.0_wp]
                     link%turn_sum = [sum(link%turn_sum), 0.0_wp]
                     track%link(first:last) = i
-                    call find_turns(lowered, i, first, last, track)
+                    call find_turns(assembled, i, first, last, track)
                     first = last + 1
                 end associate
             end do
@@ -98,29 +98,29 @@ contains
     end subroutine new_track
 
     !> Rotations of the ends of a link under a unit force anywhere in it
-    subroutine find_turns(lowered, i, first, last, track)
-        type(lowered_type), intent(in) :: lowered
+    subroutine find_turns(assembled, i, first, last, track)
+        type(assembled_type), intent(in) :: assembled
         !> The link, its first and its last piece
         integer, intent(in) :: i, first, last
         type(track_type), intent(inout) :: track
-        type(piece_load_type) :: nothing(first:last)
+        type(piece_load_type) :: no_load(first:last)
         type(field_type) :: starts(first:last)
         real(wp) :: work(last - first + 1, 3), length
         integer :: j
 
-        nothing(:) = piece_load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
+        no_load(:) = piece_load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
         length = 0.0_wp
         do j = first, last
             track%before(j) = length
-            length = length + lowered%pieces(j)%length
+            length = length + assembled%pieces(j)%length
         end do
         associate (link => track%beam%links(i))
-            call recover_link(lowered%pieces(first:last), nothing, link%length, 1.0_wp, 0.0_wp, -link%inverse, 0.0_wp, 0.0_wp, &
+            call recover_link(assembled%pieces(first:last), no_load, link%length, 1.0_wp, 0.0_wp, -link%inverse, 0.0_wp, 0.0_wp, &
                               link%faa, work, starts)
             do j = first, last
                 track%turn_a(:, j) = cubic(starts(j))
             end do
-            call recover_link(lowered%pieces(first:last), nothing, link%length, 0.0_wp, 1.0_wp, link%inverse, 0.0_wp, 0.0_wp, &
+            call recover_link(assembled%pieces(first:last), no_load, link%length, 0.0_wp, 1.0_wp, link%inverse, 0.0_wp, 0.0_wp, &
                               link%fab, work, starts)
             do j = first, last
                 track%turn_b(:, j) = cubic(starts(j))
@@ -136,7 +136,7 @@ contains
             type(field_type), intent(in) :: start
             real(wp) :: c(0:3)
 
-            associate (p => lowered%pieces(j))
+            associate (p => assembled%pieces(j))
                 c = [start%deflection, start%rotation + p%shear_flexibility*start%shear, -p%flexibility*start%moment/2, &
                      -p%flexibility*start%shear/6]
             end associate

@@ -1,10 +1,11 @@
-!> Where the extreme values under a train may be: bounds that leave a few stretches of its way.
+!> Bounds of the values under a train, which leave few stretches of its way for the extremes.
 !>
 !> In a cell (gapbeam_train_cells) at a fixed share of its length a field depends on the position alone. It lies between the line
 !> through its values at two positions and that line moved by h**2/8 of its second derivative. What the axles in a link add to that
-!> is known, as are the derivatives of the values at its nodes (gapbeam_train_view). So a link is looked at now and then: whenever
-!> something comes to it or leaves it, and after a share of its length. What may hold an extreme value is looked at again, stretch
-!> by stretch, and halves of these. The slopes of node values do not jump but where an axle passes a hinge, an end of the beam or,
+!> is known, as are the derivatives of the values at its nodes (gapbeam_train_link_bounds). So a link is looked at now and then:
+!> whenever something comes to it or leaves it, and after a share of its length. What may hold an extreme value is looked at again,
+!> stretch by stretch, and halves of these. The slopes of node values do not jump but where an axle passes a hinge, an end of the
+!> beam or,
 !> in one that gives way in shear, any point, and those of a moment where one passes its node; and where an end of a uniform load
 !> passes an end of the beam.
 module gapbeam_train_bounds
@@ -12,13 +13,14 @@ module gapbeam_train_bounds
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved
     use gapbeam_nodes, only: hinge
-    use gapbeam_lowered, only: lowered_type
+    use gapbeam_assembled_model, only: assembled_type
     use gapbeam_train, only: train_type, track_type
-    use gapbeam_train_reaches, only: reach_type
-    use gapbeam_train_passage, only: passage_type
-    use gapbeam_train_view, only: view_type, look_type, slopes_type, new_view, show_stretch, look_ahead, look_at_link, &
-        slopes_in_link, greatest_curvature, greater
-    use gapbeam_train_support_bounds, only: support_bounds_type, new_support_bounds, watch_scheme, look_at_supports, mark_stretches
+    use gapbeam_train_intervals, only: interval_type
+    use gapbeam_train_traversal, only: traversal_type
+    use gapbeam_train_link_bounds, only: view_type, link_bounds_type, slopes_type, new_view, enter_stretch, &
+        enter_next_interval, bound_link, slopes_in_link, greatest_curvature, greater
+    use gapbeam_train_support_bounds, only: support_bounds_type, new_support_bounds, watch_scheme, bound_supports, &
+        mark_stretches
     implicit none
     private
     public :: bounds_type, find_bounds, slack, most_lost
@@ -59,12 +61,12 @@ module gapbeam_train_bounds
 contains
 
     !> Find bounds of the fields on all stretches of a train's way
-    subroutine find_bounds(lowered, track, train, passage, bounds, error)
-        type(lowered_type), intent(in) :: lowered
+    subroutine find_bounds(assembled, track, train, traversal, bounds, error)
+        type(assembled_type), intent(in) :: assembled
         type(track_type), intent(in) :: track
         type(train_type), intent(in) :: train
         !> By pass_train
-        type(passage_type), intent(in) :: passage
+        type(traversal_type), intent(in) :: traversal
         type(bounds_type), intent(out) :: bounds
         !> No memory
         type(error_type), allocatable, intent(out) :: error
@@ -72,15 +74,15 @@ contains
         integer, allocatable :: start(:)
         real(wp), allocatable :: begin(:)
         logical, allocatable :: touched(:)
-        type(look_type), allocatable :: first_look(:)
+        type(link_bounds_type), allocatable :: first_at_link(:)
         type(slopes_type), allocatable :: slopes(:)
         integer :: count, i, k, n, stat
 
         n = size(track%beam%links)
-        call new_view(lowered, track, train, bounds%view, stat)
-        if (stat == 0) call new_support_bounds(lowered, bounds%supports, stat)
-        if (stat == 0) allocate (bounds%at_most(2, 4, passage%number), bounds%of_supports(passage%number), parts(256), &
-                                 start(n), begin(n), touched(n), first_look(n), slopes(n), stat=stat)
+        call new_view(assembled, track, train, bounds%view, stat)
+        if (stat == 0) call new_support_bounds(assembled, bounds%supports, stat)
+        if (stat == 0) allocate (bounds%at_most(2, 4, traversal%number), bounds%of_supports(traversal%number), parts(256), &
+                                 start(n), begin(n), touched(n), first_at_link(n), slopes(n), stat=stat)
         if (stat /= 0) then
             call no_memory(error)
             return
@@ -89,19 +91,19 @@ contains
         bounds%of_supports(:) = .false.
         count = 0
         start(:) = 0
-        do k = 1, passage%number
+        do k = 1, traversal%number
             call end_if_stopped(track%beam%watch, error)
             if (allocated(error)) return
-            if (passage%status(k) /= gapbeam_solved) cycle
-            call show_stretch(track, train, passage, k, bounds%view)
+            if (traversal%status(k) /= gapbeam_solved) cycle
+            call enter_stretch(track, train, traversal, k, bounds%view)
             if (.not. bounds%view%clear) then
                 bounds%at_most(:, :, k) = huge(1.0_wp)
                 bounds%of_supports(k) = .true.
                 start(:) = 0
                 cycle
             end if
-            if (bounds%view%new_scheme) call watch_scheme(lowered, passage%closed(:, k), bounds%view%columns, bounds%supports)
-            call look_at_supports(track, k, bounds%view%columns, bounds%supports, stat)
+            if (bounds%view%new_scheme) call watch_scheme(assembled, traversal%closed(:, k), bounds%view%columns, bounds%supports)
+            call bound_supports(track, k, bounds%view%columns, bounds%supports, stat)
             if (stat /= 0) then
                 call no_memory(error)
                 return
@@ -118,7 +120,7 @@ contains
             call end_if_stopped(track%beam%watch, error)
             if (allocated(error)) return
             do k = parts(i)%first, parts(i)%last
-                call look_closely(parts(i)%link, k)
+                call bound_closely(parts(i)%link, k)
             end do
         end do
 
@@ -131,18 +133,18 @@ contains
             integer :: i
 
             touched(:) = .true.
-            if (k == passage%number) return
-            smooth = passage%status(k + 1) == gapbeam_solved
-            if (smooth) smooth = all(passage%closed(:, k + 1) .eqv. passage%closed(:, k))
+            if (k == traversal%number) return
+            smooth = traversal%status(k + 1) == gapbeam_solved
+            if (smooth) smooth = all(traversal%closed(:, k + 1) .eqv. traversal%closed(:, k))
             if (.not. smooth) return
-            if (passage%reach(k) == passage%reach(k + 1)) then
+            if (traversal%interval(k) == traversal%interval(k + 1)) then
                 touched(:) = .false.
                 return
             end if
             if (bounds%view%shears) return
-            call look_ahead(track, train, passage, passage%reach(k + 1), bounds%view)
+            call enter_next_interval(track, train, traversal, traversal%interval(k + 1), bounds%view)
             touched(:) = .false.
-            associate (before => bounds%view%reach, after => bounds%view%ahead)
+            associate (before => bounds%view%interval, after => bounds%view%ahead)
                 do i = 1, size(after%piece)
                     call touch(before%piece(i), after%piece(i), past_hinges=.false.)
                 end do
@@ -178,22 +180,22 @@ contains
         end subroutine touch
 
         !> Piece of an end of a uniform load, 0 left of the beam, one more than there are right of it
-        pure function piece_of_end(reach, distance, inside) result(piece)
-            type(reach_type), intent(in) :: reach
+        pure function piece_of_end(interval, distance, inside) result(piece)
+            type(interval_type), intent(in) :: interval
             !> Its distance from the place of the train, and its piece on the beam
             real(wp), intent(in) :: distance
             integer, intent(in) :: inside
             integer :: piece
 
             piece = inside
-            if (reach%about + distance <= 0.0_wp) piece = 0
-            if (reach%about + distance >= track%x(size(track%link))) piece = size(track%link) + 1
+            if (interval%about + distance <= 0.0_wp) piece = 0
+            if (interval%about + distance >= track%x(size(track%link))) piece = size(track%link) + 1
         end function piece_of_end
 
         !> A link on the next stretch
         subroutine go_on(i, k)
             integer, intent(in) :: i, k
-            type(look_type) :: look
+            type(link_bounds_type) :: at_link
             real(wp) :: way
 
             associate (view => bounds%view)
@@ -201,21 +203,21 @@ contains
                     start(i) = k
                     begin(i) = view%ends(1)
                     slopes(i) = slopes_type()
-                    call look_at_link(lowered, track, view, i, 0.0_wp, first_look(i))
-                    call reach_values(first_look(i), k)
+                    call bound_link(assembled, track, view, i, 0.0_wp, first_at_link(i))
+                    call reach_values(first_at_link(i), k)
                 end if
                 slopes(i) = greater(slopes(i), slopes_in_link(view, i))
                 way = (view%ends(2) - begin(i))*view%columns%to_length
                 if (.not. touched(i) .and. way < longest_way*track%beam%links(i)%length) return
-                call look_at_link(lowered, track, view, i, 1.0_wp, look)
-                call reach_values(look, k)
-                call keep_part(part_type(i, start(i), k, bound_of(i, way, slopes(i), first_look(i), look)))
+                call bound_link(assembled, track, view, i, 1.0_wp, at_link)
+                call reach_values(at_link, k)
+                call keep_part(part_type(i, start(i), k, bound_of(i, way, slopes(i), first_at_link(i), at_link)))
                 start(i) = 0
                 if (touched(i)) return
                 start(i) = k + 1
                 begin(i) = view%ends(2)
                 slopes(i) = slopes_type()
-                first_look(i) = look
+                first_at_link(i) = at_link
             end associate
         end subroutine go_on
 
@@ -224,7 +226,7 @@ contains
             integer, intent(in) :: i
             real(wp), intent(in) :: way
             type(slopes_type), intent(in) :: slopes
-            type(look_type), intent(in) :: first, last
+            type(link_bounds_type), intent(in) :: first, last
             real(wp) :: bound(2, 4)
             real(wp) :: high(4), low(4), rise(4)
 
@@ -236,19 +238,19 @@ contains
         end function bound_of
 
         !> Values that are reached
-        subroutine reach_values(look, k)
-            type(look_type), intent(in) :: look
+        subroutine reach_values(at_link, k)
+            type(link_bounds_type), intent(in) :: at_link
             integer, intent(in) :: k
 
-            where (look%top > bounds%reached(1, :))
-                bounds%reached(1, :) = look%top
+            where (at_link%top > bounds%reached(1, :))
+                bounds%reached(1, :) = at_link%top
                 bounds%where_reached(1, :) = k
             end where
-            where (-look%bottom > bounds%reached(2, :))
-                bounds%reached(2, :) = -look%bottom
+            where (-at_link%bottom > bounds%reached(2, :))
+                bounds%reached(2, :) = -at_link%bottom
                 bounds%where_reached(2, :) = k
             end where
-            bounds%size(:) = max(bounds%size, abs(look%high), abs(look%low))
+            bounds%size(:) = max(bounds%size, abs(at_link%high), abs(at_link%low))
             where (bounds%reached(:, :2) > 0.0_wp) bounds%view%enough(:, :) = far_below*bounds%reached(:, :2)
         end subroutine reach_values
 
@@ -301,29 +303,29 @@ contains
         end subroutine drop_parts
 
         !> Look at a part on one stretch
-        subroutine look_closely(i, k)
+        subroutine bound_closely(i, k)
             !> The link, and the number of the stretch
             integer, intent(in) :: i, k
-            type(look_type) :: first, last
+            type(link_bounds_type) :: first, last
 
-            call show_stretch(track, train, passage, k, bounds%view)
-            call look_at_link(lowered, track, bounds%view, i, 0.0_wp, first)
+            call enter_stretch(track, train, traversal, k, bounds%view)
+            call bound_link(assembled, track, bounds%view, i, 0.0_wp, first)
             call reach_values(first, k)
-            call look_at_link(lowered, track, bounds%view, i, 1.0_wp, last)
+            call bound_link(assembled, track, bounds%view, i, 1.0_wp, last)
             call reach_values(last, k)
-            call look_between(i, k, slopes_in_link(bounds%view, i), 0.0_wp, 1.0_wp, first, last, most_halves)
-        end subroutine look_closely
+            call bound_between(i, k, slopes_in_link(bounds%view, i), 0.0_wp, 1.0_wp, first, last, most_halves)
+        end subroutine bound_closely
 
         !> Bounds between two positions on a stretch, halved while they are above what is reached
-        recursive subroutine look_between(i, k, slopes, from, to, first, last, halves)
+        recursive subroutine bound_between(i, k, slopes, from, to, first, last, halves)
             integer, intent(in) :: i, k
             type(slopes_type), intent(in) :: slopes
             !> The positions as shares of the stretch, and what there is
             real(wp), intent(in) :: from, to
-            type(look_type), intent(in) :: first, last
+            type(link_bounds_type), intent(in) :: first, last
             !> Halves that are left
             integer, intent(in) :: halves
-            type(look_type) :: middle
+            type(link_bounds_type) :: middle
             real(wp) :: bound(2, 4)
             logical :: high(2, 4)
 
@@ -331,14 +333,14 @@ contains
             high(:, :) = .not. bound < bounds%reached - slack*spread(bounds%size, 1, 2)
             if (.not. any(high)) return
             if (halves > 0 .and. any(high .and. bound > bounds%reached + slack*spread(bounds%size, 1, 2))) then
-                call look_at_link(lowered, track, bounds%view, i, from + (to - from)/2, middle)
+                call bound_link(assembled, track, bounds%view, i, from + (to - from)/2, middle)
                 call reach_values(middle, k)
-                call look_between(i, k, slopes, from, from + (to - from)/2, first, middle, halves - 1)
-                call look_between(i, k, slopes, from + (to - from)/2, to, middle, last, halves - 1)
+                call bound_between(i, k, slopes, from, from + (to - from)/2, first, middle, halves - 1)
+                call bound_between(i, k, slopes, from + (to - from)/2, to, middle, last, halves - 1)
                 return
             end if
             where (high) bounds%at_most(:, :, k) = max(bounds%at_most(:, :, k), bound)
-        end subroutine look_between
+        end subroutine bound_between
 
     end subroutine find_bounds
 

@@ -1,4 +1,4 @@
-!> Parts of a train's way that may hold an extreme value (gapbeam_train_envelope): those that what is known already does not exceed
+!> Candidates for extreme values: parts of a train's way that bounds do not rule out.
 module gapbeam_train_candidates
     use gapbeam_kinds, only: wp
     use gapbeam_patch, only: patch_type

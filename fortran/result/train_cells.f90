@@ -1,14 +1,15 @@
-!> The beam under a train, cut where its pieces end and where axles and ends of its uniform loads are: in every such cell the fields
-!> are polynomials in x, and while the train is in one reach, in its place as well.
+!> The beam under a train cut into cells in which the fields are polynomials.
+!> It is cut where its pieces end and where axles and ends of its uniform loads are: in every such cell the fields are polynomials
+!> in x, and while the train is in one interval, in its place as well.
 module gapbeam_train_cells
     use gapbeam_kinds, only: wp
     use gapbeam_element, only: field_type, fields_at
     use gapbeam_link, only: piece_type, piece_load_type, combine_loads
     use gapbeam_recover, only: recover_beam
     use gapbeam_workspace, only: workspace_type
-    use gapbeam_lowered, only: lowered_type
+    use gapbeam_assembled_model, only: assembled_type
     use gapbeam_train, only: train_type, track_type
-    use gapbeam_train_reaches, only: reach_type
+    use gapbeam_train_intervals, only: interval_type
     implicit none
     private
     public :: cell_type, cells_type, new_cells, find_cells, fill_cells, recover_cells, cell_ends, fields_in_cell, x_in_cell, &
@@ -33,7 +34,7 @@ module gapbeam_train_cells
         integer, allocatable :: axle(:)
         !> The cells at a place of the train as pieces with loads, and the fields at their left ends
         type(piece_type), allocatable :: pieces(:)
-        type(piece_load_type), allocatable :: loads(:), nothing(:)
+        type(piece_load_type), allocatable :: loads(:), no_load(:)
         type(field_type), allocatable :: starts(:)
     end type cells_type
 
@@ -60,10 +61,10 @@ contains
         end do
         most = size(track%link) + moving
         allocate (cells%cells(most), cells%last(size(track%beam%links)), cells%first(size(track%link) + 1), cells%offset(moving), &
-                  cells%force(moving), cells%axle(moving), cells%pieces(most), cells%loads(most), cells%nothing(most), &
+                  cells%force(moving), cells%axle(moving), cells%pieces(most), cells%loads(most), cells%no_load(most), &
                   cells%starts(most), stat=stat)
         if (stat /= 0) return
-        cells%nothing(:) = piece_load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
+        cells%no_load(:) = piece_load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
         cells%axle(:) = axle(:moving)
         do i = 1, moving
             k = axle(i)
@@ -100,16 +101,16 @@ contains
 
     end subroutine new_cells
 
-    !> The cells of a reach
-    subroutine find_cells(track, train, reach, cells)
+    !> The cells of an interval
+    subroutine find_cells(track, train, interval, cells)
         type(track_type), intent(in) :: track
         type(train_type), intent(in) :: train
-        type(reach_type), intent(in) :: reach
+        type(interval_type), intent(in) :: interval
         type(cells_type), intent(inout) :: cells
         real(wp) :: middle, from, to
         integer :: i, j, k, next
 
-        middle = reach%from + (reach%to - reach%from)/2
+        middle = interval%from + (interval%to - interval%from)/2
         cells%number = 0
         next = 1
         do j = 1, size(track%link)
@@ -154,16 +155,16 @@ contains
             integer :: piece, load
 
             if (cells%axle(point) > 0) then
-                piece = reach%piece(cells%axle(point))
+                piece = interval%piece(cells%axle(point))
                 return
             end if
             piece = 0
             load = (1 - cells%axle(point))/2
-            if (reach%first(load) > reach%last(load)) return
+            if (interval%first(load) > interval%last(load)) return
             associate (x => middle + cells%offset(point))
                 if (x < 0.0_wp .or. x > track%x(ubound(track%x, 1))) return
             end associate
-            piece = merge(reach%first(load), reach%last(load), cells%axle(point) == 1 - 2*load)
+            piece = merge(interval%first(load), interval%last(load), cells%axle(point) == 1 - 2*load)
         end function piece_of
 
     end subroutine find_cells
@@ -186,8 +187,8 @@ contains
     end subroutine cell_ends
 
     !> Make pieces and loads of the cells
-    subroutine fill_cells(lowered, track, s, cells)
-        type(lowered_type), intent(in) :: lowered
+    subroutine fill_cells(assembled, track, s, cells)
+        type(assembled_type), intent(in) :: assembled
         type(track_type), intent(in) :: track
         !> Place of the train
         real(wp), intent(in) :: s
@@ -201,9 +202,9 @@ contains
             associate (cell => cells%cells(k), load => cells%loads(k), p => cells%pieces(k))
                 if (cell%piece /= j) then
                     j = cell%piece
-                    whole = combine_loads(lowered%dead(j), lowered%live(j), 1.0_wp)
+                    whole = combine_loads(assembled%dead(j), assembled%live(j), 1.0_wp)
                 end if
-                p = lowered%pieces(j)
+                p = assembled%pieces(j)
                 load = whole
                 if (cell%left > 0 .or. cell%right > 0) then
                     call cell_ends(track, cells, cell, s, from, to)
@@ -211,8 +212,8 @@ contains
                     to = scale(to - track%x(j - 1), -track%length_unit)
                     if (cell%right == 0) to = p%length
                     p%length = max(0.0_wp, to - from)
-                    load%qa = whole%qa + (whole%qb - whole%qa)*(from/lowered%pieces(j)%length)
-                    load%qb = whole%qa + (whole%qb - whole%qa)*(to/lowered%pieces(j)%length)
+                    load%qa = whole%qa + (whole%qb - whole%qa)*(from/assembled%pieces(j)%length)
+                    load%qb = whole%qa + (whole%qb - whole%qa)*(to/assembled%pieces(j)%length)
                 end if
                 if (cell%right > 0) then
                     load%force = cells%force(cell%right)
@@ -233,7 +234,7 @@ contains
         type(cells_type), intent(inout) :: cells
 
         associate (n => cells%number)
-            call recover_beam(cells%pieces(:n), cells%loads(:n), cells%nothing(:n), 1.0_wp, track%beam%links, cells%last, &
+            call recover_beam(cells%pieces(:n), cells%loads(:n), cells%no_load(:n), 1.0_wp, track%beam%links, cells%last, &
                               track%beam%kind, work%answers%deflection, work%answers%moment_left, work%answers%moment_right, &
                               work%shear, cells%starts(:n))
         end associate

@@ -1,12 +1,12 @@
-!> What a train does to the links of a beam on a stretch of its way, and the state that follows, as polynomials in the position; the
-!> factor of the system of a scheme (gapbeam_train_elimination solves it)
+!> State of a beam under a train on a stretch of its way, as polynomials in the position.
+!> What the train does to the links, and the factor of the system of a scheme (gapbeam_train_elimination solves it).
 module gapbeam_train_columns
     use gapbeam_kinds, only: wp
     use gapbeam_band, only: pivot_type, factor_chain, band_ok
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads, apply_scheme
     use gapbeam_train, only: train_type, track_type
-    use gapbeam_train_reaches, only: reach_type
+    use gapbeam_train_intervals, only: interval_type
     implicit none
     private
     public :: columns_type, most_columns, new_columns, set_scheme, load_columns, at_distance, value_of_column
@@ -96,10 +96,10 @@ contains
     end function value_of_column
 
     !> What the train does to the links
-    subroutine load_columns(track, train, reach, from, columns)
+    subroutine load_columns(track, train, interval, from, columns)
         type(track_type), intent(in) :: track
         type(train_type), intent(in) :: train
-        type(reach_type), intent(in) :: reach
+        type(interval_type), intent(in) :: interval
         real(wp), intent(in) :: from
         type(columns_type), intent(inout) :: columns
         real(wp) :: t, f, distance
@@ -114,7 +114,7 @@ contains
             columns%loaded(l) = .false.
         end do
         do i = 1, size(train%offset)
-            j = reach%piece(i)
+            j = interval%piece(i)
             if (j == 0) cycle
             l = track%link(j)
             columns%loaded(l) = .true.
@@ -129,15 +129,15 @@ contains
             end associate
         end do
         do i = 1, size(train%uniform)
-            associate (load => train%uniform(i), first => reach%first(i), last => reach%last(i))
+            associate (load => train%uniform(i), first => interval%first(i), last => interval%last(i))
                 f = load%q*columns%to_force/columns%to_length
                 do j = first, last
                     l = track%link(j)
                     columns%loaded(l) = .true.
                     call add_uniform(1.0_wp, min(from + load%to, track%x(j)), &
-                                     j == last .and. reach%about + load%to < track%x(j))
+                                     j == last .and. interval%about + load%to < track%x(j))
                     call add_uniform(-1.0_wp, max(from + load%from, track%x(j - 1)), &
-                                     j == first .and. reach%about + load%from > track%x(j - 1))
+                                     j == first .and. interval%about + load%from > track%x(j - 1))
                 end do
             end associate
         end do

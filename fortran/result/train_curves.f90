@@ -1,4 +1,4 @@
-!> A train at chosen places of the beam: the largest and smallest values there
+!> Largest and smallest values at chosen places of the beam while a train goes over it.
 module gapbeam_train_curves
     use gapbeam_kinds, only: wp
     use gapbeam_watch, only: end_if_stopped
@@ -8,15 +8,16 @@ module gapbeam_train_curves
     use gapbeam_element, only: field_type, fields_at
     use gapbeam_link, only: piece_load_type, combine_loads
     use gapbeam_units, only: moment_unit, rotation_unit
-    use gapbeam_lowered, only: lowered_type
+    use gapbeam_assembled_model, only: assembled_type
     use gapbeam_train, only: train_type, track_type, degree_of, least_distance
     use gapbeam_train_cells, only: cells_type, cell_ends
-    use gapbeam_train_passage, only: passage_type
+    use gapbeam_train_traversal, only: traversal_type
     use gapbeam_train_columns, only: at_distance
-    use gapbeam_train_view, only: view_type, look_type, new_view, show_stretch, look_at_link, slopes_in_link, greatest_curvature
+    use gapbeam_train_link_bounds, only: view_type, link_bounds_type, new_view, enter_stretch, bound_link, &
+        slopes_in_link, greatest_curvature
     use gapbeam_train_bounds, only: slack, most_lost
     use gapbeam_train_candidates, only: equal
-    use gapbeam_train_levels, only: keep_level
+    use gapbeam_train_prescribed_deflections, only: keep_prescribed
     use gapbeam_train_samples, only: samples_type, new_samples, sample_stretch, degree_in_position
     implicit none
     private
@@ -30,12 +31,12 @@ module gapbeam_train_curves
 contains
 
     !> Largest and smallest values of the fields at given places, over all positions
-    subroutine find_curves(lowered, track, train, passage, piece, distance, value, position, error)
-        type(lowered_type), intent(in) :: lowered
+    subroutine find_curves(assembled, track, train, traversal, piece, distance, value, position, error)
+        type(assembled_type), intent(in) :: assembled
         type(track_type), intent(inout) :: track
         type(train_type), intent(in) :: train
         !> By pass_train
-        type(passage_type), intent(in) :: passage
+        type(traversal_type), intent(in) :: traversal
         !> Pieces, and the distances from their left ends in the user's units, shape (n)
         integer, intent(in) :: piece(:)
         real(wp), intent(in) :: distance(:)
@@ -58,10 +59,10 @@ contains
         value(1, :, :) = -huge(1.0_wp)
         value(2, :, :) = huge(1.0_wp)
         position(:, :, :) = 0.0_wp
-        call new_samples(lowered, track, train, samples, error)
+        call new_samples(assembled, track, train, samples, error)
         if (allocated(error)) return
         n = samples%degree
-        call new_view(lowered, track, train, view, stat)
+        call new_view(assembled, track, train, view, stat)
         if (stat == 0) allocate (starts(0:n, 4, size(samples%starts, 2)), matrix(0:n, 0:n), seen(size(samples%starts, 2), 3), &
                                  reached(2, 4, size(piece)), curvature(4, size(track%beam%links)), wanted(size(piece)), stat=stat)
         if (stat /= 0) then
@@ -69,7 +70,7 @@ contains
             return
         end if
         matrix(:, :) = to_coefficients(n)
-        loads = combine_loads(lowered%dead, lowered%live, 1.0_wp)
+        loads = combine_loads(assembled%dead, assembled%live, 1.0_wp)
         d = degree_of(train)
         points(:) = sample_points(d)
         at_place(:, :) = to_coefficients(d)
@@ -81,10 +82,10 @@ contains
         sizes(:) = 0.0_wp
         near = least_distance(track, train)
         told = .true.
-        do k = 1, passage%number
+        do k = 1, traversal%number
             call end_if_stopped(track%beam%watch, error)
             if (allocated(error)) return
-            if (passage%status(k) /= gapbeam_solved) cycle
+            if (traversal%status(k) /= gapbeam_solved) cycle
             call show()
             if (.not. view%clear) cycle
             do q = 1, size(piece)
@@ -101,10 +102,10 @@ contains
         end if
         do q = 1, size(piece)
             do k = 1, 2
-                call keep_level(track%beam, node_of_place(q), equal*sizes(1), value(k, 1, q))
+                call keep_prescribed(track%beam, node_of_place(q), equal*sizes(1), value(k, 1, q))
             end do
         end do
-        associate (units => lowered%units)
+        associate (units => assembled%units)
             powers(:) = [units%deflection, rotation_unit(units), moment_unit(units), units%force]
         end associate
         do f = 1, 4
@@ -121,25 +122,26 @@ contains
 
             node = -1
             if (distance(q) <= 0.0_wp) then
-                node = lowered%node_of_point(piece(q) - 1)
-            else if (distance(q)*view%columns%to_length >= lowered%pieces(piece(q))%length) then
-                node = lowered%node_of_point(piece(q))
+                node = assembled%node_of_point(piece(q) - 1)
+            else if (distance(q)*view%columns%to_length >= assembled%pieces(piece(q))%length) then
+                node = assembled%node_of_point(piece(q))
             end if
         end function node_of_place
 
         !> Show a stretch: the fields at the left ends of all cells, at both ends of it
         subroutine show()
-            type(look_type) :: look
+            type(link_bounds_type) :: at_link
             integer :: i
 
-            call show_stretch(track, train, passage, k, view)
+            call enter_stretch(track, train, traversal, k, view)
             if (.not. view%clear) return
             do i = 1, size(track%beam%links)
-                call look_at_link(lowered, track, view, i, 0.0_wp, look, seen(:, 1))
-                sizes(:) = max(sizes, abs(look%high), abs(look%low))
-                call look_at_link(lowered, track, view, i, 1.0_wp, look, seen(:, 2))
-                sizes(:) = max(sizes, abs(look%high), abs(look%low))
-                curvature(:, i) = greatest_curvature(track, view, i, slopes_in_link(view, i), 0.0_wp, 0.0_wp, look%high, look%low)
+                call bound_link(assembled, track, view, i, 0.0_wp, at_link, seen(:, 1))
+                sizes(:) = max(sizes, abs(at_link%high), abs(at_link%low))
+                call bound_link(assembled, track, view, i, 1.0_wp, at_link, seen(:, 2))
+                sizes(:) = max(sizes, abs(at_link%high), abs(at_link%low))
+                curvature(:, i) = greatest_curvature(track, view, i, slopes_in_link(view, i), 0.0_wp, 0.0_wp, at_link%high, &
+                                                     at_link%low)
             end do
         end subroutine show
 
@@ -147,10 +149,10 @@ contains
         subroutine search()
             integer :: c
 
-            do k = 1, passage%number
+            do k = 1, traversal%number
                 call end_if_stopped(track%beam%watch, error)
                 if (allocated(error)) return
-                if (passage%status(k) /= gapbeam_solved) cycle
+                if (traversal%status(k) /= gapbeam_solved) cycle
                 call show()
                 wanted(:) = .not. (told .and. view%clear)
                 if (told .and. view%clear) then
@@ -159,7 +161,7 @@ contains
                     end do
                 end if
                 if (.not. any(wanted)) cycle
-                call sample_stretch(lowered, track, train, passage, k, samples, error)
+                call sample_stretch(assembled, track, train, traversal, k, samples, error)
                 if (allocated(error)) return
                 if (told .and. view%clear) then
                     do c = 1, samples%cells%number
@@ -192,8 +194,8 @@ contains
             real(wp) :: at, from
             integer :: number
 
-            associate (j => piece(q), x => track%x(piece(q) - 1) + distance(q), to => passage%to(k))
-                from = passage%from(k)
+            associate (j => piece(q), x => track%x(piece(q) - 1) + distance(q), to => traversal%to(k))
+                from = traversal%from(k)
                 do number = cells%first(j + 1) - 2, cells%first(j), -1
                     ! The right end of this cell is a point that passes the place from the left
                     at = x - cells%offset(cells%cells(number)%right)
@@ -213,8 +215,8 @@ contains
             real(wp), intent(in) :: from, to
 
             if (purpose == looking) then
-                call look(piece(q), distance(q), cell, from, to, reached(:, :, q) - slack*spread(sizes, 1, 2), value(:, :, q), &
-                          position(:, :, q))
+                call search_position(piece(q), distance(q), cell, from, to, reached(:, :, q) - slack*spread(sizes, 1, 2), &
+                                     value(:, :, q), position(:, :, q))
             else
                 call glance(q, cell, from, to, purpose)
             end if
@@ -257,7 +259,7 @@ contains
             integer, intent(in) :: q, cell
             real(wp), intent(in) :: s
             real(wp) :: found(4)
-            type(look_type) :: look
+            type(link_bounds_type) :: at_link
             type(field_type) :: at
             real(wp) :: t, qa, slope
             integer :: i
@@ -265,9 +267,9 @@ contains
             i = 3
             if (s >= view%ends(2)) i = 2
             if (s <= view%ends(1)) i = 1
-            if (i == 3) call look_at_link(lowered, track, view, track%link(piece(q)), &
-                                          (s - view%ends(1))/(view%ends(2) - view%ends(1)), look, seen(:, 3))
-            associate (p => lowered%pieces(piece(q)), load => view%loads(piece(q)), there => view%cells%cells(cell))
+            if (i == 3) call bound_link(assembled, track, view, track%link(piece(q)), &
+                                        (s - view%ends(1))/(view%ends(2) - view%ends(1)), at_link, seen(:, 3))
+            associate (p => assembled%pieces(piece(q)), load => view%loads(piece(q)), there => view%cells%cells(cell))
                 t = 0.0_wp
                 if (there%left > 0) t = at_distance(track, view%columns, piece(q), s + view%cells%offset(there%left))
                 slope = load%qb - load%qa
@@ -279,7 +281,7 @@ contains
         end function fields_seen
 
         !> A place between two positions
-        subroutine look(j, t, cell, from, to, least, largest, where_largest)
+        subroutine search_position(j, t, cell, from, to, least, largest, where_largest)
             integer, intent(in) :: j, cell
             real(wp), intent(in) :: t, from, to
             !> What is reached for certain: largest, negative smallest values
@@ -292,20 +294,20 @@ contains
             logical :: whole
             integer :: p, field
 
-            whole = from <= passage%from(k) .and. to >= passage%to(k)
+            whole = from <= traversal%from(k) .and. to >= traversal%to(k)
             do p = 0, d
                 s = from + points(p)*(to - from)
                 if (whole) then
                     start(:) = matmul(on_whole(p, :), starts(:, :, cell))
                 else
                     u = 0.0_wp
-                    if (passage%to(k) > passage%from(k)) u = (s - passage%from(k))/(passage%to(k) - passage%from(k))
+                    if (traversal%to(k) > traversal%from(k)) u = (s - traversal%from(k))/(traversal%to(k) - traversal%from(k))
                     start(:) = matmul(basis(n, u), starts(:, :, cell))
                 end if
                 call cell_ends(track, samples%cells, samples%cells%cells(cell), s, left, right)
                 left = left - track%x(j - 1)
                 load = loads(j)
-                associate (piece => lowered%pieces(j), begin => scale(left, -track%length_unit), &
+                associate (piece => assembled%pieces(j), begin => scale(left, -track%length_unit), &
                            distance => scale(max(0.0_wp, t - left), -track%length_unit), slope => loads(j)%qb - loads(j)%qa)
                     load%qa = load%qa + slope*(begin/piece%length)
                     load%qa = load%qa + samples%cells%cells(cell)%q
@@ -331,7 +333,7 @@ contains
                 call raise(patch, 1.0_wp, from, to, least(1, field), largest(1, field), where_largest(1, field))
                 call raise(patch, -1.0_wp, from, to, least(2, field), largest(2, field), where_largest(2, field))
             end do
-        end subroutine look
+        end subroutine search_position
 
     end subroutine find_curves
 

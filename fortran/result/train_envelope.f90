@@ -1,4 +1,4 @@
-!> The largest and smallest values while a train goes over a beam, exact in place and position.
+!> Largest and smallest values while a train goes over a beam, exact in place and position.
 !>
 !> Bounds leave few stretches of the way (gapbeam_train_bounds). In a cell and on a stretch every field is a polynomial in x and in
 !> the position (gapbeam_train_samples), so what no bound of the samples and no Bernstein coefficient reaches is not there; what is
@@ -11,17 +11,17 @@ module gapbeam_train_envelope
     use gapbeam_patch, only: patch_type, greatest_on_patch, most_along
     use gapbeam_element, only: field_type
     use gapbeam_units, only: moment_unit, rotation_unit
-    use gapbeam_lowered, only: lowered_type
+    use gapbeam_assembled_model, only: assembled_type
     use gapbeam_train, only: train_type, track_type, degree_of
     use gapbeam_train_cells, only: cell_type
-    use gapbeam_train_passage, only: passage_type
+    use gapbeam_train_traversal, only: traversal_type
     use gapbeam_train_samples, only: samples_type, new_samples, sample_stretch, sample_supports, along_cell, bound_fields, &
         load_degree, lebesgue
     use gapbeam_train_columns, only: set_scheme
-    use gapbeam_train_view, only: look_type, show_stretch, look_at_link
+    use gapbeam_train_link_bounds, only: link_bounds_type, enter_stretch, bound_link
     use gapbeam_train_support_bounds, only: watch_scheme
     use gapbeam_train_candidates, only: candidates_type, equal, least_of, raise, offer
-    use gapbeam_train_levels, only: keep_levels
+    use gapbeam_train_prescribed_deflections, only: keep_prescribed_extreme
     use gapbeam_train_ties, only: extreme_type, drop_rounding
     use gapbeam_train_extremes, only: find_extreme, ends_of
     use gapbeam_train_bounds, only: bounds_type, find_bounds, slack, most_lost
@@ -43,12 +43,12 @@ module gapbeam_train_envelope
 contains
 
     !> Find the extremes of all fields and supports
-    subroutine find_envelope(lowered, track, train, passage, envelope, error)
-        type(lowered_type), intent(in) :: lowered
+    subroutine find_envelope(assembled, track, train, traversal, envelope, error)
+        type(assembled_type), intent(in) :: assembled
         type(track_type), intent(inout) :: track
         type(train_type), intent(in) :: train
         !> By pass_train
-        type(passage_type), intent(in) :: passage
+        type(traversal_type), intent(in) :: traversal
         type(envelope_type), intent(out) :: envelope
         type(error_type), allocatable, intent(out) :: error
         type(candidates_type), allocatable :: of_fields(:, :), of_supports(:, :, :)
@@ -59,13 +59,13 @@ contains
         logical :: told, renewed
         integer :: powers(4), c, f, i, k, last, m, n, sampled, stat
 
-        m = size(lowered%model%supports)
-        call new_samples(lowered, track, train, samples, error)
+        m = size(assembled%model%supports)
+        call new_samples(assembled, track, train, samples, error)
         if (allocated(error)) return
         n = samples%degree
         allocate (of_fields(2, 4), of_supports(2, 4, m), envelope%supports(2, 4, m), matrix(0:n, 0:n), &
                   of_nodes(0:degree_of(train), 0:degree_of(train)), starts(0:n, 4, size(samples%starts, 2)), stays(4, m), &
-                  wanted(passage%number), stat=stat)
+                  wanted(traversal%number), stat=stat)
         if (stat /= 0) then
             call no_memory(error)
             return
@@ -73,10 +73,10 @@ contains
         matrix(:, :) = to_coefficients(n)
         of_nodes(:, :) = to_coefficients(degree_of(train))
         sampled = 0
-        call find_bounds(lowered, track, train, passage, bounds, error)
+        call find_bounds(assembled, track, train, traversal, bounds, error)
         if (.not. allocated(error)) call try_bounds()
         if (allocated(error)) return
-        do k = 1, passage%number
+        do k = 1, traversal%number
             wanted(k) = .not. told
             do f = 1, 4
                 do i = 1, 2
@@ -85,19 +85,19 @@ contains
             end do
         end do
         stays(:, :) = .false.
-        do k = 1, passage%number
+        do k = 1, traversal%number
             call end_if_stopped(track%beam%watch, error)
             if (allocated(error)) return
-            if (passage%status(k) /= gapbeam_solved) cycle
+            if (traversal%status(k) /= gapbeam_solved) cycle
             renewed = k == 1
-            if (.not. renewed) renewed = passage%status(k - 1) /= gapbeam_solved .or. &
-                                         any(passage%closed(:, k) .neqv. passage%closed(:, k - 1))
+            if (.not. renewed) renewed = traversal%status(k - 1) /= gapbeam_solved .or. &
+                                         any(traversal%closed(:, k) .neqv. traversal%closed(:, k - 1))
             if (renewed) then
                 call begin_scheme()
                 if (allocated(error)) return
             end if
             if (.not. told .or. bounds%of_supports(k) .or. any(bounds%supports%always)) then
-                call sample_supports(lowered, track, train, passage, k, samples, error)
+                call sample_supports(assembled, track, train, traversal, k, samples, error)
                 if (allocated(error)) return
                 do i = 1, m
                     do f = 1, 4
@@ -112,23 +112,23 @@ contains
                 call add_cell(c)
             end do
         end do
-        associate (units => lowered%units)
+        associate (units => assembled%units)
             powers(:) = [units%deflection, rotation_unit(units), moment_unit(units), units%force]
         end associate
         do f = 1, 4
             do i = 1, 2
                 call end_if_stopped(track%beam%watch, error)
                 if (allocated(error)) return
-                call find_extreme(lowered, track, train, passage, samples%cells, of_fields(i, f), i, powers(f), f == 1, &
+                call find_extreme(assembled, track, train, traversal, samples%cells, of_fields(i, f), i, powers(f), f == 1, &
                                   envelope%fields(i, f))
                 do c = 1, m
-                    call find_extreme(lowered, track, train, passage, samples%cells, of_supports(i, f, c), i, 0, .false., &
+                    call find_extreme(assembled, track, train, traversal, samples%cells, of_supports(i, f, c), i, 0, .false., &
                                       envelope%supports(i, f, c))
-                    if (f <= 2) call drop_rounding(f == 1, lowered%model%supports(c)%side, &
+                    if (f <= 2) call drop_rounding(f == 1, assembled%model%supports(c)%side, &
                                                    equal*of_supports(i, f, c)%largest, envelope%supports(i, f, c))
-                    if (f == 3) call keep_levels(track%beam, lowered%node_of_point(lowered%support_point(c)), &
-                                                 lowered%units%deflection, equal*of_supports(i, f, c)%largest, &
-                                                 envelope%supports(i, f, c))
+                    if (f == 3) call keep_prescribed_extreme(track%beam, assembled%node_of_point(assembled%support_point(c)), &
+                                                             assembled%units%deflection, equal*of_supports(i, f, c)%largest, &
+                                                             envelope%supports(i, f, c))
                 end do
             end do
         end do
@@ -141,7 +141,7 @@ contains
 
             if (sampled == k) return
             sampled = k
-            call sample_stretch(lowered, track, train, passage, k, samples, error)
+            call sample_stretch(assembled, track, train, traversal, k, samples, error)
             if (allocated(error)) return
             do j = 1, samples%cells%number
                 associate (a => samples%starts(:, j))
@@ -160,9 +160,9 @@ contains
             integer :: apart, field, way
 
             told = .true.
-            apart = max(passage%number/trials, 32)
-            do k = apart, passage%number, apart
-                if (passage%status(k) == gapbeam_solved) call try_stretch()
+            apart = max(traversal%number/trials, 32)
+            do k = apart, traversal%number, apart
+                if (traversal%status(k) == gapbeam_solved) call try_stretch()
                 if (allocated(error) .or. .not. told) return
             end do
             known(:, :) = bounds%where_reached == 0
@@ -182,16 +182,16 @@ contains
 
         !> Compare what bounds rest on with what is refined
         subroutine try_stretch()
-            type(look_type) :: look
+            type(link_bounds_type) :: at_link
             type(field_type) :: seen(size(samples%starts, 2))
             integer :: j, link
 
-            call show_stretch(track, train, passage, k, bounds%view)
+            call enter_stretch(track, train, traversal, k, bounds%view)
             if (.not. bounds%view%clear) return
             call sample_fields()
             if (allocated(error)) return
             do link = 1, size(track%beam%links)
-                call look_at_link(lowered, track, bounds%view, link, 1.0_wp, look, seen)
+                call bound_link(assembled, track, bounds%view, link, 1.0_wp, at_link, seen)
             end do
             do j = 1, samples%cells%number
                 told = told .and. all(abs([seen(j)%deflection, seen(j)%rotation, seen(j)%moment, seen(j)%shear] - starts(n, :, j)) &
@@ -218,7 +218,7 @@ contains
                     call make_patch(j, field, patch)
                     if (way == 2) patch%b(:, 0:n) = -patch%b(:, 0:n)
                     call greatest_on_patch(patch, candidates%known, value, v, u, &
-                                           ends_of(track, passage, samples%cells, samples%cells%cells(j), k))
+                                           ends_of(track, traversal, samples%cells, samples%cells%cells(j), k))
                     candidates%known = max(candidates%known, value)
                 end do
             end associate
@@ -231,18 +231,18 @@ contains
 
             stays(:, :) = .false.
             if (.not. told .or. m == 0) return
-            call set_scheme(track%beam, passage%closed(:, k), bounds%view%columns)
+            call set_scheme(track%beam, traversal%closed(:, k), bounds%view%columns)
             if (.not. bounds%view%columns%usable) return
-            call watch_scheme(lowered, passage%closed(:, k), bounds%view%columns, bounds%supports)
+            call watch_scheme(assembled, traversal%closed(:, k), bounds%view%columns, bounds%supports)
             stays(:, :) = bounds%supports%stays
             if (.not. any(stays)) return
             last = k
-            do while (last < passage%number)
-                if (passage%status(last + 1) /= gapbeam_solved) exit
-                if (any(passage%closed(:, last + 1) .neqv. passage%closed(:, k))) exit
+            do while (last < traversal%number)
+                if (traversal%status(last + 1) /= gapbeam_solved) exit
+                if (any(traversal%closed(:, last + 1) .neqv. traversal%closed(:, k))) exit
                 last = last + 1
             end do
-            call sample_supports(lowered, track, train, passage, k, samples, error)
+            call sample_supports(assembled, track, train, traversal, k, samples, error)
             if (allocated(error)) return
             patch%along = 0
             patch%across = degree_of(train)

@@ -1,11 +1,11 @@
-!> What happens to the supports while a train goes over a beam
+!> Events of the supports while a train goes over a beam.
 module gapbeam_train_events
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved
-    use gapbeam_polyline, only: last_kink
-    use gapbeam_lowered, only: lowered_type
-    use gapbeam_pieces, only: acting_type, acting_piece, what_happens, nothing
-    use gapbeam_train_passage, only: passage_type
+    use gapbeam_polyline, only: last_breakpoint
+    use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_pieces, only: acting_type, acting_piece, what_happens, no_change
+    use gapbeam_train_traversal, only: traversal_type
     implicit none
     private
     public :: train_event_type, find_events
@@ -14,16 +14,16 @@ module gapbeam_train_events
     !> happens (gapbeam_pieces)
     type :: train_event_type
         real(wp) :: position = 0.0_wp
-        integer :: support = 0, state = 0, change = nothing
+        integer :: support = 0, state = 0, change = no_change
     end type train_event_type
 
 contains
 
     !> The events on the way of a train. What changes though it is zero all the way is none
-    subroutine find_events(lowered, passage, backwards, events, error)
-        type(lowered_type), intent(in) :: lowered
+    subroutine find_events(assembled, traversal, backwards, events, error)
+        type(assembled_type), intent(in) :: assembled
         !> By pass_train
-        type(passage_type), intent(in) :: passage
+        type(traversal_type), intent(in) :: traversal
         !> Does the train go towards smaller positions
         logical, intent(in) :: backwards
         !> In the order in which they happen
@@ -35,28 +35,28 @@ contains
         type(acting_type) :: before, after
         integer :: first, i, k, last, number, stat, step
 
-        allocate (events(64), now(size(lowered%beam%supports)), stat=stat)
+        allocate (events(64), now(size(assembled%beam%supports)), stat=stat)
         if (stat /= 0) then
             call no_memory(error)
             return
         end if
         number = 0
         first = 0
-        do step = 1, passage%number
-            i = merge(passage%number + 1 - step, step, backwards)
-            if (passage%status(i) /= gapbeam_solved) cycle
-            if (first == 0) now(:) = passage%closed(:, i)
+        do step = 1, traversal%number
+            i = merge(traversal%number + 1 - step, step, backwards)
+            if (traversal%status(i) /= gapbeam_solved) cycle
+            if (first == 0) now(:) = traversal%closed(:, i)
             first = i
-            if (all(passage%closed(:, i) .eqv. now)) cycle
+            if (all(traversal%closed(:, i) .eqv. now)) cycle
             k = 1
             do while (k <= size(now))
-                last = last_kink(lowered%beam%supports, k)
-                associate (there => passage%closed(k:last, i), supports => lowered%beam%supports(k:last))
-                    if (any((now(k:last) .neqv. there) .and. .not. passage%at_zero(k:last, i))) then
-                        before = acting_piece(supports, lowered%model%supports(lowered%normal(k))%side, now(k:last))
-                        after = acting_piece(supports, lowered%model%supports(lowered%normal(k))%side, there)
+                last = last_breakpoint(assembled%beam%supports, k)
+                associate (there => traversal%closed(k:last, i), supports => assembled%beam%supports(k:last))
+                    if (any((now(k:last) .neqv. there) .and. .not. traversal%at_zero(k:last, i))) then
+                        before = acting_piece(supports, assembled%model%supports(assembled%normal(k))%side, now(k:last))
+                        after = acting_piece(supports, assembled%model%supports(assembled%normal(k))%side, there)
                         now(k:last) = there
-                        call note(merge(passage%to(i), passage%from(i), backwards), lowered%normal(k), before, after)
+                        call note(merge(traversal%to(i), traversal%from(i), backwards), assembled%normal(k), before, after)
                         if (allocated(error)) return
                     end if
                 end associate
@@ -74,12 +74,12 @@ contains
             type(acting_type), intent(in) :: before, after
             integer :: change
 
-            if (lowered%with_law(support)) then
+            if (assembled%with_law(support)) then
                 change = what_happens(before, after)
             else
                 change = after%condition
             end if
-            if (change == nothing) return
+            if (change == no_change) return
             if (number == size(events)) then
                 allocate (longer(2*number), stat=stat)
                 if (stat /= 0) then

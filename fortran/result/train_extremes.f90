@@ -1,14 +1,14 @@
-!> The largest of what candidates give while a train goes over a beam, and where it is, exact in place and position
+!> Largest value among candidates while a train goes over a beam, exact in place and position.
 module gapbeam_train_extremes
     use gapbeam_kinds, only: wp
     use gapbeam_bernstein, only: value_of
     use gapbeam_patch, only: greatest_on_patch
-    use gapbeam_lowered, only: lowered_type
+    use gapbeam_assembled_model, only: assembled_type
     use gapbeam_train, only: train_type, track_type, least_distance
     use gapbeam_train_cells, only: cell_type, cells_type, cell_ends, x_in_cell
-    use gapbeam_train_passage, only: passage_type
+    use gapbeam_train_traversal, only: traversal_type
     use gapbeam_train_candidates, only: candidate_type, candidates_type, equal, upper_bound
-    use gapbeam_train_levels, only: keep_level
+    use gapbeam_train_prescribed_deflections, only: keep_prescribed
     use gapbeam_train_ties, only: tie_type, extreme_type, add_tie
     implicit none
     private
@@ -22,12 +22,12 @@ module gapbeam_train_extremes
 contains
 
     !> The largest value among candidates, and where it is
-    subroutine find_extreme(lowered, track, train, passage, cells, candidates, which, power, of_deflection, extreme)
+    subroutine find_extreme(assembled, track, train, traversal, cells, candidates, which, power, of_deflection, extreme)
         !> The beam, the train and its way
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: assembled
         type(track_type), intent(in) :: track
         type(train_type), intent(in) :: train
-        type(passage_type), intent(in) :: passage
+        type(traversal_type), intent(in) :: traversal
         !> What the beam is cut into, and what may be the largest there or at a support
         type(cells_type), intent(in) :: cells
         type(candidates_type), intent(in) :: candidates
@@ -53,7 +53,7 @@ contains
             if (upper(next) < best - equal*candidates%largest) exit
             associate (one => candidates%list(next))
                 call greatest_on_patch(one%patch, best - equal*candidates%largest, value, v, u, &
-                                       ends_of(track, passage, cells, one%cell, one%stretch))
+                                       ends_of(track, traversal, cells, one%cell, one%stretch))
             end associate
             found(:, next) = [value, v, u]
             best = max(best, value)
@@ -73,8 +73,8 @@ contains
             end if
             if (found(1, q) < best - equal*candidates%largest) cycle
             tie%value = merge(found(1, q), -found(1, q), which == 1)
-            if (of_deflection) call keep_level(track%beam, node_at(candidates%list(q)%cell, found(2, q)), &
-                                               equal*candidates%largest, tie%value)
+            if (of_deflection) call keep_prescribed(track%beam, node_at(candidates%list(q)%cell, found(2, q)), &
+                                                    equal*candidates%largest, tie%value)
             tie%value = scale(tie%value, power)
             call place_tie(candidates%list(q), found(2, q), found(3, q), equal*candidates%largest, tie)
             call add_tie(extreme, tie)
@@ -92,8 +92,8 @@ contains
             integer :: node
 
             node = -1
-            if (v <= 0.0_wp .and. cell%left == 0) node = lowered%node_of_point(cell%piece - 1)
-            if (v >= 1.0_wp .and. cell%right == 0) node = lowered%node_of_point(cell%piece)
+            if (v <= 0.0_wp .and. cell%left == 0) node = assembled%node_of_point(cell%piece - 1)
+            if (v >= 1.0_wp .and. cell%right == 0) node = assembled%node_of_point(cell%piece)
         end function node_at
 
         !> Where a value is
@@ -108,12 +108,12 @@ contains
             integer :: j
 
             u = share
-            associate (whole => passage%to(candidate%stretch) - passage%from(candidate%stretch))
+            associate (whole => traversal%to(candidate%stretch) - traversal%from(candidate%stretch))
                 if (u*whole <= least_distance(track, train)) u = 0.0_wp
                 if ((1 - u)*whole <= least_distance(track, train) .and. u > 0.0_wp) u = 1.0_wp
             end associate
             value = value_of([(value_of(candidate%patch%b(0:candidate%patch%along, j), v), j=0, candidate%patch%across)], u)
-            associate (q => candidate%stretch, reach => passage%reaches(passage%reach(candidate%stretch)), &
+            associate (q => candidate%stretch, interval => traversal%intervals(traversal%interval(candidate%stretch)), &
                        cell => candidate%cell, patch => candidate%patch)
                 flat = .true.
                 do j = 0, patch%across
@@ -123,8 +123,8 @@ contains
                 call place_value(q, cell, v, u, tie%x, tie%position)
                 call place_value(candidate%last, cell, v, merge(1.0_wp, u, flat), tie%x_end, tie%position_end)
                 tie%limit = 0
-                if (u >= 1.0_wp .and. passage%to(q) >= reach%to .and. .not. reach%holds_to) tie%limit = 2
-                if (u <= 0.0_wp .and. passage%from(q) <= reach%from .and. .not. reach%holds_from) tie%limit = 1
+                if (u >= 1.0_wp .and. traversal%to(q) >= interval%to .and. .not. interval%holds_to) tie%limit = 2
+                if (u <= 0.0_wp .and. traversal%from(q) <= interval%from .and. .not. interval%holds_from) tie%limit = 1
                 tie%side = 0
                 if (cell%piece == 0) return
                 if (v >= 1.0_wp) tie%side = 1
@@ -148,8 +148,8 @@ contains
             real(wp), intent(out) :: x, position
 
             x = 0.0_wp
-            position = passage%from(q) + u*(passage%to(q) - passage%from(q))
-            if (u >= 1.0_wp) position = passage%to(q)
+            position = traversal%from(q) + u*(traversal%to(q) - traversal%from(q))
+            if (u >= 1.0_wp) position = traversal%to(q)
             if (cell%piece == 0) return
             x = x_in_cell(track, cells, cell, position, v)
         end subroutine place_value
@@ -157,11 +157,11 @@ contains
     end subroutine find_extreme
 
     !> Ends of a cell at the first and the last position of a stretch
-    pure function ends_of(track, passage, cells, cell, stretch) result(ends)
+    pure function ends_of(track, traversal, cells, cell, stretch) result(ends)
         type(track_type), intent(in) :: track
-        type(passage_type), intent(in) :: passage
+        type(traversal_type), intent(in) :: traversal
         type(cells_type), intent(in) :: cells
-        !> One of them, or without a piece that of a support, and a stretch of the passage
+        !> One of them, or without a piece that of a support, and a stretch of the traversal
         type(cell_type), intent(in) :: cell
         integer, intent(in) :: stretch
         !> x in the user's units, shape (2, 2): of the left and right end, at the first and last position
@@ -169,8 +169,8 @@ contains
 
         ends(:, :) = 0.0_wp
         if (cell%piece == 0) return
-        call cell_ends(track, cells, cell, passage%from(stretch), ends(1, 1), ends(2, 1))
-        call cell_ends(track, cells, cell, passage%to(stretch), ends(1, 2), ends(2, 2))
+        call cell_ends(track, cells, cell, traversal%from(stretch), ends(1, 1), ends(2, 1))
+        call cell_ends(track, cells, cell, traversal%to(stretch), ends(1, 2), ends(2, 2))
     end function ends_of
 
 end module gapbeam_train_extremes

@@ -1,18 +1,18 @@
-!> Influence lines of a beam in a scheme
+!> Influence lines of a beam in one contact state.
 module gapbeam_train_influence
     use gapbeam_kinds, only: wp
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_not_converged
     use gapbeam_band, only: band_ok
     use gapbeam_element, only: field_type
-    use gapbeam_law_forms, only: drop_level
+    use gapbeam_law_adapters, only: drop_level
     use gapbeam_link, only: piece_load_type
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_system, only: solve_and_refine
     use gapbeam_units, only: moment_unit, rotation_unit
-    use gapbeam_lowered, only: lowered_type
+    use gapbeam_assembled_model, only: assembled_type
     use gapbeam_train, only: train_type, track_type
-    use gapbeam_train_reaches, only: reach_type, find_reaches, enter_reach
+    use gapbeam_train_intervals, only: interval_type, find_intervals, enter_interval
     use gapbeam_train_loads, only: place_train
     use gapbeam_train_cells, only: cells_type, new_cells, find_cells, fill_cells, recover_cells, cell_ends, cell_of_place, &
         fields_in_cell
@@ -23,8 +23,8 @@ module gapbeam_train_influence
 contains
 
     !> Influence line of a scheme: what a unit force at each place adds, while the same supports act
-    subroutine find_influence(lowered, track, closed, support, piece, distance, places, value, error)
-        type(lowered_type), intent(in) :: lowered
+    subroutine find_influence(assembled, track, closed, support, piece, distance, places, value, error)
+        type(assembled_type), intent(in) :: assembled
         type(track_type), intent(in) :: track
         !> The scheme
         logical, intent(in) :: closed(:)
@@ -43,16 +43,16 @@ contains
         type(track_type) :: bare
         type(train_type) :: unit
         type(cells_type) :: cells
-        type(lowered_type) :: empty
-        type(reach_type), allocatable :: reaches(:)
-        type(reach_type) :: reach
+        type(assembled_type) :: empty
+        type(interval_type), allocatable :: intervals(:)
+        type(interval_type) :: interval
         type(workspace_type) :: work
         type(field_type) :: at
         real(wp) :: left, right
         integer :: powers(4), c, j, k, state, place, stat
 
         bare = track
-        empty = lowered
+        empty = assembled
         empty%dead(:) = piece_load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
         empty%live(:) = empty%dead
         call drop_level(bare%beam%supports)
@@ -79,14 +79,14 @@ contains
             call no_memory(error)
             return
         end if
-        associate (units => lowered%units)
+        associate (units => assembled%units)
             powers(:) = [units%deflection, rotation_unit(units), moment_unit(units), units%force]
         end associate
         do k = 1, size(places)
-            call find_reaches(bare, unit, places(k), places(k), reaches, error)
+            call find_intervals(bare, unit, places(k), places(k), intervals, error)
             if (allocated(error)) return
-            call enter_reach(bare, unit, reaches(1), reach)
-            call place_train(bare, unit, reach, places(k))
+            call enter_interval(bare, unit, intervals(1), interval)
+            call place_train(bare, unit, interval, places(k))
             call set_loads(bare%beam, 1.0_wp, work)
             call solve_and_refine(bare%beam, closed, work, state, place)
             if (state /= band_ok) then
@@ -94,7 +94,7 @@ contains
                 call end_if_stopped(bare%beam%watch, error)
                 return
             end if
-            call find_cells(bare, unit, reach, cells)
+            call find_cells(bare, unit, interval, cells)
             call fill_cells(empty, bare, places(k), cells)
             call recover_cells(bare, work, cells)
             c = cell_of_place(bare, cells, piece, track%x(piece - 1) + distance, places(k))
@@ -104,7 +104,7 @@ contains
             value(1:4, k) = scale([at%deflection, at%rotation, at%moment, at%shear], powers)
             value(5, k) = 0.0_wp
             do j = 1, size(closed)
-                if (support(lowered%normal(j))) value(5, k) = value(5, k) + scale(work%reaction(j), powers(4))
+                if (support(assembled%normal(j))) value(5, k) = value(5, k) + scale(work%reaction(j), powers(4))
             end do
         end do
     end subroutine find_influence

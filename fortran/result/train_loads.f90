@@ -1,8 +1,8 @@
-!> What a train does to the links of a beam at a place
+!> Loads of a train on the links of a beam at one position.
 module gapbeam_train_loads
     use gapbeam_kinds, only: wp
     use gapbeam_train, only: train_type, track_type
-    use gapbeam_train_reaches, only: reach_type
+    use gapbeam_train_intervals, only: interval_type
     implicit none
     private
     public :: place_train
@@ -10,11 +10,11 @@ module gapbeam_train_loads
 contains
 
     !> Put a train on the beam: its loads are the second ones of the links
-    subroutine place_train(track, train, reach, s)
+    subroutine place_train(track, train, interval, s)
         type(track_type), intent(inout) :: track
         type(train_type), intent(in) :: train
-        !> The reach, by enter_reach, and a place in it
-        type(reach_type), intent(in) :: reach
+        !> The interval, by enter_interval, and a place in it
+        type(interval_type), intent(in) :: interval
         real(wp), intent(in) :: s
         integer :: i, j
 
@@ -31,12 +31,12 @@ contains
         end do
         track%loaded = 0
         do i = 1, size(train%offset)
-            if (reach%piece(i) == 0) cycle
-            call add_force(reach%piece(i), within(track, reach%piece(i), s + train%offset(i)), &
+            if (interval%piece(i) == 0) cycle
+            call add_force(interval%piece(i), within(track, interval%piece(i), s + train%offset(i)), &
                            scale(train%force(i), -track%force_unit))
         end do
         do i = 1, size(train%uniform)
-            do j = reach%first(i), reach%last(i)
+            do j = interval%first(i), interval%last(i)
                 call add_uniform(j, within(track, j, s + train%uniform(i)%from), within(track, j, s + train%uniform(i)%to), &
                                  scale(train%uniform(i)%q, track%length_unit - track%force_unit))
             end do

@@ -1,27 +1,28 @@
-!> Reactions and openings of a scheme while a train moves through a reach, as polynomials in its place, and where they come to zero;
+!> Margins of a contact state on an interval of train positions, as polynomials, and their roots.
+!> The same of the work of the loads along a free motion.
 !> the same of the work of the loads along a free motion
 module gapbeam_train_margins
     use gapbeam_kinds, only: wp
     use gapbeam_bernstein, only: sample_points, to_coefficients, halve, first_below, crossing, highest_degree
     use gapbeam_band, only: band_ok
-    use gapbeam_law, only: find_margins
+    use gapbeam_law_margins, only: find_margins
     use gapbeam_kinematics, only: work_of_loads
     use gapbeam_workspace, only: workspace_type, set_loads
     use gapbeam_rules, only: first_width
     use gapbeam_system, only: solve_and_refine
     use gapbeam_train, only: train_type, track_type, degree_of
-    use gapbeam_train_reaches, only: reach_type
+    use gapbeam_train_intervals, only: interval_type
     use gapbeam_train_loads, only: place_train
     implicit none
     private
     public :: margins_type, sample_margins, sample_work, find_interval, are_zero, least_share
 
-    !> The nearest place at which a scheme is looked for, as a share of what is left of the reach
+    !> The nearest place at which a scheme is looked for, as a share of what is left of the interval
     real(wp), parameter :: least_share = 2.0_wp**(-42)
 
     !> Reactions and openings over a stretch, or work along a motion: all are right where none is below its rounding error
     type :: margins_type
-        !> Coefficients over the rest of the reach, shape (0:degree, m), and rounding errors
+        !> Coefficients over the rest of the interval, shape (0:degree, m), and rounding errors
         real(wp), allocatable :: b(:, :), slack(:)
         !> Which are looked at, the first `count` of them
         integer :: count = 0
@@ -29,11 +30,11 @@ module gapbeam_train_margins
 
 contains
 
-    !> Reactions and openings of a scheme from here to the end of a reach
-    subroutine sample_margins(track, train, reach, now, closed, margins, work, solved)
+    !> Reactions and openings of a scheme from here to the end of an interval
+    subroutine sample_margins(track, train, interval, now, closed, margins, work, solved)
         type(track_type), intent(inout) :: track
         type(train_type), intent(in) :: train
-        type(reach_type), intent(in) :: reach
+        type(interval_type), intent(in) :: interval
         real(wp), intent(in) :: now
         logical, intent(in) :: closed(:)
         type(margins_type), intent(inout) :: margins
@@ -51,7 +52,7 @@ contains
         margins%slack(:) = 0.0_wp
         solved = .false.
         do p = 0, n
-            call place_train(track, train, reach, now + points(p)*(reach%to - now))
+            call place_train(track, train, interval, now + points(p)*(interval%to - now))
             call set_loads(track%beam, 1.0_wp, work)
             call solve_and_refine(track%beam, closed, work, state, place)
             if (state /= band_ok) return
@@ -66,11 +67,11 @@ contains
         solved = .true.
     end subroutine sample_margins
 
-    !> Work of the loads along a motion from here to the end of a reach
-    subroutine sample_work(track, train, reach, now, motion, margins)
+    !> Work of the loads along a motion from here to the end of an interval
+    subroutine sample_work(track, train, interval, now, motion, margins)
         type(track_type), intent(inout) :: track
         type(train_type), intent(in) :: train
-        type(reach_type), intent(in) :: reach
+        type(interval_type), intent(in) :: interval
         real(wp), intent(in) :: now
         real(wp), intent(in) :: motion(0:)
         type(margins_type), intent(inout) :: margins
@@ -82,7 +83,7 @@ contains
         margins%count = 1
         margins%slack(1) = 0.0_wp
         do p = 0, n
-            call place_train(track, train, reach, now + points(p)*(reach%to - now))
+            call place_train(track, train, interval, now + points(p)*(interval%to - now))
             call work_of_loads(track%beam, 1.0_wp, motion, [0, ubound(motion, 1)], values(p), parts)
             margins%slack(1) = max(margins%slack(1), first_width*epsilon(1.0_wp)*parts)
         end do
@@ -92,7 +93,7 @@ contains
     !> The interval about a place on which nothing is below its rounding error
     subroutine find_interval(margins, n, u, begin, end, at_end)
         type(margins_type), intent(in) :: margins
-        !> Degree, and the place, all as shares of what is left of the reach
+        !> Degree, and the place, all as shares of what is left of the interval
         integer, intent(in) :: n
         real(wp), intent(in) :: u
         !> Ends of the interval; the second one 0 if there is none

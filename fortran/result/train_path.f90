@@ -1,125 +1,125 @@
-!> A train goes over a beam: every change of the working scheme at its exact place.
+!> A train on its way over a beam: every change of the contact state at its exact position.
 !>
-!> While one scheme acts and the train is in one reach (gapbeam_train), reactions and openings are polynomials in its place: a
+!> While one scheme acts and the train is in one interval (gapbeam_train), reactions and openings are polynomials in its place: a
 !> few solves give them. They say where the scheme ceases to be right: the way on is tried with those supports changed that
 !> have come to zero there; where that does not do, since several meet, or loads come onto the beam at once, the scheme a
 !> little further on is found by the search, and taken if its polynomials say that it is right from here on; else nearer.
 !> With laws that never fall there is but one state at every place, so a scheme whose signs are all right is the right one. Where
 !> no scheme is found since the beam moves, the work of the loads along the motion is a polynomial as well.
 !>
-!> A change that is nearer to the last one than least_share of the reach is not told apart from it; where even that does not lead
-!> on, the share grows, so that every reach comes to an end.
+!> A change that is nearer to the last one than least_share of the interval is not told apart from it; where even that does not lead
+!> on, the share grows, so that every interval comes to an end.
 module gapbeam_train_path
     use gapbeam_kinds, only: wp
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_indeterminate, &
         gapbeam_not_converged
     use gapbeam_bernstein, only: highest_degree
-    use gapbeam_law, only: may_change
+    use gapbeam_law_margins, only: may_change
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_search, only: rule_block
     use gapbeam_scheme, only: find_scheme, outcome_type
-    use gapbeam_redundancy, only: find_redundancy
-    use gapbeam_referee, only: decide_scheme, detail_type
+    use gapbeam_static_indeterminacy, only: find_indeterminacy
+    use gapbeam_extended_precision, only: decide_scheme, detail_type
     use gapbeam_words, only: shown
-    use gapbeam_lowered, only: lowered_type
+    use gapbeam_assembled_model, only: assembled_type
     use gapbeam_solution, only: state_type, new_state, close_all
     use gapbeam_state, only: solve_along_axis
     use gapbeam_train, only: train_type, track_type, degree_of, least_distance
-    use gapbeam_train_reaches, only: reach_type, find_reaches, enter_reach
+    use gapbeam_train_intervals, only: interval_type, find_intervals, enter_interval
     use gapbeam_train_loads, only: place_train
-    use gapbeam_train_passage, only: passage_type, not_unique, keep_motion, lengthen
+    use gapbeam_train_traversal, only: traversal_type, not_unique, keep_motion, lengthen
     use gapbeam_train_margins, only: margins_type, sample_margins, sample_work, find_interval, are_zero, least_share
     implicit none
     private
     public :: pass_train
 
-    !> Where the scheme is looked for first, as a share of what is left of the reach; the largest share that is left out where
+    !> Where the scheme is looked for first, as a share of what is left of the interval; the largest share that is left out where
     !> nothing else leads on
     real(wp), parameter :: first_share = 2.0_wp**(-20), largest_share = 2.0_wp**(-24)
-    !> What is a sliver of a reach
+    !> What is a sliver of an interval
     real(wp), parameter :: sliver = 2.0_wp**(-16)
-    !> Changes of the scheme in a reach at most: so many, and so many a support
+    !> Changes of the scheme in an interval at most: so many, and so many a support
     integer, parameter :: most_changes = 200, most_of_each = 20
 
 contains
 
     !> Move a train over a beam
-    subroutine pass_train(lowered, track, train, from, to, passage, error)
+    subroutine pass_train(assembled, track, train, from, to, traversal, error)
         !> The beam, and the same ready for trains
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: assembled
         type(track_type), intent(inout) :: track
         !> The train, and its places
         type(train_type), intent(in) :: train
         real(wp), intent(in) :: from, to
-        type(passage_type), intent(out) :: passage
+        type(traversal_type), intent(out) :: traversal
         !> No unique state, not settled, not finite, or no memory
         type(error_type), allocatable, intent(out) :: error
         type(workspace_type) :: work
         type(margins_type) :: margins
         type(state_type) :: along
-        type(reach_type) :: reach
+        type(interval_type) :: interval
         logical, allocatable :: closed(:)
         logical :: changes, known
         integer :: m, r, stat
 
         m = size(track%beam%supports)
-        call find_reaches(track, train, from, to, passage%reaches, error)
+        call find_intervals(track, train, from, to, traversal%intervals, error)
         if (allocated(error)) return
         allocate (closed(m), margins%b(0:highest_degree, max(m, 1)), margins%slack(max(m, 1)), &
-                  passage%motion(0:size(track%beam%links), 0), stat=stat)
-        if (stat == 0) call lengthen(passage, m, size(passage%reaches) + 64, stat)
+                  traversal%motion(0:size(track%beam%links), 0), stat=stat)
+        if (stat == 0) call lengthen(traversal, m, size(traversal%intervals) + 64, stat)
         if (stat /= 0) then
             call no_memory(error)
             return
         end if
-        call close_all(lowered, closed)
-        call new_state(lowered, along, error)
+        call close_all(assembled, closed)
+        call new_state(assembled, along, error)
         if (allocated(error)) return
         along%factor = 1.0_wp
-        call solve_along_axis(lowered, along, error)
+        call solve_along_axis(assembled, along, error)
         if (allocated(error)) return
         if (along%slides) then
-            passage%number = 1
-            passage%from(1) = from
-            passage%to(1) = to
-            passage%status(1) = gapbeam_no_equilibrium
-            passage%reach(1) = 1
-            passage%motion_of(1) = 0
-            passage%closed(:, 1) = closed
-            passage%at_zero(:, 1) = .false.
+            traversal%number = 1
+            traversal%from(1) = from
+            traversal%to(1) = to
+            traversal%status(1) = gapbeam_no_equilibrium
+            traversal%interval(1) = 1
+            traversal%motion_of(1) = 0
+            traversal%closed(:, 1) = closed
+            traversal%at_zero(:, 1) = .false.
             return
         end if
         call new_workspace(track%beam, work)
         known = .false.
         changes = any(may_change(track%beam%supports))
-        do r = 1, size(passage%reaches)
+        do r = 1, size(traversal%intervals)
             if (known .and. .not. changes) then
                 ! It holds everywhere, and need not be looked at
-                reach = passage%reaches(r)
+                interval = traversal%intervals(r)
             else
-                call enter_reach(track, train, passage%reaches(r), reach)
+                call enter_interval(track, train, traversal%intervals(r), interval)
             end if
-            call cross_reach(track, train, r, reach, closed, changes, known, margins, work, passage, error)
+            call cross_interval(track, train, r, interval, closed, changes, known, margins, work, traversal, error)
             call end_if_stopped(track%beam%watch, error)
             if (allocated(error)) return
         end do
     end subroutine pass_train
 
-    !> Move a train through a reach
-    subroutine cross_reach(track, train, r, reach, closed, changes, known, margins, work, passage, error)
+    !> Move a train through an interval
+    subroutine cross_interval(track, train, r, interval, closed, changes, known, margins, work, traversal, error)
         type(track_type), intent(inout) :: track
         type(train_type), intent(in) :: train
-        !> Number of the reach, and the reach by enter_reach, but where a scheme is known that holds everywhere
+        !> Number of the interval, and the interval by enter_interval, but where a scheme is known that holds everywhere
         integer, intent(in) :: r
-        type(reach_type), intent(in) :: reach
+        type(interval_type), intent(in) :: interval
         !> Scheme so far, whether supports can change, and whether it may be tried as it is
         logical, intent(inout) :: closed(:)
         logical, intent(in) :: changes
         logical, intent(inout) :: known
         type(margins_type), intent(inout) :: margins
         type(workspace_type), intent(inout) :: work
-        type(passage_type), intent(inout) :: passage
+        type(traversal_type), intent(inout) :: traversal
         type(error_type), allocatable, intent(out) :: error
         logical, allocatable :: at_end(:)
         real(wp) :: now, begin, end, skipped
@@ -127,7 +127,7 @@ contains
         integer :: changed, searches
 
         allocate (at_end(size(closed)))
-        now = reach%from
+        now = interval%from
         changed = 0
         searches = 0
         skipped = least_share
@@ -136,12 +136,12 @@ contains
                 call accept(gapbeam_solved, 1.0_wp)
                 return
             else if (known) then
-                call sample_margins(track, train, reach, now, closed, margins, work, solved)
-                passage%solves = passage%solves + degree_of(train) + 1
+                call sample_margins(track, train, interval, now, closed, margins, work, solved)
+                traversal%solves = traversal%solves + degree_of(train) + 1
                 if (solved) call find_interval(margins, degree_of(train), resolution(), begin, end, at_end)
                 if (solved .and. end > 2*resolution()) then
                     call accept(gapbeam_solved, end)
-                    if (allocated(error) .or. now >= reach%to) return
+                    if (allocated(error) .or. now >= interval%to) return
                     closed(:) = closed .neqv. at_end
                     changed = changed + 1
                     if (changed <= most_changes + most_of_each*size(closed)) cycle
@@ -149,11 +149,11 @@ contains
                     return
                 end if
                 ! What was tried is not right
-                closed(:) = passage%closed(:, max(passage%number, 1))
+                closed(:) = traversal%closed(:, max(traversal%number, 1))
             end if
             skipped = max(skipped, resolution())
-            call look_further(skipped)
-            if (allocated(error) .or. now >= reach%to) return
+            call search_further(skipped)
+            if (allocated(error) .or. now >= interval%to) return
             searches = searches + 1
             if (searches > most_changes + most_of_each*size(closed)) call too_near(now)
             if (allocated(error)) return
@@ -161,12 +161,13 @@ contains
 
     contains
 
-        !> The share of the rest of the reach that cannot be told from here: events are known to the last digits of positions only
+        !> The share of the rest of the interval that cannot be told from here: events are known to the last digits of positions
+        !> only
         pure function resolution() result(share)
             real(wp) :: share
 
             share = 0.0_wp
-            if (reach%to > now) share = min(0.25_wp, max(least_share, least_distance(track, train)/(reach%to - now)))
+            if (interval%to > now) share = min(0.25_wp, max(least_share, least_distance(track, train)/(interval%to - now)))
         end function resolution
 
         !> Give up
@@ -185,46 +186,46 @@ contains
             real(wp) :: to
             integer :: k, stat, node
 
-            to = reach%to
-            if (share < 1.0_wp) to = min(now + share*(reach%to - now), reach%to)
-            if (reach%to - to <= least_distance(track, train)) to = reach%to
+            to = interval%to
+            if (share < 1.0_wp) to = min(now + share*(interval%to - now), interval%to)
+            if (interval%to - to <= least_distance(track, train)) to = interval%to
             stat = 0
-            if (passage%number == size(passage%from)) call lengthen(passage, size(closed), 2*passage%number, stat)
+            if (traversal%number == size(traversal%from)) call lengthen(traversal, size(closed), 2*traversal%number, stat)
             if (stat /= 0) then
                 call no_memory(error)
                 return
             end if
-            passage%number = passage%number + 1
-            k = passage%number
-            passage%from(k) = now
-            passage%to(k) = to
-            passage%status(k) = status
-            passage%reach(k) = r
-            passage%closed(:, k) = closed
+            traversal%number = traversal%number + 1
+            k = traversal%number
+            traversal%from(k) = now
+            traversal%to(k) = to
+            traversal%status(k) = status
+            traversal%interval(k) = r
+            traversal%closed(:, k) = closed
             ! All that is asked of supports that cannot change is zero
-            passage%at_zero(:, k) = status == gapbeam_solved .and. .not. changes
-            passage%motion_of(k) = 0
+            traversal%at_zero(:, k) = status == gapbeam_solved .and. .not. changes
+            traversal%motion_of(k) = 0
             if (status == gapbeam_solved .and. changes) then
-                passage%at_zero(:, k) = are_zero(margins, degree_of(train), size(closed))
-                call find_redundancy(track%beam, closed, passage%at_zero(:, k), node)
-                if (node >= 0) passage%status(k) = gapbeam_indeterminate
+                traversal%at_zero(:, k) = are_zero(margins, degree_of(train), size(closed))
+                call find_indeterminacy(track%beam, closed, traversal%at_zero(:, k), node)
+                if (node >= 0) traversal%status(k) = gapbeam_indeterminate
             end if
             now = to
             known = status == gapbeam_solved
         end subroutine accept
 
-        !> Is the rest of a reach but a sliver beside positions at which the beam can move freely: what is loaded by next to nothing
-        !> there rounding alone tells
+        !> Is the rest of an interval but a sliver beside positions at which the beam can move freely: what is loaded by next to
+        !> nothing there rounding alone tells
         function nearly_all_free() result(so)
             logical :: so
 
-            so = passage%number > 0
-            if (so) so = passage%status(max(passage%number, 1)) == not_unique
-            so = so .and. now > reach%from .and. reach%to - now <= sliver*(reach%to - reach%from)
+            so = traversal%number > 0
+            if (so) so = traversal%status(max(traversal%number, 1)) == not_unique
+            so = so .and. now > interval%from .and. interval%to - now <= sliver*(interval%to - interval%from)
         end function nearly_all_free
 
         !> Find the scheme that acts from here on
-        subroutine look_further(least)
+        subroutine search_further(least)
             !> Shares that are left out; grows where nothing else leads on
             real(wp), intent(inout) :: least
             type(workspace_type) :: trial_work
@@ -241,12 +242,12 @@ contains
                 call accept(not_unique, 1.0_wp)
                 return
             end if
-            share = merge(first_share, 0.0_wp, reach%to > reach%from)
+            share = merge(first_share, 0.0_wp, interval%to > interval%from)
             closely = .false.
             do
-                place = now + share*(reach%to - now)
+                place = now + share*(interval%to - now)
                 closed(:) = before
-                call place_train(track, train, reach, place)
+                call place_train(track, train, interval, place)
                 if (closely) call new_workspace(track%beam, trial_work)
                 if (.not. allocated(trial_work%nodes)) call new_workspace(track%beam, trial_work)
                 call set_loads(track%beam, 1.0_wp, trial_work)
@@ -255,21 +256,21 @@ contains
                 else
                     call find_scheme(track%beam, 1.0_wp, rule_block, closed, trial_work, outcome, error)
                 end if
-                passage%solves = passage%solves + trial_work%solves
+                traversal%solves = traversal%solves + trial_work%solves
                 right = .not. allocated(error)
                 if (right .and. .not. closely) right = .not. outcome%in_doubt
                 if (right .and. outcome%status == gapbeam_solved .and. .not. outcome%indifferent) then
-                    call sample_margins(track, train, reach, now, closed, margins, work, right)
-                    passage%solves = passage%solves + degree_of(train) + 1
+                    call sample_margins(track, train, interval, now, closed, margins, work, right)
+                    traversal%solves = traversal%solves + degree_of(train) + 1
                     if (right) call find_interval(margins, degree_of(train), share, begin, end, at_end)
                 else if (right .and. outcome%status == gapbeam_no_equilibrium) then
-                    call sample_work(track, train, reach, now, outcome%motion, margins)
+                    call sample_work(track, train, interval, now, outcome%motion, margins)
                     call find_interval(margins, degree_of(train), share, begin, end, at_end)
                 else if (right) then
                     begin = 0.0_wp
-                    end = so_until(track, train, reach, now, share, before, not_unique)
+                    end = so_until(track, train, interval, now, share, before, not_unique)
                 end if
-                if (right) right = end > 0.0_wp .or. .not. reach%to > reach%from
+                if (right) right = end > 0.0_wp .or. .not. interval%to > interval%from
                 if (.not. right .and. .not. closely) then
                     closely = .true.
                     if (allocated(error)) deallocate (error)
@@ -280,11 +281,11 @@ contains
                     if (all(code /= [gapbeam_indeterminate, gapbeam_not_converged])) return
                     deallocate (error)
                     closed(:) = before
-                    if (reach%to > reach%from) share = so_until(track, train, reach, now, share, before, code)
+                    if (interval%to > interval%from) share = so_until(track, train, interval, now, share, before, code)
                     call accept(code, max(share, 2*resolution()))
                     return
                 end if
-                if (.not. reach%to > reach%from) exit
+                if (.not. interval%to > interval%from) exit
                 if (right .and. begin <= least) exit
                 if (share <= least) then
                     if (least > max(largest_share, 64*resolution())) then
@@ -298,29 +299,29 @@ contains
                 end if
                 share = max(min(share/2, begin/2), least)
             end do
-            if (.not. reach%to > reach%from) end = 1.0_wp
+            if (.not. interval%to > interval%from) end = 1.0_wp
             end = max(end, 2*resolution())
             if (outcome%status == gapbeam_no_equilibrium) then
                 closed(:) = before
                 call accept(gapbeam_no_equilibrium, end)
-                if (.not. allocated(error)) call keep_motion(passage, outcome%motion, error)
+                if (.not. allocated(error)) call keep_motion(traversal, outcome%motion, error)
             else if (outcome%indifferent) then
                 closed(:) = before
                 call accept(not_unique, end)
             else
                 call accept(gapbeam_solved, end)
-                if (now < reach%to) closed(:) = closed .neqv. at_end
+                if (now < interval%to) closed(:) = closed .neqv. at_end
             end if
-        end subroutine look_further
+        end subroutine search_further
 
-    end subroutine cross_reach
+    end subroutine cross_interval
 
     !> How far a beam that can move freely without work of the loads, or has no unique answer, stays so: tried at a few places up to
-    !> the end of the reach, else half as far, and so on
-    function so_until(track, train, reach, now, least, start, status) result(share)
+    !> the end of the interval, else half as far, and so on
+    function so_until(track, train, interval, now, least, start, status) result(share)
         type(track_type), intent(inout) :: track
         type(train_type), intent(in) :: train
-        type(reach_type), intent(in) :: reach
+        type(interval_type), intent(in) :: interval
         real(wp), intent(in) :: now
         !> Known to be so up to this share of what is left
         real(wp), intent(in) :: least
@@ -341,7 +342,7 @@ contains
             stays = .true.
             do k = 3, 1, -1
                 closed(:) = start
-                call place_train(track, train, reach, now + share*(k/3.0_wp - first_share)*(reach%to - now))
+                call place_train(track, train, interval, now + share*(k/3.0_wp - first_share)*(interval%to - now))
                 call set_loads(track%beam, 1.0_wp, work)
                 if (status == not_unique) then
                     call find_scheme(track%beam, 1.0_wp, rule_block, closed, work, outcome, error)

@@ -1,4 +1,4 @@
-!> What is known of a train on a stretch of its way: its solutions at a few positions, from which all of it follows.
+!> Samples of a train on a stretch of its way: solutions at a few positions, from which all follows.
 !>
 !> In a cell of the beam under the train (gapbeam_train_cells) and on a stretch of its way (gapbeam_train_path) every field is a
 !> polynomial in x and in the position. Degrees in the position: node values 3, times 3 for the deflection under an axle; one more
@@ -15,15 +15,15 @@ module gapbeam_train_samples
     use gapbeam_link, only: piece_type, piece_load_type
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_system, only: solve_and_refine
-    use gapbeam_lowered, only: lowered_type
+    use gapbeam_assembled_model, only: assembled_type
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_state, only: solve_along_axis
     use gapbeam_support_values, only: support_values
     use gapbeam_train, only: train_type, track_type, degree_of
-    use gapbeam_train_reaches, only: reach_type, enter_reach
+    use gapbeam_train_intervals, only: interval_type, enter_interval
     use gapbeam_train_loads, only: place_train
     use gapbeam_train_cells, only: cells_type, new_cells, find_cells, fill_cells, recover_cells, fields_in_cell
-    use gapbeam_train_passage, only: passage_type
+    use gapbeam_train_traversal, only: traversal_type
     implicit none
     private
     public :: samples_type, new_samples, sample_stretch, sample_supports, degree_in_position, along_cell, bound_fields, &
@@ -46,7 +46,7 @@ module gapbeam_train_samples
         real(wp), allocatable :: supports(:, :, :)
         type(cells_type) :: cells
         !> Where the train is
-        type(reach_type) :: reach
+        type(interval_type) :: interval
         type(workspace_type) :: work
         type(state_type) :: state
     end type samples_type
@@ -62,8 +62,8 @@ contains
     end function degree_in_position
 
     !> Room for samples
-    subroutine new_samples(lowered, track, train, samples, error)
-        type(lowered_type), intent(in) :: lowered
+    subroutine new_samples(assembled, track, train, samples, error)
+        type(assembled_type), intent(in) :: assembled
         type(track_type), intent(in) :: track
         type(train_type), intent(in) :: train
         type(samples_type), intent(out) :: samples
@@ -76,26 +76,27 @@ contains
         most = size(track%link) + size(train%offset) + 2*size(train%uniform)
         call new_cells(track, train, samples%cells, stat)
         if (stat == 0) allocate (samples%position(0:d), samples%starts(0:d, most), samples%pieces(0:d, most), &
-                                 samples%loads(0:d, most), samples%supports(0:degree_of(train), 4, size(lowered%model%supports)), &
+                                 samples%loads(0:d, most), samples%supports(0:degree_of(train), 4, &
+                                                                            size(assembled%model%supports)), &
                                  stat=stat)
         if (stat /= 0) then
             call no_memory(error)
             return
         end if
         call new_workspace(track%beam, samples%work)
-        call new_state(lowered, samples%state, error)
+        call new_state(assembled, samples%state, error)
         if (allocated(error)) return
         ! No train moves what is along the axis
         samples%state%factor = 1.0_wp
-        call solve_along_axis(lowered, samples%state, error)
+        call solve_along_axis(assembled, samples%state, error)
     end subroutine new_samples
 
     !> Sample the fields on a stretch that is solved
-    subroutine sample_stretch(lowered, track, train, passage, k, samples, error)
-        type(lowered_type), intent(in) :: lowered
+    subroutine sample_stretch(assembled, track, train, traversal, k, samples, error)
+        type(assembled_type), intent(in) :: assembled
         type(track_type), intent(inout) :: track
         type(train_type), intent(in) :: train
-        type(passage_type), intent(in) :: passage
+        type(traversal_type), intent(in) :: traversal
         !> Number of the stretch
         integer, intent(in) :: k
         type(samples_type), intent(inout) :: samples
@@ -105,14 +106,14 @@ contains
         integer :: p
 
         points(:) = sample_points(samples%degree)
-        call enter_reach(track, train, passage%reaches(passage%reach(k)), samples%reach)
-        call find_cells(track, train, samples%reach, samples%cells)
+        call enter_interval(track, train, traversal%intervals(traversal%interval(k)), samples%interval)
+        call find_cells(track, train, samples%interval, samples%cells)
         associate (n => samples%cells%number)
             do p = 0, samples%degree
-                samples%position(p) = passage%from(k) + points(p)*(passage%to(k) - passage%from(k))
-                call solve_at(track, train, passage%closed(:, k), samples%position(p), samples, error)
+                samples%position(p) = traversal%from(k) + points(p)*(traversal%to(k) - traversal%from(k))
+                call solve_at(track, train, traversal%closed(:, k), samples%position(p), samples, error)
                 if (allocated(error)) return
-                call fill_cells(lowered, track, samples%position(p), samples%cells)
+                call fill_cells(assembled, track, samples%position(p), samples%cells)
                 call recover_cells(track, samples%work, samples%cells)
                 samples%starts(p, :n) = samples%cells%starts(:n)
                 samples%pieces(p, :n) = samples%cells%pieces(:n)
@@ -122,38 +123,39 @@ contains
     end subroutine sample_stretch
 
     !> Sample the supports on a stretch that is solved
-    subroutine sample_supports(lowered, track, train, passage, k, samples, error)
+    subroutine sample_supports(assembled, track, train, traversal, k, samples, error)
         !> As for sample_stretch
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: assembled
         type(track_type), intent(inout) :: track
         type(train_type), intent(in) :: train
-        type(passage_type), intent(in) :: passage
+        type(traversal_type), intent(in) :: traversal
         integer, intent(in) :: k
         type(samples_type), intent(inout) :: samples
         type(error_type), allocatable, intent(out) :: error
         real(wp) :: points(0:degree_of(train))
-        integer :: condition(size(lowered%model%supports))
+        integer :: condition(size(assembled%model%supports))
         integer :: p
 
         points(:) = sample_points(degree_of(train))
-        call enter_reach(track, train, passage%reaches(passage%reach(k)), samples%reach)
+        call enter_interval(track, train, traversal%intervals(traversal%interval(k)), samples%interval)
         do p = 0, degree_of(train)
-            call solve_at(track, train, passage%closed(:, k), passage%from(k) + points(p)*(passage%to(k) - passage%from(k)), &
+            call solve_at(track, train, traversal%closed(:, k), &
+                          traversal%from(k) + points(p)*(traversal%to(k) - traversal%from(k)), &
                           samples, error)
             if (allocated(error)) return
             associate (s => samples%state, work => samples%work)
-                s%closed(:) = passage%closed(:, k)
+                s%closed(:) = traversal%closed(:, k)
                 s%deflection(:) = work%answers%deflection
                 s%moment_left(:) = work%answers%moment_left
                 s%moment_right(:) = work%answers%moment_right
                 s%reaction(:) = work%reaction
-                call support_values(lowered, s, samples%supports(p, 1, :), samples%supports(p, 3, :), &
+                call support_values(assembled, s, samples%supports(p, 1, :), samples%supports(p, 3, :), &
                                     samples%supports(p, 2, :), samples%supports(p, 4, :), condition)
             end associate
         end do
     end subroutine sample_supports
 
-    !> Solve at a position in the reach that the samples are in
+    !> Solve at a position in the interval that the samples are in
     subroutine solve_at(track, train, closed, s, samples, error)
         type(track_type), intent(inout) :: track
         type(train_type), intent(in) :: train
@@ -164,7 +166,7 @@ contains
         type(error_type), allocatable, intent(out) :: error
         integer :: state, place
 
-        call place_train(track, train, samples%reach, s)
+        call place_train(track, train, samples%interval, s)
         call set_loads(track%beam, 1.0_wp, samples%work)
         call solve_and_refine(track%beam, closed, samples%work, state, place)
         if (state /= band_ok) then
@@ -186,7 +188,7 @@ contains
         !> Of deflection, rotation, moment, shear
         real(wp), intent(out) :: low(4), high(4)
         type(field_type) :: end
-        real(wp) :: length, change_of_length, q, change_of_q, curvature, moment, rotation, shear, bulge(4), change(4)
+        real(wp) :: length, change_of_length, q, change_of_q, curvature, moment, rotation, shear, deviation(4), change(4)
 
         length = maxval(pieces%length)
         change_of_length = maxval(abs(pieces%length - pieces(0)%length))
@@ -198,18 +200,18 @@ contains
             moment = max(abs(a(0)%moment), abs(end%moment)) + length**2*q
             curvature = f*moment + abs(loads(0)%kappa)
             rotation = max(abs(a(0)%rotation), abs(end%rotation)) + length*curvature
-            bulge = [length**2*(curvature + g*q)/8, length*curvature/2, length**2*q/8, length*q]
+            deviation = [length**2*(curvature + g*q)/8, length*curvature/2, length**2*q/8, length*q]
             change(4) = maxval(abs(a%shear - a(0)%shear)) + change_of_length*q + length*change_of_q
             change(3) = maxval(abs(a%moment - a(0)%moment)) + length*change(4) + change_of_length*shear
             change(2) = maxval(abs(a%rotation - a(0)%rotation)) + length*f*change(3) + change_of_length*curvature
             change(1) = maxval(abs(a%deflection - a(0)%deflection)) + length*(change(2) + g*change(4)) &
                 + change_of_length*(rotation + g*shear)
         end associate
-        bulge(:) = bulge + lebesgue*change
+        deviation(:) = deviation + lebesgue*change
         high(:) = [max(a(0)%deflection, end%deflection), max(a(0)%rotation, end%rotation), max(a(0)%moment, end%moment), &
-                   max(a(0)%shear, end%shear)] + bulge
+                   max(a(0)%shear, end%shear)] + deviation
         low(:) = [min(a(0)%deflection, end%deflection), min(a(0)%rotation, end%rotation), min(a(0)%moment, end%moment), &
-                  min(a(0)%shear, end%shear)] - bulge
+                  min(a(0)%shear, end%shear)] - deviation
     end subroutine bound_fields
 
     !> Degree of the load in the cells

@@ -1,15 +1,16 @@
+!> Bounds of the values of supports under a train: where the extremes may be.
 !> Stretches of a train's way on which a support may have its largest or smallest reaction, opening, deflection or couple: the line
 !> between the values at both ends, moved by h**2/8 of the second derivative (gapbeam_train_columns)
 module gapbeam_train_support_bounds
     use gapbeam_kinds, only: wp
     use gapbeam_law, only: both
     use gapbeam_scene, only: gapbeam_axial
-    use gapbeam_lowered, only: lowered_type
+    use gapbeam_assembled_model, only: assembled_type
     use gapbeam_train, only: track_type
     use gapbeam_train_columns, only: columns_type, most_columns, value_of_column
     implicit none
     private
-    public :: support_bounds_type, new_support_bounds, watch_scheme, look_at_supports, mark_stretches
+    public :: support_bounds_type, new_support_bounds, watch_scheme, bound_supports, mark_stretches
 
     !> Values at the node of a support that tell its reaction, deflection or couple
     integer, parameter :: force = 1, deflection = 2, couple = 3
@@ -42,14 +43,14 @@ module gapbeam_train_support_bounds
 contains
 
     !> Room
-    subroutine new_support_bounds(lowered, bounds, stat)
-        type(lowered_type), intent(in) :: lowered
+    subroutine new_support_bounds(assembled, bounds, stat)
+        type(assembled_type), intent(in) :: assembled
         type(support_bounds_type), intent(out) :: bounds
         !> 0, or what allocate says where memory is at an end
         integer, intent(out) :: stat
         integer :: m
 
-        m = size(lowered%model%supports)
+        m = size(assembled%model%supports)
         allocate (bounds%watches(4*m), bounds%stays(4, m), bounds%always(m), bounds%reached(2, 4, m), bounds%stretch(256), &
                   bounds%which(3, 256), bounds%bound(256), stat=stat)
         if (stat /= 0) return
@@ -58,8 +59,8 @@ contains
     end subroutine new_support_bounds
 
     !> Find what changes of the supports in a scheme
-    subroutine watch_scheme(lowered, closed, columns, bounds)
-        type(lowered_type), intent(in) :: lowered
+    subroutine watch_scheme(assembled, closed, columns, bounds)
+        type(assembled_type), intent(in) :: assembled
         logical, intent(in) :: closed(:)
         !> Of the scheme
         type(columns_type), intent(in) :: columns
@@ -70,10 +71,10 @@ contains
 
         acting(:) = 0
         do k = 1, size(bounds%always)
-            j = lowered%beam_support(k)
+            j = assembled%beam_support(k)
             if (j == 0) cycle
-            node = lowered%node_of_point(lowered%support_point(k))
-            if (lowered%with_law(k)) then
+            node = assembled%node_of_point(assembled%support_point(k))
+            if (assembled%with_law(k)) then
                 acting(node) = acting(node) + 2
             else if (closed(j)) then
                 acting(node) = acting(node) + 1
@@ -82,23 +83,23 @@ contains
         bounds%number = 0
         do k = 1, size(bounds%always)
             bounds%stays(:, k) = .true.
-            if (lowered%model%supports(k)%direction == gapbeam_axial) cycle
-            j = lowered%beam_support(k)
-            node = lowered%node_of_point(lowered%support_point(k))
+            if (assembled%model%supports(k)%direction == gapbeam_axial) cycle
+            j = assembled%beam_support(k)
+            node = assembled%node_of_point(assembled%support_point(k))
             ! Who carries what at a node is told by the laws of all of them
-            bounds%always(k) = acting(node) > 1 .or. lowered%with_law(k)
+            bounds%always(k) = acting(node) > 1 .or. assembled%with_law(k)
             if (bounds%always(k)) then
                 bounds%stays(:, k) = .false.
                 cycle
             end if
             acts = j > 0
             if (acts) acts = closed(j)
-            associate (side => lowered%model%supports(k)%side)
+            associate (side => assembled%model%supports(k)%side)
                 if (acts) call watch(1, force, 1.0_wp)
                 if (side /= both .and. .not. acts) call watch(2, deflection, -real(side, wp))
             end associate
             if (.not. columns%work%nodes(node)%held) call watch(3, deflection, 1.0_wp)
-            if (lowered%couple_share(k) > 0.0_wp) call watch(4, couple, 1.0_wp)
+            if (assembled%couple_share(k) > 0.0_wp) call watch(4, couple, 1.0_wp)
         end do
 
     contains
@@ -116,7 +117,7 @@ contains
     end subroutine watch_scheme
 
     !> Look at the supports on a stretch
-    subroutine look_at_supports(track, k, columns, bounds, stat)
+    subroutine bound_supports(track, k, columns, bounds, stat)
         type(track_type), intent(in) :: track
         !> Number of the stretch, and its columns
         integer, intent(in) :: k
@@ -184,7 +185,7 @@ contains
             bounds%bound(bounds%count) = most
         end subroutine keep
 
-    end subroutine look_at_supports
+    end subroutine bound_supports
 
     !> Twice as much room
     subroutine lengthen(bounds, stat)

@@ -1,4 +1,4 @@
-!> Where an extreme value is: at all places that tie
+!> Extreme values of a train at all places that tie.
 module gapbeam_train_ties
     use gapbeam_kinds, only: wp
     use gapbeam_law, only: both

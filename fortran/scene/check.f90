@@ -1,4 +1,5 @@
-!> Is what the user gave possible, number by number; what depends on places that coincide is looked at in gapbeam_lower
+!> Checks of a scene number by number.
+!> What depends on places that coincide is looked at in gapbeam_assemble.
 module gapbeam_check
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, fatal_error, gapbeam_bad_input
@@ -6,9 +7,9 @@ module gapbeam_check
     use gapbeam_scene, only: model_type, span_type, section_type, support_type, load_type, gapbeam_by_x, &
         gapbeam_unchanged, gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_normal, gapbeam_axial, &
         gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, gapbeam_live, gapbeam_dead
-    use gapbeam_places, only: position_tolerance, end_tolerance
-    use gapbeam_refusal, only: refuse, of_spans, of_hinges, of_sections, of_supports, of_loads, no_span, not_expected, too_long, &
-        lost_length, at_end, off_beam, no_place, no_node, not_axial, no_gap, not_held, idle
+    use gapbeam_stations, only: position_tolerance, end_tolerance
+    use gapbeam_input_error, only: refuse, of_spans, of_hinges, of_sections, of_supports, of_loads, no_span, &
+        not_expected, too_long, lost_length, at_end, off_beam, no_place, no_node, not_axial, no_gap, not_held, idle
     implicit none
     private
     public :: check_spans, check_rest, check_loads

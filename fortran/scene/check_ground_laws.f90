@@ -1,10 +1,10 @@
-!> Are the laws of foundations that are given by parameters possible
+!> Checks of the laws of foundations that are given by parameters.
 module gapbeam_check_ground_laws
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type
     use gapbeam_layers, only: law_by_points, law_plastic, law_hardening, law_cubic, parameters_of_law
     use gapbeam_words, only: shown, whole
-    use gapbeam_refusal, only: not_expected, bad_law
+    use gapbeam_input_error, only: not_expected, bad_law
     use gapbeam_check, only: entry_type, refuse_entry
     implicit none
     private

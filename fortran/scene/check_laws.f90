@@ -1,11 +1,11 @@
-!> Are laws of supports possible
+!> Checks of the laws of supports.
 module gapbeam_check_laws
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type
     use gapbeam_words, only: shown, pair
     use gapbeam_scene, only: model_type, law_point_type, gapbeam_both, gapbeam_axial, gapbeam_elastic, gapbeam_plastic, &
         gapbeam_broken
-    use gapbeam_refusal, only: refuse, of_supports, bad_law
+    use gapbeam_input_error, only: refuse, of_supports, bad_law
     implicit none
     private
     public :: check_laws, have_laws
@@ -52,7 +52,7 @@ contains
                 else if (.not. model%supports(k)%stiffness > huge(1.0_wp)) then
                     call say("it stands instead of a stiffness; leave that out")
                 else if (model%supports(k)%side == gapbeam_both .and. model%supports(k)%gap < 0.0_wp) then
-                    ! Its two halves would act at once where they meet, and its kinks stand in no order
+                    ! Its two halves would act at once where they meet, and its breakpoints stand in no order
                     call refuse(error, of_supports, k, size(model%supports), bad_law, "gap", "expected 0 or more of a support "// &
                                 "that holds both ways, got "//trim(shown(model%supports(k)%gap))// &
                                 "; put one below and one above at this place instead")

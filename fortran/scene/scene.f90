@@ -1,4 +1,4 @@
-!> What a user describes: spans, hinges, supports, foundations and loads by their places along the beam.
+!> Types of what a user describes: spans, hinges, supports, foundations and loads.
 !>
 !> Units: any consistent set. Signs: x from the left end to the right; deflections, settlements and loads positive down,
 !> reactions up, moments sagging, couples and rotations clockwise; axial forces on the beam to the right, inside it tension.

@@ -1,4 +1,4 @@
-!> The audit of a beam without ground: does what the user gets hold together?
+!> Audit of the results of a beam without ground: equilibrium, compatibility, laws.
 !>
 !> Nothing of how the solution was found is used. At every node forces and moments balance, and with that those of every part of the
 !> beam between hinges; rotations are those of one beam but at hinges, or those of the restraint; every support lies on its law at
@@ -8,7 +8,8 @@ module gapbeam_audit
     use gapbeam_kinds, only: wp
     use gapbeam_nodes, only: hinge, restrained
     use gapbeam_band, only: answer_type
-    use gapbeam_law, only: is_plainly_right, force_by_spring, margin_in_scheme, is_watched_in
+    use gapbeam_law, only: is_plainly_right, force_by_spring
+    use gapbeam_law_margins, only: margin_in_scheme, is_watched_in
     use gapbeam_model, only: beam_type, softest
     use gapbeam_workspace, only: workspace_type
     use gapbeam_ledger, only: ledger_type, note, allowed, of_bending, of_equilibrium, of_supports, of_restraints, rotations, &
@@ -20,7 +21,7 @@ module gapbeam_audit
     !> Share of the largest terms of the beam that count as terms of every sum: elimination carries their rounding everywhere, and
     !> refining leaves the square of it
     real(wp), parameter :: everywhere = 2.0_wp**(-40)
-    !> Share of the largest load up to which a reaction that is nothing but rounding is left out (gapbeam_referee)
+    !> Share of the largest load up to which a reaction that is nothing but rounding is left out (gapbeam_extended_precision)
     real(wp), parameter :: left_out = 2.0_wp**(-27)
 
 contains
@@ -226,8 +227,8 @@ contains
                     call hold(of_supports, forces, r - force, merge(of_force, 0.0_wp, acts))
                 end if
                 if (undecided(k) .or. .not. is_watched_in(supports, closed, k)) return
-                ! A kink that is none: either state is right
-                if (supports(k)%kink > 0 .and. .not. abs(supports(k)%stiffness - supports(k)%before) > 0.0_wp) return
+                ! A breakpoint that is none: either state is right
+                if (supports(k)%breakpoint > 0 .and. .not. abs(supports(k)%stiffness - supports(k)%before) > 0.0_wp) return
                 call margin_in_scheme(supports, closed, k, w, farthest, reaction, reaction, margin, rounding, by_force)
                 if (margin >= 0.0_wp) return
                 call hold(of_supports, merge(pulls, beyond, by_force), margin, &

@@ -1,4 +1,4 @@
-!> How good a result is: its residuals, and bounds of its errors by comparison with the solution in quadruple precision.
+!> Certificate of a result: residuals, and error bounds by the solution in quadruple precision.
 !>
 !> That solution starts from the numbers of the pieces, so what condensing, solving, and going back into the links have
 !> cost is all in the comparison. Its own error is some 1e-33 of the sizes of the terms, below all that doubles can show. What
@@ -14,11 +14,11 @@ module gapbeam_certificate
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: plain_workspace_type => workspace_type, new_plain_workspace => new_workspace, &
         set_plain_loads => set_loads, apply_scheme
-    use gapbeam_sensitivity, only: sensitivity_type, prepare_sensitivity, largest_movement, of_deflections, of_rotations, &
-        of_moments, of_shears, of_reactions
+    use gapbeam_sensitivity, only: sensitivity_type, prepare_sensitivity, largest_movement
+    use gapbeam_functionals, only: of_deflections, of_rotations, of_moments, of_shears, of_reactions
     use gapbeam_kinematics_quad, only: held_by_ties
     use gapbeam_refined, only: detail_type, refine_loaded_beam, fine_piece, fine_load
-    use gapbeam_referee, only: find_undecided
+    use gapbeam_extended_precision, only: find_undecided
     use gapbeam_ledger, only: ledger_type
     use gapbeam_audit, only: audit_beam, audit_residuals
     use gapbeam_element_quad, only: fine_field_type => field_type
@@ -104,8 +104,8 @@ contains
         call find_undecided(fine, real(factor, qp), acting, work, undecided)
         certificate%known = .not. outcome%indifferent
         if (certificate%known) certificate%known = .not. held_by_ties(fine, acting, undecided)
-        call find_movements(beam, factor, closed, real(work%ease, wp), deflection, moment_left, moment_right, length_error, &
-                            moves, inside)
+        call find_movements(beam, factor, closed, real(work%proximal_weight, wp), deflection, moment_left, moment_right, &
+                            length_error, moves, inside)
         call compare_fields(detail, factor, fine, work, starts, certificate)
         associate (a => work%answers)
             moment_size = work%shear_size*maxval(fine%links%length)
@@ -121,7 +121,7 @@ contains
             certificate%rotation = certificate%rotation + moves(of_rotations)
             certificate%moment = certificate%moment + moves(of_moments)
             ! Weak springs of a beam that is free to move are a load that it does not have
-            springs = safety*real(sum(work%ease*abs(work%reference - a%deflection)), wp)
+            springs = safety*real(sum(work%proximal_weight*abs(work%reference - a%deflection)), wp)
             certificate%reaction = certificate%reaction + springs
             certificate%moment = certificate%moment + springs*real(sum(fine%links%length), wp)
             certificate%shear = certificate%shear + springs + moves(of_shears) + real(fine_error*maxval(work%shear_size), wp)
@@ -160,12 +160,13 @@ contains
     end subroutine measure_residuals
 
     !> By how much results move when the data change in their last digits
-    subroutine find_movements(beam, factor, closed, ease, deflection, moment_left, moment_right, length_error, moves, inside)
+    subroutine find_movements(beam, factor, closed, proximal_weight, deflection, moment_left, moment_right, length_error, moves, &
+                              inside)
         type(beam_type), intent(in) :: beam
         real(wp), intent(in) :: factor
         logical, intent(in) :: closed(:)
         !> Weak springs of a beam that is free to move, shape (0:n)
-        real(wp), intent(in) :: ease(0:)
+        real(wp), intent(in) :: proximal_weight(0:)
         real(wp), intent(in) :: deflection(0:), moment_left(0:), moment_right(0:)
         !> As for certify
         real(wp), intent(in) :: length_error(:)
@@ -180,7 +181,7 @@ contains
         moves(:) = 0.0_wp
         inside = 0.0_wp
         call new_plain_workspace(beam, work)
-        work%ease(:) = ease
+        work%proximal_weight(:) = proximal_weight
         work%reference(:) = deflection
         call set_plain_loads(beam, factor, work)
         call apply_scheme(beam, closed, [0, size(beam%links)], work)

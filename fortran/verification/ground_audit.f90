@@ -1,4 +1,4 @@
-!> The audit of a beam on the ground: does what the user gets hold together?
+!> Audit of the results of a beam on the ground: equilibrium, compatibility, laws.
 !>
 !> The solution is rounded from quadruple precision, and nothing of how it was found is used here. On every stretch the fields
 !> fulfil the equations of the beam, with the loads as given and the pressure that the laws make of the deflection, which adds up
@@ -8,14 +8,15 @@ module gapbeam_ground_audit
     use gapbeam_kinds, only: wp
     use gapbeam_nodes, only: hinge, restrained
     use gapbeam_element, only: field_type
-    use gapbeam_law, only: force_by_spring, margin_in_scheme, is_watched_in
-    use gapbeam_ground_laws, only: approach_kink, push_of_layer
+    use gapbeam_law, only: force_by_spring
+    use gapbeam_law_margins, only: margin_in_scheme, is_watched_in
+    use gapbeam_ground_laws, only: distance_to_breakpoint, push_of_layer
     use gapbeam_ground, only: ground_type
     use gapbeam_ground_solution, only: ground_solution_type
     use gapbeam_ground_fields, only: field_at_end, find_sizes, lost
     use gapbeam_ledger, only: ledger_type, note, of_bending, of_equilibrium, of_parts, of_zone_ends, of_supports, &
         of_restraints, of_places, deflections, rotations, moments, forces, beyond, pulls
-    use gapbeam_stretch_audit, only: sums_type, audit_stretch, kink_terms, pressure_terms
+    use gapbeam_stretch_audit, only: sums_type, audit_stretch, breakpoint_terms, pressure_terms
     implicit none
     private
     public :: audit_ground
@@ -127,7 +128,7 @@ contains
             piece = max(j, 1)
             at = merge(ground%pieces(piece)%length, 0.0_wp, j > 0)
             inside = j > 0 .and. i <= m
-            call look_beside(i)
+            call find_sizes_beside(i)
             a = field_type(solution%deflection(j), 0.0_wp, 0.0_wp, 0.0_wp)
             b = a
             if (j > 0) a = field_at_end(solution, i - 1, 2)
@@ -216,11 +217,11 @@ contains
             integer, intent(in) :: i
             type(field_type) :: a, b
             real(wp) :: past, change, push(2), length, terms, steepness, incline
-            integer :: k, kink
+            integer :: k, breakpoint
 
             a = field_at_end(solution, i, 2)
             b = field_at_end(solution, i + 1, 1)
-            call look_beside(i + 1)
+            call find_sizes_beside(i + 1)
             associate (piece => solution%piece(i), at => solution%to(i), before => solution%acts(:, i), &
                        after => solution%acts(:, i + 1))
                 length = ground%pieces(piece)%length
@@ -232,9 +233,10 @@ contains
                 do k = 1, ground%first(piece + 1) - ground%first(piece)
                     if (before(k) == after(k)) cycle
                     associate (layer => ground%layers(ground%first(piece) + k - 1))
-                        do kink = min(before(k), after(k)) + 1, max(before(k), after(k))
-                            call approach_kink(ground%laws, layer, kink, a%deflection, incline, at, length, past, change)
-                            call kink_terms(layer, ground%laws, kink, sizes%deflection, steepness, terms)
+                        do breakpoint = min(before(k), after(k)) + 1, max(before(k), after(k))
+                            call distance_to_breakpoint(ground%laws, layer, breakpoint, a%deflection, incline, at, length, past, &
+                                                        change)
+                            call breakpoint_terms(layer, ground%laws, breakpoint, sizes%deflection, steepness, terms)
                             terms = terms + length*abs(change)
                             if (.not. steepness > 0.0_wp) steepness = 1.0_wp
                             call note(ledger, of_zone_ends, beyond, past/steepness, terms/steepness, piece, at)
@@ -251,7 +253,7 @@ contains
         end subroutine audit_border
 
         !> Sizes of the fields beside the left end of a stretch
-        subroutine look_beside(stretch)
+        subroutine find_sizes_beside(stretch)
             integer, intent(in) :: stretch
             integer :: left, right
 
@@ -261,7 +263,7 @@ contains
             sizes = larger(sizes_of(left), sizes_of(right))
             sizes = field_type(sizes%deflection + least%deflection, sizes%rotation + least%rotation, &
                                sizes%moment + least%moment, sizes%shear + least%shear)
-        end subroutine look_beside
+        end subroutine find_sizes_beside
 
     end subroutine audit_ground
 

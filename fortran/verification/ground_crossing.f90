@@ -1,4 +1,4 @@
-!> The load factor at which a zone of contact or a support changes, between two factors with a state before and one after it.
+!> Load factor of a change of a zone of contact or a support, between two solved states.
 !>
 !> How far the change is away (gapbeam_zone_margin) is a continuous function of the load factor, whose zero is found by secants in
 !> double precision, and then by one step with the function in quadruple precision: on zones whose ends are off by e the beam is
@@ -29,11 +29,11 @@ module gapbeam_ground_crossing
     !> The margin is nothing but rounding where it asks for no more than this
     real(wp), parameter :: rounding = 2.0_wp**(-30)
     !> From factors that are nearer to each other no slope is taken
-    real(wp), parameter :: no_way = 2.0_wp**(-34)
+    real(wp), parameter :: zero_motion = 2.0_wp**(-34)
     !> So many times farther than a secant tells it goes back over the zero, and so many times farther again
     real(wp), parameter :: back = 4.0_wp, farther = 16.0_wp
     !> So often a step may be longer than half of the one before
-    integer, parameter :: patience = 2
+    integer, parameter :: non_monotone_steps = 2
     !> Part of the way between the two factors around the place of the change in which that is looked for at last
     real(wp), parameter :: around = 2.0_wp**(-12)
 
@@ -97,8 +97,8 @@ contains
 
         found = .false.
         crossing%change = change
-        call look_at(low, at_low, near, known)
-        if (known) call look_at(high, at_high, over, known)
+        call solve_at(low, at_low, near, known)
+        if (known) call solve_at(high, at_high, over, known)
         if (.not. known) return
         if (.not. min(near%margin, over%margin) < 0.0_wp .or. .not. max(near%margin, over%margin) > 0.0_wp) return
         ! The ground may be far stiffer than the beam, so that the margin bends sharply where a zone begins
@@ -124,7 +124,7 @@ contains
                 growth = back
                 if (abs(next - now%factor) > way/2) waited = waited + 1
                 way = abs(next - now%factor)
-                if (waited > patience) then
+                if (waited > non_monotone_steps) then
                     if (way <= rounding*now%factor) exit
                     next = near%factor
                     waited = 0
@@ -135,9 +135,9 @@ contains
                 if (abs(next - near%factor) <= near_enough*next) exit
             end if
             if (abs(next - near%factor) < abs(next - over%factor)) then
-                call look_at(next, near%start, now, known, over%start)
+                call solve_at(next, near%start, now, known, over%start)
             else
-                call look_at(next, over%start, now, known, near%start)
+                call solve_at(next, over%start, now, known, near%start)
             end if
             if (.not. known) return
             if (.not. abs(now%margin) > 0.0_wp) exit
@@ -166,14 +166,14 @@ contains
         pure function may_be_secant() result(may_be)
             logical :: may_be
 
-            may_be = abs(near%factor - far%factor) > no_way*high
+            may_be = abs(near%factor - far%factor) > zero_motion*high
             if (.not. may_be) return
             may_be = (near%margin - far%margin)/(near%factor - far%factor) &
                 *((over%margin - near%margin)/(over%factor - near%factor)) > 0.0_wp
         end function may_be_secant
 
         !> Solve at a factor
-        subroutine look_at(factor, start, point, known, other)
+        subroutine solve_at(factor, start, point, known, other)
             real(wp), intent(in) :: factor
             !> Where to begin
             type(ground_start_type), intent(in) :: start
@@ -195,7 +195,7 @@ contains
             if (.not. known) return
             call find_margin(ground, grounded, point%start%zones, factor, work, point%start%closed, change, point%margin, &
                              point%place)
-        end subroutine look_at
+        end subroutine solve_at
 
     end subroutine follow_margin
 

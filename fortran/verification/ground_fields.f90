@@ -11,7 +11,7 @@ module gapbeam_ground_fields
     use gapbeam_ground_solution, only: ground_solution_type
     implicit none
     private
-    public :: inside_type, look_inside, field_at_end, field_inside, curved_stretch, deflection_size, find_sizes, lost
+    public :: inside_type, prepare_inside, field_at_end, field_inside, curved_stretch, deflection_size, find_sizes, lost
 
     !> Rounding of quadruple precision, some digits of it lost, in that of doubles
     real(wp), parameter :: lost = 2.0_wp**(-90)/epsilon(1.0_wp)
@@ -37,7 +37,7 @@ module gapbeam_ground_fields
 contains
 
     !> Make a stretch ready
-    pure subroutine look_inside(layers, laws, length, solution, i, inside, roughly)
+    pure subroutine prepare_inside(layers, laws, length, solution, i, inside, roughly)
         !> Layers of ground under the piece of the beam, the pieces of all laws, and the length of the piece of the beam
         type(layer_type), intent(in) :: layers(:)
         type(law_piece_type), intent(in) :: laws(:)
@@ -87,7 +87,7 @@ contains
             lacking = [solution%rotation(side, i) - (solution%slope(i) + field%rotation), solution%shear(side, i) - field%shear]
         end function off_at
 
-    end subroutine look_inside
+    end subroutine prepare_inside
 
     !> Fields at an end of a stretch, as they were solved
     pure function field_at_end(solution, i, side) result(field)
@@ -136,7 +136,7 @@ contains
 
     !> A stretch on which ground acts by curves
     pure subroutine curved_stretch(layers, laws, length, solution, i, curved)
-        !> As for look_inside
+        !> As for prepare_inside
         type(layer_type), intent(in) :: layers(:)
         type(law_piece_type), intent(in) :: laws(:)
         real(wp), intent(in) :: length

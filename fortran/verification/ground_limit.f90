@@ -19,7 +19,7 @@ module gapbeam_ground_limit
     !> the last digit, so that all load factors but one are on one side
     real(qp), parameter :: no_work = 8*epsilon(1.0_wp), least_excess = 2.0_qp**(-90)
     !> Displacements, relative to the largest, that are nothing but rounding
-    real(qp), parameter :: no_way = 2.0_qp**(-90)
+    real(qp), parameter :: zero_motion = 2.0_qp**(-90)
     !> Steps of the search for a motion at most, and how near to it they come: the work is wrong by the square of that
     integer, parameter :: most_steps = 60
     real(qp), parameter :: near = 2.0_qp**(-52)
@@ -80,7 +80,7 @@ contains
         found = most > 0.0_qp
         if (.not. any(abs(best) > 0.0_qp)) return
         share = best(1) + share*(best(2) - best(1))
-        where (abs(share) <= no_way) share = 0.0_qp
+        where (abs(share) <= zero_motion) share = 0.0_qp
         allocate (motion(0:size(ground%pieces)))
         motion(:) = real(share/maxval(abs(share)), wp)
     end subroutine find_collapse

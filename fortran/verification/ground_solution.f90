@@ -1,5 +1,5 @@
-!> A beam solved on the ground in quadruple precision, rounded once to doubles: ends, fields, reactions, and the force of every
-!> layer on every stretch.
+!> Solution of a beam on the ground in quadruple precision, rounded once to doubles.
+!> Ends, fields, reactions, and the force of every layer on every stretch.
 module gapbeam_ground_solution
     use gapbeam_kinds, only: wp, qp
     use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type
@@ -15,7 +15,7 @@ module gapbeam_ground_solution
     use gapbeam_curved_quad, only: curved_type, advance_curved, curved_fields
     use gapbeam_law_series_quad, only: curve_force
     use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type
-    use gapbeam_law_quad, only: find_margins, is_watched_in
+    use gapbeam_law_margins_quad, only: find_margins, is_watched_in
     implicit none
     private
     public :: ground_solution_type, take_rounded
@@ -71,7 +71,7 @@ contains
         type(ground_solution_type), intent(inout) :: solution
         type(fine_stretch_type) :: stretch
         type(fine_ends_type) :: ends
-        type(fine_stretch_load_type) :: load, beside
+        type(fine_stretch_load_type) :: load, relative
         real(qp), allocatable :: margin(:), rounding(:)
         type(curved_type), allocatable :: curved
         real(qp) :: field(2, 2), forces(size(zones%acts, 1)), from
@@ -106,10 +106,10 @@ contains
             solution%ends(i) = stretch_ends_type(real(ends%w_a, wp), real(ends%w_b, wp), real(ends%moment_a, wp), &
                                                  real(ends%moment_b, wp))
             call sum_layers(fine, zones, i, stretch, load, ends, field, curved, forces)
-            beside = beside_line(stretch, load, [ends%w_a, ends%w_b])
-            if (allocated(curved)) beside = load
-            solution%loads(i) = stretch_load_type(real(beside%qa, wp), real(beside%qb, wp), real(beside%qc, wp), &
-                                                  real(beside%kappa, wp))
+            relative = beside_line(stretch, load, [ends%w_a, ends%w_b])
+            if (allocated(curved)) relative = load
+            solution%loads(i) = stretch_load_type(real(relative%qa, wp), real(relative%qb, wp), real(relative%qc, wp), &
+                                                  real(relative%kappa, wp))
             solution%resultant(:, i) = real(forces, wp)
             solution%rotation(:, i) = real(field(:, 1), wp)
             solution%shear(:, i) = real(field(:, 2), wp)
@@ -277,7 +277,7 @@ contains
         type(fine_law_piece_type) :: law
         real(qp) :: from, slope(2), contact(2), offset(2), modulus(2), by_springs, y(4)
         real(qp), allocatable :: by_curves(:)
-        logical :: alike, lost
+        logical :: same_ratio, lost
         integer :: k, n
 
         forces(:) = 0.0_qp
@@ -307,8 +307,8 @@ contains
                         - length*(dot_product(slope, contact)/2 - (slope(2) - slope(1))*(contact(2) - contact(1))/6)
                     if (.not. any(slope > 0.0_qp)) cycle
                     ! Is its share of the modulus the same everywhere
-                    alike = .not. abs(slope(1)*modulus(2) - slope(2)*modulus(1)) > 64*epsilon(1.0_qp)*slope(1)*modulus(2)
-                    if (alike) then
+                    same_ratio = .not. abs(slope(1)*modulus(2) - slope(2)*modulus(1)) > 64*epsilon(1.0_qp)*slope(1)*modulus(2)
+                    if (same_ratio) then
                         forces(k) = forces(k) + by_springs*(sum(slope)/sum(modulus))
                     else
                         forces(k) = forces(k) + integral(slope)

@@ -1,4 +1,4 @@
-!> A beam on the ground solved: the zones found in double precision, and then all of it in quadruple precision, rounded once.
+!> Solver of a beam on the ground: zones in double precision, then all in quadruple precision.
 !>
 !> So ends, fields and reactions have all digits that doubles hold, and what doubles found is nothing but a start. Whether there is
 !> an equilibrium at all, and where zones are if Newton's method does not find them or laws are curves, the least energy on a mesh
@@ -18,7 +18,7 @@ module gapbeam_ground_solver
     use gapbeam_workspace, only: workspace_type
     use gapbeam_scheme, only: outcome_type
     use gapbeam_law, only: both
-    use gapbeam_law_motions, only: is_blocked
+    use gapbeam_law_kinematics, only: is_blocked
     use gapbeam_refined, only: detail_type
     use gapbeam_refined_ground, only: refine_ground, refine_zones
     use gapbeam_layers_quad, only: has_curves
@@ -47,7 +47,7 @@ module gapbeam_ground_solver
     !> has become stiffer
     integer, parameter :: edge_nodes = 4, most_stiffer = 6
     !> Part of the largest displacement of a motion that is none
-    real(wp), parameter :: no_way = 1e-6_wp
+    real(wp), parameter :: zero_motion = 1e-6_wp
     !> Differences are taken so many times
     real(wp), parameter :: safety = 4.0_wp
 
@@ -115,7 +115,7 @@ contains
                 if (allocated(error)) deallocate (error)
                 ! What Newton's method does not find from full contact may be too much to be borne
                 if (first == 0 .or. try > 1) call weigh()
-                if (.not. allocated(error)) call look_on_mesh()
+                if (.not. allocated(error)) call solve_on_mesh()
                 if (allocated(error)) then
                     if (any(error%code == [gapbeam_no_memory, gapbeam_stopped])) return
                 end if
@@ -161,7 +161,7 @@ contains
                 motion(:) = outcome%motion(grounded%node)
                 call move_alloc(motion, outcome%motion)
             end if
-            outcome%motion(:) = merge(0.0_wp, outcome%motion, abs(outcome%motion) <= no_way)
+            outcome%motion(:) = merge(0.0_wp, outcome%motion, abs(outcome%motion) <= zero_motion)
             ! No support would stop it sooner or later
             if (.not. is_blocked(ground%beam%supports, outcome%motion)) return
         end if
@@ -220,11 +220,11 @@ contains
             tips = .false.
             if (.not. allocated(motion)) return
             tips = .not. (is_blocked(ground%beam%supports, motion) &
-                          .or. any(abs(motion(ground%beam%supports%node)) <= no_way))
+                          .or. any(abs(motion(ground%beam%supports%node)) <= zero_motion))
         end function tips_over
 
         !> Solve on the first mesh, or on one that is finer where zones end
-        subroutine look_on_mesh()
+        subroutine solve_on_mesh()
             logical :: refined
             integer :: again, solves
 
@@ -243,7 +243,7 @@ contains
                 call refine_mesh(ground, mesh, .true., refined)
                 if (.not. refined) return
             end do
-        end subroutine look_on_mesh
+        end subroutine solve_on_mesh
 
     end subroutine solve_on_ground
 

@@ -1,4 +1,4 @@
-!> A beam on the ground beside a load factor at which it is solved: where to begin there, and what double precision finds
+!> Start of a solve on the ground from the solution at a load factor nearby.
 module gapbeam_ground_start
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, gapbeam_solved

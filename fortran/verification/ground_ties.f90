@@ -2,20 +2,20 @@
 module gapbeam_ground_ties
     use gapbeam_kinds, only: wp, qp
     use gapbeam_ground_quad, only: ground_type, zones_type, grounded_type
-    use gapbeam_ground_laws_quad, only: line_of_kink
+    use gapbeam_ground_laws_quad, only: line_of_breakpoint
     use gapbeam_zone_fields_quad, only: fields_at_ends
     use gapbeam_workspace_quad, only: workspace_type
     use gapbeam_model_quad, only: beam_type
-    use gapbeam_law_motions_quad, only: leaves_all
+    use gapbeam_law_kinematics_quad, only: leaves_all
     use gapbeam_kinematics_quad, only: free_motions, motion_type
     implicit none
     private
     public :: stands_on_edge, may_move
 
     !> Zones of less than this share of the beam have no length
-    real(qp), parameter :: thinnest = 4*epsilon(1.0_wp)
+    real(qp), parameter :: min_zone_length = 4*epsilon(1.0_wp)
     !> Share of all loads, or of what they bend the beam by, that is nothing
-    real(qp), parameter :: nothing = 1e-6_qp
+    real(qp), parameter :: least_share = 1e-6_qp
     !> The same where quadruple precision has settled all zones
     real(qp), parameter :: no_force = 1e-20_qp
 
@@ -46,9 +46,9 @@ contains
         stands = .false.
         carries = .false.
         do i = 1, size(zones%piece)
-            if (zones%to(i) - zones%from(i) > thinnest*length .or. .not. any(zones%acts(:, i) > 0)) cycle
-            carries = carries .or. force_on(grounded, factor, work, i, length) > nothing*force
-            stands = stands .or. carries .or. depth_in(ground, zones, work, i) > nothing*way
+            if (zones%to(i) - zones%from(i) > min_zone_length*length .or. .not. any(zones%acts(:, i) > 0)) cycle
+            carries = carries .or. force_on(grounded, factor, work, i, length) > least_share*force
+            stands = stands .or. carries .or. depth_in(ground, zones, work, i) > least_share*way
         end do
     end subroutine stands_on_edge
 
@@ -80,8 +80,9 @@ contains
             do k = ground%first(j), ground%first(j + 1) - 1
                 associate (layer => ground%layers(k), length => ground%pieces(j)%length)
                     if (layer%side == 0 .or. zones%acts(k - ground%first(j) + 1, i) == 0) cycle
-                    depth = max(depth, layer%side*(a%deflection - line_of_kink(ground%laws, layer, 1, zones%from(i), length)), &
-                                layer%side*(b%deflection - line_of_kink(ground%laws, layer, 1, zones%to(i), length)))
+                    depth = max(depth, layer%side*(a%deflection - line_of_breakpoint(ground%laws, layer, 1, zones%from(i), &
+                                                                                         length)), &
+                                layer%side*(b%deflection - line_of_breakpoint(ground%laws, layer, 1, zones%to(i), length)))
                 end associate
             end do
         end associate
@@ -191,7 +192,7 @@ contains
                     do k = first, ground%first(zones%piece(i) + 1) - 1
                         if (zones%acts(k - first + 1, i) == 0) cycle
                         do node = max(i - 1, motion%first), min(i, motion%last)
-                            leaves = leaves .and. sense*ground%layers(k)%side*motion%displacement(node) <= thinnest
+                            leaves = leaves .and. sense*ground%layers(k)%side*motion%displacement(node) <= min_zone_length
                         end do
                     end do
                 end associate

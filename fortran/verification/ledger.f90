@@ -1,4 +1,4 @@
-!> What an audit notes: what is left over of sums that ought to be zero, measured in roundings of their terms
+!> Record of an audit: imbalances of sums that ought to be zero, in roundings of their terms.
 module gapbeam_ledger
     use gapbeam_kinds, only: wp
     implicit none

@@ -138,7 +138,7 @@ contains
         type(node_support_type), intent(in) :: s
         type(fine_support_type) :: fine
 
-        fine = fine_support_type(s%node, s%side, real(s%stiffness, qp), real(s%contact, qp), s%kink, s%more, s%passed, &
+        fine = fine_support_type(s%node, s%side, real(s%stiffness, qp), real(s%contact, qp), s%breakpoint, s%more, s%passed, &
                                  real(s%force, qp), real(s%before, qp))
     end function fine_support
 

@@ -1,23 +1,24 @@
-!> The audit of a stretch of a beam on the ground: its fields, asked for as users ask, are put into the equations of the beam,
-!> psi' = kappa - M/EI, w' = psi + V/GA, M' = V, V' = pressure - load, and these are integrated from end to end. The pressure is
-!> what the laws make of the deflection, the load is that of the model; nothing of how the stretch was solved is used.
+!> Audit of a stretch of a beam on the ground by the integrated equations of the beam.
+!> Its fields, asked for as users ask, are put into the equations, psi' = kappa - M/EI, w' = psi + V/GA, M' = V, V' = pressure -
+!> load, and these are integrated from end to end. The pressure is what the laws make of the deflection, the load is that of the
+!> model; nothing of how the stretch was solved is used.
 module gapbeam_stretch_audit
     use gapbeam_kinds, only: wp
     use gapbeam_element, only: field_type
     use gapbeam_layers, only: layer_type, law_piece_type, law_piece, pieces_of_law, is_curve, has_points, law_cubic, &
         parameters_of_law
-    use gapbeam_ground_laws, only: along, approach_kink, push_of_layer
+    use gapbeam_ground_laws, only: along, distance_to_breakpoint, push_of_layer
     use gapbeam_curved, only: curved_type, advance_curved
     use gapbeam_link, only: piece_load_type, combine_loads
     use gapbeam_ground, only: ground_type
     use gapbeam_ground_solution, only: ground_solution_type
-    use gapbeam_ground_fields, only: inside_type, look_inside, field_at_end, field_inside, curved_stretch
+    use gapbeam_ground_fields, only: inside_type, prepare_inside, field_at_end, field_inside, curved_stretch
     use gapbeam_quadrature, only: panels_type, cut_into_panels, points_of, most_points
     use gapbeam_ledger, only: ledger_type, note, of_bending, of_equilibrium, of_resultants, of_contact, deflections, rotations, &
         moments, forces, beyond
     implicit none
     private
-    public :: sums_type, audit_stretch, kink_terms, pressure_terms
+    public :: sums_type, audit_stretch, breakpoint_terms, pressure_terms
 
     !> Samples of stretches in which ground acts by curves: their series are taken from end to end, not integrated by points
     integer, parameter :: samples = 3
@@ -30,9 +31,9 @@ module gapbeam_stretch_audit
 
     !> A place at which the state of a layer was looked at: how far it is from the lines at which its piece of the law begins and
     !> ends, positive on the right side, and how that changes along the stretch
-    type :: look_type
+    type :: link_bounds_type
         real(wp) :: xi = 0.0_wp, away(2) = 0.0_wp, change(2) = 0.0_wp
-    end type look_type
+    end type link_bounds_type
 
 contains
 
@@ -49,7 +50,7 @@ contains
         type(ledger_type), intent(inout) :: ledger
         !> What it adds up to
         type(sums_type), intent(out) :: sums
-        type(look_type) :: last(size(solution%acts, 1))
+        type(link_bounds_type) :: last(size(solution%acts, 1))
         type(inside_type) :: inside
         type(piece_load_type) :: load
         type(field_type) :: left, right
@@ -69,11 +70,11 @@ contains
                 msize = sizes%moment
                 call take_sizes()
                 curves = any(is_curve(layers, solution%acts(:n, i)))
-                call look_at(0.0_wp, left, .true.)
+                call check_layers(0.0_wp, left, .true.)
                 if (curves) then
                     call go_along_curves()
                 else
-                    call look_inside(layers, ground%laws, ground%pieces(j)%length, solution, i, inside, roughly=.true.)
+                    call prepare_inside(layers, ground%laws, ground%pieces(j)%length, solution, i, inside, roughly=.true.)
                     call integrate()
                     call fits(of_bending, rotations, (right%rotation - left%rotation) - l*bent(1), &
                               abs(right%rotation) + abs(left%rotation) + l*(f*msize + abs(load%kappa)))
@@ -86,7 +87,7 @@ contains
                               abs(right%moment) + abs(left%moment) + l*(abs(left%shear) + l*(sum(terms(:n)) + qsize)))
                     sums%moment = l**2*pressed(2)
                 end if
-                call look_at(1.0_wp, right, .true.)
+                call check_layers(1.0_wp, right, .true.)
                 call audit_resultants()
             end associate
         end associate
@@ -145,7 +146,7 @@ contains
                     call points_of(panels, p, number, points, weights)
                     do t = 1, number
                         call field_inside(inside, points(t), field)
-                        call look_at(points(t), field, .false.)
+                        call check_layers(points(t), field, .false.)
                         place = along(solution%from(i), solution%to(i), points(t), 1.0_wp)
                         q = along(load%qa, load%qb, place, ground%pieces(j)%length)
                         total = -q
@@ -200,10 +201,10 @@ contains
                         c = c + 1
                         force(k) = layers(k)%side*by_curves(c)
                     end do
-                    call look_inside(layers, ground%laws, ground%pieces(j)%length, solution, i, inside)
+                    call prepare_inside(layers, ground%laws, ground%pieces(j)%length, solution, i, inside)
                     do t = 1, samples
                         call field_inside(inside, t/(samples + 1.0_wp), field)
-                        call look_at(t/(samples + 1.0_wp), field, .false.)
+                        call check_layers(t/(samples + 1.0_wp), field, .false.)
                     end do
                 end associate
             end associate
@@ -231,18 +232,18 @@ contains
 
         !> Is every layer that acts one way in the right state at a place, and at the place since the last one where the beam comes
         !> nearest to a line at which the state would change
-        subroutine look_at(xi, field, at_end)
+        subroutine check_layers(xi, field, at_end)
             real(wp), intent(in) :: xi
             type(field_type), intent(in) :: field
             logical, intent(in) :: at_end
             type(field_type) :: nearest
-            type(look_type) :: now
+            type(link_bounds_type) :: now
             real(wp) :: t
             integer :: k, side
 
             do k = 1, n
                 if (ground%layers(ground%first(solution%piece(i)) + k - 1)%side == 0) cycle
-                call look_layer(k, xi, field, at_end, now)
+                call check_layer(k, xi, field, at_end, now)
                 if (xi > 0.0_wp .and. .not. curves) then
                     do side = 1, 2
                         if (.not. (last(k)%change(side) < 0.0_wp .and. now%change(side) > 0.0_wp)) cycle
@@ -251,24 +252,24 @@ contains
                         t = last(k)%xi + t*(xi - last(k)%xi)
                         if (.not. (t > 0.0_wp .and. t < 1.0_wp)) cycle
                         call field_inside(inside, t, nearest)
-                        call look_layer(k, t, nearest, .false.)
+                        call check_layer(k, t, nearest, .false.)
                     end do
                 end if
                 last(k) = now
             end do
-        end subroutine look_at
+        end subroutine check_layers
 
         !> Is a layer in the right state at a place
-        subroutine look_layer(k, xi, field, at_end, found)
+        subroutine check_layer(k, xi, field, at_end, found)
             !> Its number among those of the piece
             integer, intent(in) :: k
             real(wp), intent(in) :: xi
             type(field_type), intent(in) :: field
             logical, intent(in) :: at_end
-            type(look_type), intent(out), optional :: found
+            type(link_bounds_type), intent(out), optional :: found
             real(wp) :: place, steepness, terms_of_it, incline, past, change
-            type(look_type) :: now
-            integer :: side, kink
+            type(link_bounds_type) :: now
+            integer :: side, breakpoint
 
             now%xi = xi
             associate (j => solution%piece(i), s => solution%stretches(i))
@@ -276,14 +277,14 @@ contains
                 incline = field%rotation + s%shear_flexibility*field%shear
                 associate (layer => ground%layers(ground%first(j) + k - 1))
                     do side = 1, 2
-                        kink = solution%acts(k, i) + side - 1
-                        if (kink < 1 .or. kink > pieces_of_law(layer)) cycle
-                        call approach_kink(ground%laws, layer, kink, field%deflection, incline, place, ground%pieces(j)%length, &
-                                           past, change)
+                        breakpoint = solution%acts(k, i) + side - 1
+                        if (breakpoint < 1 .or. breakpoint > pieces_of_law(layer)) cycle
+                        call distance_to_breakpoint(ground%laws, layer, breakpoint, field%deflection, incline, place, &
+                                                    ground%pieces(j)%length, past, change)
                         now%away(side) = merge(past, -past, side == 1)
                         now%change(side) = merge(change, -change, side == 1)*s%length
                         if (now%away(side) >= 0.0_wp) cycle
-                        call kink_terms(layer, ground%laws, kink, wsize, steepness, terms_of_it)
+                        call breakpoint_terms(layer, ground%laws, breakpoint, wsize, steepness, terms_of_it)
                         if (at_end) terms_of_it = terms_of_it + ground%pieces(j)%length*abs(change)
                         if (steepness > 0.0_wp) then
                             call note(ledger, of_contact, beyond, now%away(side)/steepness, terms_of_it/steepness, j, place)
@@ -294,7 +295,7 @@ contains
                 end associate
             end associate
             if (present(found)) found = now
-        end subroutine look_layer
+        end subroutine check_layer
 
     end subroutine audit_stretch
 
@@ -332,26 +333,26 @@ contains
         t = min(1.0_wp, max(0.0_wp, 1 - (slope_b + root - z)/max(slope_b - slope_a + 2*root, tiny(t))))
     end function lowest
 
-    !> How a line at which a law goes on to another piece is approached (approach_kink): the change of the measure with the
+    !> How a line at which a law goes on to another piece is approached (distance_to_breakpoint): the change of the measure with the
     !> deflection, and the sizes of its terms
-    pure subroutine kink_terms(layer, laws, kink, deflection, steepness, sizes)
+    pure subroutine breakpoint_terms(layer, laws, breakpoint, deflection, steepness, sizes)
         type(layer_type), intent(in) :: layer
         type(law_piece_type), intent(in) :: laws(:)
         !> The piece that begins there
-        integer, intent(in) :: kink
+        integer, intent(in) :: breakpoint
         !> Size of the deflection
         real(wp), intent(in) :: deflection
         real(wp), intent(out) :: steepness, sizes
         type(law_piece_type) :: piece
 
-        piece = law_piece(layer, laws, kink)
+        piece = law_piece(layer, laws, breakpoint)
         steepness = 1.0_wp
         sizes = deflection + abs(layer%contact_a) + abs(layer%contact_b) &
             + max(abs(piece%displacement_a), abs(piece%displacement_b))
-        if (kink == 1 .or. has_points(layer)) return
+        if (breakpoint == 1 .or. has_points(layer)) return
         steepness = max(layer%parameter_a(1), layer%parameter_b(1))
         sizes = steepness*sizes + max(layer%parameter_a(2), layer%parameter_b(2))
-    end subroutine kink_terms
+    end subroutine breakpoint_terms
 
     !> Size of the terms of a layer's pressure
     pure function pressure_terms(layer, laws, acts, deflection) result(sizes)

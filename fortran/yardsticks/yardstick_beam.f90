@@ -1,4 +1,4 @@
-!> What the yardsticks of the studies have in common: the beam as plain arrays, the search for the working scheme.
+!> Common parts of the yardsticks: the beam as plain arrays, the search for the contact state.
 !>
 !> Not part of the engine. A yardstick is what a user would have to write without it, so this is kept as plain as that:
 !> every mesh point is a node, all wrong supports are switched at once.

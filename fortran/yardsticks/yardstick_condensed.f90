@@ -1,4 +1,4 @@
-!> The engine's normal route: what is not a support is condensed and recovered afterwards
+!> The engine's method as a yardstick: all but supports condensed, and recovered afterwards.
 module yardstick_condensed
     use gapbeam_kinds, only: wp
     use gapbeam_band, only: restrained

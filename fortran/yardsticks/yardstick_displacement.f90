@@ -1,4 +1,4 @@
-!> The displacement method, which users know: cubic Hermite elements, unknowns w and rotation, banded Cholesky.
+!> The displacement method as a yardstick: cubic Hermite elements, w and rotations, banded Cholesky.
 !>
 !> Plain: K u = f once. Incremental, as research codes do it: the residual is formed element by element from the
 !> deformations of each element (differences first), K du = residual, until du no longer gets smaller.

@@ -1,12 +1,13 @@
-!> The nodal mixed system, plain or refined: by the engine's 2x2 block elimination or by LAPACK's dgbsv.
+!> The nodal mixed system as a yardstick, by 2x2 block elimination or by LAPACK's dgbsv.
 !>
 !> Rows and signs are those of gapbeam_band; every mesh point is a node with the unknowns (M, w). Refinement takes its
 !> residual in plain double, with differences of neighbouring unknowns formed first, or in double-double.
 module yardstick_mixed
     use gapbeam_kinds, only: wp
     use gapbeam_link, only: link_type, piece_type, piece_load_type, condense_link
-    use gapbeam_band, only: node_type, rhs_type, pivot_type, chain_answer_type => answer_type, factor_chain, solve_chain, &
-        band_ok, plain, restrained
+    use gapbeam_band, only: node_type, rhs_type, pivot_type, chain_answer_type => answer_type, factor_chain, band_ok, plain, &
+        restrained
+    use gapbeam_band_substitution, only: solve_chain
     use gapbeam_residual, only: residual_chain, size_type
     use yardstick_beam, only: beam_type, answer_type, method_type, is_rigid, node_load, shear_reactions, solved, singular
     use yardstick_lapack, only: dgbsv, dgbtrs

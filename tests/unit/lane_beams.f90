@@ -5,8 +5,8 @@ module lane_beams
     use gapbeam_error, only: error_type
     use gapbeam_scene, only: section_type, span_type, support_type, uniform_load, point_force, point_couple, gapbeam_both, &
         gapbeam_infinity
-    use gapbeam_lowered, only: lowered_type
-    use gapbeam_lower, only: lower_model
+    use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_assemble, only: assemble_model
     implicit none
     private
     public :: make_beam, draw_cases, random, bits
@@ -21,7 +21,7 @@ contains
         !> With a support at every node and no hinge; otherwise now and then one is missing, and there may be a hinge
         logical, intent(in) :: whole
         !> The beam, ready to be solved
-        type(lowered_type), intent(out) :: lowered
+        type(assembled_type), intent(out) :: lowered
         type(error_type), allocatable :: error
         type(support_type), allocatable :: supports(:)
         real(wp) :: x, turns
@@ -72,7 +72,7 @@ contains
             model%loads(4) = point_force(40*random(seed), node=int((spans + 1)*random(seed)))
             if (random(seed) < 0.3_wp) model%loads(4) = point_couple(20*random(seed), node=int((spans + 1)*random(seed)))
         end associate
-        call lower_model(lowered, error)
+        call assemble_model(lowered, error)
         if (allocated(error)) error stop "no beam"
     end subroutine make_beam
 
@@ -80,7 +80,7 @@ contains
     subroutine draw_cases(seed, lowered, cases, varied, with_own_spans, factors, values, spans)
         !> As for random
         integer(int64), intent(inout) :: seed
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: lowered
         integer, intent(in) :: cases
         !> With supports, with stiffnesses of spans that differ from case to case
         logical, intent(in) :: varied, with_own_spans

@@ -21,7 +21,7 @@ RULES = {"block": 0, "single": 1}
 GIVEN = "given"
 """Instead of a rule: the scheme is known, as along a path."""
 RULE_GIVEN, RULE_EXTENDED = 2, 3
-"""Its code, as in gapbeam_referee, and that where lines are followed beyond where it holds, as tangents of smooth laws are."""
+"""Its code, as in gapbeam_extended_precision, and that where lines are followed beyond where it holds, as tangents are."""
 METHODS = ("block tridiagonal mixed", "three-moment", "mixed with pivoting")
 """What was solved, as in gapbeam_system."""
 LAW_ROW, FIRST_CURVE = 6, 3

@@ -17,9 +17,9 @@ from .wording import number, shown
 
 (NO_SPAN, NOT_EXPECTED, TOO_LONG, LOST_LENGTH, AT_END, OFF_BEAM, NO_PLACE, NO_NODE, NO_STRETCH, NOT_AXIAL, NO_GAP, NOT_HELD, TWICE,
  NO_ROOM, AT_HINGE, IDLE, BAD_LAW) = range(1, 18)  # fmt: skip
-"""Reasons, as in gapbeam_refusal."""
+"""Reasons, as in gapbeam_input_error."""
 SPANS, HINGES, SUPPORTS, LOADS, SECTIONS, FOUNDATIONS = range(1, 7)
-"""Tables, as in gapbeam_refusal."""
+"""Tables, as in gapbeam_input_error."""
 NAMES = {HINGES: "beam.hinges", SUPPORTS: "supports", LOADS: "loads", SECTIONS: "sections", FOUNDATIONS: "foundation"}
 EXPECTED = {
     "stiffness": "a number, 0 or more (inf = rigid)",

@@ -3,8 +3,9 @@ program test_band
     use testing, only: check, check_close, finish
     use gapbeam_kinds, only: wp
     use gapbeam_link, only: link_type, piece_type, piece_load_type, condense_link
-    use gapbeam_band, only: node_type, rhs_type, pivot_type, answer_type, factor_chain, solve_chain, &
-        band_ok, band_mechanism, band_needs_pivoting, plain, hinge, restrained
+    use gapbeam_band, only: node_type, rhs_type, pivot_type, answer_type, factor_chain, band_ok, band_mechanism, &
+        band_needs_pivoting, plain, hinge, restrained
+    use gapbeam_band_substitution, only: solve_chain
     use gapbeam_residual, only: residual_chain, size_type
     use gapbeam_three_moment, only: fits_three_moment, solve_three_moment
     use gapbeam_pivoting, only: solve_pivoting

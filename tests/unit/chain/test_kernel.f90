@@ -2,7 +2,8 @@
 program test_kernel
     use testing, only: check, check_close, finish
     use gapbeam_kinds, only: wp
-    use gapbeam_band, only: node_type, rhs_type, pivot_type, answer_type, factor_chain, solve_chain, band_ok, plain, restrained
+    use gapbeam_band, only: node_type, rhs_type, pivot_type, answer_type, factor_chain, band_ok, plain, restrained
+    use gapbeam_band_substitution, only: solve_chain
     use gapbeam_link, only: link_type, piece_type, piece_load_type, condense_link
     use gapbeam_plain, only: plain_type, prepare_plain, is_plain, ends_hold, solve_plain
     use gapbeam_kernel, only: eliminated_type, last_step

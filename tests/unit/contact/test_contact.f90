@@ -12,8 +12,8 @@ program test_contact
     use gapbeam_rules, only: find_wrong, find_doubtful, keep_worst_pull, keep_local_worst, &
         keep_least_index
     use gapbeam_kinematics, only: free_motions, motion_type, work_of_loads, held_by_ties
-    use gapbeam_fronts, only: base_type, find_base, move_fronts
-    use gapbeam_part, only: least_margin, next_stretch, cut_out
+    use gapbeam_contact_boundary, only: base_type, find_base, move_boundaries
+    use gapbeam_subdomain, only: least_margin, next_stretch, extract_subdomain
     use gapbeam_interior_point, only: interior_type, start_interior, step_interior, product_of
     implicit none
     integer :: status
@@ -249,7 +249,7 @@ contains
         call check_close(done, 12.0_wp, "weight of a beam that falls")
     end subroutine work_along_a_motion
 
-    !> Where fronts can be, and the moment of a beam that follows a parabola: -EI w''
+    !> Where boundaries can be, and the moment of a beam that follows a parabola: -EI w''
     subroutine bases()
         type(beam_type) :: beam
         type(base_type) :: base
@@ -288,13 +288,13 @@ contains
         call check(first(1) .and. count(first) == 1, "at first one support pulls")
         call find_base(beam, base)
         wrong = first
-        call move_fronts(beam, spread(.true., 1, n + 1), work, base, 2, wrong)
+        call move_boundaries(beam, spread(.true., 1, n + 1), work, base, 2, wrong)
         call check(all(wrong .eqv. [(i <= 10, i=1, n + 1)]), "ten are passed")
         wrong = first
-        call move_fronts(beam, spread(.true., 1, n + 1), work, base, 11, wrong)
+        call move_boundaries(beam, spread(.true., 1, n + 1), work, base, 11, wrong)
         call check(all(wrong .eqv. first), "fewer than are asked for are left to switching")
         wrong = .false.
-        call move_fronts(beam, spread(.true., 1, n + 1), work, base, 2, wrong)
+        call move_boundaries(beam, spread(.true., 1, n + 1), work, base, 2, wrong)
         call check(.not. any(wrong), "nothing wrong, nothing moves")
     end subroutine a_front_moves
 
@@ -348,7 +348,7 @@ contains
         closed = .true.
         closed(7) = .false.
         call solve(beam, closed, work, state)
-        call cut_out(beam, closed, work, from, to, part, part_work, number)
+        call extract_subdomain(beam, closed, work, from, to, part, part_work, number)
         call check(all(number == [(i, i=from + 1, to + 1)]), "its supports")
         call check(all(part%supports%side == [both, both, below, below, both, both]), "the outermost two hold both ways")
         call solve_scheme(part, closed(number), part_work, state, place)
@@ -358,7 +358,7 @@ contains
         call check_close(part_work%reaction, work%reaction(number), "same reactions", 1e-12_wp)
         closed(9) = .false.
         closed(4) = .false.
-        call cut_out(beam, closed, work, 0, n, part, part_work, number)
+        call extract_subdomain(beam, closed, work, 0, n, part, part_work, number)
         call check(all(part%supports%side == below), "nothing is cut, nothing is held")
     end subroutine a_part_is_the_beam
 

@@ -18,8 +18,8 @@ program test_ground
     use gapbeam_ground_energy, only: find_least_energy
     use gapbeam_workspace, only: workspace_type
     use gapbeam_scheme, only: outcome_type
-    use gapbeam_lowered, only: lowered_type
-    use gapbeam_lower, only: lower_model
+    use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_assemble, only: assemble_model
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_state, only: solve_state, ground_of
     use gapbeam_ground_query, only: ground_values, ground_extremes
@@ -170,7 +170,7 @@ contains
     !> A free beam of two spans on ground that pushes up
     subroutine lower(loads, lowered, moduli, profile)
         type(load_type), intent(in) :: loads(:)
-        type(lowered_type), intent(out) :: lowered
+        type(assembled_type), intent(out) :: lowered
         real(wp), intent(in), optional :: moduli(2)
         type(ground_point_type), intent(in), optional :: profile(:)
         type(error_type), allocatable :: error
@@ -185,7 +185,7 @@ contains
             m%foundations = [foundation_type(from=0.0_wp, to=30.0_wp, k=k(1), k_to=k(2), side=gapbeam_below)]
             m%loads = loads
         end associate
-        call lower_model(lowered, error)
+        call assemble_model(lowered, error)
         call check(.not. allocated(error), "lowered")
     end subroutine lower
 
@@ -198,7 +198,7 @@ contains
 
     !> From full contact; and once more from what was found, where nothing moves
     subroutine zones_converge_quadratically()
-        type(lowered_type) :: lowered
+        type(assembled_type) :: lowered
         type(ground_type) :: ground
         type(zones_type) :: zones
         type(grounded_type) :: grounded
@@ -222,7 +222,7 @@ contains
 
     !> The least energy on a mesh shows the zones, nearer and nearer, and that nothing holds a beam which is pulled up
     subroutine meshes_come_near()
-        type(lowered_type) :: lowered
+        type(assembled_type) :: lowered
         type(ground_type) :: ground
         type(mesh_type) :: mesh
         type(zones_type) :: zones
@@ -259,7 +259,7 @@ contains
 
     !> Reference problem P3: k w/(P beta) = coth(pi/2)/2, contact over pi/(2 beta) to both sides (beta = 1)
     subroutine a_force_on_a_long_beam()
-        type(lowered_type) :: lowered
+        type(assembled_type) :: lowered
         type(state_type) :: state
         type(error_type), allocatable :: error
         integer :: i
@@ -278,7 +278,7 @@ contains
 
     !> Reference problem P3: a heavy half-infinite beam lifted at its end over a length l: F = q/2 (l + 1/beta)
     subroutine a_beam_that_is_lifted()
-        type(lowered_type) :: lowered
+        type(assembled_type) :: lowered
         type(state_type) :: state
         type(error_type), allocatable :: error
         real(wp), parameter :: l = 2.0_wp
@@ -296,7 +296,7 @@ contains
 
     !> Where the modulus varies the ground is cut into steps, and the answer is that of an even one in the limit
     subroutine soil_that_grows_with_depth()
-        type(lowered_type) :: lowered
+        type(assembled_type) :: lowered
         type(state_type) :: state
         type(error_type), allocatable :: error
         real(wp) :: w
@@ -315,7 +315,7 @@ contains
 
     !> Fields, pressure and distances agree with each other
     subroutine what_is_asked_of_it()
-        type(lowered_type) :: lowered
+        type(assembled_type) :: lowered
         type(state_type) :: state
         type(error_type), allocatable :: error
         type(field_type) :: fields(3)

@@ -4,13 +4,12 @@ program test_law
     use beams, only: infinite
     use gapbeam_kinds, only: wp
     use gapbeam_band, only: node_type, rhs_type, answer_type
-    use gapbeam_law, only: node_support_type, below, above, both, is_support, is_rigid, may_change, always_closed, &
-        separate_rigid_pairs, &
-        add_supports, share_forces, margin_of, margin_rates, find_margins, find_wrong_states, &
-        find_doubtful_states
-    use gapbeam_law_motions, only: mark_held, outermost, is_blocked, leaves_all, distance_to_contact
-    use gapbeam_law_forms, only: least_stiffness, stiffness_of_changing, find_pairs, find_single, hold_both_ways, limit_stiffness, &
-        drop_level
+    use gapbeam_law, only: node_support_type, below, above, both, is_support, is_rigid, always_closed, separate_rigid_pairs, &
+        add_supports, share_forces
+    use gapbeam_law_margins, only: may_change, margin_of, margin_rates, find_margins, find_wrong_states, find_doubtful_states
+    use gapbeam_law_kinematics, only: mark_held, outermost, is_blocked, leaves_all, distance_to_contact
+    use gapbeam_law_adapters, only: least_stiffness, stiffness_of_changing, find_pairs, find_single, hold_both_ways, &
+        limit_stiffness, drop_level
     implicit none
     integer :: status
 

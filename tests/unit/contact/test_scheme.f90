@@ -17,7 +17,7 @@ program test_scheme
     call smallest_cycle()
     call plank()
     call rigid_plank()
-    call fronts()
+    call boundaries()
     call parts_that_cannot_be_settled()
     call finish(status)
     if (status /= 0) stop 1, quiet=.true.
@@ -170,7 +170,7 @@ contains
 
     !> A beam on 2,001 rigid one-sided supports, its weight as nodal forces, lifted at its left end and in the middle, and the
     !> same with its left half turned upside down; then lifted a little less, from the scheme found
-    subroutine fronts()
+    subroutine boundaries()
         integer, parameter :: n = 2000
         real(wp), parameter :: spacing = 0.01_wp
         type(beam_type) :: beam
@@ -205,7 +205,7 @@ contains
                 call check(maxval(beam%supports%side*work%answers%deflection) < 1e-12_wp, "none is penetrated")
             end do
         end do
-    end subroutine fronts
+    end subroutine boundaries
 
     !> A beam in pieces between hinges that nothing stops: no part of it can be settled, and the whole is known to have no
     !> equilibrium after some solves (5,000, when rounds without a settled part did not count)

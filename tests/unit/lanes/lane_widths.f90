@@ -10,13 +10,13 @@ program lane_widths
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_equilibrium
     use gapbeam_units, only: moment_unit
-    use gapbeam_lowered, only: lowered_type
-    use gapbeam_lower_loads, only: lower_loads
+    use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_assemble_loads, only: assemble_loads
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, new_workspace
     use gapbeam_search, only: rule_block
     use gapbeam_cases, only: case_loads_type, split_loads, solve_case, replace_supports
-    use gapbeam_lane_levels, only: least_level, best_level
+    use gapbeam_cpu_dispatch, only: least_level, best_level
     use gapbeam_lane_cases, only: lane_room_type, fits_lanes, solve_in_lanes
     use gapbeam_many_cases, only: case_room_type, solve_cases
     implicit none
@@ -29,7 +29,7 @@ program lane_widths
 
     !> Cases of a beam, and what came of them
     type :: share_type
-        type(lowered_type), pointer :: lowered => null()
+        type(assembled_type), pointer :: lowered => null()
         type(case_loads_type), pointer :: loads => null()
         real(wp), pointer :: factors(:, :) => null(), values(:, :, :) => null(), spans(:, :, :) => null()
         integer, allocatable :: closed(:, :), solves(:), status(:)
@@ -109,7 +109,7 @@ contains
         integer(int64), intent(inout) :: seed
         integer, intent(in) :: spans, cases
         integer, intent(inout) :: seen(:), wrong(:), unsolved
-        type(lowered_type), target :: lowered
+        type(assembled_type), target :: lowered
         type(case_loads_type), target :: loads
         type(error_type), allocatable :: error
         real(wp), allocatable, target :: factors(:, :), values(:, :, :), own_spans(:, :, :)
@@ -176,7 +176,7 @@ contains
 
     !> Cases to be solved
     subroutine share_cases(lowered, loads, factors, values, spans, share)
-        type(lowered_type), intent(in), target :: lowered
+        type(assembled_type), intent(in), target :: lowered
         type(case_loads_type), intent(in), target :: loads
         real(wp), intent(in), target :: factors(:, :), values(:, :, :), spans(:, :, :)
         type(share_type), intent(out) :: share
@@ -241,7 +241,7 @@ contains
         type(share_type), intent(in) :: together
         integer, intent(inout) :: seen(:), wrong(:)
         type(share_type) :: one
-        type(lowered_type) :: lowered
+        type(assembled_type) :: lowered
         type(case_loads_type) :: loads
         type(error_type), allocatable :: error
         type(beam_type) :: beam
@@ -262,7 +262,7 @@ contains
                 if (size(together%spans, 2) > 0) then
                     lowered%model%spans%EI = together%spans(1, :, i)
                     lowered%model%spans%GA = together%spans(2, :, i)
-                    call lower_loads(lowered, error)
+                    call assemble_loads(lowered, error)
                     call split_loads(lowered, loads, error)
                     beam = lowered%beam
                     call new_workspace(beam, work)

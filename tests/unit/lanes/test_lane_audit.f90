@@ -6,13 +6,14 @@ program test_lane_audit
     use lane_beams, only: make_beam, draw_cases, random
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type
-    use gapbeam_lowered, only: lowered_type
+    use gapbeam_assembled_model, only: assembled_type
     use gapbeam_cases, only: case_loads_type, split_loads
     use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type, new_pack
-    use gapbeam_lane_levels, only: least_level, best_level, take_columns_at, take_numbers_at, search_pack_at, finish_pack_at, &
-        audit_pack_at
+    use gapbeam_cpu_dispatch, only: least_level, best_level, take_columns_at, take_numbers_at, search_pack_at, &
+        finish_pack_at, audit_pack_at
     use gapbeam_lane_spans, only: span_room_type, prepare_spans, take_spans, make_pack_links
-    use gapbeam_lane_cases, only: fits_lanes, prepare_lanes, take_supports, take_starts, units_of_supports
+    use gapbeam_lane_cases, only: fits_lanes
+    use gapbeam_lane_model, only: prepare_lanes, take_supports, take_starts, units_of_supports
     implicit none
 
     integer, parameter :: beams = 400
@@ -33,7 +34,7 @@ contains
 
     !> Beams with supports of all kinds
     subroutine broken_cases_are_found()
-        type(lowered_type) :: lowered
+        type(assembled_type) :: lowered
         type(case_loads_type) :: loads
         type(error_type), allocatable :: error
         type(lane_beam_type) :: beam
@@ -88,7 +89,7 @@ contains
 
     !> What is solved without doubt is not put off, whatever the magnitudes, but where digits are lost
     subroutine extreme_cases_pass()
-        type(lowered_type) :: lowered
+        type(assembled_type) :: lowered
         type(case_loads_type) :: loads
         type(error_type), allocatable :: error
         type(lane_beam_type) :: beam
@@ -128,7 +129,7 @@ contains
 
     !> Solve eight cases side by side, where all of them are solved in the same way
     subroutine solve(lowered, loads, factors, values, spans, beam, pack, sound)
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: lowered
         type(case_loads_type), intent(in) :: loads
         real(wp), intent(in) :: factors(:, :), values(:, :, :), spans(:, :, :)
         type(lane_beam_type), intent(out) :: beam

@@ -6,13 +6,13 @@ program test_lanes
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_not_finite
     use gapbeam_units, only: moment_unit
-    use gapbeam_lowered, only: lowered_type, piece_length
-    use gapbeam_lower_loads, only: lower_loads
+    use gapbeam_assembled_model, only: assembled_type, piece_length
+    use gapbeam_assemble_loads, only: assemble_loads
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, new_workspace
     use gapbeam_search, only: rule_block
     use gapbeam_cases, only: case_loads_type, split_loads, solve_case, replace_supports
-    use gapbeam_lane_levels, only: least_level, best_level
+    use gapbeam_cpu_dispatch, only: least_level, best_level
     use gapbeam_lane_cases, only: lane_room_type, fits_lanes, solve_in_lanes
     use gapbeam_case_extremes, only: extremes_of_cases
     use gapbeam_case_certificates, only: certify_cases, certificate_numbers
@@ -48,7 +48,7 @@ contains
 
     !> Many beams with supports of all kinds
     subroutine lanes_have_the_bits_of_single_cases()
-        type(lowered_type) :: lowered
+        type(assembled_type) :: lowered
         type(case_loads_type), allocatable :: loads
         type(error_type), allocatable :: error
         type(found_type) :: all_cases, alone, back
@@ -97,7 +97,7 @@ contains
 
     !> Solve cases side by side
     subroutine solve(lowered, loads, factors, values, spans, level, found)
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: lowered
         type(case_loads_type), allocatable, intent(in) :: loads
         real(wp), intent(in) :: factors(:, :), values(:, :, :), spans(:, :, :)
         integer, intent(in) :: level
@@ -164,14 +164,14 @@ contains
 
     !> Cases that come out otherwise one by one, and those that are solved only so
     subroutine compare(given, given_loads, factors, values, spans, long, found, number, missed)
-        type(lowered_type), intent(in) :: given
+        type(assembled_type), intent(in) :: given
         type(case_loads_type), intent(in) :: given_loads
         real(wp), intent(in) :: factors(:, :), values(:, :, :), spans(:, :, :)
         !> Not to the last bit
         logical, intent(in) :: long
         type(found_type), intent(in) :: found
         integer, intent(inout) :: number, missed
-        type(lowered_type) :: lowered
+        type(assembled_type) :: lowered
         type(case_loads_type) :: loads
         type(beam_type) :: beam
         type(workspace_type) :: work
@@ -189,7 +189,7 @@ contains
             if (size(spans, 2) > 0) then
                 lowered%model%spans%EI = spans(1, :, i)
                 lowered%model%spans%GA = spans(2, :, i)
-                call lower_loads(lowered, error)
+                call assemble_loads(lowered, error)
                 call split_loads(lowered, loads, error)
                 beam = lowered%beam
                 call new_workspace(beam, work)

@@ -6,13 +6,13 @@ program test_segments
     use gapbeam_error, only: error_type, gapbeam_solved
     use gapbeam_scene, only: span_type, support_type, point_force, point_couple, uniform_load, gapbeam_infinity
     use gapbeam_units, only: moment_unit
-    use gapbeam_lowered, only: lowered_type
-    use gapbeam_lower, only: lower_model
+    use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_assemble, only: assemble_model
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, new_workspace
     use gapbeam_search, only: rule_block
     use gapbeam_cases, only: case_loads_type, split_loads, solve_case, replace_supports
-    use gapbeam_lane_levels, only: least_level, best_level, audit_segments_at
+    use gapbeam_cpu_dispatch, only: least_level, best_level, audit_segments_at
     use gapbeam_segment_types, only: segment_room_type
     use gapbeam_segment_cases, only: segments_type, fits_segments, solve_in_segments
     implicit none
@@ -37,7 +37,7 @@ contains
 
     !> Beams on rigid and elastic supports, some of which hardly feel what is far away, and some of which do
     subroutine segments_have_the_bits_of_the_whole()
-        type(lowered_type) :: lowered
+        type(assembled_type) :: lowered
         type(case_loads_type) :: loads
         type(error_type), allocatable :: error
         type(found_type) :: best, other
@@ -77,7 +77,7 @@ contains
 
     !> Couples at nodes, and ends that do not hold
     subroutine couples_and_lifted_ends_are_left()
-        type(lowered_type) :: lowered, turned, lifted
+        type(assembled_type) :: lowered, turned, lifted
         type(case_loads_type) :: loads
         type(error_type), allocatable :: error
         type(found_type) :: found
@@ -89,7 +89,7 @@ contains
         call make_beam(seed, 1, lowered)
         turned%model = lowered%model
         turned%model%loads(4) = point_couple(5.0_wp, node=7)
-        call lower_model(turned, error)
+        call assemble_model(turned, error)
         call split_loads(turned, loads, error)
         call draw_cases(seed, lowered, 1, factors, values)
         factors(4, 1) = 0.0_wp
@@ -100,7 +100,7 @@ contains
         last = size(lifted%model%supports)
         lifted%model%supports(last)%side = 1
         lifted%model%loads(4) = point_force(-1e4_wp, node=size(lifted%model%spans))
-        call lower_model(lifted, error)
+        call assemble_model(lifted, error)
         call split_loads(lifted, loads, error)
         call solve(lifted, loads, spread([1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], 2, 1), values(:, :0, :1), best_level(), found)
         call check(.not. found%done(1), "an end that is lifted is left")
@@ -111,7 +111,7 @@ contains
     subroutine what_is_broken_is_found()
         integer, parameter :: kinds = 4, places = 40
         character(len=12), parameter :: names(kinds) = [character(len=12) :: "a reaction", "a deflection", "a moment", "a state"]
-        type(lowered_type) :: lowered
+        type(assembled_type) :: lowered
         type(case_loads_type) :: loads
         type(error_type), allocatable :: error
         type(found_type) :: found
@@ -164,7 +164,7 @@ contains
 
     !> Room for what comes out
     subroutine make_room(lowered, c, found)
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: lowered
         integer, intent(in) :: c
         type(found_type), intent(out) :: found
         integer :: n, m
@@ -183,7 +183,7 @@ contains
 
     !> Solve cases in segments
     subroutine solve(lowered, loads, factors, values, level, found)
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: lowered
         type(case_loads_type), intent(in) :: loads
         real(wp), intent(in) :: factors(:, :), values(:, :, :)
         integer, intent(in) :: level
@@ -202,7 +202,7 @@ contains
 
     !> The same by the engine for all beams
     subroutine solve_one_by_one(lowered, loads, factors, values, found)
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: lowered
         type(case_loads_type), intent(in) :: loads
         real(wp), intent(in) :: factors(:, :), values(:, :, :)
         type(found_type), intent(out) :: found
@@ -251,7 +251,7 @@ contains
     subroutine make_beam(seed, number, lowered)
         integer(int64), intent(inout) :: seed
         integer, intent(in) :: number
-        type(lowered_type), intent(out) :: lowered
+        type(assembled_type), intent(out) :: lowered
         type(error_type), allocatable :: error
         type(support_type), allocatable :: supports(:)
         real(wp) :: x, stiffness
@@ -285,13 +285,13 @@ contains
             model%loads(3) = point_force(40*random(seed), x=x*random(seed))
             model%loads(4) = point_force(-90*random(seed), node=1 + int((n - 1)*random(seed)))
         end associate
-        call lower_model(lowered, error)
+        call assemble_model(lowered, error)
     end subroutine make_beam
 
     !> Factors, and for every second beam supports that differ from case to case
     subroutine draw_cases(seed, lowered, beam, factors, values)
         integer(int64), intent(inout) :: seed
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: lowered
         integer, intent(in) :: beam
         real(wp), allocatable, intent(out) :: factors(:, :), values(:, :, :)
         integer :: i, k

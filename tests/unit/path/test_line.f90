@@ -9,12 +9,14 @@ program test_line
     use gapbeam_model, only: beam_type, node_support_type, below, above, both
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_system, only: solve_scheme
-    use gapbeam_line, only: line_type, without_dead_loads, value_at, width_at, zero_of, falls, rises, stays_at_zero
-    use gapbeam_stretch, only: stretch_type, new_stretch, start_stretch, change_supports, add_those_at_zero, next_in_queue, line_in
+    use gapbeam_affine_response, only: response_type, without_dead_loads, value_at, width_at, zero_of, falls, rises, &
+        stays_at_zero
+    use gapbeam_stretch, only: stretch_type, new_stretch, start_stretch, change_supports, add_those_at_zero, next_in_queue, &
+        response_in
     use gapbeam_refined, only: refine_beam
     use gapbeam_model_quad, only: fine_beam_type => beam_type
     use gapbeam_scheme_quad, only: outcome_type
-    use gapbeam_cell, only: cell_type, find_cell
+    use gapbeam_linear_region, only: region_type, find_region
     use gapbeam_recover, only: recover_beam
     use gapbeam_certificate, only: certificate_type, certify
     implicit none
@@ -43,18 +45,18 @@ contains
 
     !> Signs, zeros, widths
     subroutine single_lines()
-        type(line_type) :: line
+        type(response_type) :: line
 
-        line = line_type(3.0_wp, -2.0_wp, 0.0_wp, 0.5_wp)
+        line = response_type(3.0_wp, -2.0_wp, 0.0_wp, 0.5_wp)
         call check(falls(line) .and. .not. rises(line), "falls")
         call check_close([value_at(line, 1.0_wp), value_at(line, zero_of(line))], [1.0_wp, 0.0_wp], "value and zero")
         call check_close(width_at(line, -2.0_wp), 1.0_wp, "what counts as zero")
         call check(.not. stays_at_zero(line, zero_of(line)), "a falling line does not stay")
-        line = line_type(3.0_wp, 0.25_wp, 0.0_wp, 0.5_wp)
+        line = response_type(3.0_wp, 0.25_wp, 0.0_wp, 0.5_wp)
         call check(.not. (falls(line) .or. rises(line)), "a slope within its error is none")
         call check(.not. stays_at_zero(line, 0.0_wp), "level, but not at zero")
-        call check(stays_at_zero(line_type(), 7.0_wp), "nothing at all stays at zero")
-        call check(stays_at_zero(line_type(1e-9_wp, 0.0_wp, 1e-8_wp, 0.0_wp), 1.0_wp), "within its error")
+        call check(stays_at_zero(response_type(), 7.0_wp), "nothing at all stays at zero")
+        call check(stays_at_zero(response_type(1e-9_wp, 0.0_wp, 1e-8_wp, 0.0_wp), 1.0_wp), "within its error")
     end subroutine single_lines
 
     !> Dead loads and contact levels are gone, live loads stay
@@ -77,7 +79,7 @@ contains
     subroutine stretch_of_two_spans()
         type(sample_type) :: sample
         type(stretch_type) :: stretch
-        type(line_type) :: line
+        type(response_type) :: line
         logical :: closed(3)
         integer, allocatable :: at_zero(:)
         real(wp) :: next
@@ -87,7 +89,7 @@ contains
         closed = .true.
         call start_stretch(sample%beam, closed, 0.0_wp, stretch)
         call check(stretch%current .and. .not. stretch%in_doubt, "one scheme acts")
-        line = line_in(sample%beam, closed, 3, stretch)
+        line = response_in(sample%beam, closed, 3, stretch)
         call check_close([line%v0, line%v1], [0.375_wp, -0.0625_wp], "reaction over the factor")
         at_zero = [integer ::]
         call next_in_queue(sample%beam, closed, 0.0_wp, 10.0_wp, stretch, at_zero, next)
@@ -95,7 +97,7 @@ contains
         call check(size(at_zero) == 1 .and. all(at_zero == 3), "is that of the right support")
         call change_supports(sample%beam, [3], next, closed, stretch)
         call check(stretch%current .and. all(closed .eqv. [.true., .true., .false.]), "it opens")
-        line = line_in(sample%beam, closed, 3, stretch)
+        line = response_in(sample%beam, closed, 3, stretch)
         call check_close([line%v0, line%v1], [-0.25_wp, 1/24.0_wp], "and lifts by (f - 6) q L**4/24 EI")
         at_zero = [integer ::]
         call add_those_at_zero(sample%beam, closed, 6.0_wp, 10.0_wp, stretch, at_zero)
@@ -119,24 +121,24 @@ contains
     subroutine cells()
         type(sample_type), target :: sample
         type(fine_beam_type) :: fine
-        type(cell_type) :: cell
+        type(region_type) :: region
         type(outcome_type) :: outcome
         type(error_type), allocatable :: error
 
         call two_spans(sample)
         call refine_beam(sample%beam, detail_of(sample), fine)
-        call find_cell(fine, 0.0_qp, 10.0_qp, [.true., .true., .true.], cell, outcome, error)
+        call find_region(fine, 0.0_qp, 10.0_qp, [.true., .true., .true.], region, outcome, error)
         call check(.not. allocated(error) .and. outcome%status == gapbeam_solved, "found")
-        call check(all(cell%closed), "all are closed")
-        call check(abs(cell%to - 6) < 1e-28_qp, "up to 6")
-        call find_cell(fine, 6.0_qp, 10.0_qp, [.true., .true., .true.], cell, outcome, error)
-        call check(all(cell%closed .eqv. [.true., .true., .false.]), "then the right one is open")
-        call check(cell%to > 10, "to the end")
+        call check(all(region%closed), "all are closed")
+        call check(abs(region%to - 6) < 1e-28_qp, "up to 6")
+        call find_region(fine, 6.0_qp, 10.0_qp, [.true., .true., .true.], region, outcome, error)
+        call check(all(region%closed .eqv. [.true., .true., .false.]), "then the right one is open")
+        call check(region%to > 10, "to the end")
         call make_beam([1.0_wp, 1.0_wp], [1.0_wp, 1.0_wp], [1.0_wp, 1.0_wp], [0.0_wp, 0.0_wp], &
                        [node_support_type(0, below, infinite(), 0.0_wp), node_support_type(1, below, infinite(), 0.0_wp)], sample)
         sample%beam%force(2, 2) = 1.0_wp
         call refine_beam(sample%beam, detail_of(sample), fine)
-        call find_cell(fine, 0.0_qp, 10.0_qp, [.true., .true.], cell, outcome, error)
+        call find_region(fine, 0.0_qp, 10.0_qp, [.true., .true.], region, outcome, error)
         call check(.not. allocated(error) .and. outcome%status == gapbeam_no_equilibrium, "balanced, so any force tips it")
     end subroutine cells
 

@@ -5,16 +5,16 @@ program test_train
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_equilibrium
     use gapbeam_scene, only: model_type, span_type, support_type, uniform_load, gapbeam_below, gapbeam_dead
-    use gapbeam_lowered, only: lowered_type, copy_model
-    use gapbeam_lower, only: lower_model
+    use gapbeam_assembled_model, only: assembled_type, copy_model
+    use gapbeam_assemble, only: assemble_model
     use gapbeam_train, only: train_type, uniform_type, track_type, new_track
-    use gapbeam_train_passage, only: passage_type
+    use gapbeam_train_traversal, only: traversal_type
     use gapbeam_train_path, only: pass_train
     use gapbeam_train_events, only: train_event_type, find_events
     use gapbeam_train_envelope, only: envelope_type, find_envelope
     use gapbeam_element, only: field_type
     use gapbeam_train_samples, only: samples_type, new_samples, sample_stretch
-    use gapbeam_train_view, only: view_type, look_type, new_view, show_stretch, look_at_link
+    use gapbeam_train_link_bounds, only: view_type, link_bounds_type, new_view, enter_stretch, bound_link
     use gapbeam_train_curves, only: find_curves
     use gapbeam_train_influence, only: find_influence
     use gapbeam_pieces, only: gapbeam_opens, gapbeam_closes
@@ -34,7 +34,7 @@ contains
     !> A beam with own weight on supports from below at its span ends, made ready with all traps off, as the interfaces do
     subroutine make(lengths, at, weight, lowered, track)
         real(wp), intent(in) :: lengths(:), at(:), weight
-        type(lowered_type), intent(out) :: lowered
+        type(assembled_type), intent(out) :: lowered
         type(track_type), intent(out) :: track
         type(model_type) :: model
         type(ieee_status_type) :: environment
@@ -52,7 +52,7 @@ contains
         call ieee_get_status(environment)
         call ieee_set_halting_mode(ieee_all, .false.)
         call copy_model(model, lowered%model, stat)
-        call lower_model(lowered, error)
+        call assemble_model(lowered, error)
         call ieee_set_status(environment)
         call check(.not. allocated(error), "a model")
         call new_track(lowered, track, error)
@@ -61,10 +61,10 @@ contains
 
     !> Reference problem D1
     subroutine an_end_lifts()
-        type(lowered_type) :: lowered
+        type(assembled_type) :: lowered
         type(track_type) :: track
         type(train_type) :: train
-        type(passage_type) :: passage
+        type(traversal_type) :: passage
         type(envelope_type) :: envelope
         type(train_event_type), allocatable :: events(:)
         type(error_type), allocatable :: error
@@ -106,9 +106,9 @@ contains
 
     !> The weight cannot hold the train on the overhang
     subroutine a_plank_tips()
-        type(lowered_type) :: lowered
+        type(assembled_type) :: lowered
         type(track_type) :: track
-        type(passage_type) :: passage
+        type(traversal_type) :: passage
         type(error_type), allocatable :: error
 
         call make([2.0_wp, 1.0_wp], [0.0_wp, 2.0_wp], 1.0_wp, lowered, track)
@@ -123,10 +123,10 @@ contains
 
     !> Of a simple beam: the greatest moment under a force with a load behind it, at the ends of the range nothing
     subroutine a_train_with_a_uniform_load()
-        type(lowered_type) :: lowered
+        type(assembled_type) :: lowered
         type(track_type) :: track
         type(train_type) :: train
-        type(passage_type) :: passage
+        type(traversal_type) :: passage
         type(envelope_type) :: envelope
         type(error_type), allocatable :: error
 
@@ -143,10 +143,10 @@ contains
 
     !> Two axles at a distance of the length of the beam: both act at one position only
     subroutine a_train_as_long_as_the_beam()
-        type(lowered_type) :: lowered
+        type(assembled_type) :: lowered
         type(track_type) :: track
         type(train_type) :: train
-        type(passage_type) :: passage
+        type(traversal_type) :: passage
         type(envelope_type) :: envelope
         type(error_type), allocatable :: error
 
@@ -158,21 +158,21 @@ contains
         associate (moment => envelope%fields(2, 3)%ties(1))
             call check_close([moment%value, moment%position], [-3.0_wp, 0.0_wp], "one axle at an end")
         end associate
-        associate (r => pack(passage%reach(:passage%number), passage%from(:passage%number) >= passage%to(:passage%number)))
+        associate (r => pack(passage%interval(:passage%number), passage%from(:passage%number) >= passage%to(:passage%number)))
             call check(size(r) == 1, "one position by itself")
-            if (size(r) == 1) call check_close(passage%reaches(r(1))%from, 4.0_wp, "where both act")
+            if (size(r) == 1) call check_close(passage%intervals(r(1))%from, 4.0_wp, "where both act")
         end associate
     end subroutine a_train_as_long_as_the_beam
 
     !> What bounds rest on: the same fields at the end of every stretch as by solving there
     subroutine coefficients_give_the_state()
-        type(lowered_type) :: lowered
+        type(assembled_type) :: lowered
         type(track_type) :: track
         type(train_type) :: train
-        type(passage_type) :: passage
+        type(traversal_type) :: passage
         type(samples_type) :: samples
         type(view_type) :: view
-        type(look_type) :: look
+        type(link_bounds_type) :: look
         type(field_type) :: seen(20)
         type(error_type), allocatable :: error
         real(wp) :: worst
@@ -189,9 +189,9 @@ contains
         do k = 1, passage%number
             if (passage%status(k) /= gapbeam_solved) cycle
             call sample_stretch(lowered, track, train, passage, k, samples, error)
-            call show_stretch(track, train, passage, k, view)
+            call enter_stretch(track, train, passage, k, view)
             do i = 1, size(track%beam%links)
-                call look_at_link(lowered, track, view, i, 1.0_wp, look, seen)
+                call bound_link(lowered, track, view, i, 1.0_wp, look, seen)
             end do
             do c = 1, samples%cells%number
                 associate (a => seen(c), b => samples%starts(samples%degree, c))

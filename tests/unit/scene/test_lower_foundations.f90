@@ -9,10 +9,10 @@ program test_lower_foundations
         point_force, gapbeam_infinity, gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_law_plastic, gapbeam_law_tanh, &
         gapbeam_law_cubic, gapbeam_table_of_k, gapbeam_table_of_gap, gapbeam_table_of_parameter
     use gapbeam_layers, only: layer_type
-    use gapbeam_refusal, only: of_foundations, not_expected, off_beam, no_stretch, bad_law
-    use gapbeam_lowered, only: lowered_type, copy_model, fingerprint, point_x
-    use gapbeam_lower, only: lower_model
-    use gapbeam_lower_loads, only: lower_loads
+    use gapbeam_input_error, only: of_foundations, not_expected, off_beam, no_stretch, bad_law
+    use gapbeam_assembled_model, only: assembled_type, copy_model, fingerprint, point_x
+    use gapbeam_assemble, only: assemble_model
+    use gapbeam_assemble_loads, only: assemble_loads
     implicit none
     integer :: status
 
@@ -43,7 +43,7 @@ contains
     !> Lower a model with all traps off, as gapbeam_api does
     subroutine lower(model, lowered, error)
         type(model_type), intent(in) :: model
-        type(lowered_type), intent(out) :: lowered
+        type(assembled_type), intent(out) :: lowered
         type(error_type), allocatable, intent(out) :: error
         type(ieee_status_type) :: environment
         integer :: stat
@@ -51,13 +51,13 @@ contains
         call ieee_get_status(environment)
         call ieee_set_halting_mode(ieee_all, .false.)
         call copy_model(model, lowered%model, stat)
-        call lower_model(lowered, error)
+        call assemble_model(lowered, error)
         call ieee_set_status(environment)
     end subroutine lower
 
     !> Places of all points
     function places(lowered) result(x)
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: lowered
         real(wp), allocatable :: x(:)
         integer :: i
 
@@ -70,7 +70,7 @@ contains
     !> And its nodes are few
     subroutine a_model_without_foundations_has_no_layers()
         type(model_type) :: model
-        type(lowered_type) :: lowered
+        type(assembled_type) :: lowered
         type(error_type), allocatable :: error
 
         model = simple()
@@ -84,7 +84,7 @@ contains
     !> One with pairs over the middle of the beam, one over all of it
     subroutine two_foundations_under_a_beam()
         type(model_type) :: model
-        type(lowered_type) :: lowered
+        type(assembled_type) :: lowered
         type(error_type), allocatable :: error
 
         model = simple()
@@ -114,7 +114,7 @@ contains
     !> Below and above, each past its gap; the pieces of the law begin where the one before ends
     subroutine a_law_both_ways_is_two_layers()
         type(model_type) :: model
-        type(lowered_type) :: lowered
+        type(assembled_type) :: lowered
         type(error_type), allocatable :: error
 
         model = simple()
@@ -137,7 +137,7 @@ contains
     !> Straight between its points, beyond them the last value; points outside shape it
     subroutine a_profile_is_followed()
         type(model_type) :: model
-        type(lowered_type) :: lowered
+        type(assembled_type) :: lowered
         type(error_type), allocatable :: error
         type(layer_type), allocatable :: one(:), other(:)
 
@@ -166,7 +166,7 @@ contains
     !> A table of a modulus and two of a law: steps, a part that never carries, values that meet pairs
     subroutine tables_are_followed()
         type(model_type) :: model
-        type(lowered_type) :: lowered
+        type(assembled_type) :: lowered
         type(error_type), allocatable :: error
         type(layer_type), allocatable :: one(:), other(:)
 
@@ -195,7 +195,7 @@ contains
     !> A law at three places: its pieces at both ends of every piece of the beam
     subroutine a_law_that_varies()
         type(model_type) :: model
-        type(lowered_type) :: lowered
+        type(assembled_type) :: lowered
         type(error_type), allocatable :: error
 
         model = simple()
@@ -240,7 +240,7 @@ contains
     subroutine a_long_profile()
         integer, parameter :: n = 100000
         type(model_type) :: model
-        type(lowered_type) :: lowered
+        type(assembled_type) :: lowered
         type(error_type), allocatable :: error
         integer :: i
 
@@ -256,7 +256,7 @@ contains
     !> Moduli and levels in powers of two; once more where loads change
     subroutine layers_in_units_of_their_own()
         type(model_type) :: model
-        type(lowered_type) :: lowered, before
+        type(assembled_type) :: lowered, before
         type(error_type), allocatable :: error
 
         model = simple()
@@ -273,7 +273,7 @@ contains
             call check_close(scale(lowered%law_pieces(1)%slope_a, per_way), 8e200_wp, "and slopes are as moduli")
         end associate
         before = lowered
-        call lower_loads(lowered, error)
+        call assemble_loads(lowered, error)
         call check_close([lowered%layers%modulus_a, lowered%layers%contact_a, lowered%law_pieces%slope_a], &
                          [before%layers%modulus_a, before%layers%contact_a, before%law_pieces%slope_a], &
                          "loads of other values leave them as they are")
@@ -349,7 +349,7 @@ contains
         type(ground_law_point_type), intent(in), optional :: law(:)
         integer, intent(in), optional :: point
         type(model_type) :: model
-        type(lowered_type) :: lowered
+        type(assembled_type) :: lowered
         type(error_type), allocatable :: error
         logical :: right
 
@@ -368,7 +368,7 @@ contains
     !> Results are known by them
     subroutine fingerprints_differ()
         type(model_type) :: model
-        type(lowered_type) :: lowered
+        type(assembled_type) :: lowered
         type(error_type), allocatable :: error
         integer :: before
 

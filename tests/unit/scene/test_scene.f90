@@ -10,14 +10,15 @@ program test_scene
         uniform_load, imposed_curvature, gapbeam_infinity, gapbeam_below, gapbeam_above, gapbeam_axial, gapbeam_distributed, &
         gapbeam_dead
     use gapbeam_units, only: units_type, units_with_loads, moment_unit, turning_unit, bound_outside, no_exponent
-    use gapbeam_places, only: place_span_ends, locate, merge_places
-    use gapbeam_refusal, only: named, of_spans, of_hinges, of_supports, of_loads, of_sections, no_span, not_expected, too_long, &
+    use gapbeam_stations, only: place_span_ends, locate, merge_stations
+    use gapbeam_input_error, only: named, of_spans, of_hinges, of_supports, of_loads, of_sections, no_span, not_expected, &
+        too_long, &
         lost_length, at_end, off_beam, no_place, no_node, no_stretch, not_axial, no_gap, not_held, twice, no_room, at_hinge, idle
     use gapbeam_check, only: check_spans
-    use gapbeam_lowered, only: lowered_type, copy_model, fingerprint, point_x, piece_length, stiffness_of, in_bending, in_shear, &
-        along_axis
-    use gapbeam_lower, only: lower_model
-    use gapbeam_lower_supports, only: contact_level
+    use gapbeam_assembled_model, only: assembled_type, copy_model, fingerprint, point_x, piece_length, stiffness_of, &
+        in_bending, in_shear, along_axis
+    use gapbeam_assemble, only: assemble_model
+    use gapbeam_assemble_supports, only: contact_level
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_state, only: solve_state
     use gapbeam_support_values, only: support_values
@@ -58,7 +59,7 @@ contains
     !> Lower a model with all traps off, as gapbeam_api does: what leaves the range of doubles is refused in words
     subroutine lower(model, lowered, error)
         type(model_type), intent(in) :: model
-        type(lowered_type), intent(out) :: lowered
+        type(assembled_type), intent(out) :: lowered
         type(error_type), allocatable, intent(out) :: error
         type(ieee_status_type) :: environment
         integer :: stat
@@ -66,13 +67,13 @@ contains
         call ieee_get_status(environment)
         call ieee_set_halting_mode(ieee_all, .false.)
         call copy_model(model, lowered%model, stat)
-        call lower_model(lowered, error)
+        call assemble_model(lowered, error)
         call ieee_set_status(environment)
     end subroutine lower
 
     !> Solve likewise
     subroutine solve(lowered, state, error)
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: lowered
         type(state_type), intent(inout) :: state
         type(error_type), allocatable, intent(out) :: error
         type(ieee_status_type) :: environment
@@ -121,7 +122,7 @@ contains
         call check(at == 1 .and. abs(distance - 1.5_wp) <= 0.0_wp, "inside a span")
         span = [0, 1, 2, 0, 0, 0]
         offset = [0.0_wp, 0.0_wp, 0.0_wp, 3.0_wp, 3.0_wp*(1 + near), 3.0_wp*(1 + 2*near)]
-        call merge_places(ends, span, offset, 3, order, chosen, point, number)
+        call merge_stations(ends, span, offset, 3, order, chosen, point, number)
         call check(number == 5, "three in a chain are two points")
         call check(all(point == [0, 3, 4, 1, 1, 2]), "the second is at the first")
     end subroutine places_become_points
@@ -195,7 +196,7 @@ contains
         integer, intent(in) :: table, entry, reason
         character(len=*), intent(in) :: key, name
         integer, intent(in), optional :: partner
-        type(lowered_type) :: lowered
+        type(assembled_type) :: lowered
         type(error_type), allocatable :: error
         logical :: right
 
@@ -210,7 +211,7 @@ contains
     !> Of sections over one another the last that gives a stiffness
     subroutine later_sections_win()
         type(model_type) :: model
-        type(lowered_type) :: lowered
+        type(assembled_type) :: lowered
         type(error_type), allocatable :: error
 
         model = simple()
@@ -229,7 +230,7 @@ contains
     !> Where no right end is given
     subroutine a_load_goes_to_the_right_end()
         type(model_type) :: model
-        type(lowered_type) :: lowered
+        type(assembled_type) :: lowered
         type(error_type), allocatable :: error
 
         model = simple()
@@ -254,7 +255,7 @@ contains
 
     !> Results are known by it
     subroutine fingerprints_differ()
-        type(lowered_type) :: a, b
+        type(assembled_type) :: a, b
         type(error_type), allocatable :: error
         type(model_type) :: model
 
@@ -270,7 +271,7 @@ contains
     !> q L**2/8, 5 q L**4/(384 EI), q L/2
     subroutine fields_of_a_simple_beam()
         type(model_type) :: model
-        type(lowered_type) :: lowered
+        type(assembled_type) :: lowered
         type(state_type) :: state
         type(error_type), allocatable :: error
         real(wp) :: fields(6, 2), reaction(2), deflection(2), opening(2), couple(2), x(0:1)
@@ -302,7 +303,7 @@ contains
     !> Each load times its factor
     subroutine cases_are_sums_of_loads()
         type(model_type) :: model
-        type(lowered_type) :: lowered
+        type(assembled_type) :: lowered
         type(beam_type) :: beam
         type(case_loads_type) :: loads
         type(workspace_type) :: work
@@ -326,7 +327,7 @@ contains
     !> Combinations keep dead loads apart, move supports, and are made one after the other on the same beam
     subroutine combinations_are_sums_of_loads()
         type(model_type) :: model
-        type(lowered_type) :: lowered
+        type(assembled_type) :: lowered
         type(combination_type) :: combined
         type(error_type), allocatable :: error
 
@@ -338,7 +339,7 @@ contains
         call lower(model, lowered, error)
         call try_combination(lowered, [2.0_wp, 1.0_wp], [0.0_wp, 0.0_wp, 200.0_wp], combined, &
                              [14.0_wp, 14.0_wp, 0.0_wp], "the support in the middle is far off")
-        call check_close([combined%lowered%dead(1)%qa, combined%lowered%live(1)%qa], [2.0_wp, 0.0_wp], "dead loads stay dead")
+        call check_close([combined%assembled%dead(1)%qa, combined%assembled%live(1)%qa], [2.0_wp, 0.0_wp], "dead loads stay dead")
         call try_combination(lowered, [0.0_wp, 0.5_wp], [1.0_wp, 1.0_wp, 100.0_wp], combined, &
                              [1.0_wp, 1.0_wp, 0.0_wp], "the ends move down by 1")
         call try_combination(lowered, [0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp, -1.0_wp], combined, &
@@ -352,7 +353,7 @@ contains
 
     !> Solve a combination and compare reactions, and the moment at 3
     subroutine try_combination(lowered, factors, settlements, combined, reactions, what)
-        type(lowered_type), intent(in) :: lowered
+        type(assembled_type), intent(in) :: lowered
         real(wp), intent(in) :: factors(:), settlements(:), reactions(:)
         type(combination_type), intent(inout) :: combined
         character(len=*), intent(in) :: what
@@ -361,9 +362,9 @@ contains
         real(wp) :: at_supports(3, 4), extremes(2, 7), places(2, 7), fields(7, 1)
 
         call combine(lowered, factors, settlements, combined, error)
-        if (.not. allocated(error)) call solve_combination(combined%lowered, rule_block, [.true., .true., .true.], state, error)
+        if (.not. allocated(error)) call solve_combination(combined%assembled, rule_block, [.true., .true., .true.], state, error)
         if (.not. allocated(error)) then
-            call values_of_combination(combined%lowered, state, [1], [3.0_wp], at_supports, extremes, places, fields, error)
+            call values_of_combination(combined%assembled, state, [1], [3.0_wp], at_supports, extremes, places, fields, error)
         end if
         call check(.not. allocated(error), what)
         if (allocated(error)) return

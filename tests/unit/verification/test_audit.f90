@@ -9,7 +9,7 @@ program test_audit
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_search, only: rule_block
     use gapbeam_scheme, only: outcome_type
-    use gapbeam_referee, only: decide_scheme
+    use gapbeam_extended_precision, only: decide_scheme
     use gapbeam_ledger, only: ledger_type
     use gapbeam_audit, only: audit_beam, audit_axial, audit_residuals
     use gapbeam_axial, only: solve_axial, axial_ok

@@ -5,8 +5,8 @@ program test_ground_audit
     use gapbeam_error, only: error_type, gapbeam_solved
     use gapbeam_scene, only: span_type, support_type, foundation_type, ground_law_point_type, uniform_load, &
         point_force, gapbeam_below, gapbeam_law_tanh, gapbeam_law_plastic
-    use gapbeam_lowered, only: lowered_type
-    use gapbeam_lower, only: lower_model
+    use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_assemble, only: assemble_model
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_state, only: solve_state, ground_of
     use gapbeam_ground, only: ground_type
@@ -40,7 +40,7 @@ contains
     !> with a law with parameters
     subroutine make(law)
         integer, intent(in) :: law
-        type(lowered_type) :: lowered
+        type(assembled_type) :: lowered
         type(error_type), allocatable :: error
 
         associate (m => lowered%model)
@@ -57,7 +57,7 @@ contains
             m%loads = [uniform_load(8.0_wp, 1.0_wp, 5.0_wp), point_force(30.0_wp, x=10.0_wp), point_force(-6.0_wp, x=7.0_wp)]
             allocate (m%sections(0), m%law(0), m%ground(0))
         end associate
-        call lower_model(lowered, error)
+        call assemble_model(lowered, error)
         call check(.not. allocated(error), "a beam")
         call new_state(lowered, state, error)
         call solve_state(lowered, 1.0_wp, 0, state, error)

@@ -9,7 +9,7 @@ program test_referee
     use gapbeam_rules, only: find_doubtful
     use gapbeam_search, only: rule_block
     use gapbeam_scheme, only: find_scheme, outcome_type
-    use gapbeam_referee, only: decide_scheme
+    use gapbeam_extended_precision, only: decide_scheme
     use gapbeam_refined, only: refine_loaded_beam
     use gapbeam_model_quad, only: fine_beam_type => beam_type
     use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type

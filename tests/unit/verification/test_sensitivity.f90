@@ -9,9 +9,9 @@ program test_sensitivity
     use gapbeam_model_quad, only: fine_beam_type => beam_type, is_rigid
     use gapbeam_workspace_quad, only: workspace_type, new_workspace, set_loads
     use gapbeam_system_quad, only: solve_scheme
-    use gapbeam_law_quad, only: find_margins
-    use gapbeam_sensitivity_quad, only: sensitivity_type, prepare_sensitivity, movement_of_support, largest_movement, &
-        of_deflections, of_reactions
+    use gapbeam_law_margins_quad, only: find_margins
+    use gapbeam_sensitivity_quad, only: sensitivity_type, prepare_sensitivity, movement_of_support, largest_movement
+    use gapbeam_functionals_quad, only: of_deflections, of_reactions
     implicit none
     integer :: status
 

@@ -1,0 +1,149 @@
+!> Forces and slopes of the ground at the nodes of a mesh, and the links of the beam between them.
+!>
+!> The ground acts at a node on half of the parts of the mesh beside it, by the laws of its layers there.
+module gapbeam_ground_nodes
+    use gapbeam_kinds, only: wp
+    use gapbeam_link, only: piece_type, piece_load_type, condense_link
+    use gapbeam_band, only: plain
+    use gapbeam_model, only: beam_type, node_support_type, order_supports
+    use gapbeam_ground_laws, only: along, piece_of_deflection, push_of_layer, slope_at
+    use gapbeam_ground, only: ground_type
+    use gapbeam_ground_mesh, only: mesh_type
+    implicit none
+    private
+    public :: point_type, press, list_points, make_beam
+
+    !> Slopes of the law of a node beside the steepest that are none
+    real(wp), parameter :: no_slope = 2.0_wp**(-40)
+
+    !> Where the ground acts: at a node, on a length of a piece of the beam
+    type :: point_type
+        integer :: node, piece
+        !> Distance from the left end of the piece, and the length that belongs to it
+        real(wp) :: place, width
+    end type point_type
+
+contains
+
+    !> Force and slope of the ground at the nodes
+    pure subroutine press(ground, points, w, push, slope, pressed, full)
+        type(ground_type), intent(in) :: ground
+        type(point_type), intent(in) :: points(:)
+        !> Deflections
+        real(wp), intent(in) :: w(0:)
+        !> Up, and how it grows downwards
+        real(wp), intent(out) :: push(0:), slope(0:)
+        !> Nodes at which ground that acts one way is pressed
+        integer, intent(out) :: pressed
+        !> As if all layers acted, on the first piece of their law as it begins; default no
+        logical, intent(in), optional :: full
+        real(wp) :: steepest(0:ubound(w, 1)), contact
+        logical :: all_act, presses
+        integer :: i, k, acts
+
+        all_act = .false.
+        if (present(full)) all_act = full
+        push(:) = 0.0_wp
+        slope(:) = 0.0_wp
+        steepest(:) = 0.0_wp
+        pressed = 0
+        do i = 1, size(points)
+            presses = .false.
+            associate (p => points(i), length => ground%pieces(points(i)%piece)%length)
+                do k = ground%first(p%piece), ground%first(p%piece + 1) - 1
+                    associate (layer => ground%layers(k), at => w(p%node))
+                        contact = along(layer%contact_a, layer%contact_b, p%place, length)
+                        steepest(p%node) = max(steepest(p%node), &
+                                               p%width*slope_at(layer, ground%laws, 1, p%place, length, contact))
+                        if (all_act) then
+                            slope(p%node) = slope(p%node) + p%width*slope_at(layer, ground%laws, 1, p%place, length, contact)
+                            push(p%node) = push(p%node) &
+                                + p%width*slope_at(layer, ground%laws, 1, p%place, length, contact)*(at - contact)
+                            cycle
+                        end if
+                        acts = 1
+                        if (layer%side /= 0) acts = piece_of_deflection(ground%laws, layer, at, p%place, length)
+                        if (acts == 0) cycle
+                        presses = presses .or. layer%side /= 0
+                        push(p%node) = push(p%node) + p%width*push_of_layer(layer, ground%laws, acts, p%place, length, at)
+                        slope(p%node) = slope(p%node) + p%width*slope_at(layer, ground%laws, acts, p%place, length, at)
+                    end associate
+                end do
+            end associate
+            if (presses) pressed = pressed + 1
+        end do
+        where (slope <= no_slope*maxval(steepest)) slope = 0.0_wp
+    end subroutine press
+
+    !> Where the ground acts
+    pure subroutine list_points(ground, mesh, points)
+        type(ground_type), intent(in) :: ground
+        type(mesh_type), intent(in) :: mesh
+        type(point_type), allocatable, intent(out) :: points(:)
+        integer :: i, m
+
+        allocate (points(2*size(mesh%piece)))
+        m = 0
+        do i = 1, size(mesh%piece)
+            if (ground%first(mesh%piece(i) + 1) == ground%first(mesh%piece(i))) cycle
+            associate (width => (mesh%to(i) - mesh%from(i))/2)
+                if (mesh%from(i) > 0.0_wp .and. m > 0) then
+                    points(m)%width = points(m)%width + width
+                else
+                    m = m + 1
+                    points(m) = point_type(i - 1, mesh%piece(i), mesh%from(i), width)
+                end if
+                m = m + 1
+                points(m) = point_type(i, mesh%piece(i), mesh%to(i), width)
+            end associate
+        end do
+        points = points(:m)
+    end subroutine list_points
+
+    !> The beam cut into the parts of the mesh, with its supports
+    pure subroutine make_beam(ground, mesh, beam)
+        type(ground_type), intent(in) :: ground
+        type(mesh_type), intent(in) :: mesh
+        type(beam_type), intent(out) :: beam
+        type(node_support_type), allocatable :: supports(:)
+        type(piece_type) :: p(1)
+        real(wp) :: work(1)
+        integer :: i, n
+
+        n = size(mesh%piece)
+        allocate (beam%links(n), beam%kind(0:n), beam%compliance(0:n), beam%force(2, 0:n), beam%couple(2, 0:n))
+        beam%kind(:) = plain
+        beam%compliance(:) = 0.0_wp
+        beam%force(:, :) = 0.0_wp
+        beam%couple(:, :) = 0.0_wp
+        beam%kind(mesh%node) = ground%beam%kind
+        beam%compliance(mesh%node) = ground%beam%compliance
+        beam%force(:, mesh%node) = ground%beam%force
+        beam%couple(:, mesh%node) = ground%beam%couple
+        allocate (supports(size(ground%beam%supports)))
+        supports(:) = ground%beam%supports
+        supports(:)%node = mesh%node(supports(:)%node)
+        call order_supports(supports, beam)
+        do i = 1, n
+            p = ground%pieces(mesh%piece(i))
+            p%length = mesh%to(i) - mesh%from(i)
+            call condense_link(p, [share(ground%dead(mesh%piece(i)))], [share(ground%live(mesh%piece(i)))], work, beam%links(i))
+        end do
+        beam%watch = ground%beam%watch
+
+    contains
+
+        !> The load on a part
+        pure function share(load) result(found)
+            type(piece_load_type), intent(in) :: load
+            type(piece_load_type) :: found
+
+            associate (length => ground%pieces(mesh%piece(i))%length)
+                found = piece_load_type(along(load%qa, load%qb, mesh%from(i), length), &
+                                        along(load%qa, load%qb, mesh%to(i), length), load%kappa, 0.0_wp, 0.0_wp)
+            end associate
+        end function share
+
+    end subroutine make_beam
+
+end module gapbeam_ground_nodes

@@ -1,0 +1,210 @@
+!> Two-sided elimination of a long beam in eight segments at once.
+!> Each end has a support that acts, and there are no couples and hinges; with the arithmetic of gapbeam_kernel, number by number:
+!> the bits are its.
+!>
+!> What a node passes on hardly depends on what lies far outside of it, to the last bit as a rule after some thirty nodes. So every
+!> segment begins with a guess of what comes in from outside, all at once, and then again with what does come in, until the bits are
+!> those of before. Whether they are is tested, no tolerance is needed: where they never are, the segments end up one after the
+!> other. The way back is the same.
+module gapbeam_segment_two_sided_sweep
+    use gapbeam_kinds, only: wp
+    use gapbeam_lane_types, only: lanes
+    use gapbeam_segment_types, only: segment_beam_type, segment_room_type, half, kept
+    implicit none
+    private
+    public :: solve_segments
+
+contains
+
+    !> Solve the rows that are set
+    pure subroutine solve_segments(beam, most_rounds, room, exact)
+        type(segment_beam_type), intent(in) :: beam
+        !> So often each way at most
+        integer, intent(in) :: most_rounds
+        !> Rows in, with guesses; solution out, and guesses from which to go on
+        type(segment_room_type), intent(inout) :: room
+        !> Does every segment begin with what does come in; after as many rounds as there are segments in a half and one it does
+        logical, intent(out) :: exact
+        real(wp) :: leaves(lanes, 5), found(lanes, 5), other(lanes, 2)
+        integer :: round
+        logical :: as_before
+
+        leaves(:, :) = 0.0_wp
+        exact = .false.
+        do round = 1, most_rounds
+            call go_inward(beam%columns, beam%start, beam%link, room%row, round > 1, room%entry, leaves, room%passed, &
+                           room%eliminated, as_before)
+            found(:, :) = room%entry
+            found(2:half, :) = leaves(1:half - 1, :)
+            found(half + 2:, :) = leaves(half + 1:lanes - 1, :)
+            exact = as_before .or. .not. sum(abs(found - room%entry)) > 0.0_wp
+            if (exact) exit
+            room%entry(:, :) = found
+        end do
+        call meet(room%middle_row, leaves(half, :), leaves(lanes, :), room%middle)
+        room%next(half, :) = room%middle
+        room%next(lanes, :) = room%middle
+        do round = 1, most_rounds
+            call go_outward(beam%columns, room%eliminated, room%next, round > 1, room%solution, as_before)
+            if (as_before) exit
+            other(:, :) = room%next
+            other(1:half - 1, :) = room%solution(2:half, :, 1)
+            other(half + 1:lanes - 1, :) = room%solution(half + 2:, :, 1)
+            if (.not. sum(abs(other - room%next)) > 0.0_wp) exit
+            room%next(:, :) = other
+        end do
+        exact = exact .and. round <= most_rounds
+        ! What segments see of each other
+        room%solution(2:half, :, 0) = room%solution(1:half - 1, :, beam%columns)
+        room%solution(half + 2:, :, 0) = room%solution(half + 1:lanes - 1, :, beam%columns)
+        room%solution(:, :, beam%columns + 1) = room%next
+    end subroutine solve_segments
+
+    !> Inward, all segments at once
+    pure subroutine go_inward(columns, start, link, row, again, entry, leaves, passed, eliminated, as_before)
+        integer, intent(in) :: columns, start(2)
+        real(wp), intent(in) :: link(lanes, 8, 0:columns), row(lanes, 4, columns)
+        !> Not for the first time: end where nothing is other than before
+        logical, intent(in) :: again
+        !> What comes in, and what is passed on in the end, which stays where nothing is other than before; phi, beta, delta, e, p
+        real(wp), intent(in) :: entry(lanes, 5)
+        real(wp), intent(inout) :: leaves(lanes, 5)
+        real(wp), intent(inout) :: passed(lanes, 5, kept), eliminated(lanes, 6, columns)
+        !> Has it ended there
+        logical, intent(out) :: as_before
+        real(wp), dimension(lanes) :: phi, beta, delta, e, p, differs
+        real(wp) :: h, a, b, c, free, b_free, c_h, reciprocal, turn, shear, moment, deflection, next_phi
+        integer :: s, l, k
+
+        as_before = .false.
+        phi(:) = entry(:, 1)
+        beta(:) = entry(:, 2)
+        delta(:) = entry(:, 3)
+        e(:) = entry(:, 4)
+        p(:) = entry(:, 5)
+        do s = 1, columns
+            !$omp simd private(h, a, b, c, free, b_free, c_h, reciprocal, turn, shear, moment, deflection, next_phi)
+            do l = 1, lanes
+                h = link(l, 1, s)
+                free = row(l, 2, s)
+                a = phi(l) + link(l, 2, s)
+                b = beta(l) + h
+                c = free*delta(l) + row(l, 1, s)
+                b_free = free*b
+                reciprocal = 1/(a*c + b_free*b)
+                turn = row(l, 3, s) + e(l)
+                shear = row(l, 4, s) + free*p(l)
+                c_h = c*h
+                moment = (b*shear - c*turn)*reciprocal
+                deflection = (b_free*turn + a*shear)*reciprocal
+                eliminated(l, 1, s) = moment
+                eliminated(l, 2, s) = (b_free*h - c*link(l, 4, s))*reciprocal
+                eliminated(l, 3, s) = c_h*reciprocal
+                eliminated(l, 4, s) = deflection
+                eliminated(l, 5, s) = free*(b*link(l, 4, s) + a*h)*reciprocal
+                eliminated(l, 6, s) = b_free*h*reciprocal
+                next_phi = (free*((phi(l) + link(l, 7, s))*(h*h) + beta(l)*(2*h*link(l, 6, s) + beta(l)*link(l, 3, s))) &
+                            + c*(phi(l)*link(l, 3, s) + link(l, 8, s)))*reciprocal
+                beta(l) = (c_h*(phi(l) + link(l, 5, s)) + b_free*h*beta(l))*reciprocal
+                phi(l) = next_phi
+                delta(l) = c_h*h*reciprocal
+                e(l) = h*deflection + link(l, 4, s)*moment
+                p(l) = h*moment
+            end do
+            do k = 1, 2
+                if (s /= start(k)) cycle
+                l = merge(1, half + 1, k == 1)
+                call begin_at_end(link(l, :, s), row(l, :, s), eliminated(l, :, s), phi(l), beta(l), delta(l), e(l), p(l))
+            end do
+            if (s > kept) cycle
+            if (again) then
+                differs(:) = abs(passed(:, 1, s) - phi) + abs(passed(:, 2, s) - beta) + abs(passed(:, 3, s) - delta) &
+                    + abs(passed(:, 4, s) - e) + abs(passed(:, 5, s) - p)
+                as_before = .not. sum(differs) > 0.0_wp
+                if (as_before) return
+            end if
+            passed(:, 1, s) = phi
+            passed(:, 2, s) = beta
+            passed(:, 3, s) = delta
+            passed(:, 4, s) = e
+            passed(:, 5, s) = p
+        end do
+        leaves(:, 1) = phi
+        leaves(:, 2) = beta
+        leaves(:, 3) = delta
+        leaves(:, 4) = e
+        leaves(:, 5) = p
+
+    end subroutine go_inward
+
+    !> The end of the beam, whatever has been passed on before (start_at_free_end of gapbeam_kernel)
+    pure subroutine begin_at_end(link, row, eliminated, phi, beta, delta, e, p)
+        real(wp), intent(in) :: link(:), row(:)
+        real(wp), intent(inout) :: eliminated(:)
+        real(wp), intent(out) :: phi, beta, delta, e, p
+        real(wp) :: softness, deflection
+
+        softness = row(2)/row(1)
+        deflection = row(4)/row(1)
+        eliminated(:) = [0.0_wp, 0.0_wp, 0.0_wp, deflection, link(1)*softness, 0.0_wp]
+        phi = link(3) + link(1)**2*softness
+        beta = link(1)
+        delta = 0.0_wp
+        e = link(1)*deflection
+        p = 0.0_wp
+    end subroutine begin_at_end
+
+    !> The node in the middle
+    pure subroutine meet(row, left, right, solution)
+        real(wp), intent(in) :: row(4), left(:), right(:)
+        !> Moment and deflection
+        real(wp), intent(out) :: solution(2)
+        real(wp) :: a, b, c, r, v, reciprocal
+
+        associate (free => row(2))
+            a = left(1) + right(1)
+            b = left(2) + right(2)
+            c = free*(left(3) + right(3)) + row(1)
+            reciprocal = 1/(a*c + free*b**2)
+            r = row(3) + (left(4) + right(4))
+            v = row(4) + free*(left(5) + right(5))
+            solution(1) = (b*v - c*r)*reciprocal
+            solution(2) = (free*b*r + a*v)*reciprocal
+        end associate
+    end subroutine meet
+
+    !> Back to the ends
+    pure subroutine go_outward(columns, eliminated, next, again, solution, as_before)
+        integer, intent(in) :: columns
+        real(wp), intent(in) :: eliminated(lanes, 6, columns)
+        !> Moment and deflection at the next node inward
+        real(wp), intent(in) :: next(lanes, 2)
+        !> As for go_inward
+        logical, intent(in) :: again
+        real(wp), intent(inout) :: solution(lanes, 2, 0:columns + 1)
+        logical, intent(out) :: as_before
+        real(wp) :: m(lanes), w(lanes), moment, deflection, differs(lanes)
+        integer :: s, l
+
+        as_before = .false.
+        m(:) = next(:, 1)
+        w(:) = next(:, 2)
+        do s = columns, 1, -1
+            !$omp simd private(moment, deflection)
+            do l = 1, lanes
+                moment = eliminated(l, 1, s) + eliminated(l, 2, s)*m(l) - eliminated(l, 3, s)*w(l)
+                deflection = eliminated(l, 4, s) + eliminated(l, 5, s)*m(l) + eliminated(l, 6, s)*w(l)
+                m(l) = moment
+                w(l) = deflection
+            end do
+            if (again) then
+                differs(:) = abs(solution(:, 1, s) - m) + abs(solution(:, 2, s) - w)
+                as_before = .not. sum(differs) > 0.0_wp
+                if (as_before) return
+            end if
+            solution(:, 1, s) = m
+            solution(:, 2, s) = w
+        end do
+    end subroutine go_outward
+
+end module gapbeam_segment_two_sided_sweep

@@ -1,0 +1,143 @@
+!> Reactions and openings as affine functions of the load factor while one contact state acts.
+!> v = v0 + factor v1, v0 from the dead loads and the contact levels, v1 from the live loads alone.
+module gapbeam_affine_response
+    use gapbeam_kinds, only: wp
+    use gapbeam_law_margins, only: margin_in_scheme
+    use gapbeam_law_adapters, only: drop_level
+    use gapbeam_model, only: beam_type
+    use gapbeam_workspace, only: workspace_type
+    use gapbeam_rules, only: first_width
+    implicit none
+    private
+    public :: response_type, response_of, without_dead_loads, drop_live, value_at, width_at, zero_of, falls, rises, stays_at_zero
+
+    !> Force with which a support pushes, or its distance to contact, and the errors of the coefficients
+    type :: response_type
+        real(wp) :: v0 = 0.0_wp, v1 = 0.0_wp, error_of_v0 = 0.0_wp, error_of_v1 = 0.0_wp
+    end type response_type
+
+contains
+
+    !> The beam of v1: dead loads and contact levels are left out
+    subroutine without_dead_loads(beam, incremental)
+        !> The beam
+        type(beam_type), intent(in) :: beam
+        !> The same without them
+        type(beam_type), intent(out) :: incremental
+        integer :: i
+
+        incremental = beam
+        call drop_level(incremental%supports)
+        incremental%force(1, :) = 0.0_wp
+        incremental%couple(1, :) = 0.0_wp
+        do i = 1, size(beam%links)
+            associate (link => incremental%links(i))
+                link%turn_a(1) = 0.0_wp
+                link%turn_b(1) = 0.0_wp
+                link%shear_a(1) = 0.0_wp
+                link%shear_b(1) = 0.0_wp
+                link%load_sum(1) = 0.0_wp
+                link%turn_sum(1) = 0.0_wp
+            end associate
+        end do
+    end subroutine without_dead_loads
+
+    !> The beam while its dead loads are put on: they grow with the factor, and there is no other load
+    subroutine drop_live(beam, growing)
+        !> The beam
+        type(beam_type), intent(in) :: beam
+        !> The same with its dead loads as live ones
+        type(beam_type), intent(out) :: growing
+        integer :: i
+
+        growing = beam
+        growing%force(2, :) = beam%force(1, :)
+        growing%force(1, :) = 0.0_wp
+        growing%couple(2, :) = beam%couple(1, :)
+        growing%couple(1, :) = 0.0_wp
+        do i = 1, size(beam%links)
+            associate (link => growing%links(i), from => beam%links(i))
+                link%turn_a = [0.0_wp, from%turn_a(1)]
+                link%turn_b = [0.0_wp, from%turn_b(1)]
+                link%shear_a = [0.0_wp, from%shear_a(1)]
+                link%shear_b = [0.0_wp, from%shear_b(1)]
+                link%load_sum = [0.0_wp, from%load_sum(1)]
+                link%turn_sum = [0.0_wp, from%turn_sum(1)]
+            end associate
+        end do
+    end subroutine drop_live
+
+    !> The line of a support
+    pure function response_of(beam, incremental, closed, k, dead, live) result(response)
+        !> The beam, and what without_dead_loads makes of it
+        type(beam_type), intent(in) :: beam, incremental
+        !> The scheme, and the number of the support
+        logical, intent(in) :: closed(:)
+        integer, intent(in) :: k
+        !> v0 and v1, solved with the scheme at hand
+        type(workspace_type), intent(in) :: dead, live
+        type(response_type) :: response
+
+        associate (i => beam%supports(k)%node)
+            call margin_in_scheme(beam%supports, closed, k, dead%answers(i)%deflection, dead%deflection_size(i), dead%reaction, &
+                                  dead%reaction_error, response%v0, response%error_of_v0)
+            call margin_in_scheme(incremental%supports, closed, k, live%answers(i)%deflection, live%deflection_size(i), &
+                                  live%reaction, live%reaction_error, response%v1, response%error_of_v1)
+        end associate
+        response%error_of_v0 = first_width*response%error_of_v0
+        response%error_of_v1 = first_width*response%error_of_v1
+    end function response_of
+
+    !> Value at a factor
+    elemental function value_at(response, factor) result(value)
+        type(response_type), intent(in) :: response
+        real(wp), intent(in) :: factor
+        real(wp) :: value
+
+        value = response%v0 + factor*response%v1
+    end function value_at
+
+    !> How near to zero counts as zero at a factor
+    elemental function width_at(response, factor) result(width)
+        type(response_type), intent(in) :: response
+        real(wp), intent(in) :: factor
+        real(wp) :: width
+
+        width = max(response%error_of_v0 + abs(factor)*response%error_of_v1, &
+                    4*epsilon(1.0_wp)*max(abs(response%v0), abs(factor*response%v1)))
+    end function width_at
+
+    !> The factor at which a line that is not level is zero
+    elemental function zero_of(response) result(zero)
+        type(response_type), intent(in) :: response
+        real(wp) :: zero
+
+        zero = -response%v0/response%v1
+    end function zero_of
+
+    !> Does a line fall as the factor grows
+    elemental function falls(response)
+        type(response_type), intent(in) :: response
+        logical :: falls
+
+        falls = response%v1 < -response%error_of_v1
+    end function falls
+
+    !> Does a line rise as the factor grows
+    elemental function rises(response)
+        type(response_type), intent(in) :: response
+        logical :: rises
+
+        rises = response%v1 > response%error_of_v1
+    end function rises
+
+    !> Is a line zero, and does it stay so
+    elemental function stays_at_zero(response, factor) result(stays)
+        type(response_type), intent(in) :: response
+        real(wp), intent(in) :: factor
+        logical :: stays
+
+        stays = .not. (falls(response) .or. rises(response)) .and. abs(value_at(response, factor)) <= width_at(response, factor)
+    end function stays_at_zero
+
+end module gapbeam_affine_response

@@ -1,0 +1,163 @@
+!> Responses of a linear region of the path, in which all pieces of all laws stay the same.
+module gapbeam_region_responses
+    use gapbeam_kinds, only: wp => qp
+    use gapbeam_band_quad, only: band_ok
+    use gapbeam_polyline_quad, only: piece_that_acts, vertical_pieces
+    use gapbeam_law_margins_quad, only: is_watched_in
+    use gapbeam_model_quad, only: beam_type
+    use gapbeam_workspace_quad, only: workspace_type, new_workspace, set_loads
+    use gapbeam_system_quad, only: solve_and_refine
+    use gapbeam_pivoting_quad, only: count_unstable
+    use gapbeam_affine_response_quad, only: response_type, response_of, without_dead_loads, value_at, width_at
+    implicit none
+    private
+    public :: responses_type, outgoing_type, new_responses, solve_responses, find_falling, find_index, is_held_twice, are_one
+    public :: rise, fall, turn, from_nowhere
+
+    !> Directions of the load factor along a way
+    integer, parameter :: rise = 1, fall = -1, turn = 0
+    !> Instead of the direction in which the path came: no way leads back
+    integer, parameter :: from_nowhere = 2
+    !> Rounding errors within which another breakpoint is at zero too
+    real(wp), parameter :: near = 2.0_wp**10
+    !> Share of the rates beside it below which a rate is none
+    real(wp), parameter :: no_rate = 2.0_wp**(-70)
+
+    !> A region: what all supports do over the load factor while their pieces stay the same
+    type :: responses_type
+        type(beam_type) :: incremental
+        type(workspace_type) :: dead, live
+        type(response_type), allocatable :: response(:)
+        !> How fast supports move themselves with the factor (while settlements grow with the dead loads), shape (size(supports))
+        real(wp), allocatable :: settling(:)
+        !> The scheme solved last; is there a unique solution
+        logical, allocatable :: closed(:)
+        logical :: regular = .false.
+        !> Linear solves
+        integer :: solves = 0
+    end type responses_type
+
+    !> A way on
+    type :: outgoing_type
+        logical, allocatable :: closed(:)
+        !> rise, fall or turn
+        integer :: direction = rise
+        !> Number of ways in which the beam gives way by itself: stable if 0
+        integer :: index = 0
+        !> Breakpoints that do not move along it, shape (size(supports))
+        logical, allocatable :: still(:)
+        !> Where the beam turns: displacements of the nodes, shape (0:n)
+        real(wp), allocatable :: motion(:)
+    end type outgoing_type
+
+contains
+
+    !> Room for the lines of a beam
+    subroutine new_responses(beam, responses)
+        type(beam_type), intent(in) :: beam
+        type(responses_type), intent(out) :: responses
+
+        call without_dead_loads(beam, responses%incremental)
+        call new_workspace(beam, responses%dead)
+        call new_workspace(responses%incremental, responses%live)
+        call set_loads(beam, 0.0_wp, responses%dead)
+        call set_loads(responses%incremental, 1.0_wp, responses%live)
+        allocate (responses%response(size(beam%supports)), responses%settling(size(beam%supports)))
+        responses%settling(:) = 0.0_wp
+        allocate (responses%closed(size(beam%supports)))
+        responses%closed(:) = .false.
+    end subroutine new_responses
+
+    !> Solve a region
+    subroutine solve_responses(beam, closed, responses)
+        !> The beam, whose supports may have changed since new_responses, and the scheme
+        type(beam_type), intent(in) :: beam
+        logical, intent(in) :: closed(:)
+        type(responses_type), intent(inout) :: responses
+        integer :: state, place, k
+
+        associate (s => responses%incremental%supports)
+            s = beam%supports
+            s%contact = responses%settling
+            s%force = 0.0_wp
+        end associate
+        call solve_and_refine(beam, closed, responses%dead, state, place)
+        if (state == band_ok) call solve_and_refine(responses%incremental, closed, responses%live, state, place)
+        responses%solves = responses%solves + 2
+        responses%closed(:) = closed
+        responses%regular = state == band_ok
+        if (.not. responses%regular) return
+        do k = 1, size(closed)
+            responses%response(k) = response_of(beam, responses%incremental, closed, k, responses%dead, responses%live)
+        end do
+    end subroutine solve_responses
+
+    !> Which breakpoints that are at zero fall along the line of a region
+    subroutine find_falling(beam, closed, factor, direction, at_hand, responses, falling)
+        type(beam_type), intent(in) :: beam
+        logical, intent(in) :: closed(:)
+        real(wp), intent(in) :: factor
+        integer, intent(in) :: direction
+        logical, intent(in) :: at_hand(:)
+        type(responses_type), intent(in) :: responses
+        logical, intent(out) :: falling(:)
+        integer :: k
+
+        do k = 1, size(closed)
+            falling(k) = .false.
+            if (.not. is_watched_in(beam%supports, closed, k)) cycle
+            associate (response => responses%response(k))
+                falling(k) = direction*response%v1 < -max(response%error_of_v1, no_rate*abs(response%v1))
+                ! What is at hand is at zero, whatever this region has made of it by rounding
+                if (.not. at_hand(k)) falling(k) = falling(k) .and. value_at(response, factor) <= near*width_at(response, factor)
+            end associate
+        end do
+    end subroutine find_falling
+
+    !> Are two ways one and the same: their regions differ by breakpoints only that do not move
+    pure function are_one(way, other) result(one)
+        type(outgoing_type), intent(in) :: way, other
+        logical :: one
+
+        one = way%direction == other%direction .and. allocated(way%still) .and. allocated(other%still)
+        if (one) one = all((way%closed .eqv. other%closed) .or. (way%still .and. other%still))
+    end function are_one
+
+    !> Do vertical pieces of two supports hold some node, so that statics cannot tell what each of them takes
+    pure function is_held_twice(beam, closed) result(twice)
+        type(beam_type), intent(in) :: beam
+        logical, intent(in) :: closed(:)
+        logical :: twice
+        integer :: i
+
+        twice = .false.
+        do i = 0, size(beam%links)
+            associate (first => beam%first(i), last => beam%first(i + 1) - 1)
+                if (last > first) twice = vertical_pieces(beam%supports, closed, beam%order(first:last)) > 1
+            end associate
+            if (twice) return
+        end do
+    end function is_held_twice
+
+    !> In how many ways the beam gives way by itself in a region
+    subroutine find_index(beam, closed, responses, index)
+        type(beam_type), intent(in) :: beam
+        logical, intent(in) :: closed(:)
+        !> Solved
+        type(responses_type), intent(in) :: responses
+        integer, intent(out) :: index
+        real(wp) :: slope
+        integer :: k
+        logical :: acts
+
+        index = 0
+        if (any(responses%dead%nodes%stiffness < 0.0_wp)) call count_unstable(responses%dead%nodes, beam%links, index)
+        do k = 1, size(closed)
+            if (beam%supports(k)%breakpoint == 0) cycle
+            call piece_that_acts(beam%supports, closed, k, acts, slope)
+            ! A vertical drop holds its node, so it is none of the system's stiffnesses
+            if (acts .and. slope < -huge(slope)) index = index + 1
+        end do
+    end subroutine find_index
+
+end module gapbeam_region_responses

@@ -1,0 +1,110 @@
+!> Start of a load path: supports at rest, settlements, dead loads, and the first contact state.
+module gapbeam_history_start
+    use gapbeam_kinds, only: wp, qp
+    use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_not_converged
+    use gapbeam_polyline, only: last_breakpoint
+    use gapbeam_model_quad, only: beam_type
+    use gapbeam_scheme_quad, only: outcome_type
+    use gapbeam_linear_region, only: find_region, region_type
+    use gapbeam_scene, only: gapbeam_both
+    use gapbeam_assembled_model, only: assembled_type
+    implicit none
+    private
+    public :: find_beginning, find_movements, has_dead_loads, find_rest
+
+contains
+
+    !> The scheme at the first factor above 0
+    subroutine find_beginning(beam, to, closed, solves, outcome, error)
+        type(beam_type), intent(in) :: beam
+        real(qp), intent(in) :: to
+        !> Start in, scheme out
+        logical, intent(inout) :: closed(:)
+        !> Linear solves, added to
+        integer, intent(inout) :: solves
+        !> Solved, or no equilibrium, with the motion
+        type(outcome_type), intent(out) :: outcome
+        type(error_type), allocatable, intent(out) :: error
+        type(beam_type) :: mirrored
+        type(region_type) :: region
+
+        mirrored = beam
+        if (to < 0.0_qp) call reverse_live(mirrored)
+        call find_region(mirrored, 0.0_qp, abs(to), closed, region, outcome, error)
+        solves = solves + region%solves
+        if (allocated(error)) then
+            ! Only that the search does not know its way among falling forces: every combination is tried instead
+            if (error%code == gapbeam_not_converged) deallocate (error)
+            outcome%status = gapbeam_solved
+        else if (outcome%status == gapbeam_solved) then
+            closed(:) = region%closed
+        end if
+    end subroutine find_beginning
+
+    !> Settlements and lacks of fit, in the engine's units
+    pure subroutine find_movements(assembled, movement)
+        type(assembled_type), intent(in) :: assembled
+        !> Of the supports of the engine
+        real(qp), intent(out) :: movement(:)
+        integer :: k
+
+        do k = 1, size(movement)
+            associate (s => assembled%model%supports(assembled%normal(k)))
+                movement(k) = scale(s%settlement + s%side*min(s%gap, 0.0_wp), -assembled%units%deflection)
+            end associate
+        end do
+    end subroutine find_movements
+
+    !> Let the live loads act the other way
+    subroutine reverse_live(beam)
+        type(beam_type), intent(inout) :: beam
+        integer :: i
+
+        beam%force(2, :) = -beam%force(2, :)
+        beam%couple(2, :) = -beam%couple(2, :)
+        do i = 1, size(beam%links)
+            associate (link => beam%links(i))
+                link%turn_a(2) = -link%turn_a(2)
+                link%turn_b(2) = -link%turn_b(2)
+                link%shear_a(2) = -link%shear_a(2)
+                link%shear_b(2) = -link%shear_b(2)
+            end associate
+        end do
+    end subroutine reverse_live
+
+    !> Are there any dead loads
+    pure function has_dead_loads(beam) result(has)
+        type(beam_type), intent(in) :: beam
+        logical :: has
+        integer :: i
+
+        has = any(abs(beam%force(1, :)) > 0.0_qp) .or. any(abs(beam%couple(1, :)) > 0.0_qp)
+        do i = 1, size(beam%links)
+            associate (link => beam%links(i))
+                has = has .or. link%load_sum(1) > 0.0_qp .or. link%turn_sum(1) > 0.0_qp
+            end associate
+        end do
+    end function has_dead_loads
+
+    !> Where supports are before any load: on the piece on which the straight beam is
+    subroutine find_rest(assembled, closed)
+        type(assembled_type), intent(in) :: assembled
+        logical, intent(out) :: closed(:)
+        integer :: k, last, middle
+
+        k = 1
+        do while (k <= size(closed))
+            last = last_breakpoint(assembled%beam%supports, k)
+            middle = 1
+            if (assembled%model%supports(assembled%normal(k))%side == gapbeam_both) then
+                middle = max(1, (last - k + 1)/2)
+            else if (assembled%beam%supports(k)%side*assembled%beam%supports(k)%contact > 0.0_wp) then
+                middle = 0
+            end if
+            closed(k:last) = .false.
+            closed(k:k + middle - 1) = .true.
+            k = last + 1
+        end do
+    end subroutine find_rest
+
+end module gapbeam_history_start

@@ -1,0 +1,108 @@
+!> Assembly of the axial system of a model whose points are known, in units of its own.
+module gapbeam_assemble_axial
+    use gapbeam_kinds, only: wp
+    use gapbeam_error, only: error_type
+    use gapbeam_range, only: is_lost
+    use gapbeam_scene, only: gapbeam_axial, gapbeam_axial_force, gapbeam_dead
+    use gapbeam_units, only: exponents_type, stiffness_unit, units_with_loads, middle, middle_of, largest, no_exponent
+    use gapbeam_assembled_model, only: assembled_type, point_x, piece_length, stiffness_of, along_axis
+    use gapbeam_words, only: shown
+    use gapbeam_input_error, only: refuse_range, named, of_supports
+    implicit none
+    private
+    public :: assemble_axial
+
+contains
+
+    !> Flexibilities, supports and loads, if there is an axial system
+    subroutine assemble_axial(assembled, error)
+        !> Its points in
+        type(assembled_type), intent(inout) :: assembled
+        !> Numbers out of range
+        type(error_type), allocatable, intent(out) :: error
+        type(exponents_type) :: lengths, soft, stiff, forces, ways
+        real(wp) :: length, EA
+        integer :: i, j, k, stiffness, unit
+
+        if (.not. allocated(assembled%axial%point)) return
+        associate (axial => assembled%axial, model => assembled%model)
+            do j = 1, size(assembled%pieces)
+                length = piece_length(assembled, j)
+                EA = stiffness_of(assembled, j, along_axis)
+                call lengths%note(length, 0)
+                if (EA <= huge(EA)) call soft%note(length, -exponent(EA))
+            end do
+            do k = 1, size(model%supports)
+                if (model%supports(k)%direction /= gapbeam_axial) cycle
+                call stiff%note(model%supports(k)%stiffness, 0)
+                call ways%note(abs(model%supports(k)%settlement), 0)
+            end do
+            do k = 1, size(model%loads)
+                if (model%loads(k)%kind == gapbeam_axial_force) call forces%note(abs(model%loads(k)%value), 0)
+            end do
+            stiffness = middle(stiff)
+            if (middle(soft) /= no_exponent) stiffness = middle_of(-soft%low, -soft%high)
+            axial%units = units_with_loads(0, stiffness, largest(forces), largest(ways))
+            unit = middle(lengths)
+            axial%flexibility(:) = 0.0_wp
+            i = 1
+            do j = 1, size(assembled%pieces)
+                EA = stiffness_of(assembled, j, along_axis)
+                axial%softness(j) = scale(piece_length(assembled, j), -unit)/scale(EA, -unit - stiffness_unit(axial%units))
+                if (EA <= huge(EA) .and. is_lost(axial%softness(j))) then
+                    call refuse_range(error, "EA = "//trim(shown(EA))//" from x = "//trim(shown(point_x(assembled, j - 1)))// &
+                                      " to x = "//trim(shown(point_x(assembled, j)))//" is too far from the other axial "// &
+                                      "stiffnesses", "bring them nearer together")
+                    return
+                end if
+                axial%before(j) = axial%flexibility(i)
+                axial%flexibility(i) = axial%flexibility(i) + axial%softness(j)
+                if (axial%point(i) == j) i = i + 1
+            end do
+            axial%stiffness(:) = 0.0_wp
+            axial%settlement(:) = 0.0_wp
+            do k = 1, size(model%supports)
+                i = axial%node(k)
+                if (i < 0) cycle
+                associate (s => model%supports(k))
+                    axial%stiffness(i) = scale(s%stiffness, -stiffness_unit(axial%units))
+                    axial%settlement(i) = scale(s%settlement, -axial%units%deflection)
+                    if (.not. is_lost(axial%stiffness(i)) .or. .not. s%stiffness > 0.0_wp .or. s%stiffness > huge(length)) cycle
+                    call refuse_range(error, trim(named(of_supports, k, size(model%supports)))//": stiffness = "// &
+                                      trim(shown(s%stiffness))//" is too far from the axial stiffness of the beam", &
+                                      "make it infinite (rigid) or 0")
+                    return
+                end associate
+            end do
+            axial%force(:, :) = 0.0_wp
+            do k = 1, size(model%loads)
+                associate (load => model%loads(k))
+                    if (load%kind /= gapbeam_axial_force) cycle
+                    i = axial_node(axial%point, assembled%load_from(k))
+                    j = merge(1, 2, load%case == gapbeam_dead)
+                    axial%force(j, i) = axial%force(j, i) + scale(load%value, -axial%units%force)
+                end associate
+            end do
+        end associate
+    end subroutine assemble_axial
+
+    !> Node of the axial system at a point
+    pure function axial_node(points, point) result(node)
+        !> Points of the nodes, shape (0:n), and one of them
+        integer, intent(in) :: points(0:), point
+        integer :: node
+        integer :: high, middle
+
+        node = 0
+        high = ubound(points, 1)
+        do while (node < high)
+            middle = node + (high - node)/2
+            if (points(middle) < point) then
+                node = middle + 1
+            else
+                high = middle
+            end if
+        end do
+    end function axial_node
+
+end module gapbeam_assemble_axial

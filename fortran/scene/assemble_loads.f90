@@ -1,0 +1,162 @@
+!> Assembly of the loads and links of a model whose points and nodes are known.
+module gapbeam_assemble_loads
+    use gapbeam_kinds, only: wp
+    use gapbeam_error, only: error_type, no_memory
+    use gapbeam_link, only: condense_link, piece_load_type
+    use gapbeam_range, only: first_lost_link
+    use gapbeam_scene, only: load_type, gapbeam_force, gapbeam_axial_force, gapbeam_curvature, gapbeam_dead
+    use gapbeam_assembled_model, only: assembled_type, fingerprint, is_stretch
+    use gapbeam_assemble_laws, only: depends_on_path
+    use gapbeam_assemble_axial, only: assemble_axial
+    use gapbeam_assemble_foundations, only: assemble_foundations
+    use gapbeam_assemble_units, only: change_units, refuse_link
+    implicit none
+    private
+    public :: assemble_loads, spread_load
+
+contains
+
+    !> Loads of all pieces and nodes from the model's loads, units, and the links; all places are known
+    subroutine assemble_loads(assembled, error)
+        !> Points, nodes and supports in
+        type(assembled_type), intent(inout) :: assembled
+        !> Numbers out of range, or no memory
+        type(error_type), allocatable, intent(out) :: error
+        real(wp), allocatable :: work(:)
+        integer :: i, first, stat
+
+        allocate (work(size(assembled%pieces)), stat=stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        assembled%fingerprint = fingerprint(assembled%model)
+        call sum_loads(assembled)
+        call assemble_foundations(assembled, error)
+        if (allocated(error)) return
+        call change_units(assembled, error)
+        if (.not. allocated(error)) call assemble_axial(assembled, error)
+        if (allocated(error)) return
+        associate (links => assembled%beam%links)
+            first = 1
+            do i = 1, size(links)
+                associate (last => assembled%node_point(i))
+                    call condense_link(assembled%pieces(first:last), assembled%dead(first:last), assembled%live(first:last), &
+                                       work, links(i))
+                    first = last + 1
+                end associate
+            end do
+            i = first_lost_link(assembled%pieces, links, assembled%node_point(1:size(links)))
+        end associate
+        if (i /= 0) call refuse_link(assembled, i, error)
+        if (.not. allocated(error)) assembled%depends_on_path = depends_on_path(assembled)
+    end subroutine assemble_loads
+
+    !> Sums of the loads on all pieces and nodes in the user's units
+    pure subroutine sum_loads(assembled)
+        type(assembled_type), intent(inout) :: assembled
+        integer :: i, k
+
+        call clear(assembled%dead)
+        call clear(assembled%live)
+        assembled%beam%force(:, :) = 0.0_wp
+        assembled%beam%couple(:, :) = 0.0_wp
+        do i = 1, size(assembled%model%loads)
+            associate (load => assembled%model%loads(i), a => assembled%load_from(i), b => assembled%load_to(i))
+                k = merge(1, 2, load%case == gapbeam_dead)
+                if (load%kind == gapbeam_axial_force) then
+                    cycle
+                else if (.not. is_stretch(load)) then
+                    call add_at_point(assembled, load, a, k)
+                else if (k == 1) then
+                    call spread_load(assembled, load, a, b, assembled%dead)
+                else
+                    call spread_load(assembled, load, a, b, assembled%live)
+                end if
+            end associate
+        end do
+    end subroutine sum_loads
+
+    !> A force or couple: at a node, or at the right end of the piece before
+    pure subroutine add_at_point(assembled, load, point, case)
+        type(assembled_type), intent(inout) :: assembled
+        type(load_type), intent(in) :: load
+        integer, intent(in) :: point, case
+        integer :: node
+
+        node = assembled%node_of_point(point)
+        if (node >= 0 .and. load%kind == gapbeam_force) then
+            assembled%beam%force(case, node) = assembled%beam%force(case, node) + load%value
+        else if (node >= 0) then
+            assembled%beam%couple(case, node) = assembled%beam%couple(case, node) + load%value
+        else if (case == 1) then
+            call add_to_piece(assembled%dead(point), load)
+        else
+            call add_to_piece(assembled%live(point), load)
+        end if
+    end subroutine add_at_point
+
+    !> No load
+    elemental subroutine clear(load)
+        type(piece_load_type), intent(out) :: load
+
+        load = piece_load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
+    end subroutine clear
+
+    !> A force or couple at the right end of a piece
+    elemental subroutine add_to_piece(piece_load, load)
+        type(piece_load_type), intent(inout) :: piece_load
+        type(load_type), intent(in) :: load
+
+        if (load%kind == gapbeam_force) then
+            piece_load%force = piece_load%force + load%value
+        else
+            piece_load%couple = piece_load%couple + load%value
+        end if
+    end subroutine add_to_piece
+
+    !> A distributed load or an imposed curvature, from point a to point b, on the pieces between
+    pure subroutine spread_load(assembled, load, a, b, piece_loads)
+        type(assembled_type), intent(in) :: assembled
+        type(load_type), intent(in) :: load
+        integer, intent(in) :: a, b
+        type(piece_load_type), intent(inout) :: piece_loads(:)
+        real(wp) :: whole
+        integer :: j
+
+        if (load%kind == gapbeam_curvature) then
+            piece_loads(a + 1:b)%kappa = piece_loads(a + 1:b)%kappa + load%value
+        else if (abs(load%value - load%value_to) <= 0.0_wp) then
+            piece_loads(a + 1:b)%qa = piece_loads(a + 1:b)%qa + load%value
+            piece_loads(a + 1:b)%qb = piece_loads(a + 1:b)%qb + load%value
+        else
+            whole = distance(b)
+            do j = a + 1, b
+                piece_loads(j)%qa = piece_loads(j)%qa + between(distance(j - 1)/whole)
+                piece_loads(j)%qb = piece_loads(j)%qb + between(distance(j)/whole)
+            end do
+        end if
+
+    contains
+
+        !> Distance of a point from the left end of the load
+        pure function distance(point) result(x)
+            integer, intent(in) :: point
+            real(wp) :: x
+
+            associate (ends => assembled%ends, span => assembled%point_span, offset => assembled%point_offset)
+                x = (ends(span(point)) - ends(span(a))) + (offset(point) - offset(a))
+            end associate
+        end function distance
+
+        !> Value of the load at a share of its length
+        pure function between(share) result(value)
+            real(wp), intent(in) :: share
+            real(wp) :: value
+
+            value = load%value*(1 - share) + load%value_to*share
+        end function between
+
+    end subroutine spread_load
+
+end module gapbeam_assemble_loads

@@ -1,0 +1,313 @@
+!> Assembly of supports and hinges as nodes of the system, and of the axial system.
+module gapbeam_assemble_supports
+    use gapbeam_kinds, only: wp
+    use gapbeam_error, only: error_type, no_memory
+    use gapbeam_band, only: plain, hinge, restrained
+    use gapbeam_scene, only: support_type, gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_normal, gapbeam_axial, &
+        gapbeam_axial_force
+    use gapbeam_model, only: node_support_type, order_supports
+    use gapbeam_words, only: shown, whole
+    use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_assemble_laws, only: find_laws, count_breakpoints, make_breakpoints, check_rigid_pieces
+    use gapbeam_stations, only: position_tolerance
+    use gapbeam_input_error, only: refuse, refuse_range, named, of_supports, twice, no_room, at_hinge
+    implicit none
+    private
+    public :: assemble_supports, contact_level, is_room
+
+contains
+
+    !> Nodes, supports, restraints, and the axial system where it is needed
+    subroutine assemble_supports(assembled, error)
+        !> Points and pieces in
+        type(assembled_type), intent(inout) :: assembled
+        type(error_type), allocatable, intent(out) :: error
+
+        call check_neighbours(assembled, error)
+        if (allocated(error)) return
+        call choose_nodes(assembled, error)
+        if (allocated(error)) return
+        call place_supports(assembled, error)
+        if (allocated(error)) return
+        call check_rigid_pieces(assembled, error)
+        if (allocated(error)) return
+        if (any(assembled%model%loads%kind == gapbeam_axial_force) &
+            .or. any(assembled%model%supports%direction == gapbeam_axial &
+                     .and. abs(assembled%model%supports%settlement) > 0.0_wp)) then
+            call build_axial(assembled, error)
+        end if
+    end subroutine assemble_supports
+
+    !> Supports at the same place must leave room for each other, and no two may do the same rigidly
+    subroutine check_neighbours(assembled, error)
+        type(assembled_type), intent(in) :: assembled
+        type(error_type), allocatable, intent(out) :: error
+        !> The rigid support of each kind at a point, 0: none; kinds are the sides -1..1, 2 along the beam, elastic ones
+        !> too, 3 clamp
+        integer, allocatable :: rigid(:, :)
+        integer :: k, m, stat, point
+
+        m = size(assembled%model%supports)
+        allocate (rigid(-1:3, 0:ubound(assembled%point_span, 1)), stat=stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        rigid(:, :) = 0
+        do k = 1, m
+            point = assembled%support_point(k)
+            associate (s => assembled%model%supports(k))
+                if (s%rotation > 0.0_wp .and. assembled%hinged(point)) then
+                    call refuse(error, of_supports, k, m, at_hinge, "rotation", &
+                                "there is a hinge here, so it is open which side is held; move one aside")
+                else if (s%direction == gapbeam_axial) then
+                    call note(2, "direction", "hold the beam along its axis")
+                else if (s%stiffness > huge(s%stiffness)) then
+                    ! A law is no stiffness; what it holds rigidly depends on its piece
+                    if (.not. assembled%with_law(k)) call note(s%side, "side", "do the same rigidly")
+                end if
+                if (.not. allocated(error) .and. s%rotation > huge(s%rotation)) then
+                    call note(3, "rotation", "hold the rotation rigidly")
+                end if
+            end associate
+            if (allocated(error)) return
+        end do
+        do k = 1, m
+            point = assembled%support_point(k)
+            if (rigid(gapbeam_below, point) == k) then
+                call check_order(k, rigid(gapbeam_above, point), .false.)
+                if (.not. allocated(error)) call check_order(k, rigid(gapbeam_both, point), .true.)
+            else if (rigid(gapbeam_above, point) == k) then
+                call check_order(rigid(gapbeam_both, point), k, .true.)
+            end if
+            if (allocated(error)) return
+        end do
+
+    contains
+
+        !> Note a rigid support; only one of its kind may be there
+        subroutine note(kind, key, what)
+            integer, intent(in) :: kind
+            character(len=*), intent(in) :: key, what
+
+            if (rigid(kind, point) /= 0) then
+                call refuse(error, of_supports, k, m, twice, "", "this one and support "//trim(whole(rigid(kind, point)))// &
+                            " stand at the same place and "//what//"; remove one of them", rigid(kind, point))
+                error%key = key
+            else
+                rigid(kind, point) = k
+            end if
+        end subroutine note
+
+        !> The lower one of two rigid supports must not be in the way of the upper one
+        subroutine check_order(lower, upper, strictly)
+            integer, intent(in) :: lower, upper
+            logical, intent(in) :: strictly
+            real(wp) :: stop_at, start_at
+
+            if (lower == 0 .or. upper == 0) return
+            stop_at = contact_level(assembled%model%supports(lower))
+            start_at = contact_level(assembled%model%supports(upper))
+            if (.not. is_room(stop_at, start_at, strictly)) then
+                call refuse(error, of_supports, lower, m, no_room, "", "this one acts at a deflection of "//trim(shown(stop_at))// &
+                            " and support "//trim(whole(upper))//" at "//trim(shown(start_at))// &
+                            ", so no room is left; give a greater gap", upper)
+            end if
+        end subroutine check_order
+
+    end subroutine check_neighbours
+
+    !> Is there room between two rigid supports at a place
+    elemental function is_room(stop_at, start_at, strictly) result(there)
+        !> Deflections at which the lower and the upper one begin to act
+        real(wp), intent(in) :: stop_at, start_at
+        !> Does one of them hold both ways
+        logical, intent(in) :: strictly
+        logical :: there
+        real(wp) :: slack
+
+        slack = position_tolerance*max(abs(stop_at), abs(start_at))
+        there = stop_at - start_at > slack .or. (stop_at - start_at >= -slack .and. .not. strictly)
+    end function is_room
+
+    !> Deflection at which a support begins to act
+    elemental function contact_level(support) result(level)
+        type(support_type), intent(in) :: support
+        real(wp) :: level
+
+        level = support%settlement + support%side*support%gap
+    end function contact_level
+
+    !> Beam ends, hinges and supports across the beam are nodes, and on overhangs the places of loads: the moments there
+    !> follow from the loads farther out alone. With foundations all points are: every piece is a link on ground of its own
+    subroutine choose_nodes(assembled, error)
+        type(assembled_type), intent(inout) :: assembled
+        type(error_type), allocatable, intent(out) :: error
+        integer :: k, j, n, first, last, stat
+
+        n = ubound(assembled%point_span, 1)
+        allocate (assembled%node_of_point(0:n), stat=stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        associate (node => assembled%node_of_point)
+            node(:) = merge(0, -1, assembled%hinged)
+            node(0) = 0
+            node(n) = 0
+            if (size(assembled%model%foundations) > 0) node(:) = 0
+            first = n + 1
+            last = -1
+            do k = 1, size(assembled%support_point)
+                if (assembled%model%supports(k)%direction /= gapbeam_normal) cycle
+                node(assembled%support_point(k)) = 0
+                first = min(first, assembled%support_point(k))
+                last = max(last, assembled%support_point(k))
+            end do
+            do k = 1, size(assembled%load_from)
+                if (last < 0 .or. assembled%model%loads(k)%kind == gapbeam_axial_force) cycle
+                associate (a => assembled%load_from(k), b => assembled%load_to(k))
+                    if (a < first .or. a > last) node(a) = 0
+                    if (b < first .or. b > last) node(b) = 0
+                end associate
+            end do
+            allocate (assembled%node_point(0:count(node == 0) - 1), stat=stat)
+            if (stat /= 0) then
+                call no_memory(error)
+                return
+            end if
+            k = 0
+            do j = 0, n
+                if (node(j) < 0) cycle
+                node(j) = k
+                assembled%node_point(k) = j
+                k = k + 1
+            end do
+        end associate
+    end subroutine choose_nodes
+
+    !> The supports across the beam that can carry, and rotational restraints; their numbers come with the units
+    subroutine place_supports(assembled, error)
+        type(assembled_type), intent(inout) :: assembled
+        type(error_type), allocatable, intent(out) :: error
+        type(node_support_type), allocatable :: supports(:)
+        logical, allocatable :: clamped(:)
+        integer, allocatable :: first(:), last(:)
+        integer :: k, j, m, n, stat
+
+        n = ubound(assembled%node_point, 1)
+        associate (beam => assembled%beam, given => assembled%model%supports, law => assembled%model%law)
+            allocate (first(size(given)), last(size(given)), stat=stat)
+            if (stat /= 0) then
+                call no_memory(error)
+                return
+            end if
+            call find_laws(assembled%model, first, last)
+            m = 0
+            do k = 1, size(given)
+                if (can_carry(given(k))) m = m + count_breakpoints(given(k), law(first(k):last(k)))
+            end do
+            allocate (beam%links(n), beam%kind(0:n), beam%compliance(0:n), beam%force(2, 0:n), beam%couple(2, 0:n), &
+                      assembled%normal(m), assembled%beam_support(size(given)), assembled%couple_share(size(given)), &
+                      assembled%turning(0:n), clamped(0:n), supports(m), stat=stat)
+            ! order_supports frees and allocates these again
+            if (stat == 0) allocate (beam%supports(m), beam%order(m), beam%first(0:n + 1), stat=stat)
+            if (stat /= 0) then
+                call no_memory(error)
+                return
+            end if
+            assembled%turning(:) = 0.0_wp
+            clamped(:) = .false.
+            assembled%beam_support(:) = 0
+            beam%kind(:) = merge(hinge, plain, assembled%hinged(assembled%node_point))
+            j = 0
+            do k = 1, size(given)
+                if (given(k)%direction /= gapbeam_normal) cycle
+                associate (node => assembled%node_of_point(assembled%support_point(k)))
+                    assembled%turning(node) = assembled%turning(node) + given(k)%rotation
+                    if (given(k)%rotation > huge(given(k)%rotation)) clamped(node) = .true.
+                    if (.not. can_carry(given(k))) cycle
+                    assembled%beam_support(k) = j + 1
+                    m = 1
+                    if (assembled%with_law(k)) then
+                        m = count_breakpoints(given(k), law(first(k):last(k)))
+                        call make_breakpoints(given(k), law(first(k):last(k)), node, supports(j + 1:j + m))
+                    else
+                        supports(j + 1) = node_support_type(node, given(k)%side, 0.0_wp, 0.0_wp)
+                    end if
+                    assembled%normal(j + 1:j + m) = k
+                    j = j + m
+                end associate
+            end do
+            call order_supports(supports, beam)
+            where (assembled%turning > 0.0_wp) beam%kind = restrained
+            do k = size(given), 1, -1
+                assembled%couple_share(k) = 0.0_wp
+                associate (turn => given(k)%rotation, node => assembled%node_of_point(assembled%support_point(k)))
+                    if (.not. turn > 0.0_wp) cycle
+                    ! A clamp takes all of the couple
+                    assembled%couple_share(k) = 1.0_wp
+                    if (turn > huge(turn)) cycle
+                    assembled%couple_share(k) = turn/assembled%turning(node)
+                    if (.not. assembled%turning(node) > huge(turn) .or. clamped(node)) cycle
+                    call refuse_range(error, "the rotations of "//trim(named(of_supports, k, size(given)))// &
+                                      " and others at its place are too great together", "clamp it")
+                    return
+                end associate
+            end do
+        end associate
+    end subroutine place_supports
+
+    !> Can a support carry: a one-sided one without stiffness only says where the beam is
+    elemental function can_carry(support) result(yes)
+        type(support_type), intent(in) :: support
+        logical :: yes
+
+        yes = support%direction == gapbeam_normal .and. (support%stiffness > 0.0_wp .or. support%side == gapbeam_both)
+    end function can_carry
+
+    !> The axial system: its points are the beam's ends and the places of axial forces and supports
+    subroutine build_axial(assembled, error)
+        type(assembled_type), intent(inout) :: assembled
+        type(error_type), allocatable, intent(out) :: error
+        integer, allocatable :: node(:)
+        integer :: i, j, k, n, stat
+
+        n = ubound(assembled%point_span, 1)
+        associate (axial => assembled%axial, model => assembled%model)
+            allocate (node(0:n), axial%node(size(model%supports)), stat=stat)
+            if (stat /= 0) then
+                call no_memory(error)
+                return
+            end if
+            node(:) = -1
+            node(0) = 0
+            node(n) = 0
+            do k = 1, size(model%supports)
+                if (model%supports(k)%direction == gapbeam_axial) node(assembled%support_point(k)) = 0
+            end do
+            do k = 1, size(model%loads)
+                if (model%loads(k)%kind == gapbeam_axial_force) node(assembled%load_from(k)) = 0
+            end do
+            i = count(node == 0) - 1
+            allocate (axial%point(0:i), axial%softness(n), axial%before(n), axial%flexibility(i), axial%force(2, 0:i), &
+                      axial%stiffness(0:i), axial%settlement(0:i), stat=stat)
+            if (stat /= 0) then
+                call no_memory(error)
+                return
+            end if
+            i = -1
+            do j = 0, n
+                if (node(j) < 0) cycle
+                i = i + 1
+                node(j) = i
+                axial%point(i) = j
+            end do
+            do k = 1, size(model%supports)
+                axial%node(k) = -1
+                if (model%supports(k)%direction == gapbeam_axial) axial%node(k) = node(assembled%support_point(k))
+            end do
+        end associate
+    end subroutine build_axial
+
+end module gapbeam_assemble_supports

@@ -1,0 +1,316 @@
+!> The assembled model: the engine's arrays, and the way back to the user's places and supports.
+module gapbeam_assembled_model
+    use, intrinsic :: iso_fortran_env, only: int64
+    use gapbeam_kinds, only: wp
+    use gapbeam_link, only: piece_type, piece_load_type
+    use gapbeam_layers, only: layer_type, law_piece_type
+    use gapbeam_model, only: beam_type
+    use gapbeam_scene, only: model_type, load_type, gapbeam_distributed, gapbeam_curvature
+    use gapbeam_stations, only: place_span_ends
+    use gapbeam_units, only: units_type
+    implicit none
+    private
+    public :: stiffness_of, in_bending, in_shear, along_axis
+    public :: assembled_type, axial_type, copy_model, fingerprint, is_stretch, point_x, piece_length, find_length_errors
+
+    !> Kinds of stiffness: EI, GA, EA
+    integer, parameter :: in_bending = 1, in_shear = 2, along_axis = 3
+
+    !> The axial system: bars between points with an axial load or support, in units of its own; none allocated if it is not
+    !> needed
+    type :: axial_type
+        !> Units of force and of displacement along the axis
+        type(units_type) :: units
+        !> Points of the beam that are its nodes, shape (0:n)
+        integer, allocatable :: point(:)
+        !> Length/EA of every piece of the beam, shape (npiece)
+        real(wp), allocatable :: softness(:)
+        !> Sum of that over the pieces left of every piece in the same bar, shape (npiece)
+        real(wp), allocatable :: before(:)
+        !> int 1/EA over each bar, shape (n)
+        real(wp), allocatable :: flexibility(:)
+        !> Dead and live force at each point, to the right, shape (2, 0:n)
+        real(wp), allocatable :: force(:, :)
+        !> Support of each point, 0: none, shape (0:n)
+        real(wp), allocatable :: stiffness(:), settlement(:)
+        !> For every support of the model its node of this system; -1 for supports across the beam
+        integer, allocatable :: node(:)
+    end type axial_type
+
+    !> A model made ready
+    type :: assembled_type
+        !> What the user gave, and its fingerprint
+        type(model_type) :: model
+        integer :: fingerprint = 0
+        !> The engine's units
+        type(units_type) :: units
+        !> x of the span ends, shape (0:nspan), and the point at each of them
+        real(wp), allocatable :: ends(:)
+        integer, allocatable :: end_point(:)
+        !> Points between pieces: span, distance from the span's left end, shape (0:npiece)
+        integer, allocatable :: point_span(:)
+        real(wp), allocatable :: point_offset(:)
+        !> Point of every support; first and last point of every load
+        integer, allocatable :: support_point(:), load_from(:), load_to(:)
+        !> First and last point of every foundation; point of every point of tables, then of laws, -1: not on its foundation
+        integer, allocatable :: foundation_from(:), foundation_to(:), ground_point(:)
+        !> First and last point of every section; the last section that gives EI, GA and EA of a piece, 0: none, shape (3, npiece),
+        !> not allocated without sections
+        integer, allocatable :: section_from(:), section_to(:), section_of(:, :)
+        !> Is there a hinge at a point, shape (0:npiece)
+        logical, allocatable :: hinged(:)
+        !> Pieces and their loads in the engine's units, shape (npiece)
+        type(piece_type), allocatable :: pieces(:)
+        type(piece_load_type), allocatable :: dead(:), live(:)
+        !> Ground under the pieces in the engine's units: the layers of piece j are layer_first(j) to layer_first(j + 1) - 1, and of
+        !> their laws every piece; none allocated without foundations. With them every point is a node, so every piece a link
+        type(layer_type), allocatable :: layers(:)
+        integer, allocatable :: layer_first(:)
+        type(law_piece_type), allocatable :: law_pieces(:)
+        !> Points that are nodes, shape (0:nlink); node_point(1:) is also the last piece of every link
+        integer, allocatable :: node_point(:)
+        !> Node of every point, -1: none, shape (0:npiece)
+        integer, allocatable :: node_of_point(:)
+        !> The beam in the engine's units
+        type(beam_type) :: beam
+        !> For every support of the beam its number in the model: those across the beam that can carry
+        integer, allocatable :: normal(:)
+        !> For every support of the model its place among those of the beam, 0: none
+        integer, allocatable :: beam_support(:)
+        !> Which supports of the model have a law
+        logical, allocatable :: with_law(:)
+        !> Does a state depend on the way of the load to it (gapbeam_assemble_laws)
+        logical :: depends_on_path = .false.
+        !> Stiffness of the rotational restraint of every node in the user's units, shape (0:nlink), and the share that every
+        !> support of the model has in that of its node
+        real(wp), allocatable :: turning(:), couple_share(:)
+        type(axial_type) :: axial
+    end type assembled_type
+
+contains
+
+    !> Does a load act over a stretch
+    elemental function is_stretch(load) result(yes)
+        type(load_type), intent(in) :: load
+        logical :: yes
+
+        yes = load%kind == gapbeam_distributed .or. load%kind == gapbeam_curvature
+    end function is_stretch
+
+    !> x of a point
+    pure function point_x(assembled, point) result(x)
+        type(assembled_type), intent(in) :: assembled
+        integer, intent(in) :: point
+        real(wp) :: x
+
+        x = assembled%ends(assembled%point_span(point)) + assembled%point_offset(point)
+    end function point_x
+
+    !> Length of a piece in the user's units
+    pure function piece_length(assembled, piece) result(length)
+        type(assembled_type), intent(in) :: assembled
+        integer, intent(in) :: piece
+        real(wp) :: length
+
+        associate (span => assembled%point_span, offset => assembled%point_offset)
+            if (span(piece) == span(piece - 1)) then
+                length = offset(piece) - offset(piece - 1)
+            else
+                length = assembled%model%spans(span(piece - 1) + 1)%length - offset(piece - 1)
+            end if
+        end associate
+    end function piece_length
+
+    !> What links, their flexibilities and loads may be off, relative to them, since places are: a distance in a span is an x less
+    !> the rounded end of a span
+    subroutine find_length_errors(assembled, errors)
+        type(assembled_type), intent(in) :: assembled
+        !> Shape (nlink)
+        real(wp), intent(out) :: errors(:)
+        real(wp), allocatable :: rest(:), ends(:)
+        real(wp) :: shift, length, each(3), sums(3), shifted(3)
+        integer :: i, j
+
+        allocate (rest(0:size(assembled%model%spans)), ends(0:size(assembled%model%spans)))
+        call place_span_ends(assembled%model%spans, ends, rest)
+        do i = 1, size(errors)
+            length = 0.0_wp
+            sums(:) = tiny(sums)
+            shifted(:) = 0.0_wp
+            do j = assembled%node_point(i - 1) + 1, assembled%node_point(i)
+                shift = shift_of(j - 1) + shift_of(j)
+                associate (piece => assembled%pieces(j), dead => assembled%dead(j), live => assembled%live(j))
+                    each = [piece%flexibility, piece%shear_flexibility, &
+                            max(abs(dead%qa), abs(dead%qb)) + max(abs(live%qa), abs(live%qb))]
+                end associate
+                shifted(:) = shifted + shift*each
+                sums(:) = sums + piece_length(assembled, j)*each
+                length = length + piece_length(assembled, j)
+            end do
+            shift = shift_of(assembled%node_point(i - 1)) + shift_of(assembled%node_point(i))
+            errors(i) = max(shift/length, maxval(shifted/sums))
+        end do
+
+    contains
+
+        !> What the distance of a point from the left end of its span may be off
+        pure function shift_of(point) result(shift)
+            integer, intent(in) :: point
+            real(wp) :: shift
+
+            shift = 0.0_wp
+            associate (span => assembled%point_span(point), offset => assembled%point_offset(point))
+                if (.not. offset > 0.0_wp) return
+                shift = abs(rest(span))
+                ! The difference of numbers of which one is less than twice the other is exact
+                if (span > 0 .and. offset > ends(span)) shift = shift + spacing(offset)/2
+            end associate
+        end function shift_of
+
+    end subroutine find_length_errors
+
+    !> Stiffness of a piece in the user's units
+    pure function stiffness_of(assembled, piece, kind) result(stiffness)
+        type(assembled_type), intent(in) :: assembled
+        integer, intent(in) :: piece
+        !> in_bending, in_shear or along_axis
+        integer, intent(in) :: kind
+        real(wp) :: stiffness, all_three(3)
+
+        associate (s => assembled%model%spans(assembled%point_span(piece - 1) + 1))
+            all_three = [s%EI, s%GA, s%EA]
+        end associate
+        stiffness = all_three(kind)
+        if (.not. allocated(assembled%section_of)) return
+        if (assembled%section_of(kind, piece) == 0) return
+        associate (s => assembled%model%sections(assembled%section_of(kind, piece)))
+            all_three = [s%EI, s%GA, s%EA]
+        end associate
+        stiffness = all_three(kind)
+    end function stiffness_of
+
+    !> Copy a model, what is missing as arrays of size 0
+    pure subroutine copy_model(source, copy, stat)
+        !> What the user gave
+        type(model_type), intent(in) :: source
+        !> With all its arrays allocated
+        type(model_type), intent(out) :: copy
+        !> 0, or what allocate says where memory is at an end
+        integer, intent(out) :: stat
+        integer :: spans, hinges, sections, supports, points, foundations, ground, ground_law, loads
+
+        spans = 0
+        hinges = 0
+        sections = 0
+        supports = 0
+        points = 0
+        foundations = 0
+        ground = 0
+        ground_law = 0
+        loads = 0
+        if (allocated(source%spans)) spans = size(source%spans)
+        if (allocated(source%hinges)) hinges = size(source%hinges)
+        if (allocated(source%sections)) sections = size(source%sections)
+        if (allocated(source%supports)) supports = size(source%supports)
+        if (allocated(source%law)) points = size(source%law)
+        if (allocated(source%foundations)) foundations = size(source%foundations)
+        if (allocated(source%ground)) ground = size(source%ground)
+        if (allocated(source%ground_law)) ground_law = size(source%ground_law)
+        if (allocated(source%loads)) loads = size(source%loads)
+        allocate (copy%spans(spans), copy%hinges(hinges), copy%sections(sections), copy%supports(supports), copy%law(points), &
+                  copy%foundations(foundations), copy%ground(ground), copy%ground_law(ground_law), copy%loads(loads), stat=stat)
+        if (stat /= 0) return
+        if (spans > 0) copy%spans(:) = source%spans
+        if (hinges > 0) copy%hinges(:) = source%hinges
+        if (sections > 0) copy%sections(:) = source%sections
+        if (supports > 0) copy%supports(:) = source%supports
+        if (points > 0) copy%law(:) = source%law
+        if (foundations > 0) copy%foundations(:) = source%foundations
+        if (ground > 0) copy%ground(:) = source%ground
+        if (ground_law > 0) copy%ground_law(:) = source%ground_law
+        if (loads > 0) copy%loads(:) = source%loads
+    end subroutine copy_model
+
+    !> A number that another model, or one with other loads, hardly ever has: results are known by it
+    pure function fingerprint(model) result(number)
+        !> With all its arrays allocated
+        type(model_type), intent(in) :: model
+        integer :: number
+        integer(int64) :: all_bits
+        integer :: i
+
+        all_bits = 0
+        do i = 1, size(model%spans)
+            associate (s => model%spans(i))
+                call mix(all_bits, [s%length, s%EI, s%GA, s%EA])
+            end associate
+        end do
+        call mix(all_bits, model%hinges)
+        if (allocated(model%sections)) then
+            do i = 1, size(model%sections)
+                associate (s => model%sections(i))
+                    call mix(all_bits, [s%from, s%to, s%EI, s%GA, s%EA])
+                end associate
+            end do
+        end if
+        do i = 1, size(model%supports)
+            associate (s => model%supports(i))
+                call mix(all_bits, [s%x, s%stiffness, s%gap, s%settlement, s%rotation, real([s%node, s%side, s%direction], wp)])
+            end associate
+        end do
+        if (allocated(model%law)) then
+            do i = 1, size(model%law)
+                associate (point => model%law(i), s => model%supports(model%law(i)%support))
+                    call mix(all_bits, [real([point%support, s%unloading], wp), point%displacement, point%force])
+                end associate
+            end do
+        end if
+        call mix_foundations(all_bits, model)
+        do i = 1, size(model%loads)
+            associate (load => model%loads(i))
+                call mix(all_bits, [load%x, load%to, load%value, load%value_to, real([load%kind, load%case, load%node], wp)])
+            end associate
+        end do
+        number = int(ibits(ieor(all_bits, ishft(all_bits, -32)), 0, 31))
+    end function fingerprint
+
+    !> Mix foundations into a fingerprint
+    pure subroutine mix_foundations(all_bits, model)
+        integer(int64), intent(inout) :: all_bits
+        !> Its foundations may not be allocated; with them their profiles and laws are
+        type(model_type), intent(in) :: model
+        integer :: i
+
+        if (.not. allocated(model%foundations)) return
+        do i = 1, size(model%foundations)
+            associate (f => model%foundations(i))
+                call mix(all_bits, [f%from, f%to, f%k, f%k_to, f%gap, f%gap_to, real(f%side, wp)])
+                call mix(all_bits, [real(f%law, wp), f%parameter, f%parameter_to])
+            end associate
+        end do
+        do i = 1, size(model%ground)
+            associate (point => model%ground(i))
+                call mix(all_bits, [real(point%foundation, wp), point%x, point%value, real(point%quantity, wp)])
+            end associate
+        end do
+        do i = 1, size(model%ground_law)
+            associate (point => model%ground_law(i))
+                call mix(all_bits, [real(point%foundation, wp), point%displacement, point%force, point%x])
+            end associate
+        end do
+    end subroutine mix_foundations
+
+    !> Mix the bits of numbers into a fingerprint: a linear map of all bits so far, plus the new ones, modulo 2
+    pure subroutine mix(number, values)
+        integer(int64), intent(inout) :: number
+        real(wp), intent(in) :: values(:)
+        integer(int64) :: bits
+        integer :: i
+
+        do i = 1, size(values)
+            bits = transfer(values(i), bits)
+            number = ieor(ieor(ishftc(number, 7), ishft(number, -9)), bits)
+        end do
+    end subroutine mix
+
+end module gapbeam_assembled_model
