@@ -128,6 +128,11 @@ def test_the_map_is_made_of_the_files():
     assert max(map(len, page.splitlines())) <= 120
 
 
+def test_heads_say_what_a_file_does():
+    heads = {path: HOUSE["head_of"](path) for room in HOUSE["ROOMS"] for path in HOUSE["files_of"](room) if path.suffix != ".c"}
+    assert not [str(path) for path, head in heads.items() if not head or head.endswith("?") or head.split()[0] == "What"]
+
+
 def modules_named(path):
     """Modules that a file imports by their whole names, at its top or inside a function."""
     for node in ast.walk(ast.parse(path.read_text())):

@@ -17,6 +17,7 @@ from .combined import write_combined
 from .ground import write_contact, write_contact_history, write_foundations
 from .over_path import write_over_path
 from .scheme import event_table, legend, merged, scheme_table, symbol
+from .system import write_system
 from .trains import write_trains
 
 if TYPE_CHECKING:
@@ -25,16 +26,6 @@ if TYPE_CHECKING:
     from ..results.result import Result
     from ..results.state.step import Step
     from .writer import Writer
-
-LEFT_OUT = {
-    "axial": "axial forces",
-    "shear": "shear flexibility",
-    "foundation": "foundation",
-    "hinges": "hinges",
-    "iteration": "iteration of the contact state",
-    "deflections": "deflections as unknowns",
-}
-
 
 MOST_EVENTS, MOST_LIMITS = 40, 5
 """Events and limits of the load that the report lists."""
@@ -143,28 +134,6 @@ def _solver(say: "Writer", result: "Result") -> None:
         words += f"; errors at the last step below {bound:.0e} of the largest values"
     say.line()
     say.line(f"{words}. More of the solver: --verbose.", "dim")
-
-
-def write_system(say: "Writer", result: "Result") -> None:
-    """Print what was solved: beam, supports, loads, equations, and what was left out."""
-    scene, system = result.scene, result.system
-    say.heading("System")
-    left_out = [LEFT_OUT.get(name, name) for name in system.left_out if name != "second order"]
-    equations = f"{system.method}: {fmt.count(system.nodes, 'node')}, {fmt.count(system.unknowns, 'unknown')}"
-    equations += f", half bandwidth {system.half_bandwidth}"
-    if system.axial_unknowns:
-        equations += f"; apart from it {fmt.count(system.axial_unknowns, 'axial unknown')}"
-    say.pairs(
-        [
-            ("beam", fmt.beam_in_words(scene)),
-            ("supports", fmt.supports_in_words(scene)),
-            *([("foundations", fmt.foundations_in_words(scene))] if scene.foundation else []),
-            ("loads", fmt.loads_in_words(scene)),
-            ("equations", equations),
-            ("left out", ", ".join(left_out) + " (this scene needs none)" if left_out else "nothing"),
-            *([("", f"effect of axial forces on bending: {system.compression.in_words()}")] if system.compression else []),
-        ]
-    )
 
 
 def _no_solution(say: "Writer", result: "Result") -> None:
