@@ -29,7 +29,7 @@ module gapbeam_ground_energy
     !> two rounds; steps of a line search
     integer, parameter :: most_rounds = 200, most_for_nodes = 512, most_steps = 60
     !> Forces and slopes of nodes that are asked for at most: where stiffnesses lie hundreds of powers of ten apart no mesh settles
-    integer(int64), parameter :: most_asked = 2_int64**23
+    integer(int64), parameter :: most_asked = 2_int64**21
     !> Share of all forces that may be out of balance in the end
     real(wp), parameter :: balanced = 1e-9_wp
     !> A slope of the energy that has fallen to this share of what it was is enough

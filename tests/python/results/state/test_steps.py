@@ -131,7 +131,7 @@ def test_looking_at_many_steps_keeps_few():
 def test_everything_works_with_many_steps():
     result = gapbeam.solve(lifted(3, 2000))
     tracemalloc.start()
-    text = report_text(result)
+    text = report_text(result, verbose=True)
     assert tracemalloc.get_traced_memory()[1] < 4e6
     tracemalloc.stop()
     assert "1,960 rows in the middle are left out here; all are in the output of --json" in text
