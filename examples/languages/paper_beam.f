@@ -7,20 +7,18 @@ C
 C     The programs beside it do the same in C, Fortran and Python and
 C     print the same digits.
       PROGRAM PAPER
-      INTEGER NSPAN, NSUP, NLOAD, MAXW, MAXI
+      INTEGER NSPAN, NSUP, NLOAD
       PARAMETER (NSPAN = 3, NSUP = 4, NLOAD = 3)
-      PARAMETER (MAXW = 2000, MAXI = 1000)
       DOUBLE PRECISION SPAN(4,NSPAN), SUP(5,NSUP), ALOAD(4,NLOAD)
       INTEGER ISUP(3,NSUP), ILOAD(3,NLOAD)
-      DOUBLE PRECISION WORK(MAXW), STATE(MAXW), QUERY(1), HINGE(1)
-      INTEGER IWORK(MAXI), ISTATE(MAXI), IQUERY(1)
-      DOUBLE PRECISION SUPVAL(4,NSUP), X(3), FIELD(6,3), VALUE(2,6)
-      DOUBLE PRECISION PLACE(2,6), CERT(9), EVFACT(1)
+      DOUBLE PRECISION HINGE(1), SUPVAL(4,NSUP), X(3), FIELD(6,3)
+      DOUBLE PRECISION VALUE(2,6), PLACE(2,6), CERT(9), EVFACT(1)
       INTEGER KSTATE(NSUP), IUNDEC(NSUP), IEVENT(2,1)
-      INTEGER LWORK, LIWORK, LSTATE, LISTAT, INFO, K, NEV, KNOWN
+      INTEGER INFO, IENTRY, K, NEV, KNOWN
+      INTEGER*8 BEAM, STATE
       DOUBLE PRECISION GBINF
-      EXTERNAL GBINF, GBPREP, GBSOLV, GBSUPP, GBFLDS, GBXTRM, GBCERT
-      EXTERNAL GBEVNT
+      EXTERNAL GBINF, GHPREP, GHSTAT, GHSOLV, GHSUPP, GHFLDS, GHXTRM
+      EXTERNAL GHCERT, GHEVNT, GHFREE
       DATA X /1.0D0, 3.0D0, 5.0D0/
 C     Side (0 both, 1 below, -1 above), direction, node
       DATA ISUP /0, 0, 0,  -1, 0, 1,  1, 0, 2,  1, 0, 3/
@@ -48,50 +46,41 @@ C     one-sided supports lifts off
    20 CONTINUE
       SUP(5,1) = GBINF()
 C
-C     How long must the work arrays be?
-      CALL GBPREP(NSPAN, SPAN, 0, HINGE, NSUP, ISUP, SUP, NLOAD, ILOAD,
-     +            ALOAD, QUERY, -1, IQUERY, -1, INFO)
+C     Handles of the beam and of its state, freed at the end
+      CALL GHPREP(NSPAN, SPAN, 0, HINGE, NSUP, ISUP, SUP, NLOAD, ILOAD,
+     +            ALOAD, BEAM, IENTRY, INFO)
       IF (INFO .NE. 0) GO TO 90
-      LWORK = INT(QUERY(1))
-      LIWORK = IQUERY(1)
-      IF (LWORK .GT. MAXW .OR. LIWORK .GT. MAXI) STOP 'MAXW OR MAXI'
-      CALL GBPREP(NSPAN, SPAN, 0, HINGE, NSUP, ISUP, SUP, NLOAD, ILOAD,
-     +            ALOAD, WORK, LWORK, IWORK, LIWORK, INFO)
+      CALL GHSTAT(STATE, INFO)
       IF (INFO .NE. 0) GO TO 90
-      CALL GBSOLV(WORK, IWORK, 1.0D0, 0, 0, QUERY, -1, IQUERY, -1, INFO)
-      IF (INFO .NE. 0) GO TO 90
-      LSTATE = INT(QUERY(1))
-      LISTAT = IQUERY(1)
-      IF (LSTATE .GT. MAXW .OR. LISTAT .GT. MAXI) STOP 'MAXW OR MAXI'
       DO 30 K = 1, 10
-         CALL GBSOLV(WORK, IWORK, K/10.0D0, 0, MIN(K - 1, 1),
-     +               STATE, LSTATE, ISTATE, LISTAT, INFO)
+         CALL GHSOLV(BEAM, K/10.0D0, 0, MIN(K - 1, 1), STATE, INFO)
          IF (INFO .NE. 0) GO TO 90
    30 CONTINUE
 C
-      CALL GBSUPP(WORK, IWORK, STATE, ISTATE, SUPVAL, KSTATE, INFO)
+      CALL GHSUPP(BEAM, STATE, SUPVAL, KSTATE, INFO)
       IF (INFO .NE. 0) GO TO 90
       WRITE (*, 100) 'reaction    ', (SUPVAL(1,K), K = 1, NSUP)
       WRITE (*, 100) 'deflection  ', (SUPVAL(2,K), K = 1, NSUP)
       WRITE (*, 100) 'opening     ', (SUPVAL(3,K), K = 1, NSUP)
       WRITE (*, 100) 'couple      ', (SUPVAL(4,K), K = 1, NSUP)
       WRITE (*, 110) 'condition   ', (KSTATE(K), K = 1, NSUP)
-      CALL GBFLDS(WORK, IWORK, STATE, ISTATE, 3, X, 0, FIELD, INFO)
+      CALL GHFLDS(BEAM, STATE, 3, X, 0, FIELD, INFO)
       IF (INFO .NE. 0) GO TO 90
       WRITE (*, 100) 'moment      ', (FIELD(3,K), K = 1, 3)
       WRITE (*, 100) 'shear       ', (FIELD(4,K), K = 1, 3)
       WRITE (*, 100) 'rotation    ', (FIELD(2,K), K = 1, 3)
-      CALL GBXTRM(WORK, IWORK, STATE, ISTATE, VALUE, PLACE, INFO)
+      CALL GHXTRM(BEAM, STATE, VALUE, PLACE, INFO)
       IF (INFO .NE. 0) GO TO 90
       WRITE (*, 100) 'largest     ', VALUE(1,1), VALUE(2,1)
       WRITE (*, 100) 'at          ', PLACE(1,1), PLACE(2,1)
-      CALL GBCERT(WORK, IWORK, STATE, ISTATE, CERT, KNOWN, IUNDEC, INFO)
+      CALL GHCERT(BEAM, STATE, CERT, KNOWN, IUNDEC, INFO)
       IF (INFO .NE. 0) GO TO 90
       WRITE (*, 100) 'certificate ', CERT(1), CERT(2), CERT(4), CERT(5)
-      CALL GBEVNT(WORK, IWORK, 1.0D0, 0, 1, STATE, LSTATE, ISTATE,
-     +            LISTAT, NEV, EVFACT, IEVENT, INFO)
+      CALL GHEVNT(BEAM, 1.0D0, 0, 1, STATE, NEV, EVFACT, IEVENT, INFO)
       IF (INFO .NE. 0) GO TO 90
       WRITE (*, 110) 'events      ', NEV
+      CALL GHFREE(STATE, INFO)
+      CALL GHFREE(BEAM, INFO)
       STOP
    90 WRITE (*, 110) 'INFO        ', INFO
       STOP 1

@@ -4,10 +4,9 @@
 !> caller (rounding, traps, flags) as it found it. None prints, stops, or keeps data between calls. A prepared beam is only read
 !> by all but prepare_model and replace_loads, so that many threads may share one; a result belongs to one thread at a time.
 module gapbeam_api
-    use, intrinsic :: ieee_arithmetic, only: ieee_status_type, ieee_get_status, ieee_set_status, ieee_set_halting_mode, &
-        ieee_set_rounding_mode, ieee_nearest, ieee_all
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_bad_input
+    use gapbeam_environment, only: environment_type, hold_environment, restore_environment
+    use gapbeam_error, only: error_type, no_memory, gapbeam_solved, gapbeam_no_equilibrium
     use gapbeam_scene, only: model_type, load_type, gapbeam_axial
     use gapbeam_assembled_model, only: assembled_type, copy_model
     use gapbeam_units, only: bound_outside, moment_unit, rotation_unit
@@ -21,7 +20,7 @@ module gapbeam_api
     use gapbeam_support_values, only: support_values, find_undecided
     use gapbeam_query, only: fields_at_places, extremes_of_fields, motion_of_nodes, field_count
     use gapbeam_api_objects, only: prepared_type, options_type, result_type, certificate_type, require_beam, require_no_ground, &
-        require_no_path, require_result, require_size, check_call, make_state, summarise
+        require_no_path, require_result, require_size, check_call, bad_argument, make_state, summarise
     implicit none
     private
     public :: prepared_type, options_type, result_type, certificate_type
@@ -38,12 +37,10 @@ contains
         type(prepared_type), intent(out) :: beam
         !> gapbeam_bad_input with the array and the entry, gapbeam_not_finite or gapbeam_no_memory; beam is then not prepared
         type(error_type), allocatable, intent(out) :: error
-        type(ieee_status_type) :: environment
+        type(environment_type) :: environment
         integer :: stat
 
-        call ieee_get_status(environment)
-        call ieee_set_halting_mode(ieee_all, .false.)
-        call ieee_set_rounding_mode(ieee_nearest)
+        call hold_environment(environment)
         allocate (beam%lowered, stat=stat)
         if (stat == 0) call copy_model(model, beam%lowered%model, stat)
         if (stat /= 0) then
@@ -52,7 +49,7 @@ contains
             call assemble_model(beam%lowered, error)
         end if
         if (allocated(error) .and. allocated(beam%lowered)) deallocate (beam%lowered)
-        call ieee_set_status(environment)
+        call restore_environment(environment)
     end subroutine prepare_model
 
     !> Take other loads instead of those of the model; quick where only values differ and no place does. The number of nodes
@@ -64,15 +61,13 @@ contains
         type(load_type), intent(in) :: loads(:)
         !> As for prepare_model
         type(error_type), allocatable, intent(out) :: error
-        type(ieee_status_type) :: environment
+        type(environment_type) :: environment
         type(assembled_type), allocatable :: other
         integer :: stat
 
         call require_beam(beam, error)
         if (allocated(error)) return
-        call ieee_get_status(environment)
-        call ieee_set_halting_mode(ieee_all, .false.)
-        call ieee_set_rounding_mode(ieee_nearest)
+        call hold_environment(environment)
         if (same_places(beam%lowered%model%loads, loads)) then
             call check_loads(loads, beam%lowered%ends, any(beam%lowered%model%supports%direction == gapbeam_axial), error)
             if (.not. allocated(error)) call exchange_loads(beam%lowered, loads, error)
@@ -94,7 +89,7 @@ contains
                 call move_alloc(other, beam%lowered)
             end if
         end if
-        call ieee_set_status(environment)
+        call restore_environment(environment)
     end subroutine replace_loads
 
     !> Take other values of the loads; the old ones stay where numbers leave the range of double precision
@@ -170,11 +165,9 @@ contains
         !> gapbeam_not_converged, gapbeam_not_finite, gapbeam_no_memory, gapbeam_not_prepared or gapbeam_stopped; result%status
         !> is then -1
         type(error_type), allocatable, intent(out) :: error
-        type(ieee_status_type) :: environment
+        type(environment_type) :: environment
 
-        call ieee_get_status(environment)
-        call ieee_set_halting_mode(ieee_all, .false.)
-        call ieee_set_rounding_mode(ieee_nearest)
+        call hold_environment(environment)
         result%status = -1
         call require_beam(beam, error)
         if (.not. allocated(error)) call require_no_path(beam, error)
@@ -182,7 +175,7 @@ contains
         if (.not. allocated(error)) call make_state(beam, result, error)
         if (.not. allocated(error)) call solve_state(beam%lowered, factor, options%rule, result%state, error)
         if (.not. allocated(error)) call summarise(result)
-        call ieee_set_status(environment)
+        call restore_environment(environment)
     end subroutine solve_beam
 
     !> Follow the load from factor 0 upwards: every change of the working scheme at its exact load factor; not of beams that
@@ -199,20 +192,18 @@ contains
         type(result_type), intent(inout) :: result
         !> As for solve_beam; events are then not allocated
         type(error_type), allocatable, intent(out) :: error
-        type(ieee_status_type) :: environment
+        type(environment_type) :: environment
         type(event_type), allocatable :: list(:)
         integer :: number, stat
 
-        call ieee_get_status(environment)
-        call ieee_set_halting_mode(ieee_all, .false.)
-        call ieee_set_rounding_mode(ieee_nearest)
+        call hold_environment(environment)
         result%status = -1
         call require_beam(beam, error)
         if (.not. allocated(error)) call require_no_ground(beam, error)
         if (.not. allocated(error)) call require_no_path(beam, error)
         if (.not. allocated(error)) call check_call(factor, options, error)
         if (.not. allocated(error) .and. .not. factor > 0.0_wp) then
-            call fatal_error(error, gapbeam_bad_input, "factor: expected a number above 0, got "//trim(shown(factor)))
+            call bad_argument(error, "factor", "factor: expected a number above 0, got "//trim(shown(factor)))
         end if
         if (.not. allocated(error)) call make_state(beam, result, error)
         if (.not. allocated(error)) then
@@ -227,7 +218,7 @@ contains
                 call no_memory(error)
             end if
         end if
-        call ieee_set_status(environment)
+        call restore_environment(environment)
     end subroutine follow_load
 
     !> Values at the supports, in the order of the model; shapes (count_supports(beam))
@@ -248,18 +239,16 @@ contains
         integer, intent(out) :: condition(:)
         !> gapbeam_not_prepared, or gapbeam_bad_input for arrays of another size
         type(error_type), allocatable, intent(out) :: error
-        type(ieee_status_type) :: environment
+        type(environment_type) :: environment
 
         call require_result(beam, result, gapbeam_solved, error)
         if (allocated(error)) return
         call require_size(count_supports(beam), [size(reaction), size(deflection), size(opening), size(couple), &
                                                  size(condition)], error)
         if (allocated(error)) return
-        call ieee_get_status(environment)
-        call ieee_set_halting_mode(ieee_all, .false.)
-        call ieee_set_rounding_mode(ieee_nearest)
+        call hold_environment(environment)
         call support_values(beam%lowered, result%state, reaction, deflection, opening, couple, condition)
-        call ieee_set_status(environment)
+        call restore_environment(environment)
     end subroutine get_supports
 
     !> Exact fields anywhere along the beam
@@ -276,7 +265,7 @@ contains
         type(error_type), allocatable, intent(out) :: error
         !> Where a field jumps: its value left of the place; default right of it
         logical, intent(in), optional :: from_left
-        type(ieee_status_type) :: environment
+        type(environment_type) :: environment
         logical :: left
 
         call require_result(beam, result, gapbeam_solved, error)
@@ -287,11 +276,9 @@ contains
         if (allocated(error)) return
         left = .false.
         if (present(from_left)) left = from_left
-        call ieee_get_status(environment)
-        call ieee_set_halting_mode(ieee_all, .false.)
-        call ieee_set_rounding_mode(ieee_nearest)
+        call hold_environment(environment)
         call fields_at_places(beam%lowered, result%state, x, left, fields, error)
-        call ieee_set_status(environment)
+        call restore_environment(environment)
     end subroutine get_fields
 
     !> Exact extremes of all fields along the beam
@@ -303,7 +290,7 @@ contains
         real(wp), intent(out) :: value(:, :), x(:, :)
         !> gapbeam_not_prepared, gapbeam_not_finite, gapbeam_no_memory, or gapbeam_bad_input for arrays of another size
         type(error_type), allocatable, intent(out) :: error
-        type(ieee_status_type) :: environment
+        type(environment_type) :: environment
 
         call require_result(beam, result, gapbeam_solved, error)
         if (allocated(error)) return
@@ -311,11 +298,9 @@ contains
         if (allocated(error)) return
         call require_size(field_count, [size(value, 2), size(x, 2)], error)
         if (allocated(error)) return
-        call ieee_get_status(environment)
-        call ieee_set_halting_mode(ieee_all, .false.)
-        call ieee_set_rounding_mode(ieee_nearest)
+        call hold_environment(environment)
         call extremes_of_fields(beam%lowered, result%state, value, x, error)
-        call ieee_set_status(environment)
+        call restore_environment(environment)
     end subroutine get_extremes
 
     !> The free motion of a beam that has no equilibrium; shapes (count_nodes(beam))
@@ -329,17 +314,15 @@ contains
         real(wp), intent(out) :: motion(:)
         !> gapbeam_not_prepared, or gapbeam_bad_input for arrays of another size
         type(error_type), allocatable, intent(out) :: error
-        type(ieee_status_type) :: environment
+        type(environment_type) :: environment
 
         call require_result(beam, result, gapbeam_no_equilibrium, error)
         if (allocated(error)) return
         call require_size(count_nodes(beam), [size(x), size(motion)], error)
         if (allocated(error)) return
-        call ieee_get_status(environment)
-        call ieee_set_halting_mode(ieee_all, .false.)
-        call ieee_set_rounding_mode(ieee_nearest)
+        call hold_environment(environment)
         call motion_of_nodes(beam%lowered, result%state, x, motion)
-        call ieee_set_status(environment)
+        call restore_environment(environment)
     end subroutine get_motion
 
     !> How good a result is, and which supports its digits cannot decide
@@ -354,16 +337,14 @@ contains
         !> gapbeam_not_prepared, gapbeam_no_memory, or gapbeam_bad_input for an array of another size; gapbeam_indeterminate or
         !> gapbeam_not_converged where the state cannot be checked in quadruple precision
         type(error_type), allocatable, intent(out) :: error
-        type(ieee_status_type) :: environment
+        type(environment_type) :: environment
         type(found_type) :: found
 
         call require_result(beam, result, gapbeam_solved, error)
         if (allocated(error)) return
         call require_size(count_supports(beam), [size(undecided)], error)
         if (allocated(error)) return
-        call ieee_get_status(environment)
-        call ieee_set_halting_mode(ieee_all, .false.)
-        call ieee_set_rounding_mode(ieee_nearest)
+        call hold_environment(environment)
         call certify_state(beam%lowered, result%state, found, error)
         if (.not. allocated(error)) then
             call find_undecided(beam%lowered, result%state, undecided)
@@ -376,7 +357,7 @@ contains
                                                               units%force]))
             end associate
         end if
-        call ieee_set_status(environment)
+        call restore_environment(environment)
     end subroutine get_certificate
 
 end module gapbeam_api

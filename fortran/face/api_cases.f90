@@ -1,8 +1,8 @@
 !> Many cases of one beam in one call, for Fortran; as gapbeam_api in all else
 module gapbeam_api_cases
-    use, intrinsic :: ieee_arithmetic, only: ieee_status_type, ieee_get_status, ieee_set_status, ieee_set_halting_mode, &
-        ieee_set_rounding_mode, ieee_nearest, ieee_all, ieee_value, ieee_quiet_nan
+    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
     use gapbeam_kinds, only: wp
+    use gapbeam_environment, only: environment_type, hold_environment, restore_environment
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_bad_input, gapbeam_no_memory, &
         gapbeam_not_prepared, gapbeam_stopped
     use gapbeam_watch, only: end_if_stopped
@@ -43,7 +43,7 @@ contains
         type(cases_type), intent(out) :: cases
         !> gapbeam_bad_input for beams that are not taken, gapbeam_not_prepared, gapbeam_no_memory
         type(error_type), allocatable, intent(out) :: error
-        type(ieee_status_type) :: environment
+        type(environment_type) :: environment
         integer :: n, m, stat
 
         call require_beam(beam, error)
@@ -64,12 +64,10 @@ contains
                 call no_memory(error)
                 return
             end if
-            call ieee_get_status(environment)
-            call ieee_set_halting_mode(ieee_all, .false.)
-            call ieee_set_rounding_mode(ieee_nearest)
+            call hold_environment(environment)
             call split_loads(lowered, cases%loads, error)
             call start_closed(lowered, cases%start)
-            call ieee_set_status(environment)
+            call restore_environment(environment)
             if (allocated(error)) return
             cases%fingerprint = lowered%fingerprint
             cases%nodes = n
@@ -105,7 +103,7 @@ contains
         real(wp), intent(out), optional :: deflection(:, :), moment_left(:, :), moment_right(:, :)
         !> Linear solves that they took, shape (ncase)
         integer, intent(out), optional :: solves(:)
-        type(ieee_status_type) :: environment
+        type(environment_type) :: environment
         type(options_type) :: chosen
         integer, allocatable :: codes(:)
         real(wp) :: own_spans(2, 0, 0)
@@ -113,9 +111,7 @@ contains
 
         call require_beam(beam, error)
         if (allocated(error)) return
-        call ieee_get_status(environment)
-        call ieee_set_halting_mode(ieee_all, .false.)
-        call ieee_set_rounding_mode(ieee_nearest)
+        call hold_environment(environment)
         if (present(options)) chosen = options
         call check_call(1.0_wp, chosen, error)
         if (.not. allocated(error)) call require_cases(beam%lowered, cases, error)
@@ -167,7 +163,7 @@ contains
             if (present(reaction)) call give_reactions(beam%lowered, codes(:n), cases%reaction(:, :n), reaction(:, first:last))
             if (present(condition)) call give_conditions(beam%lowered, codes(:n), cases%closed(:, :n), condition(:, first:last))
         end do
-        call ieee_set_status(environment)
+        call restore_environment(environment)
     end subroutine solve_cases
 
     !> Places of the nodes, and the node of every support

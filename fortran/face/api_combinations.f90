@@ -1,14 +1,14 @@
 !> Combinations of load cases, for Fortran; as gapbeam_api in all else
 module gapbeam_api_combinations
-    use, intrinsic :: ieee_arithmetic, only: ieee_status_type, ieee_get_status, ieee_set_status, ieee_set_halting_mode, &
-        ieee_set_rounding_mode, ieee_nearest, ieee_all, ieee_is_finite
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input
+    use gapbeam_environment, only: environment_type, hold_environment, restore_environment
+    use gapbeam_error, only: error_type, no_memory
     use gapbeam_words, only: shown, whole
     use gapbeam_check, only: check_loads
     use gapbeam_scene, only: load_type, gapbeam_axial
     use gapbeam_combinations, only: combination_type, combine
-    use gapbeam_api_objects, only: prepared_type, require_beam, require_size
+    use gapbeam_api_objects, only: prepared_type, require_beam, require_size, bad_argument
     implicit none
     private
     public :: combine_loads
@@ -30,7 +30,7 @@ contains
         type(error_type), allocatable, intent(out) :: error
         !> Further movement of every support of the model, down, of an axial one to the right, shape (nsupport); default 0
         real(wp), intent(in), optional :: settlements(:)
-        type(ieee_status_type) :: environment
+        type(environment_type) :: environment
         type(combination_type) :: made
         type(load_type), allocatable :: loads(:)
         real(wp), allocatable :: moves(:)
@@ -54,9 +54,7 @@ contains
             call require_finite(factors, "factors", error)
             if (.not. allocated(error)) call require_finite(moves, "settlements", error)
             if (allocated(error)) return
-            call ieee_get_status(environment)
-            call ieee_set_halting_mode(ieee_all, .false.)
-            call ieee_set_rounding_mode(ieee_nearest)
+            call hold_environment(environment)
             loads(:) = model%loads
             loads%value = factors*loads%value
             loads%value_to = factors*loads%value_to
@@ -64,7 +62,7 @@ contains
         end associate
         if (.not. allocated(error)) call combine(beam%lowered, factors, moves, made, error)
         if (.not. allocated(error)) call move_alloc(made%assembled, combined%lowered)
-        call ieee_set_status(environment)
+        call restore_environment(environment)
     end subroutine combine_loads
 
     !> Refuse what is no finite number
@@ -76,7 +74,7 @@ contains
 
         do i = 1, size(values)
             if (ieee_is_finite(values(i))) cycle
-            call fatal_error(error, gapbeam_bad_input, name//"("//trim(whole(i))//"): expected a finite number, got "// &
+            call bad_argument(error, name, name//"("//trim(whole(i))//"): expected a finite number, got "// &
                              trim(shown(values(i))))
             error%entry = i
             return

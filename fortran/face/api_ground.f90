@@ -2,9 +2,8 @@
 !> As in gapbeam_api nothing is printed or kept, and the floating-point environment is that of the caller. Without foundations
 !> there is no contact and no free span, and the pressure is 0
 module gapbeam_api_ground
-    use, intrinsic :: ieee_arithmetic, only: ieee_status_type, ieee_get_status, ieee_set_status, ieee_set_halting_mode, &
-        ieee_set_rounding_mode, ieee_nearest, ieee_all
     use gapbeam_kinds, only: wp
+    use gapbeam_environment, only: environment_type, hold_environment, restore_environment
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_bad_input
     use gapbeam_words, only: shown
     use gapbeam_query, only: find_pieces
@@ -13,7 +12,7 @@ module gapbeam_api_ground
     use gapbeam_ground_events, only: ground_event_type, ground_path_type
     use gapbeam_ground_path, only: follow_on_ground
     use gapbeam_api_objects, only: prepared_type, result_type, options_type, require_result, require_size, require_beam, &
-        require_no_path, check_call, make_state, summarise
+        require_no_path, check_call, bad_argument, make_state, summarise
     use gapbeam_solution, only: close_all
     implicit none
     private
@@ -36,13 +35,11 @@ contains
         type(result_type), intent(inout) :: result
         !> As for solve_beam; gapbeam_bad_input also without foundations; events are then not allocated
         type(error_type), allocatable, intent(out) :: error
-        type(ieee_status_type) :: environment
+        type(environment_type) :: environment
         type(ground_path_type) :: path
         integer :: stat
 
-        call ieee_get_status(environment)
-        call ieee_set_halting_mode(ieee_all, .false.)
-        call ieee_set_rounding_mode(ieee_nearest)
+        call hold_environment(environment)
         result%status = -1
         call require_beam(beam, error)
         if (.not. allocated(error)) call require_no_path(beam, error)
@@ -64,7 +61,7 @@ contains
                 call no_memory(error)
             end if
         end if
-        call ieee_set_status(environment)
+        call restore_environment(environment)
 
     contains
 
@@ -73,7 +70,7 @@ contains
             if (.not. allocated(beam%lowered%layers)) then
                 call fatal_error(error, gapbeam_bad_input, "the beam has no foundation: use follow_load")
             else if (.not. factor > 0.0_wp) then
-                call fatal_error(error, gapbeam_bad_input, "factor: expected a number above 0, got "//trim(shown(factor)))
+                call bad_argument(error, "factor", "factor: expected a number above 0, got "//trim(shown(factor)))
             end if
         end subroutine check_way
 
@@ -88,21 +85,19 @@ contains
         type(contact_type), allocatable, intent(out) :: zones(:)
         !> gapbeam_not_prepared, gapbeam_not_finite, gapbeam_no_memory
         type(error_type), allocatable, intent(out) :: error
-        type(ieee_status_type) :: environment
+        type(environment_type) :: environment
         integer :: stat
 
         call require_result(beam, result, gapbeam_solved, error)
         if (allocated(error)) return
-        call ieee_get_status(environment)
-        call ieee_set_halting_mode(ieee_all, .false.)
-        call ieee_set_rounding_mode(ieee_nearest)
+        call hold_environment(environment)
         if (allocated(result%state%ground)) then
             call find_contact(beam%lowered, result%state%ground, zones, error)
         else
             allocate (zones(0), stat=stat)
             if (stat /= 0) call no_memory(error)
         end if
-        call ieee_set_status(environment)
+        call restore_environment(environment)
     end subroutine get_contact
 
     !> Stretches in which the beam does not touch a one-sided foundation that is there
@@ -114,21 +109,19 @@ contains
         type(free_span_type), allocatable, intent(out) :: spans(:)
         !> gapbeam_not_prepared, gapbeam_not_finite, gapbeam_no_memory
         type(error_type), allocatable, intent(out) :: error
-        type(ieee_status_type) :: environment
+        type(environment_type) :: environment
         integer :: stat
 
         call require_result(beam, result, gapbeam_solved, error)
         if (allocated(error)) return
-        call ieee_get_status(environment)
-        call ieee_set_halting_mode(ieee_all, .false.)
-        call ieee_set_rounding_mode(ieee_nearest)
+        call hold_environment(environment)
         if (allocated(result%state%ground)) then
             call find_free_spans(beam%lowered, result%state%ground, spans, error)
         else
             allocate (spans(0), stat=stat)
             if (stat /= 0) call no_memory(error)
         end if
-        call ieee_set_status(environment)
+        call restore_environment(environment)
     end subroutine get_free_spans
 
     !> Pressure of the ground anywhere along the beam
@@ -144,7 +137,7 @@ contains
         type(error_type), allocatable, intent(out) :: error
         !> At an end of a foundation: its value left of the place; default right of it
         logical, intent(in), optional :: from_left
-        type(ieee_status_type) :: environment
+        type(environment_type) :: environment
         integer, allocatable :: piece(:)
         real(wp), allocatable :: distance(:)
         logical :: left
@@ -155,9 +148,7 @@ contains
         if (allocated(error)) return
         left = .false.
         if (present(from_left)) left = from_left
-        call ieee_get_status(environment)
-        call ieee_set_halting_mode(ieee_all, .false.)
-        call ieee_set_rounding_mode(ieee_nearest)
+        call hold_environment(environment)
         call find_pieces(beam%lowered, x, left, piece, distance, error)
         if (.not. allocated(error)) then
             if (allocated(result%state%ground)) then
@@ -166,7 +157,7 @@ contains
                 pressure(:) = 0.0_wp
             end if
         end if
-        call ieee_set_status(environment)
+        call restore_environment(environment)
     end subroutine get_pressure
 
     !> Exact extremes of the pressure of the ground
@@ -178,18 +169,16 @@ contains
         real(wp), intent(out) :: value(2), x(2)
         !> gapbeam_not_prepared, gapbeam_not_finite
         type(error_type), allocatable, intent(out) :: error
-        type(ieee_status_type) :: environment
+        type(environment_type) :: environment
 
         value = 0.0_wp
         x = 0.0_wp
         call require_result(beam, result, gapbeam_solved, error)
         if (allocated(error)) return
         if (.not. allocated(result%state%ground)) return
-        call ieee_get_status(environment)
-        call ieee_set_halting_mode(ieee_all, .false.)
-        call ieee_set_rounding_mode(ieee_nearest)
+        call hold_environment(environment)
         call extremes_of_pressure(beam%lowered, result%state%ground, value, x, error)
-        call ieee_set_status(environment)
+        call restore_environment(environment)
     end subroutine get_pressure_extremes
 
 end module gapbeam_api_ground

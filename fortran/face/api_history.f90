@@ -1,10 +1,10 @@
 !> Histories of the load, for Fortran: the path through limit points to load factors in turn, of beams whose supports may soften,
 !> break, or keep a set; what gapbeam_api says of all procedures holds here too
 module gapbeam_api_history
-    use, intrinsic :: ieee_arithmetic, only: ieee_status_type, ieee_get_status, ieee_set_status, ieee_set_halting_mode, &
-        ieee_set_rounding_mode, ieee_nearest, ieee_all, ieee_is_finite
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input, gapbeam_not_converged, gapbeam_not_prepared
+    use gapbeam_environment, only: environment_type, hold_environment, restore_environment
+    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_not_converged, gapbeam_not_prepared
     use gapbeam_extended_precision, only: rule_given
     use gapbeam_words, only: shown, whole
     use gapbeam_assembled_model, only: assembled_type
@@ -16,7 +16,7 @@ module gapbeam_api_history
         gapbeam_path_ended => ended, gapbeam_arrived => no_limit, cut_off
     use gapbeam_history_events, only: find_events
     use gapbeam_query, only: node_places
-    use gapbeam_api_objects, only: prepared_type, result_type, require_beam, require_no_ground, make_state, summarise
+    use gapbeam_api_objects, only: prepared_type, result_type, require_beam, require_no_ground, bad_argument, make_state, summarise
     implicit none
     private
     public :: history_type, stretch_type, limit_type, follow_history, solve_on_path
@@ -92,12 +92,10 @@ contains
         !> gapbeam_bad_input; gapbeam_not_converged where the path has too many stretches, or too many supports change at once;
         !> gapbeam_not_finite, gapbeam_no_memory, gapbeam_not_prepared
         type(error_type), allocatable, intent(out) :: error
-        type(ieee_status_type) :: environment
+        type(environment_type) :: environment
         integer :: stat
 
-        call ieee_get_status(environment)
-        call ieee_set_halting_mode(ieee_all, .false.)
-        call ieee_set_rounding_mode(ieee_nearest)
+        call hold_environment(environment)
         call require_beam(beam, error)
         if (.not. allocated(error)) call require_no_ground(beam, error)
         if (.not. allocated(error)) call check_call(factors, at_limit, error)
@@ -118,7 +116,7 @@ contains
                 if (stat /= 0) call no_memory(error)
             end if
         end if
-        call ieee_set_status(environment)
+        call restore_environment(environment)
     end subroutine follow_history
 
     !> The state at a load factor on a path, for the procedures of gapbeam_api
@@ -135,12 +133,10 @@ contains
         type(error_type), allocatable, intent(out) :: error
         !> Number of the stretch; default, or 0: the last one with the factor that is not skipped, a stable one if there is any
         integer, intent(in), optional :: stretch
-        type(ieee_status_type) :: environment
+        type(environment_type) :: environment
         integer :: k, stat
 
-        call ieee_get_status(environment)
-        call ieee_set_halting_mode(ieee_all, .false.)
-        call ieee_set_rounding_mode(ieee_nearest)
+        call hold_environment(environment)
         result%status = -1
         k = 0
         if (present(stretch)) k = stretch
@@ -160,7 +156,7 @@ contains
             end associate
         end if
         if (.not. allocated(error)) call summarise(result)
-        call ieee_set_status(environment)
+        call restore_environment(environment)
     end subroutine solve_on_path
 
     !> Are the laws on a stretch not those of the beam any more
@@ -186,14 +182,14 @@ contains
         integer :: i
 
         if (size(factors) == 0) then
-            call fatal_error(error, gapbeam_bad_input, "factors: give at least one")
+            call bad_argument(error, "factors", "factors: give at least one")
         else if (at_limit < gapbeam_limit_stop .or. at_limit > gapbeam_limit_follow) then
-            call fatal_error(error, gapbeam_bad_input, "at_limit: expected 0 (stop), 1 (jump) or 2 (follow), got "// &
+            call bad_argument(error, "at_limit", "at_limit: expected 0 (stop), 1 (jump) or 2 (follow), got "// &
                              trim(whole(at_limit)))
         end if
         do i = 1, size(factors)
             if (ieee_is_finite(factors(i)) .or. allocated(error)) cycle
-            call fatal_error(error, gapbeam_bad_input, "factors: expected finite numbers, got "//trim(shown(factors(i))))
+            call bad_argument(error, "factors", "factors: expected finite numbers, got "//trim(shown(factors(i))))
         end do
     end subroutine check_call
 
@@ -221,7 +217,7 @@ contains
         logical :: there
 
         if (number < 0 .or. number > size(stretches)) then
-            call fatal_error(error, gapbeam_bad_input, "stretch: expected 0 to "//trim(whole(size(stretches)))//", got "// &
+            call bad_argument(error, "stretch", "stretch: expected 0 to "//trim(whole(size(stretches)))//", got "// &
                              trim(whole(number)))
             return
         end if
@@ -239,10 +235,10 @@ contains
         end if
         if (there) return
         if (number > 0) then
-            call fatal_error(error, gapbeam_bad_input, "there is no state at load factor "//trim(shown(factor))// &
+            call bad_argument(error, "factor", "there is no state at load factor "//trim(shown(factor))// &
                              " on stretch "//trim(whole(number)))
         else
-            call fatal_error(error, gapbeam_bad_input, "the path does not come to load factor "//trim(shown(factor)))
+            call bad_argument(error, "factor", "the path does not come to load factor "//trim(shown(factor)))
         end if
 
     contains

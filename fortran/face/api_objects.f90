@@ -10,7 +10,8 @@ module gapbeam_api_objects
     implicit none
     private
     public :: prepared_type, options_type, result_type, certificate_type
-    public :: require_beam, require_no_ground, require_no_path, require_result, require_size, check_call, make_state, summarise
+    public :: require_beam, require_no_ground, require_no_path, require_result, require_size, check_call
+    public :: bad_argument, make_state, summarise
 
     !> A prepared beam: opaque
     type :: prepared_type
@@ -142,12 +143,21 @@ contains
         character(len=20) :: text
 
         if (.not. abs(factor) <= huge(factor)) then
-            call fatal_error(error, gapbeam_bad_input, "factor: expected a finite number, got "//trim(shown(factor)))
+            call bad_argument(error, "factor", "factor: expected a finite number, got "//trim(shown(factor)))
         else if (options%rule /= rule_block .and. options%rule /= rule_single) then
             write (text, "(i0)") options%rule
-            call fatal_error(error, gapbeam_bad_input, "rule: expected 0 (block) or 1 (single), got "//trim(text))
+            call bad_argument(error, "rule", "rule: expected 0 (block) or 1 (single), got "//trim(text))
         end if
     end subroutine check_call
+
+    !> Refuse an argument, whose name stands in the key of the error
+    pure subroutine bad_argument(error, name, message)
+        type(error_type), allocatable, intent(out) :: error
+        character(len=*), intent(in) :: name, message
+
+        call fatal_error(error, gapbeam_bad_input, message)
+        error%key = name
+    end subroutine bad_argument
 
     !> A state for a result that has none that fits
     subroutine make_state(beam, result, error)

@@ -10,9 +10,9 @@
 !>
 !> The position of a train is that of its first axle. All loads of the beam stay, dead and live ones in full
 module gapbeam_api_trains
-    use, intrinsic :: ieee_arithmetic, only: ieee_status_type, ieee_get_status, ieee_set_status, ieee_set_halting_mode, &
-        ieee_set_rounding_mode, ieee_nearest, ieee_all, ieee_is_finite
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use gapbeam_kinds, only: wp
+    use gapbeam_environment, only: environment_type, hold_environment, restore_environment
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_no_equilibrium, &
         gapbeam_bad_input, gapbeam_not_prepared
     use gapbeam_words, only: shown, whole
@@ -26,7 +26,7 @@ module gapbeam_api_trains
     use gapbeam_train_ties, only: extreme_type
     use gapbeam_train_envelope, only: envelope_type, find_envelope
     use gapbeam_train_curves, only: find_curves
-    use gapbeam_api_objects, only: prepared_type, require_beam, require_no_path, require_size
+    use gapbeam_api_objects, only: prepared_type, require_beam, require_no_path, require_size, bad_argument
     implicit none
     private
     public :: moving_train_type, passing_type, train_event_type, train_gap_type, train_extreme_type, gapbeam_moves_freely
@@ -89,7 +89,7 @@ contains
         !> gapbeam_bad_input, gapbeam_not_prepared; gapbeam_indeterminate, gapbeam_not_converged, gapbeam_not_finite or
         !> gapbeam_no_memory
         type(error_type), allocatable, intent(out) :: error
-        type(ieee_status_type) :: environment
+        type(environment_type) :: environment
         real(wp) :: from, to
 
         call require_beam(beam, error)
@@ -97,9 +97,7 @@ contains
         if (.not. allocated(error)) call require_no_more(beam%lowered, error)
         if (.not. allocated(error)) call check_train(beam%lowered, train, from, to, error)
         if (allocated(error)) return
-        call ieee_get_status(environment)
-        call ieee_set_halting_mode(ieee_all, .false.)
-        call ieee_set_rounding_mode(ieee_nearest)
+        call hold_environment(environment)
         call put_axles(train, passing%train, error)
         if (.not. allocated(error)) call new_track(beam%lowered, passing%track, error)
         if (.not. allocated(error)) call pass_train(beam%lowered, passing%track, passing%train, from, to, passing%passage, error)
@@ -109,7 +107,7 @@ contains
             passing%solves = passing%passage%solves
             passing%fingerprint = beam%lowered%fingerprint
         end if
-        call ieee_set_status(environment)
+        call restore_environment(environment)
     end subroutine follow_train
 
     !> Largest and smallest values over all positions, exact in place and position
@@ -123,23 +121,21 @@ contains
         type(train_extreme_type), intent(out) :: supports(:, :, :)
         !> gapbeam_not_prepared, gapbeam_bad_input for an array of another size, gapbeam_no_memory
         type(error_type), allocatable, intent(out) :: error
-        type(ieee_status_type) :: environment
+        type(environment_type) :: environment
         type(envelope_type) :: envelope
 
         call require_passing(beam, passing, error)
         if (allocated(error)) return
         call require_size(size(beam%lowered%model%supports), [size(supports, 3)], error)
         if (allocated(error)) return
-        call ieee_get_status(environment)
-        call ieee_set_halting_mode(ieee_all, .false.)
-        call ieee_set_rounding_mode(ieee_nearest)
+        call hold_environment(environment)
         passing%track%beam%watch = beam%lowered%beam%watch
         call find_envelope(beam%lowered, passing%track, passing%train, passing%passage, envelope, error)
         if (.not. allocated(error)) then
             fields(:, :) = first_tie(envelope%fields)
             supports(:, :, :) = first_tie(envelope%supports)
         end if
-        call ieee_set_status(environment)
+        call restore_environment(environment)
     end subroutine get_train_extremes
 
     !> Largest and smallest fields at places of the beam over all positions; where a field jumps, of both sides
@@ -154,7 +150,7 @@ contains
         real(wp), intent(out) :: value(:, :, :), position(:, :, :)
         !> As for get_train_extremes; gapbeam_bad_input also for a place off the beam
         type(error_type), allocatable, intent(out) :: error
-        type(ieee_status_type) :: environment
+        type(environment_type) :: environment
         integer, allocatable :: piece(:)
         real(wp), allocatable :: distance(:), other(:, :, :), other_position(:, :, :)
         integer :: i, stat
@@ -167,9 +163,7 @@ contains
             call no_memory(error)
             return
         end if
-        call ieee_get_status(environment)
-        call ieee_set_halting_mode(ieee_all, .false.)
-        call ieee_set_rounding_mode(ieee_nearest)
+        call hold_environment(environment)
         passing%track%beam%watch = beam%lowered%beam%watch
         call find_pieces(beam%lowered, x, .false., piece, distance, error)
         if (.not. allocated(error)) call find_curves(beam%lowered, passing%track, passing%train, passing%passage, piece, distance, &
@@ -185,7 +179,7 @@ contains
                 end where
             end do
         end if
-        call ieee_set_status(environment)
+        call restore_environment(environment)
     end subroutine get_train_curves
 
     !> Refuse beams over which no train is followed
@@ -205,7 +199,9 @@ contains
         type(moving_train_type), intent(in) :: train
         real(wp), intent(out) :: from, to
         type(error_type), allocatable, intent(out) :: error
+        character(len=4), parameter :: names(3) = ["q   ", "from", "to  "]
         real(wp) :: end, longest
+        logical :: finite(3)
         integer :: i
 
         from = 0.0_wp
@@ -221,16 +217,17 @@ contains
         end if
         do i = 1, size(train%distance)
             if (.not. (ieee_is_finite(train%distance(i)) .and. train%distance(i) >= 0.0_wp)) then
-                call fatal_error(error, gapbeam_bad_input, "distance("//trim(whole(i))//"): expected a distance behind "// &
+                call bad_argument(error, "distance", "distance("//trim(whole(i))//"): expected a distance behind "// &
                                  "the first axle, 0 or more, got "//trim(shown(train%distance(i))))
             else if (.not. ieee_is_finite(train%force(i))) then
-                call fatal_error(error, gapbeam_bad_input, "force("//trim(whole(i))//"): expected a finite number, got "// &
+                call bad_argument(error, "force", "force("//trim(whole(i))//"): expected a finite number, got "// &
                                  trim(shown(train%force(i))))
             end if
             if (allocated(error)) return
         end do
-        if (.not. all(ieee_is_finite([train%q, train%from, train%to]))) then
-            call fatal_error(error, gapbeam_bad_input, "train: q, from and to must be finite")
+        finite = ieee_is_finite([train%q, train%from, train%to])
+        if (.not. all(finite)) then
+            call bad_argument(error, names(findloc(finite, .false., 1)), "train: q, from and to must be finite")
             return
         end if
         end = point_x(lowered, size(lowered%pieces))
@@ -240,9 +237,8 @@ contains
         if (.not. from > gapbeam_unchanged) from = merge(-longest, 0.0_wp, train%to_the_left)
         if (.not. to > gapbeam_unchanged) to = merge(end, end + longest, train%to_the_left)
         if (from <= to) return
-        call fatal_error(error, gapbeam_bad_input, "the positions from "//trim(shown(from))//" to "//trim(shown(to))// &
+        call bad_argument(error, "to", "the positions from "//trim(shown(from))//" to "//trim(shown(to))// &
                          " are none: from must be at most to")
-        error%key = "positions"
     end subroutine check_train
 
     !> Axles as distances from the position, to the right

@@ -1,15 +1,15 @@
-!> The C interface: marshalling only. include/gapbeam.h says what every function does.
+!> States of beams in the C interface, solved and asked: marshalling only. include/gapbeam.h says what every function does.
 module gapbeam_capi
-    use, intrinsic :: iso_c_binding, only: c_int, c_double, c_char, c_size_t, c_ptr, c_loc, c_null_ptr, c_sizeof
-    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_bad_input, gapbeam_no_memory, &
-        gapbeam_not_prepared, gapbeam_other_version
-    use gapbeam_scene, only: model_type, load_type
+    use, intrinsic :: iso_c_binding, only: c_int, c_double, c_char, c_size_t, c_ptr, c_sizeof
+    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_bad_input, gapbeam_not_prepared, &
+        gapbeam_other_version
+    use gapbeam_scene, only: model_type
     use gapbeam_events, only: event_type
-    use gapbeam_api, only: prepared_type, options_type, result_type, certificate_type, prepare_model, replace_loads, &
-        count_supports, count_nodes, solve_beam, follow_load, get_supports, get_fields, get_extremes, get_motion, get_certificate
-    use gapbeam_capi_model, only: c_model, is_model_size, empty_model, model_from_c, loads_from_c
-    use gapbeam_capi_objects, only: c_options, beam_handle, state_handle, get_beam, get_state, get_both, read_options, &
-        check_points, report
+    use gapbeam_api, only: prepared_type, options_type, result_type, certificate_type, prepare_model, count_supports, &
+        count_nodes, solve_beam, follow_load, get_supports, get_fields, get_extremes, get_motion, get_certificate
+    use gapbeam_handles, only: beam_handle, state_handle, find_handle
+    use gapbeam_capi_model, only: c_model, model_from_c
+    use gapbeam_capi_objects, only: c_options, get_both, read_options, check_points, report
     implicit none
     private
     public :: c_info, c_certificate
@@ -31,20 +31,6 @@ module gapbeam_capi
 contains
 
     !> See the header
-    function c_model_init(model, size) result(status) bind(c, name="gapbeam_model_init")
-        type(c_model), intent(inout), optional :: model
-        integer(c_size_t), intent(in), value :: size
-        integer(c_int) :: status
-
-        status = gapbeam_bad_input
-        if (.not. present(model)) return
-        status = gapbeam_other_version
-        if (.not. is_model_size(size)) return
-        call empty_model(model, size)
-        status = gapbeam_solved
-    end function c_model_init
-
-    !> See the header
     function c_options_init(options, size) result(status) bind(c, name="gapbeam_options_init")
         type(c_options), intent(inout), optional :: options
         integer(c_size_t), intent(in), value :: size
@@ -58,125 +44,6 @@ contains
         options = c_options(size, defaults%rule, 0)
         status = gapbeam_solved
     end function c_options_init
-
-    !> See the header
-    function c_prepare(model, beam, message, message_size) result(status) bind(c, name="gapbeam_prepare")
-        type(c_model), intent(in), optional :: model
-        type(c_ptr), intent(out), optional :: beam
-        character(kind=c_char), intent(inout), optional :: message(*)
-        integer(c_size_t), intent(in), value :: message_size
-        integer(c_int) :: status
-        type(beam_handle), pointer :: handle
-        type(error_type), allocatable :: error
-        type(model_type) :: plain
-        integer :: stat
-
-        if (present(beam)) beam = c_null_ptr
-        if (.not. (present(model) .and. present(beam))) then
-            call fatal_error(error, gapbeam_bad_input, "model or beam is NULL")
-        else
-            call model_from_c(model, plain, error)
-        end if
-        if (.not. allocated(error)) then
-            allocate (handle, stat=stat)
-            if (stat /= 0) then
-                call no_memory(error)
-            else
-                call prepare_model(plain, handle%beam, error)
-                if (allocated(error)) then
-                    deallocate (handle)
-                else
-                    handle%beam%lowered%beam%watch = c_loc(handle%watch)
-                    beam = c_loc(handle)
-                end if
-            end if
-        end if
-        call report(error, status, message, message_size)
-    end function c_prepare
-
-    !> See the header
-    subroutine c_free_beam(beam) bind(c, name="gapbeam_free_beam")
-        type(c_ptr), intent(in), value :: beam
-        type(beam_handle), pointer :: handle
-
-        call get_beam(beam, handle)
-        if (.not. associated(handle)) return
-        handle%tag = 0
-        deallocate (handle)
-    end subroutine c_free_beam
-
-    !> See the header
-    function c_replace_loads(beam, loads, message, message_size) result(status) bind(c, name="gapbeam_replace_loads")
-        type(c_ptr), intent(in), value :: beam
-        type(c_model), intent(in), optional :: loads
-        character(kind=c_char), intent(inout), optional :: message(*)
-        integer(c_size_t), intent(in), value :: message_size
-        integer(c_int) :: status
-        type(beam_handle), pointer :: handle
-        type(error_type), allocatable :: error
-        type(load_type), allocatable :: list(:)
-
-        call get_beam(beam, handle)
-        if (.not. associated(handle)) then
-            call fatal_error(error, gapbeam_not_prepared, "beam is no prepared beam")
-        else if (.not. present(loads)) then
-            call fatal_error(error, gapbeam_bad_input, "loads is NULL")
-        else
-            call loads_from_c(loads, list, error)
-            if (.not. allocated(error)) call replace_loads(handle%beam, list, error)
-        end if
-        call report(error, status, message, message_size)
-    end function c_replace_loads
-
-    !> See the header
-    function c_count_supports(beam) result(number) bind(c, name="gapbeam_count_supports")
-        type(c_ptr), intent(in), value :: beam
-        integer(c_int) :: number
-        type(beam_handle), pointer :: handle
-
-        call get_beam(beam, handle)
-        number = 0
-        if (associated(handle)) number = count_supports(handle%beam)
-    end function c_count_supports
-
-    !> See the header
-    function c_count_nodes(beam) result(number) bind(c, name="gapbeam_count_nodes")
-        type(c_ptr), intent(in), value :: beam
-        integer(c_int) :: number
-        type(beam_handle), pointer :: handle
-
-        call get_beam(beam, handle)
-        number = 0
-        if (associated(handle)) number = count_nodes(handle%beam)
-    end function c_count_nodes
-
-    !> See the header
-    function c_new_state(state) result(status) bind(c, name="gapbeam_new_state")
-        type(c_ptr), intent(out), optional :: state
-        integer(c_int) :: status
-        type(state_handle), pointer :: handle
-        integer :: stat
-
-        status = gapbeam_bad_input
-        if (.not. present(state)) return
-        state = c_null_ptr
-        allocate (handle, stat=stat)
-        status = gapbeam_no_memory
-        if (stat /= 0) return
-        state = c_loc(handle)
-        status = gapbeam_solved
-    end function c_new_state
-
-    !> See the header
-    subroutine c_free_state(state) bind(c, name="gapbeam_free_state")
-        type(c_ptr), intent(in), value :: state
-        type(state_handle), pointer :: handle
-
-        call get_state(state, handle)
-        if (.not. associated(handle)) return
-        handle%tag = 0
-        deallocate (handle)
-    end subroutine c_free_state
 
     !> See the header
     function c_solve(beam, factor, options, state, message, message_size) result(status) bind(c, name="gapbeam_solve")
@@ -239,7 +106,7 @@ contains
         integer(c_int) :: status
         type(state_handle), pointer :: handle
 
-        call get_state(state, handle)
+        call find_handle(state, handle)
         status = gapbeam_bad_input
         if (.not. present(info)) return
         status = gapbeam_other_version

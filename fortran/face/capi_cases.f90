@@ -1,19 +1,13 @@
 !> Many cases in the C interface: marshalling only. include/gapbeam.h says what the functions do.
 module gapbeam_capi_cases
-    use, intrinsic :: iso_c_binding, only: c_int, c_double, c_char, c_size_t, c_ptr, c_null_ptr, c_loc, c_f_pointer, c_associated
+    use, intrinsic :: iso_c_binding, only: c_int, c_double, c_char, c_size_t, c_ptr, c_null_ptr, c_f_pointer, c_associated
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input, gapbeam_not_prepared
     use gapbeam_api, only: options_type, count_supports, count_nodes
-    use gapbeam_api_cases, only: cases_type, prepare_cases, solve_cases, get_nodes
-    use gapbeam_capi_objects, only: c_options, beam_handle, get_beam, read_options, report
+    use gapbeam_api_cases, only: solve_cases, get_nodes
+    use gapbeam_handles, only: beam_handle, cases_handle, cases_tag, find_handle, free_handle, new_cases
+    use gapbeam_capi_objects, only: c_options, get_beam, read_options, report
     implicit none
     private
-
-    !> What the handle points to; the tag as in gapbeam_capi_objects
-    integer, parameter :: cases_tag = 1195528259
-    type :: cases_handle
-        integer :: tag = cases_tag
-        type(cases_type) :: cases
-    end type cases_handle
 
 contains
 
@@ -25,41 +19,21 @@ contains
         integer(c_size_t), intent(in), value :: message_size
         integer(c_int) :: status
         type(beam_handle), pointer :: prepared
-        type(cases_handle), pointer :: handle
         type(error_type), allocatable :: error
-        integer :: stat
 
         if (present(cases)) cases = c_null_ptr
-        call get_beam(beam, prepared)
-        if (.not. associated(prepared)) then
-            call fatal_error(error, gapbeam_not_prepared, "beam is no prepared beam")
-        else if (.not. present(cases)) then
-            call fatal_error(error, gapbeam_bad_input, "cases is NULL")
-        else
-            allocate (handle, stat=stat)
-            if (stat /= 0) then
-                call no_memory(error)
-            else
-                call prepare_cases(prepared%beam, handle%cases, error)
-                if (allocated(error)) then
-                    deallocate (handle)
-                else
-                    cases = c_loc(handle)
-                end if
-            end if
-        end if
+        call get_beam(beam, prepared, error)
+        if (.not. allocated(error) .and. .not. present(cases)) call fatal_error(error, gapbeam_bad_input, "cases is NULL")
+        if (.not. allocated(error)) call new_cases(prepared%beam, cases, error)
         call report(error, status, message, message_size)
     end function c_prepare_cases
 
     !> See the header
     subroutine c_free_cases(cases) bind(c, name="gapbeam_free_cases")
         type(c_ptr), intent(in), value :: cases
-        type(cases_handle), pointer :: handle
+        logical :: freed
 
-        call get_cases(cases, handle)
-        if (.not. associated(handle)) return
-        handle%tag = 0
-        deallocate (handle)
+        call free_handle(cases, freed, cases_tag)
     end subroutine c_free_cases
 
     !> See the header
@@ -83,10 +57,10 @@ contains
         integer(c_int), pointer :: statuses(:), conditions(:, :)
         integer :: loads, supports, nodes
 
-        call get_beam(beam, prepared)
-        call get_cases(cases, handle)
-        if (.not. associated(prepared)) then
-            call fatal_error(error, gapbeam_not_prepared, "beam is no prepared beam")
+        call find_handle(cases, handle)
+        call get_beam(beam, prepared, error)
+        if (allocated(error)) then
+            continue
         else if (.not. associated(handle)) then
             call fatal_error(error, gapbeam_not_prepared, "cases are none: make them with gapbeam_prepare_cases")
         else if (count < 0) then
@@ -130,10 +104,8 @@ contains
         integer, allocatable :: nodes(:)
         integer :: stat
 
-        call get_beam(beam, prepared)
-        if (.not. associated(prepared)) then
-            call fatal_error(error, gapbeam_not_prepared, "beam is no prepared beam")
-        else
+        call get_beam(beam, prepared, error)
+        if (.not. allocated(error)) then
             allocate (places(count_nodes(prepared%beam)), nodes(count_supports(prepared%beam)), stat=stat)
             if (stat /= 0) then
                 call no_memory(error)
@@ -157,17 +129,5 @@ contains
         nullify (values)
         if (c_associated(address)) call c_f_pointer(address, values, [rows, int(count)])
     end subroutine look_at
-
-    !> The cases behind a handle
-    subroutine get_cases(handle, cases)
-        type(c_ptr), intent(in) :: handle
-        !> Null where it is no handle of cases
-        type(cases_handle), pointer, intent(out) :: cases
-
-        nullify (cases)
-        if (.not. c_associated(handle)) return
-        call c_f_pointer(handle, cases)
-        if (cases%tag /= cases_tag) nullify (cases)
-    end subroutine get_cases
 
 end module gapbeam_capi_cases

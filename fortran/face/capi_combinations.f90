@@ -1,9 +1,9 @@
 !> Combinations of load cases in the C interface: marshalling only. include/gapbeam.h says what the function does.
 module gapbeam_capi_combinations
-    use, intrinsic :: iso_c_binding, only: c_int, c_double, c_char, c_size_t, c_ptr, c_null_ptr, c_loc
-    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input, gapbeam_not_prepared
-    use gapbeam_api_combinations, only: combine_loads
-    use gapbeam_capi_objects, only: beam_handle, get_beam, report
+    use, intrinsic :: iso_c_binding, only: c_int, c_double, c_char, c_size_t, c_ptr, c_null_ptr
+    use gapbeam_error, only: error_type, fatal_error, gapbeam_bad_input
+    use gapbeam_handles, only: beam_handle, new_combination
+    use gapbeam_capi_objects, only: get_beam, report
     implicit none
     private
 
@@ -18,35 +18,23 @@ contains
         character(kind=c_char), intent(inout), optional :: message(*)
         integer(c_size_t), intent(in), value :: message_size
         integer(c_int) :: status
-        type(beam_handle), pointer :: handle, made
+        type(beam_handle), pointer :: handle
         type(error_type), allocatable :: error
-        integer :: loads, supports, stat
 
         if (present(combined)) combined = c_null_ptr
-        call get_beam(beam, handle)
-        if (.not. associated(handle)) then
-            call fatal_error(error, gapbeam_not_prepared, "beam is no prepared beam")
-        else if (.not. (present(factors) .and. present(combined))) then
+        call get_beam(beam, handle, error)
+        if (.not. allocated(error) .and. .not. (present(factors) .and. present(combined))) then
             call fatal_error(error, gapbeam_bad_input, "factors or combined is NULL")
-        else
-            allocate (made, stat=stat)
-            if (stat /= 0) then
-                call no_memory(error)
-            else
-                loads = size(handle%beam%lowered%model%loads)
-                supports = size(handle%beam%lowered%model%supports)
+        end if
+        if (.not. allocated(error)) then
+            associate (model => handle%beam%lowered%model)
                 if (present(settlements)) then
-                    call combine_loads(handle%beam, factors(1:loads), made%beam, error, settlements(1:supports))
+                    call new_combination(handle%beam, factors(1:size(model%loads)), settlements(1:size(model%supports)), &
+                                         combined, error)
                 else
-                    call combine_loads(handle%beam, factors(1:loads), made%beam, error)
+                    call new_combination(handle%beam, factors(1:size(model%loads)), address=combined, error=error)
                 end if
-                if (allocated(error)) then
-                    deallocate (made)
-                else
-                    made%beam%lowered%beam%watch = c_loc(made%watch)
-                    combined = c_loc(made)
-                end if
-            end if
+            end associate
         end if
         call report(error, status, message, message_size)
     end function c_combine_loads

@@ -5,7 +5,8 @@ module gapbeam_capi_ground
     use gapbeam_api, only: options_type
     use gapbeam_api_ground, only: contact_type, free_span_type, ground_event_type, follow_ground, get_contact, get_free_spans, &
         get_pressure, get_pressure_extremes
-    use gapbeam_capi_objects, only: beam_handle, state_handle, c_options, get_both, read_options, check_points, report
+    use gapbeam_handles, only: beam_handle, state_handle
+    use gapbeam_capi_objects, only: c_options, get_both, read_options, check_points, report
     implicit none
     private
 

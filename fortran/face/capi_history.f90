@@ -1,11 +1,11 @@
 !> Histories of the load in the C interface: marshalling only. include/gapbeam.h says what every function does.
 module gapbeam_capi_history
-    use, intrinsic :: iso_c_binding, only: c_int, c_double, c_char, c_size_t, c_ptr, c_loc, c_f_pointer, c_associated, &
-        c_null_ptr, c_sizeof
-    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_bad_input, gapbeam_not_prepared, &
+    use, intrinsic :: iso_c_binding, only: c_int, c_double, c_char, c_size_t, c_ptr, c_null_ptr, c_sizeof
+    use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_bad_input, gapbeam_not_prepared, &
         gapbeam_other_version
-    use gapbeam_api_history, only: history_type, follow_history, solve_on_path
-    use gapbeam_capi_objects, only: beam_handle, state_handle, get_beam, get_both, report
+    use gapbeam_api_history, only: solve_on_path
+    use gapbeam_handles, only: beam_handle, state_handle, history_handle, history_tag, find_handle, free_handle, new_history
+    use gapbeam_capi_objects, only: get_beam, get_both, report
     implicit none
     private
     public :: c_history_info
@@ -15,13 +15,6 @@ module gapbeam_capi_history
         integer(c_size_t) :: size
         integer(c_int) :: stretches, events, limits, ending, solves, nodes
     end type c_history_info
-
-    !> What a handle points to
-    integer, parameter :: history_tag = 1195528264
-    type :: history_handle
-        integer :: tag = history_tag
-        type(history_type) :: history
-    end type history_handle
 
 contains
 
@@ -36,30 +29,18 @@ contains
         integer(c_size_t), intent(in), value :: message_size
         integer(c_int) :: status
         type(beam_handle), pointer :: prepared
-        type(history_handle), pointer :: handle
         type(error_type), allocatable :: error
-        integer :: stat
 
         if (present(history)) history = c_null_ptr
-        call get_beam(beam, prepared)
-        if (.not. associated(prepared)) then
-            call fatal_error(error, gapbeam_not_prepared, "beam is no prepared beam")
+        call get_beam(beam, prepared, error)
+        if (allocated(error)) then
+            continue
         else if (.not. present(history)) then
             call fatal_error(error, gapbeam_bad_input, "history is NULL")
         else if (count < 1 .or. .not. present(factors)) then
             call fatal_error(error, gapbeam_bad_input, "factors: give at least one")
         else
-            allocate (handle, stat=stat)
-            if (stat /= 0) then
-                call no_memory(error)
-            else
-                call follow_history(prepared%beam, factors(1:count), int(at_limit), handle%history, error)
-                if (allocated(error)) then
-                    deallocate (handle)
-                else
-                    history = c_loc(handle)
-                end if
-            end if
+            call new_history(prepared%beam, factors(1:count), int(at_limit), history, error)
         end if
         call report(error, status, message, message_size)
     end function c_follow_history
@@ -67,12 +48,9 @@ contains
     !> See the header
     subroutine c_free_history(history) bind(c, name="gapbeam_free_history")
         type(c_ptr), intent(in), value :: history
-        type(history_handle), pointer :: handle
+        logical :: freed
 
-        call get_history(history, handle)
-        if (.not. associated(handle)) return
-        handle%tag = 0
-        deallocate (handle)
+        call free_handle(history, freed, history_tag)
     end subroutine c_free_history
 
     !> See the header
@@ -88,7 +66,7 @@ contains
         status = gapbeam_other_version
         if (info%size /= c_sizeof(info)) return
         status = gapbeam_not_prepared
-        call get_history(history, handle)
+        call find_handle(history, handle)
         if (.not. associated(handle)) return
         associate (h => handle%history)
             nodes = 0
@@ -109,7 +87,7 @@ contains
         integer :: k
 
         status = gapbeam_not_prepared
-        call get_history(history, handle)
+        call find_handle(history, handle)
         if (.not. associated(handle)) return
         do k = 1, size(handle%history%stretches)
             associate (s => handle%history%stretches(k))
@@ -136,7 +114,7 @@ contains
         integer :: k
 
         status = gapbeam_not_prepared
-        call get_history(history, handle)
+        call find_handle(history, handle)
         if (.not. associated(handle)) return
         do k = 1, size(handle%history%events)
             associate (event => handle%history%events(k))
@@ -160,7 +138,7 @@ contains
         integer :: k
 
         status = gapbeam_not_prepared
-        call get_history(history, handle)
+        call find_handle(history, handle)
         if (.not. associated(handle)) return
         do k = 1, size(handle%history%limits)
             associate (limit => handle%history%limits(k))
@@ -182,7 +160,7 @@ contains
         type(history_handle), pointer :: handle
 
         status = gapbeam_not_prepared
-        call get_history(history, handle)
+        call find_handle(history, handle)
         if (.not. associated(handle)) return
         if (.not. allocated(handle%history%motion)) return
         associate (h => handle%history)
@@ -207,7 +185,7 @@ contains
         type(error_type), allocatable :: error
 
         call get_both(beam, state, prepared, solved, error)
-        call get_history(history, handle)
+        call find_handle(history, handle)
         if (.not. allocated(error) .and. .not. associated(handle)) then
             call fatal_error(error, gapbeam_not_prepared, "history is none: make one with gapbeam_follow_history")
         end if
@@ -217,17 +195,5 @@ contains
         call report(error, status, message, message_size)
         if (.not. allocated(error)) status = solved%result%status
     end function c_solve_on_path
-
-    !> The history behind a handle
-    subroutine get_history(handle, history)
-        type(c_ptr), intent(in) :: handle
-        !> Null where it is no handle of a history
-        type(history_handle), pointer, intent(out) :: history
-
-        nullify (history)
-        if (.not. c_associated(handle)) return
-        call c_f_pointer(handle, history)
-        if (history%tag /= history_tag) nullify (history)
-    end subroutine get_history
 
 end module gapbeam_capi_history

@@ -1,13 +1,13 @@
-!> What users of the C interface hold: handles of beams and states; options, errors and messages of all its functions
+!> What the functions of the C interface have in common: beams and states behind handles, options, errors and messages
 module gapbeam_capi_objects
-    use, intrinsic :: iso_c_binding, only: c_int, c_char, c_size_t, c_ptr, c_f_pointer, c_associated, c_null_char, c_sizeof
+    use, intrinsic :: iso_c_binding, only: c_int, c_char, c_size_t, c_ptr, c_null_char, c_sizeof
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_bad_input, gapbeam_not_prepared, &
         gapbeam_other_version
-    use gapbeam_watch, only: watch_type
-    use gapbeam_api, only: prepared_type, options_type, result_type
+    use gapbeam_api, only: options_type
+    use gapbeam_handles, only: beam_handle, state_handle, find_handle
     implicit none
     private
-    public :: c_options, beam_handle, state_handle, get_beam, get_state, get_both, read_options, check_points, report
+    public :: c_options, get_beam, get_both, read_options, check_points, report
 
     !> Mirror of the header's structure
     type, bind(c) :: c_options
@@ -15,57 +15,28 @@ module gapbeam_capi_objects
         integer(c_int) :: rule, reserved
     end type c_options
 
-    !> What the handles point to; the tag tells the kinds of handle apart, and those of the library from others
-    integer, parameter :: beam_tag = 1195528258, state_tag = 1195528275
-    type :: beam_handle
-        integer :: tag = beam_tag
-        type(prepared_type) :: beam
-        !> On calls with it
-        type(watch_type) :: watch
-    end type beam_handle
-    type :: state_handle
-        integer :: tag = state_tag
-        type(result_type) :: result
-    end type state_handle
-
 contains
 
-    !> The beam behind a handle
-    subroutine get_beam(handle, beam)
-        type(c_ptr), intent(in) :: handle
-        !> Null where it is no handle of a beam
-        type(beam_handle), pointer, intent(out) :: beam
+    !> The beam behind a handle, refused where there is none
+    subroutine get_beam(beam, prepared, error)
+        type(c_ptr), intent(in) :: beam
+        type(beam_handle), pointer, intent(out) :: prepared
+        type(error_type), allocatable, intent(out) :: error
 
-        nullify (beam)
-        if (.not. c_associated(handle)) return
-        call c_f_pointer(handle, beam)
-        if (beam%tag /= beam_tag) nullify (beam)
+        call find_handle(beam, prepared)
+        if (.not. associated(prepared)) call fatal_error(error, gapbeam_not_prepared, "beam is no prepared beam")
     end subroutine get_beam
 
-    !> The state behind a handle
-    subroutine get_state(handle, state)
-        type(c_ptr), intent(in) :: handle
-        !> Null where it is no handle of a state
-        type(state_handle), pointer, intent(out) :: state
-
-        nullify (state)
-        if (.not. c_associated(handle)) return
-        call c_f_pointer(handle, state)
-        if (state%tag /= state_tag) nullify (state)
-    end subroutine get_state
-
-    !> Both, refused where one is missing
+    !> A beam and a state, refused where one is missing
     subroutine get_both(beam, state, prepared, solved, error)
         type(c_ptr), intent(in) :: beam, state
         type(beam_handle), pointer, intent(out) :: prepared
         type(state_handle), pointer, intent(out) :: solved
         type(error_type), allocatable, intent(out) :: error
 
-        call get_beam(beam, prepared)
-        call get_state(state, solved)
-        if (.not. associated(prepared)) then
-            call fatal_error(error, gapbeam_not_prepared, "beam is no prepared beam")
-        else if (.not. associated(solved)) then
+        call find_handle(state, solved)
+        call get_beam(beam, prepared, error)
+        if (.not. allocated(error) .and. .not. associated(solved)) then
             call fatal_error(error, gapbeam_not_prepared, "state is no state: make one with gapbeam_new_state")
         end if
     end subroutine get_both

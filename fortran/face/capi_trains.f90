@@ -1,20 +1,13 @@
 !> Trains in the C interface: marshalling only. include/gapbeam.h says what every function does.
 module gapbeam_capi_trains
-    use, intrinsic :: iso_c_binding, only: c_int, c_double, c_char, c_size_t, c_ptr, c_loc, c_f_pointer, c_associated, c_null_ptr
+    use, intrinsic :: iso_c_binding, only: c_int, c_double, c_char, c_size_t, c_ptr, c_null_ptr
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_bad_input, gapbeam_not_prepared
     use gapbeam_api, only: count_supports
-    use gapbeam_api_trains, only: moving_train_type, passing_type, train_extreme_type, follow_train, get_train_extremes, &
-        get_train_curves
-    use gapbeam_capi_objects, only: beam_handle, get_beam, check_points, report
+    use gapbeam_api_trains, only: moving_train_type, train_extreme_type, get_train_extremes, get_train_curves
+    use gapbeam_handles, only: beam_handle, passing_handle, passing_tag, find_handle, free_handle, new_passing
+    use gapbeam_capi_objects, only: get_beam, check_points, report
     implicit none
     private
-
-    !> What a handle points to
-    integer, parameter :: passing_tag = 1195529300
-    type :: passing_handle
-        integer :: tag = passing_tag
-        type(passing_type) :: passing
-    end type passing_handle
 
 contains
 
@@ -30,37 +23,30 @@ contains
         integer(c_size_t), intent(in), value :: message_size
         integer(c_int) :: status
         type(beam_handle), pointer :: prepared
-        type(passing_handle), pointer :: handle
         type(moving_train_type) :: train
         type(error_type), allocatable :: error
         integer :: stat
 
         if (present(passing)) passing = c_null_ptr
-        call get_beam(beam, prepared)
-        if (.not. associated(prepared)) then
-            call fatal_error(error, gapbeam_not_prepared, "beam is no prepared beam")
+        call get_beam(beam, prepared, error)
+        if (allocated(error)) then
+            continue
         else if (.not. present(passing)) then
             call fatal_error(error, gapbeam_bad_input, "passing is NULL")
         else if (axles < 1 .or. .not. (present(distance) .and. present(force))) then
             call fatal_error(error, gapbeam_bad_input, "distance and force: give at least one axle")
         else
-            allocate (handle, train%distance(axles), train%force(axles), stat=stat)
-            if (stat /= 0) then
-                call no_memory(error)
-            else
-                train%distance(:) = distance(1:axles)
-                train%force(:) = force(1:axles)
-                train%q = q
-                train%to_the_left = to_the_left /= 0
-                if (present(from)) train%from = from
-                if (present(to)) train%to = to
-                call follow_train(prepared%beam, train, handle%passing, error)
-                if (allocated(error)) then
-                    deallocate (handle)
-                else
-                    passing = c_loc(handle)
-                end if
-            end if
+            allocate (train%distance(axles), train%force(axles), stat=stat)
+            if (stat /= 0) call no_memory(error)
+        end if
+        if (.not. allocated(error)) then
+            train%distance(:) = distance(1:axles)
+            train%force(:) = force(1:axles)
+            train%q = q
+            train%to_the_left = to_the_left /= 0
+            if (present(from)) train%from = from
+            if (present(to)) train%to = to
+            call new_passing(prepared%beam, train, passing, error)
         end if
         call report(error, status, message, message_size)
     end function c_follow_train
@@ -68,12 +54,9 @@ contains
     !> See the header
     subroutine c_free_passing(passing) bind(c, name="gapbeam_free_passing")
         type(c_ptr), intent(in), value :: passing
-        type(passing_handle), pointer :: handle
+        logical :: freed
 
-        call get_passing(passing, handle)
-        if (.not. associated(handle)) return
-        handle%tag = 0
-        deallocate (handle)
+        call free_handle(passing, freed, passing_tag)
     end subroutine c_free_passing
 
     !> See the header
@@ -89,7 +72,7 @@ contains
         integer :: k
 
         status = gapbeam_not_prepared
-        call get_passing(passing, handle)
+        call find_handle(passing, handle)
         if (.not. associated(handle)) return
         associate (events => handle%passing%events)
             if (present(number)) number = size(events)
@@ -116,7 +99,7 @@ contains
         integer :: k
 
         status = gapbeam_not_prepared
-        call get_passing(passing, handle)
+        call find_handle(passing, handle)
         if (.not. associated(handle)) return
         associate (gaps => handle%passing%gaps)
             if (present(number)) number = size(gaps)
@@ -142,8 +125,8 @@ contains
         integer :: f, i, k
 
         status = gapbeam_not_prepared
-        call get_beam(beam, prepared)
-        call get_passing(passing, handle)
+        call find_handle(beam, prepared)
+        call find_handle(passing, handle)
         if (.not. (associated(prepared) .and. associated(handle))) return
         allocate (of_supports(2, 4, count_supports(prepared%beam)))
         call get_train_extremes(prepared%beam, handle%passing, of_fields, of_supports, error)
@@ -182,8 +165,8 @@ contains
         type(passing_handle), pointer :: handle
         type(error_type), allocatable :: error
 
-        call get_beam(beam, prepared)
-        call get_passing(passing, handle)
+        call find_handle(beam, prepared)
+        call find_handle(passing, handle)
         if (.not. (associated(prepared) .and. associated(handle))) then
             call fatal_error(error, gapbeam_not_prepared, "beam is no prepared beam, or passing no train on its way")
         else
@@ -194,16 +177,5 @@ contains
         end if
         call report(error, status, message, message_size)
     end function c_get_train_curves
-
-    !> What a handle points to; null if it is none
-    subroutine get_passing(passing, handle)
-        type(c_ptr), intent(in) :: passing
-        type(passing_handle), pointer, intent(out) :: handle
-
-        handle => null()
-        if (.not. c_associated(passing)) return
-        call c_f_pointer(passing, handle)
-        if (handle%tag /= passing_tag) handle => null()
-    end subroutine get_passing
 
 end module gapbeam_capi_trains

@@ -3,7 +3,7 @@ module gapbeam_capi_watch
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_funptr, c_loc
     use gapbeam_error, only: gapbeam_solved, gapbeam_bad_input, gapbeam_not_prepared
     use gapbeam_watch, only: begin_watch, end_watched
-    use gapbeam_capi_objects, only: beam_handle, get_beam
+    use gapbeam_handles, only: beam_handle, find_handle
     implicit none
     private
     public :: c_set_watch, c_stop
@@ -20,7 +20,7 @@ contains
         type(beam_handle), pointer :: handle
 
         status = gapbeam_not_prepared
-        call get_beam(beam, handle)
+        call find_handle(beam, handle)
         if (.not. associated(handle)) return
         status = gapbeam_bad_input
         if (.not. seconds >= 0.0_c_double) return
@@ -34,7 +34,7 @@ contains
         type(c_ptr), intent(in), value :: beam
         type(beam_handle), pointer :: handle
 
-        call get_beam(beam, handle)
+        call find_handle(beam, handle)
         if (associated(handle)) call end_watched(handle%watch)
     end subroutine c_stop
 

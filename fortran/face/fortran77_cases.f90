@@ -1,17 +1,41 @@
 ! Many cases in the Fortran 77 interface; all else is said in fortran77.f90. Marshalling only.
 
+! Make ready for many cases of a beam
+subroutine ghcase(beam, cases, info)
+    use, intrinsic :: iso_c_binding, only: c_ptr
+    use gapbeam_error, only: error_type
+    use gapbeam_handles, only: beam_handle, new_cases
+    use gapbeam_fortran77_info, only: find, number_of, info_of
+    implicit none
+    integer(8), intent(in) :: beam
+    ! For GHMANY; it keeps nothing of the beam, and is of no use after GHLOAD. Threads take one each
+    integer(8), intent(out) :: cases
+    ! -1, also of a beam that is not taken: on a foundation, or whose state depends on the way of the load; 15
+    integer, intent(out) :: info
+    type(beam_handle), pointer :: prepared
+    type(c_ptr) :: address
+    type(error_type), allocatable :: error
+
+    cases = 0
+    info = 0
+    call find(beam, 1, prepared, info)
+    if (info /= 0) return
+    call new_cases(prepared%beam, address, error)
+    cases = number_of(address)
+    info = info_of(error, 1)
+end subroutine ghcase
+
 ! Solve NCASE cases in one call, eight side by side. In each all loads act, dead or live, every one times a factor of its own. The
 ! digits are those of each case alone
-subroutine gbmany(work, iwork, ncase, factor, nvary, supval, rule, istat, react, icond, defl, bmleft, bmrigt, info)
-    use gapbeam_error, only: error_type, gapbeam_bad_input
+subroutine ghmany(beam, cases, ncase, factor, nvary, supval, rule, istat, react, icond, defl, bmleft, bmrigt, info)
+    use gapbeam_error, only: error_type
     use gapbeam_input_error, only: of_loads, of_supports
-    use gapbeam_api, only: prepared_type, count_supports, count_nodes
-    use gapbeam_work, only: take_beam
-    use gapbeam_work_cases, only: solve_shaped
+    use gapbeam_api, only: count_supports, count_nodes
+    use gapbeam_handles, only: beam_handle, cases_handle
+    use gapbeam_fortran77_info, only: find, info_of
+    use gapbeam_fortran77_shapes, only: solve_shaped
     implicit none
-    ! Beam
-    double precision, intent(in) :: work(*)
-    integer, intent(in) :: iwork(*)
+    integer(8), intent(in) :: beam, cases
     ! Cases, 0 or more; factor of every load in every case, (NLOAD, NCASE)
     integer, intent(in) :: ncase
     double precision, intent(in) :: factor(*)
@@ -19,39 +43,35 @@ subroutine gbmany(work, iwork, ncase, factor, nvary, supval, rule, istat, react,
     ! every support in every case, (3, NSUP, NCASE)
     integer, intent(in) :: nvary
     double precision, intent(in) :: supval(*)
-    ! As for GBSOLV
+    ! As for GHSOLV
     integer, intent(in) :: rule
-    ! Of every case 0 solved, 1 no equilibrium, or an error as from GBSOLV
+    ! Of every case 0 solved, 1 no equilibrium, or an error as from GHSOLV
     integer, intent(inout) :: istat(*)
-    ! Reaction of every support, up, and what it is, as from GBSUPP, (NSUP, NCASE); deflection, moments left and right of every
-    ! node (NNODE of GBMOTN, NCASE). Not a number where a case is not solved; so are reactions of axial supports
+    ! Reaction of every support, up, and what it is, as from GHSUPP, (NSUP, NCASE); deflection, moments left and right of every
+    ! node (NNODE of GHMOTN, NCASE). Not a number where a case is not solved; so are reactions of axial supports
     double precision, intent(inout) :: react(*), defl(*), bmleft(*), bmrigt(*)
     integer, intent(inout) :: icond(*)
-    ! -1: no beam in WORK, or one that is not taken: on a foundation, or whose state depends on the way of the load; -3; -4: no
-    ! finite number, ISTAT(1) is the number of the case; -5; -6: impossible, ISTAT(1) is the number of the case, or 0 where
-    ! supports of this beam cannot vary: one has a law; -7; 15
+    ! -1, -2, -3; -4: no finite number, ISTAT(1) is the number of the case; -5; -6: impossible, ISTAT(1) is the number of the case,
+    ! or 0 where supports of this beam cannot vary: one has a law; -7; 15, 18
     integer, intent(out) :: info
-    type(prepared_type) :: beam
+    type(beam_handle), pointer :: prepared
+    type(cases_handle), pointer :: room
     type(error_type), allocatable :: error
-    integer :: loads, supports
 
     info = 0
-    if (rule /= 0 .and. rule /= 1) info = -7
-    if (nvary /= 0 .and. nvary /= 1) info = -5
-    if (ncase < 0) info = -3
+    call find(beam, 1, prepared, info)
+    call find(cases, 2, room, info)
+    if (info == 0 .and. ncase < 0) info = -3
+    if (info == 0 .and. nvary /= 0 .and. nvary /= 1) info = -5
     if (info /= 0) return
-    call take_beam(work, iwork, 1, beam, info)
-    if (info /= 0) return
-    loads = size(beam%lowered%model%loads)
-    supports = count_supports(beam)
-    call solve_shaped(beam, loads, supports, count_nodes(beam), ncase, factor, nvary == 1, supval, rule, istat, react, icond, &
-                      defl, bmleft, bmrigt, error)
-    if (.not. allocated(error)) return
-    info = error%code
-    if (error%code /= gapbeam_bad_input) return
-    ! What is refused of a beam has no table
-    info = -1
+    associate (lowered => prepared%beam%lowered)
+        call solve_shaped(prepared%beam, room%cases, size(lowered%model%loads), count_supports(prepared%beam), &
+                          count_nodes(prepared%beam), ncase, factor, nvary == 1, supval, rule, istat, react, icond, defl, &
+                          bmleft, bmrigt, error)
+    end associate
+    info = info_of(error, 1, ["rule"], [7])
+    if (info /= -1) return
     if (error%table == of_loads) info = -4
     if (error%table == of_supports) info = -6
     if (info /= -1 .and. ncase > 0) istat(1) = error%entry
-end subroutine gbmany
+end subroutine ghmany

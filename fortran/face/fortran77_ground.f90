@@ -18,82 +18,52 @@
 !                       c*u**3, rising everywhere
 !     GLAW(6, NFOUND)   a, b, c at the left end, then at the right end, linear in between; 0 or more (b of a cubic: any sign); those
 !                       that its law does not have are not looked at
+!     ITAB(2, NTAB)     foundation of every point of a table, those of one beside each other, in ascending order; of what: 1 the
+!                       modulus, 2 the gap (a profile, here or there), 3 to 5 the parameters a, b, c; these are 0 above then
+!     ATAB(2, NTAB)     x, also beside the foundation; value there; straight in between, beyond its ends the last value; two points
+!                       at a place are a step
 !
-! How many zones of contact there are shows only when a beam is solved. GBSOLV asked for LSTATE and LISTAT gives lengths that are
-! hardly ever exceeded; see there. Events are found by GBGEVT; GBEVNT, GBHIST and GBHSOL are not for beams
-! on foundations.
+! Events are found by GHGEVT; GHEVNT and GHHIST are not for beams on foundations.
 
 ! Prepare a beam on foundations, whose supports may follow laws
-subroutine gbprfd(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, nlaw, ilaw, alaw, iunl, nfound, ifound, found, &
-                  nprof, iprof, aprof, nflaw, iflaw, aflaw, work, lwork, iwork, liwork, info)
-    use gapbeam_work, only: prepare_beam
+subroutine ghprfd(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, nlaw, ilaw, alaw, iunl, nfound, ifound, found, &
+                  nprof, iprof, aprof, nflaw, iflaw, aflaw, iglaw, glaw, ntab, itab, atab, beam, ientry, info)
+    use gapbeam_fortran77_model, only: prepare
     implicit none
-    ! Sizes; NSPAN 1 or more, the others 0 or more; NLAW, NPROF and NFLAW are numbers of points
-    integer, intent(in) :: nspan, nhinge, nsup, nload, nlaw, nfound, nprof, nflaw
-    ! As for GBPRLW, and above
+    ! Sizes; NSPAN 1 or more, the others 0 or more; NLAW, NPROF, NFLAW and NTAB are numbers of points
+    integer, intent(in) :: nspan, nhinge, nsup, nload, nlaw, nfound, nprof, nflaw, ntab
+    ! As for GHPRLW, and above
     double precision, intent(in) :: span(4, *), hinge(*), sup(5, *), aload(4, *), alaw(2, *), found(6, *), aprof(2, *), aflaw(2, *)
-    integer, intent(in) :: isup(3, *), iload(3, *), ilaw(*), iunl(*), ifound(*), iprof(*), iflaw(*)
-    ! Lengths, or -1: then all arrays but those of the loads must be filled already
-    integer, intent(in) :: lwork, liwork
-    ! The beam
-    double precision, intent(inout) :: work(*)
-    integer, intent(inout) :: iwork(*)
-    ! -1 to -14 as from GBPRLW; -15, -18, -21; -16 or -17: a foundation is impossible, IWORK(1) is its number; -19 or -20: so is its
-    ! profile, -22 or -23: its law; -25, -27: too short; 14, 15
-    integer, intent(out) :: info
-    double precision :: no_parameters(6, 1)
-    integer :: no_laws(1)
-
-    call prepare_beam(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, nlaw, ilaw, alaw, iunl, nfound, ifound, &
-                      found, nprof, iprof, aprof, nflaw, iflaw, aflaw, 0, no_laws, no_parameters, work, lwork, iwork, liwork, &
-                      info)
-    ! The places of LWORK and LIWORK
-    if (info == -27 .or. info == -29) info = info + 2
-end subroutine gbprfd
-
-! The same where foundations may have laws by parameters
-subroutine gbprgl(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, nlaw, ilaw, alaw, iunl, nfound, ifound, found, &
-                  nprof, iprof, aprof, nflaw, iflaw, aflaw, iglaw, glaw, work, lwork, iwork, liwork, info)
-    use gapbeam_work, only: prepare_beam
-    implicit none
-    ! As for GBPRFD, and above
-    integer, intent(in) :: nspan, nhinge, nsup, nload, nlaw, nfound, nprof, nflaw
-    double precision, intent(in) :: span(4, *), hinge(*), sup(5, *), aload(4, *), alaw(2, *), found(6, *), aprof(2, *), aflaw(2, *)
-    double precision, intent(in) :: glaw(6, *)
-    integer, intent(in) :: isup(3, *), iload(3, *), ilaw(*), iunl(*), ifound(*), iprof(*), iflaw(*), iglaw(*)
-    ! Lengths, or -1, as for GBPRFD
-    integer, intent(in) :: lwork, liwork
-    ! The beam
-    double precision, intent(inout) :: work(*)
-    integer, intent(inout) :: iwork(*)
-    ! -1 to -23 as from GBPRFD; -24: there is no such law of foundation IWORK(1); -25: its parameters are impossible; -27, -29: too
-    ! short; 14, 15
+    double precision, intent(in) :: glaw(6, *), atab(2, *)
+    integer, intent(in) :: isup(3, *), iload(3, *), ilaw(*), iunl(*), ifound(*), iprof(*), iflaw(*), iglaw(*), itab(2, *)
+    ! As from GHPREP
+    integer(8), intent(out) :: beam
+    integer, intent(out) :: ientry
+    ! -1 to -14 as from GHPRLW; -15, -18, -21, -26; -16 or -17: a foundation is impossible, IENTRY is its number; -19 or -20: so is
+    ! its profile, -22 or -23: its law; -24: there is no such law; -25: its parameters are impossible, -27 or -28: its table; 14, 15
     integer, intent(out) :: info
 
-    call prepare_beam(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, nlaw, ilaw, alaw, iunl, nfound, ifound, &
-                      found, nprof, iprof, aprof, nflaw, iflaw, aflaw, nfound, iglaw, glaw, work, lwork, iwork, liwork, info)
-end subroutine gbprgl
+    call prepare(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, nlaw, ilaw, alaw, iunl, nfound, ifound, &
+                 found, nprof, iprof, aprof, nflaw, iflaw, aflaw, iglaw, glaw, ntab, itab, atab, beam, ientry, info)
+end subroutine ghprfd
 
 ! Follow the load from factor 0: every change of zones of contact and of supports at its load factor, to the last digit. Changes
 ! that undo each other within 1/64 of the way are not seen
-subroutine gbgevt(work, iwork, factor, rule, maxev, state, lstate, istate, listat, nev, event, ievent, info)
-    use gapbeam_error, only: error_type, gapbeam_bad_input
-    use gapbeam_api, only: prepared_type, result_type, options_type
+subroutine ghgevt(beam, factor, rule, maxev, state, nev, event, ievent, info)
+    use gapbeam_error, only: error_type
+    use gapbeam_api, only: options_type
     use gapbeam_api_ground, only: ground_event_type, follow_ground
-    use gapbeam_work, only: begin_result, put_result
+    use gapbeam_handles, only: beam_handle, state_handle
+    use gapbeam_fortran77_info, only: find, info_of
     implicit none
-    ! Beam on foundations
-    double precision, intent(in) :: work(*)
-    integer, intent(in) :: iwork(*)
+    ! On foundations
+    integer(8), intent(in) :: beam
     ! End of the path, above 0
     double precision, intent(in) :: factor
-    ! As for GBSOLV; room in EVENT and IEVENT
+    ! As for GHSOLV; room in EVENT and IEVENT
     integer, intent(in) :: rule, maxev
-    ! Lengths, or -1
-    integer, intent(in) :: lstate, listat
-    ! The state at FACTOR; without equilibrium the motion that begins at the factor GBINFO gives
-    double precision, intent(inout) :: state(*)
-    integer, intent(inout) :: istate(*)
+    ! The state at FACTOR; without equilibrium the motion that begins at the factor GHINFO gives
+    integer(8), intent(in) :: state
     ! Number of events, which may be more than MAXEV
     integer, intent(inout) :: nev
     ! The first MAXEV of them: load factor, place; support or else foundation, 0 the other; branch of the foundation's law, 1 is the
@@ -101,42 +71,38 @@ subroutine gbgevt(work, iwork, factor, rule, maxev, state, lstate, istate, lista
     ! with the next, 23 splits; 24 an end reaches, 25 leaves that of the foundation or of the beam
     double precision, intent(inout) :: event(2, *)
     integer, intent(inout) :: ievent(4, *)
-    ! -1: no beam in WORK, or one without foundations, or whose state depends on the way of the load; -3, -4, -5; -7, -9: too short;
-    ! 1, 12 to 15
+    ! -1, also of a beam without foundations, or whose state depends on the way of the load; -2, -3, -4, -5; 1, 12 to 15, 18
     integer, intent(out) :: info
-    type(prepared_type) :: beam
-    type(result_type) :: result
+    type(beam_handle), pointer :: prepared
+    type(state_handle), pointer :: solved
     type(error_type), allocatable :: error
     type(ground_event_type), allocatable :: events(:)
     integer :: k
 
-    call begin_result(work, iwork, factor, rule, state, lstate, istate, listat, beam, info)
-    if (maxev < 0) info = -5
-    if (.not. factor > 0) info = -3
-    if (info /= 0 .or. lstate == -1 .or. listat == -1) return
-    call follow_ground(beam, factor, options_type(rule), events, result, error)
-    if (allocated(error)) then
-        info = merge(-1, error%code, error%code == gapbeam_bad_input)
-        return
-    end if
+    info = 0
+    call find(beam, 1, prepared, info)
+    if (info == 0 .and. maxev < 0) info = -4
+    call find(state, 5, solved, info)
+    if (info /= 0) return
+    call follow_ground(prepared%beam, factor, options_type(rule), events, solved%result, error)
+    info = info_of(error, 1, ["factor", "rule  "], [2, 3])
+    if (info /= 0) return
+    info = solved%result%status
     nev = size(events)
     do k = 1, min(maxev, nev)
         event(:, k) = [events(k)%factor, events(k)%x]
         ievent(:, k) = [events(k)%support, events(k)%foundation, events(k)%branch, events(k)%change]
     end do
-    call put_result(result, state, lstate, istate, listat, info)
-end subroutine gbgevt
+end subroutine ghgevt
 
 ! Where foundations act
-subroutine gbcont(work, iwork, state, istate, maxzn, nzone, zone, izone, info)
-    use gapbeam_error, only: error_type, gapbeam_not_prepared
-    use gapbeam_api, only: prepared_type, result_type
+subroutine ghcont(beam, state, maxzn, nzone, zone, izone, info)
+    use gapbeam_error, only: error_type
     use gapbeam_api_ground, only: contact_type, get_contact
-    use gapbeam_work, only: take_both
+    use gapbeam_handles, only: beam_handle, state_handle
+    use gapbeam_fortran77_info, only: find, info_of
     implicit none
-    ! Beam and state
-    double precision, intent(in) :: work(*), state(*)
-    integer, intent(in) :: iwork(*), istate(*)
+    integer(8), intent(in) :: beam, state
     ! Room for zones, 0 or more
     integer, intent(in) :: maxzn
     ! Number of zones, which may be more than MAXZN; 0 without foundations
@@ -147,39 +113,37 @@ subroutine gbcont(work, iwork, state, istate, maxzn, nzone, zone, izone, info)
     ! Foundation; 1 in contact, 2 where it holds both ways, 4 where it only touches at a place, or 10 plus the number of the
     ! piece of its law
     integer, intent(inout) :: izone(2, *)
-    ! -1: no beam; -3: nothing solved, or not of this beam; -5; 14: a force out of range; 15
+    ! -1, -2, -3; 14: a force out of range; 15
     integer, intent(out) :: info
-    type(prepared_type) :: beam
-    type(result_type) :: result
+    type(beam_handle), pointer :: prepared
+    type(state_handle), pointer :: solved
     type(contact_type), allocatable :: zones(:)
     type(error_type), allocatable :: error
     integer :: k
 
-    call take_both(work, iwork, state, istate, beam, result, info)
-    if (maxzn < 0) info = -5
+    info = 0
+    call find(beam, 1, prepared, info)
+    call find(state, 2, solved, info)
+    if (info == 0 .and. maxzn < 0) info = -3
     if (info /= 0) return
-    call get_contact(beam, result, zones, error)
-    if (allocated(error)) then
-        info = merge(-3, error%code, error%code == gapbeam_not_prepared)
-        return
-    end if
+    call get_contact(prepared%beam, solved%result, zones, error)
+    info = info_of(error, 2)
+    if (info /= 0) return
     nzone = size(zones)
     do k = 1, min(maxzn, nzone)
         zone(:, k) = [zones(k)%from, zones(k)%to, zones(k)%resultant]
         izone(:, k) = [zones(k)%foundation, zones(k)%condition]
     end do
-end subroutine gbcont
+end subroutine ghcont
 
 ! Where the beam does not touch a one-sided foundation that is there
-subroutine gbfree(work, iwork, state, istate, maxfr, nfree, free, ifree, info)
-    use gapbeam_error, only: error_type, gapbeam_not_prepared
-    use gapbeam_api, only: prepared_type, result_type
+subroutine ghfrsp(beam, state, maxfr, nfree, free, ifree, info)
+    use gapbeam_error, only: error_type
     use gapbeam_api_ground, only: free_span_type, get_free_spans
-    use gapbeam_work, only: take_both
+    use gapbeam_handles, only: beam_handle, state_handle
+    use gapbeam_fortran77_info, only: find, info_of
     implicit none
-    ! Beam and state
-    double precision, intent(in) :: work(*), state(*)
-    integer, intent(in) :: iwork(*), istate(*)
+    integer(8), intent(in) :: beam, state
     ! Room for free spans, 0 or more
     integer, intent(in) :: maxfr
     ! Number of free spans, which may be more than MAXFR; 0 without foundations
@@ -188,39 +152,37 @@ subroutine gbfree(work, iwork, state, istate, maxfr, nfree, free, ifree, info)
     double precision, intent(inout) :: free(3, *)
     ! Foundation
     integer, intent(inout) :: ifree(*)
-    ! -1: no beam; -3: nothing solved, or not of this beam; -5; 14: a distance out of range; 15
+    ! -1, -2, -3; 14: a distance out of range; 15
     integer, intent(out) :: info
-    type(prepared_type) :: beam
-    type(result_type) :: result
+    type(beam_handle), pointer :: prepared
+    type(state_handle), pointer :: solved
     type(free_span_type), allocatable :: spans(:)
     type(error_type), allocatable :: error
     integer :: k
 
-    call take_both(work, iwork, state, istate, beam, result, info)
-    if (maxfr < 0) info = -5
+    info = 0
+    call find(beam, 1, prepared, info)
+    call find(state, 2, solved, info)
+    if (info == 0 .and. maxfr < 0) info = -3
     if (info /= 0) return
-    call get_free_spans(beam, result, spans, error)
-    if (allocated(error)) then
-        info = merge(-3, error%code, error%code == gapbeam_not_prepared)
-        return
-    end if
+    call get_free_spans(prepared%beam, solved%result, spans, error)
+    info = info_of(error, 2)
+    if (info /= 0) return
     nfree = size(spans)
     do k = 1, min(maxfr, nfree)
         free(:, k) = [spans(k)%from, spans(k)%to, spans(k)%sag]
         ifree(k) = spans(k)%foundation
     end do
-end subroutine gbfree
+end subroutine ghfrsp
 
 ! Pressure of the ground anywhere along the beam
-subroutine gbpres(work, iwork, state, istate, nx, x, left, press, info)
-    use gapbeam_error, only: error_type, gapbeam_bad_input, gapbeam_not_prepared
-    use gapbeam_api, only: prepared_type, result_type
+subroutine ghpres(beam, state, nx, x, left, press, info)
+    use gapbeam_error, only: error_type
     use gapbeam_api_ground, only: get_pressure
-    use gapbeam_work, only: take_both
+    use gapbeam_handles, only: beam_handle, state_handle
+    use gapbeam_fortran77_info, only: find, info_of
     implicit none
-    ! Beam and state
-    double precision, intent(in) :: work(*), state(*)
-    integer, intent(in) :: iwork(*), istate(*)
+    integer(8), intent(in) :: beam, state
     ! Places
     integer, intent(in) :: nx
     double precision, intent(in) :: x(*)
@@ -228,48 +190,45 @@ subroutine gbpres(work, iwork, state, istate, nx, x, left, press, info)
     integer, intent(in) :: left
     ! Force per length of all foundations together on the beam, up, at every place; 0 without foundations
     double precision, intent(inout) :: press(*)
-    ! -1: no beam; -3: nothing solved, or not of this beam; -5; -6: a place off the beam; 14: a pressure out of range; 15
+    ! -1, -2, -3; -4: a place off the beam; 14: a pressure out of range; 15
     integer, intent(out) :: info
-    type(prepared_type) :: beam
-    type(result_type) :: result
+    type(beam_handle), pointer :: prepared
+    type(state_handle), pointer :: solved
     type(error_type), allocatable :: error
 
-    call take_both(work, iwork, state, istate, beam, result, info)
-    if (nx < 0) info = -5
+    info = 0
+    call find(beam, 1, prepared, info)
+    call find(state, 2, solved, info)
+    if (info == 0 .and. nx < 0) info = -3
     if (info /= 0) return
-    call get_pressure(beam, result, x(1:nx), press(1:nx), error, left /= 0)
-    if (.not. allocated(error)) return
-    info = error%code
-    if (error%code == gapbeam_not_prepared) info = -3
-    if (error%code == gapbeam_bad_input) info = -6
-end subroutine gbpres
+    call get_pressure(prepared%beam, solved%result, x(1:nx), press(1:nx), error, left /= 0)
+    info = info_of(error, 4)
+end subroutine ghpres
 
 ! Exact extremes of the pressure
-subroutine gbpxtr(work, iwork, state, istate, value, xvalue, info)
-    use gapbeam_error, only: error_type, gapbeam_not_prepared
-    use gapbeam_api, only: prepared_type, result_type
+subroutine ghpxtr(beam, state, value, xvalue, info)
+    use gapbeam_error, only: error_type
     use gapbeam_api_ground, only: get_pressure_extremes
-    use gapbeam_work, only: take_both
+    use gapbeam_handles, only: beam_handle, state_handle
+    use gapbeam_fortran77_info, only: find, info_of
     implicit none
-    ! Beam and state
-    double precision, intent(in) :: work(*), state(*)
-    integer, intent(in) :: iwork(*), istate(*)
+    integer(8), intent(in) :: beam, state
     ! Maximum and minimum, and where they are; 0 without foundations
     double precision, intent(inout) :: value(2), xvalue(2)
-    ! -1: no beam; -3: nothing solved, or not of this beam; 14: a pressure out of range; 15
+    ! -1, -2; 14: a pressure out of range; 15
     integer, intent(out) :: info
-    type(prepared_type) :: beam
-    type(result_type) :: result
+    type(beam_handle), pointer :: prepared
+    type(state_handle), pointer :: solved
     type(error_type), allocatable :: error
     double precision :: values(2), places(2)
 
-    call take_both(work, iwork, state, istate, beam, result, info)
+    info = 0
+    call find(beam, 1, prepared, info)
+    call find(state, 2, solved, info)
     if (info /= 0) return
-    call get_pressure_extremes(beam, result, values, places, error)
-    if (allocated(error)) then
-        info = merge(-3, error%code, error%code == gapbeam_not_prepared)
-        return
-    end if
+    call get_pressure_extremes(prepared%beam, solved%result, values, places, error)
+    info = info_of(error, 2)
+    if (info /= 0) return
     value = values
     xvalue = places
-end subroutine gbpxtr
+end subroutine ghpxtr

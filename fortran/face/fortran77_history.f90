@@ -1,24 +1,55 @@
 ! Histories of the load in Fortran 77: the exact path, through limit points, of beams whose supports may soften, break or keep a
-! set. Marshalling only; units, signs, WORK, STATE and INFO: see fortran77.f90.
+! set. Marshalling only; units, signs, handles and INFO: see fortran77.f90.
 
 ! Put on the dead loads, settlements and lacks of fit together, then go through load factors in turn, from factor 0, by the exact
 ! path: through every event, past limits of the load, with supports that soften, break or keep a set
-subroutine gbhist(work, iwork, nfact, factor, limit, maxst, stfact, istrch, maxev, evfact, ievent, maxlim, lmfact, ilimit, &
-                  number, info)
-    use gapbeam_error, only: error_type, gapbeam_bad_input
-    use gapbeam_api, only: prepared_type
-    use gapbeam_api_history, only: history_type, follow_history
-    use gapbeam_work, only: take_beam, check_history
+subroutine ghhist(beam, nfact, factor, limit, hist, number, info)
+    use, intrinsic :: iso_c_binding, only: c_ptr
+    use gapbeam_error, only: error_type
+    use gapbeam_handles, only: beam_handle, history_handle, new_history, find_handle
+    use gapbeam_fortran77_info, only: find, number_of, info_of
     implicit none
-    ! Beam
-    double precision, intent(in) :: work(*)
-    integer, intent(in) :: iwork(*)
+    integer(8), intent(in) :: beam
     ! Load factors, 1 or more
     integer, intent(in) :: nfact
     double precision, intent(in) :: factor(*)
     ! Where the load cannot go on: 0 end there; 1 go on from the next stable state on the path at this factor; 2 follow the
     ! path, also with falling load
     integer, intent(in) :: limit
+    ! The history, which keeps nothing of the beam
+    integer(8), intent(out) :: hist
+    ! Numbers of stretches, events and limits; how the path ends, 0 at the last factor, 3 in a mechanism, 4 otherwise; linear solves
+    ! in quadruple precision; nodes in GHHMOT, 0 where the path does not end in a motion
+    integer, intent(inout) :: number(6)
+    ! -1, also of a beam on a foundation; -2, -3, -4; 13 to 15, 18
+    integer, intent(out) :: info
+    type(beam_handle), pointer :: prepared
+    type(history_handle), pointer :: followed
+    type(c_ptr) :: address
+    type(error_type), allocatable :: error
+
+    hist = 0
+    info = 0
+    call find(beam, 1, prepared, info)
+    if (info == 0 .and. nfact < 1) info = -2
+    if (info /= 0) return
+    call new_history(prepared%beam, factor(1:nfact), limit, address, error)
+    info = info_of(error, 1, ["factors ", "at_limit"], [3, 4])
+    if (info /= 0) return
+    hist = number_of(address)
+    call find_handle(address, followed)
+    associate (h => followed%history)
+        number = [size(h%stretches), size(h%events), size(h%limits), h%ending, h%solves, 0]
+        if (allocated(h%motion)) number(6) = size(h%motion)
+    end associate
+end subroutine ghhist
+
+! What a history is made of
+subroutine ghhget(hist, maxst, stfact, istrch, maxev, evfact, ievent, maxlim, lmfact, ilimit, info)
+    use gapbeam_handles, only: history_handle
+    use gapbeam_fortran77_info, only: find
+    implicit none
+    integer(8), intent(in) :: hist
     ! Room for stretches, events and limits, 0 or more
     integer, intent(in) :: maxst, maxev, maxlim
     ! The first MAXST stretches: load factors at their ends; factor that is gone to, from 1, 0 while the dead loads are put on;
@@ -26,7 +57,7 @@ subroutine gbhist(work, iwork, nfact, factor, limit, maxst, stfact, istrch, maxe
     ! itself; ways on there were at its beginning; 1 passed in a jump, or beyond the limit at which the load stops
     double precision, intent(inout) :: stfact(2, *)
     integer, intent(inout) :: istrch(6, *)
-    ! The first MAXEV events: load factor; support; what it is from there on, as from GBEVNT; what happens, 0 opens, 1 closes,
+    ! The first MAXEV events: load factor; support; what it is from there on, as from GHEVNT; what happens, 0 opens, 1 closes,
     ! 3 turns, 4 yields, 5 hardens, 6 softens, 7 breaks, 8 unloads; stretch that begins with it
     double precision, intent(inout) :: evfact(*)
     integer, intent(inout) :: ievent(4, *)
@@ -34,102 +65,92 @@ subroutine gbhist(work, iwork, nfact, factor, limit, maxst, stfact, istrch, maxe
     ! before it; stretch on which the beam lands at the same factor, 0 if none
     double precision, intent(inout) :: lmfact(*)
     integer, intent(inout) :: ilimit(4, *)
-    ! Numbers of stretches, events and limits, which may be more than there is room for; how the path ends, 0 at the last factor, 3
-    ! in a mechanism, 4 otherwise; linear solves in quadruple precision
-    integer, intent(inout) :: number(5)
-    ! -1: no beam in WORK, or one on a foundation; -3, -4, -5, -6, -9, -12; 13 to 15
+    ! -1, -2, -5, -8
     integer, intent(out) :: info
-    type(prepared_type) :: beam
-    type(history_type) :: history
-    type(error_type), allocatable :: error
+    type(history_handle), pointer :: followed
     integer :: k
 
-    info = check_history(nfact, factor, limit)
-    if (maxst < 0) info = -6
-    if (maxev < 0) info = -9
-    if (maxlim < 0) info = -12
+    info = 0
+    call find(hist, 1, followed, info)
+    if (info == 0 .and. maxst < 0) info = -2
+    if (info == 0 .and. maxev < 0) info = -5
+    if (info == 0 .and. maxlim < 0) info = -8
     if (info /= 0) return
-    call take_beam(work, iwork, 1, beam, info)
-    if (info /= 0) return
-    call follow_history(beam, factor(1:nfact), limit, history, error)
-    if (allocated(error)) then
-        info = merge(-1, error%code, error%code == gapbeam_bad_input)
-        return
-    end if
-    number = [size(history%stretches), size(history%events), size(history%limits), history%ending, history%solves]
-    do k = 1, min(maxst, number(1))
-        associate (s => history%stretches(k))
+    do k = 1, min(maxst, size(followed%history%stretches))
+        associate (s => followed%history%stretches(k))
             stfact(:, k) = [s%from, s%to]
             istrch(:, k) = [s%leg, s%direction, merge(1, 0, s%stable), s%index, s%ways, merge(1, 0, s%skipped)]
         end associate
     end do
-    do k = 1, min(maxev, number(2))
-        associate (event => history%events(k))
+    do k = 1, min(maxev, size(followed%history%events))
+        associate (event => followed%history%events(k))
             evfact(k) = event%factor
             ievent(:, k) = [event%support, event%state, event%change, event%stretch]
         end associate
     end do
-    do k = 1, min(maxlim, number(3))
-        associate (found => history%limits(k))
+    do k = 1, min(maxlim, size(followed%history%limits))
+        associate (found => followed%history%limits(k))
             lmfact(k) = found%factor
             ilimit(:, k) = [found%kind, found%leg, found%stretch, found%landing]
         end associate
     end do
-end subroutine gbhist
+end subroutine ghhget
 
-! The state at a load factor on the path of GBHIST, which is followed again for that
-subroutine gbhsol(work, iwork, nfact, factor, limit, nstrch, at, state, lstate, istate, listat, info)
-    use gapbeam_error, only: error_type, gapbeam_bad_input
-    use gapbeam_search, only: rule_block
-    use gapbeam_api, only: prepared_type, result_type
-    use gapbeam_api_history, only: history_type, follow_history, solve_on_path
-    use gapbeam_work, only: begin_result, put_result, check_history
+! The motion in which a history ends
+subroutine ghhmot(hist, maxnd, xnode, motion, info)
+    use gapbeam_handles, only: history_handle
+    use gapbeam_fortran77_info, only: find
     implicit none
-    ! Beam, and factors and limit as for GBHIST
-    double precision, intent(in) :: work(*)
-    integer, intent(in) :: iwork(*), nfact
-    double precision, intent(in) :: factor(*)
-    integer, intent(in) :: limit
+    integer(8), intent(in) :: hist
+    ! Room in the arrays, NUMBER(6) of GHHIST
+    integer, intent(in) :: maxnd
+    ! As from GHMOTN
+    double precision, intent(inout) :: xnode(*), motion(*)
+    ! -1, also of a history that does not end in a motion; -2: too little room
+    integer, intent(out) :: info
+    type(history_handle), pointer :: followed
+
+    info = 0
+    call find(hist, 1, followed, info)
+    if (info /= 0) return
+    associate (h => followed%history)
+        if (.not. allocated(h%motion)) info = -1
+        if (info /= 0) return
+        if (maxnd < size(h%motion)) info = -2
+        if (info /= 0) return
+        xnode(1:size(h%x)) = h%x
+        motion(1:size(h%motion)) = h%motion
+    end associate
+end subroutine ghhmot
+
+! The state at a load factor on a history
+subroutine ghhsol(beam, hist, nstrch, at, state, info)
+    use gapbeam_error, only: error_type
+    use gapbeam_api_history, only: solve_on_path
+    use gapbeam_handles, only: beam_handle, state_handle, history_handle
+    use gapbeam_fortran77_info, only: find, info_of
+    implicit none
+    integer(8), intent(in) :: beam, hist
     ! Number of the stretch; 0: the last one with AT that is not passed in a jump, a stable one if there is any
     integer, intent(in) :: nstrch
     ! Load factor on the stretch
     double precision, intent(in) :: at
-    ! Lengths, or -1
-    integer, intent(in) :: lstate, listat
     ! The state
-    double precision, intent(inout) :: state(*)
-    integer, intent(inout) :: istate(*)
-    ! -1: no beam in WORK, or one on a foundation; -3, -4, -5; -6: no such stretch; -7: no state at AT on it, or on the path;
-    ! -9, -11: too short; 1, 12 to 15
+    integer(8), intent(in) :: state
+    ! -1; -2, also of another beam, or of other loads; -3: no such stretch; -4: no state at AT on it, or on the path; -5; 1, 12 to
+    ! 15, 18
     integer, intent(out) :: info
-    type(prepared_type) :: beam
-    type(result_type) :: result
-    type(history_type) :: history
+    type(beam_handle), pointer :: prepared
+    type(history_handle), pointer :: followed
+    type(state_handle), pointer :: solved
     type(error_type), allocatable :: error
 
-    call begin_result(work, iwork, at, rule_block, state, lstate, istate, listat, beam, info)
-    ! The places of AT, LSTATE and LISTAT
-    if (info == -7 .or. info == -9) then
-        info = info - 2
-    else if (info == -3) then
-        info = -7
-    end if
-    if (info /= 0 .or. lstate == -1 .or. listat == -1) return
-    info = check_history(nfact, factor, limit)
+    info = 0
+    call find(beam, 1, prepared, info)
+    call find(hist, 2, followed, info)
+    call find(state, 5, solved, info)
     if (info /= 0) return
-    call follow_history(beam, factor(1:nfact), limit, history, error)
-    if (allocated(error)) then
-        info = merge(-1, error%code, error%code == gapbeam_bad_input)
-        return
-    end if
-    if (nstrch < 0 .or. nstrch > size(history%stretches)) then
-        info = -6
-        return
-    end if
-    call solve_on_path(beam, history, at, result, error, nstrch)
-    if (allocated(error)) then
-        info = merge(-7, error%code, error%code == gapbeam_bad_input)
-        return
-    end if
-    call put_result(result, state, lstate, istate, listat, info)
-end subroutine gbhsol
+    call solve_on_path(prepared%beam, followed%history, at, solved%result, error, nstrch)
+    info = info_of(error, 4, ["stretch"], [3])
+    if (info == 0) info = solved%result%status
+end subroutine ghhsol

@@ -8,21 +8,14 @@ module gapbeam_handle
     use gapbeam_scene, only: model_type
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_assemble, only: assemble_model
-    use gapbeam_solution, only: state_type, new_state
     use gapbeam_cases, only: case_loads_type
     use gapbeam_many_cases, only: case_room_type
     use gapbeam_history, only: history_type
     use gapbeam_ground_events, only: ground_path_type
-    use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type
-    use gapbeam_ground_solver, only: ground_solution_type
     implicit none
     private
-    public :: keep_ground, take_ground, ground_rows, pack_ground, unpack_ground
-    public :: handle_type, new_handle, copy_handle, handle_of, drop_handle, state_of, report, listen, stop_calls
+    public :: handle_type, new_handle, copy_handle, handle_of, drop_handle, report, listen, stop_calls
     public :: new_room, room_of, drop_room
-
-    !> Rows of a solution on the ground as an array, beside those of the layers
-    integer, parameter :: ground_rows = 19
 
     !> What a handle stands for
     type :: handle_type
@@ -37,11 +30,6 @@ module gapbeam_handle
         !> The same on the ground, until it is taken
         type(ground_path_type), allocatable :: ground_path
     end type handle_type
-
-    !> A solution on the ground that waits to be taken
-    type :: kept_ground_type
-        type(ground_solution_type), allocatable :: solution
-    end type kept_ground_type
 
     interface
         !> Let Python see to signals that have come, in its main thread; not 0 where what it did then is an exception
@@ -180,100 +168,6 @@ contains
         room => room_of(address)
         if (associated(room)) deallocate (room)
     end subroutine drop_room
-
-    !> A state from the numbers that were taken out of it
-    subroutine state_of(lowered, factor, closed, w, ml, mr, shear, react, state, error)
-        type(assembled_type), intent(in) :: lowered
-        !> As in state_type; closed 1, open 0
-        real(wp), intent(in) :: factor
-        integer, intent(in) :: closed(:)
-        real(wp), intent(in) :: w(0:), ml(0:), mr(0:), shear(:), react(:)
-        type(state_type), intent(out) :: state
-        !> No memory
-        type(error_type), allocatable, intent(out) :: error
-
-        call new_state(lowered, state, error)
-        if (allocated(error)) return
-        state%factor = factor
-        state%closed(:) = closed(:size(state%closed)) /= 0
-        state%deflection(:) = w
-        state%moment_left(:) = ml
-        state%moment_right(:) = mr
-        state%shear(:) = shear
-        state%reaction(:) = react(:size(state%reaction))
-    end subroutine state_of
-
-    !> Keep a solution on the ground until Python has taken it
-    subroutine keep_ground(solution, address)
-        !> Moved away
-        type(ground_solution_type), allocatable, intent(inout) :: solution
-        integer(int64), intent(out) :: address
-        type(kept_ground_type), pointer :: kept
-
-        allocate (kept)
-        call move_alloc(solution, kept%solution)
-        address = transfer(c_loc(kept), address)
-    end subroutine keep_ground
-
-    !> Take it back; the address is worth nothing from then on
-    subroutine take_ground(address, solution)
-        integer(int64), intent(in) :: address
-        type(ground_solution_type), allocatable, intent(out) :: solution
-        type(kept_ground_type), pointer :: kept
-
-        call c_f_pointer(transfer(address, c_null_ptr), kept)
-        call move_alloc(kept%solution, solution)
-        deallocate (kept)
-    end subroutine take_ground
-
-    !> A solution on the ground as an array, a column a stretch
-    pure subroutine pack_ground(solution, values)
-        type(ground_solution_type), intent(in) :: solution
-        !> Piece; distances of the ends from its left end, length; moduli; loads qa, qb, qc, kappa; deflections, moments,
-        !> rotations, shears of the ends; of every layer the force up, and the piece of its law on which it acts (0: none)
-        real(wp), intent(out) :: values(:, :)
-        integer :: i, n
-
-        n = size(solution%acts, 1)
-        do i = 1, size(solution%piece)
-            associate (s => solution%stretches(i), q => solution%loads(i), e => solution%ends(i))
-                values(:ground_rows, i) = [real(solution%piece(i), wp), solution%from(i), solution%to(i), s%length, s%modulus_a, &
-                                           s%modulus_b, q%qa, q%qb, q%qc, q%kappa, e%w_a, e%w_b, e%moment_a, e%moment_b, &
-                                           solution%rotation(:, i), solution%shear(:, i), solution%slope(i)]
-            end associate
-            values(ground_rows + 1:ground_rows + n, i) = solution%resultant(:, i)
-            values(ground_rows + n + 1:ground_rows + 2*n, i) = solution%acts(:, i)
-        end do
-    end subroutine pack_ground
-
-    !> The same back, as far as what is asked of it needs it
-    pure subroutine unpack_ground(lowered, values, solution)
-        type(assembled_type), intent(in) :: lowered
-        real(wp), intent(in) :: values(:, :)
-        type(ground_solution_type), intent(out) :: solution
-        integer :: i, m, n
-
-        m = size(values, 2)
-        n = (size(values, 1) - ground_rows)/2
-        allocate (solution%piece(m), solution%from(m), solution%to(m), solution%acts(n, m), solution%stretches(m), &
-                  solution%loads(m), solution%ends(m), solution%slope(m), solution%rotation(2, m), solution%shear(2, m), &
-                  solution%resultant(n, m))
-        solution%piece(:) = nint(values(1, :))
-        solution%from(:) = values(2, :)
-        solution%to(:) = values(3, :)
-        solution%rotation(:, :) = values(15:16, :)
-        solution%shear(:, :) = values(17:18, :)
-        solution%slope(:) = values(19, :)
-        solution%resultant(:, :) = values(ground_rows + 1:ground_rows + n, :)
-        solution%acts(:, :) = nint(values(ground_rows + n + 1:, :))
-        do i = 1, m
-            associate (v => values(:, i), p => lowered%pieces(solution%piece(i)))
-                solution%stretches(i) = stretch_type(v(4), p%flexibility, p%shear_flexibility, v(5), v(6))
-                solution%loads(i) = stretch_load_type(v(7), v(8), v(9), v(10))
-                solution%ends(i) = stretch_ends_type(v(11), v(12), v(13), v(14))
-            end associate
-        end do
-    end subroutine unpack_ground
 
     !> What Python is told of an error
     pure subroutine report(error, status, message)

@@ -1,6 +1,5 @@
 ! The library for Python: plain arrays only, in the manner of Fortran 77. f2py reads this very file, so it holds only default
-! kinds, explicit shapes and external subroutines, and nothing but marshalling. It is no part of the library for everyone else,
-! whose Fortran 77 interface (face/fortran77.f90) has its own GBSOLV and GBCERT.
+! kinds, explicit shapes and external subroutines, and nothing but marshalling. It is no part of the library for everyone else.
 !
 ! BEAM is the handle of a prepared beam (gapbeam_handle): NP pieces, NL links between nodes 0 to NL, NS supports of the engine,
 ! NM supports of the scene, NB axial bars. Arrays over supports and bars have one entry more than there are: f2py takes none

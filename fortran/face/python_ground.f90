@@ -85,95 +85,58 @@ subroutine gbgpte(beam, ns, ne, nk, at, which, from, closed)
     deallocate (handle%ground_path)
 end subroutine gbgpte
 
-! Take a solution on the ground, which is freed with that
-subroutine gbgget(ground, ng, ny, values, bounds, resid)
-    use gapbeam_handle, only: take_ground, pack_ground
-    use gapbeam_ground_solver, only: ground_solution_type
+! What is in the stretches of a state on the ground
+subroutine gbgget(state, ng, ny, values, bounds, resid)
+    use gapbeam_state_handle, only: state_handle_type, state_of, pack_ground
     implicit none
     ! From GBSOLV; stretches, and most layers
-    integer(8), intent(in) :: ground
+    integer(8), intent(in) :: state
     integer, intent(in) :: ng, ny
     ! As for pack_ground, in the engine's units
     double precision, intent(out) :: values(19 + 2*ny, ng)
     ! Bounds of the errors of deflection, rotation, moment, shear and reactions; residuals of compatibility, equilibrium,
     ! complementarity
     double precision, intent(out) :: bounds(5), resid(3)
-    type(ground_solution_type), allocatable :: solution
+    !f2py threadsafe
+    type(state_handle_type), pointer :: solved
 
-    call take_ground(ground, solution)
-    call pack_ground(solution, values)
-    bounds = solution%bounds
-    resid = solution%residuals
+    solved => state_of(state)
+    call pack_ground(solved%state%ground, values)
+    bounds = solved%state%ground%bounds
+    resid = solved%state%ground%residuals
 end subroutine gbgget
 
-! Fields on the ground at distances from the left ends of pieces (from 1), in the scene's units
-subroutine gbgval(beam, ng, nr, nb, nx, ground, u, pull, piece, dist, value, status, message)
-    use gapbeam_error, only: error_type
-    use gapbeam_element, only: field_type
-    use gapbeam_handle, only: handle_type, handle_of, report, unpack_ground
-    use gapbeam_ground_solver, only: ground_solution_type
-    use gapbeam_pressure, only: pressure_in_pieces
-    use gapbeam_query, only: fields_in_pieces
-    implicit none
-    integer(8), intent(in) :: beam
-    integer, intent(in) :: ng, nr, nb, nx
-    ! From GBGGET and GBSOLV
-    double precision, intent(in) :: ground(nr, ng), u(0:nb), pull(nb + 1)
-    integer, intent(in) :: piece(nx)
-    double precision, intent(in) :: dist(nx)
-    ! Deflection, rotation, moment, shear, axial force, axial displacement, pressure of the ground (up)
-    double precision, intent(out) :: value(7, nx)
-    integer, intent(out) :: status
-    character(len=240), intent(out) :: message
-    !f2py threadsafe
-    !f2py integer, intent(hide), depend(ground) :: nr = shape(ground, 0), ng = shape(ground, 1)
-    !f2py integer, intent(hide), depend(u) :: nb = shape(u, 0) - 1
-    !f2py integer, intent(hide), depend(piece) :: nx = shape(piece, 0)
-    type(handle_type), pointer :: handle
-    type(field_type) :: none(0)
-    type(ground_solution_type) :: solution
-    type(error_type), allocatable :: error
-
-    handle => handle_of(beam)
-    value = 0.0d0
-    call unpack_ground(handle%lowered, ground, solution)
-    call fields_in_pieces(handle%lowered, 0.0d0, none, u, pull(:nb), piece, dist, value(:6, :), error, solution)
-    if (.not. allocated(error)) call pressure_in_pieces(handle%lowered, solution, piece, dist, value(7, :), error)
-    call report(error, status, message)
-end subroutine gbgval
-
 ! Stretches beside each other in which a layer does the same joined: by foundation, below before above, from left to right
-subroutine gbgrun(beam, ng, nr, ground, number, about, values, status, message)
+subroutine gbgrun(beam, state, ng, ny, number, about, values, status, message)
     use gapbeam_error, only: error_type
-    use gapbeam_handle, only: handle_type, handle_of, report, unpack_ground
-    use gapbeam_ground_solver, only: ground_solution_type
+    use gapbeam_handle, only: handle_type, handle_of, report
+    use gapbeam_state_handle, only: state_handle_type, state_of
     use gapbeam_ground_zones, only: run_type, ground_runs
     implicit none
-    integer(8), intent(in) :: beam
-    integer, intent(in) :: ng, nr
-    double precision, intent(in) :: ground(nr, ng)
+    integer(8), intent(in) :: beam, state
+    ! As for GBGGET
+    integer, intent(in) :: ng, ny
     ! How many there are
     integer, intent(out) :: number
     ! Foundation (from 0), side, pieces of its law (0: linear), the piece on which it acts (0: no contact), 1 if it only touches
-    integer, intent(out) :: about(5, 3*(ng*(nr - 19)/2))
+    integer, intent(out) :: about(5, 3*ng*ny)
     ! Ends, force on the beam (up), largest distance between beam and ground, in the scene's units
-    double precision, intent(out) :: values(4, 3*(ng*(nr - 19)/2))
+    double precision, intent(out) :: values(4, 3*ng*ny)
     integer, intent(out) :: status
     character(len=240), intent(out) :: message
     !f2py threadsafe
-    !f2py integer, intent(hide), depend(ground) :: nr = shape(ground, 0), ng = shape(ground, 1)
     type(handle_type), pointer :: handle
-    type(ground_solution_type) :: solution
+    type(state_handle_type), pointer :: solved
     type(run_type), allocatable :: runs(:)
     type(error_type), allocatable :: error
     integer :: i
 
     handle => handle_of(beam)
+    solved => state_of(state)
     number = 0
     about = 0
     values = 0.0d0
-    call unpack_ground(handle%lowered, ground, solution)
-    call ground_runs(handle%lowered, solution, runs, error)
+    call ground_runs(handle%lowered, solved%state%ground, runs, error)
     call report(error, status, message)
     if (allocated(error)) return
     number = size(runs)
@@ -185,51 +148,17 @@ subroutine gbgrun(beam, ng, nr, ground, number, about, values, status, message)
     end do
 end subroutine gbgrun
 
-! Maximum and minimum of all fields on the ground, and their places, in the scene's units; fields as for GBGVAL
-subroutine gbgext(beam, ng, nr, nb, ground, u, pull, value, x, status, message)
-    use gapbeam_error, only: error_type
-    use gapbeam_element, only: field_type
-    use gapbeam_handle, only: handle_type, handle_of, report, unpack_ground
-    use gapbeam_ground_solver, only: ground_solution_type
-    use gapbeam_pressure, only: extremes_of_pressure
-    use gapbeam_query, only: extremes_of_pieces
-    implicit none
-    integer(8), intent(in) :: beam
-    integer, intent(in) :: ng, nr, nb
-    double precision, intent(in) :: ground(nr, ng), u(0:nb), pull(nb + 1)
-    double precision, intent(out) :: value(2, 7), x(2, 7)
-    integer, intent(out) :: status
-    character(len=240), intent(out) :: message
-    !f2py threadsafe
-    !f2py integer, intent(hide), depend(ground) :: nr = shape(ground, 0), ng = shape(ground, 1)
-    !f2py integer, intent(hide), depend(u) :: nb = shape(u, 0) - 1
-    type(handle_type), pointer :: handle
-    type(field_type) :: none(0)
-    type(ground_solution_type) :: solution
-    type(error_type), allocatable :: error
-
-    handle => handle_of(beam)
-    value = 0.0d0
-    x = 0.0d0
-    call unpack_ground(handle%lowered, ground, solution)
-    call extremes_of_pieces(handle%lowered, 0.0d0, none, u, pull(:nb), value(:, :6), x(:, :6), error, solution)
-    if (.not. allocated(error)) call extremes_of_pressure(handle%lowered, solution, value(:, 7), x(:, 7), error)
-    call report(error, status, message)
-end subroutine gbgext
-
 ! How the zones of contact of a state become those of another one of the same ground under other loads
-subroutine gbgdif(most, beam, ng, nr, ground, other, ng2, nr2, other_ground, same, number, which, x, status, message)
+subroutine gbgdif(most, beam, state, other, after, same, number, which, x, status, message)
     use gapbeam_error, only: error_type
-    use gapbeam_handle, only: handle_type, handle_of, report, unpack_ground
-    use gapbeam_ground_solver, only: ground_solution_type
+    use gapbeam_handle, only: handle_type, handle_of, report
+    use gapbeam_state_handle, only: state_handle_type, state_of
     use gapbeam_ground_changes, only: zone_type, zone_change_type, find_zones, same_zones, compare_zones
     implicit none
     ! Changes that there is room for, one more
     integer, intent(in) :: most
-    ! The states: beams, and what is in their stretches
-    integer(8), intent(in) :: beam, other
-    integer, intent(in) :: ng, nr, ng2, nr2
-    double precision, intent(in) :: ground(nr, ng), other_ground(nr2, ng2)
+    ! The beams and their states
+    integer(8), intent(in) :: beam, state, other, after
     ! 1 if there are the same zones, but for where they are
     integer, intent(out) :: same
     ! Changes, all of them, also those for which there is no room
@@ -240,11 +169,9 @@ subroutine gbgdif(most, beam, ng, nr, ground, other, ng2, nr2, other_ground, sam
     integer, intent(out) :: status
     character(len=240), intent(out) :: message
     !f2py threadsafe
-    !f2py integer, intent(hide), depend(ground) :: nr = shape(ground, 0), ng = shape(ground, 1)
-    !f2py integer, intent(hide), depend(other_ground) :: nr2 = shape(other_ground, 0), ng2 = shape(other_ground, 1)
     type(handle_type), pointer :: handle
-    type(ground_solution_type) :: solution
-    type(zone_type), allocatable :: before(:), after(:)
+    type(state_handle_type), pointer :: solved
+    type(zone_type), allocatable :: zones(:), zones_after(:)
     type(zone_change_type), allocatable :: changes(:)
     type(error_type), allocatable :: error
     integer :: k
@@ -254,17 +181,17 @@ subroutine gbgdif(most, beam, ng, nr, ground, other, ng2, nr2, other_ground, sam
     which = 0
     x = 0.0d0
     handle => handle_of(beam)
-    call unpack_ground(handle%lowered, ground, solution)
-    call find_zones(handle%lowered, solution, before, error)
+    solved => state_of(state)
+    call find_zones(handle%lowered, solved%state%ground, zones, error)
     if (.not. allocated(error)) then
         handle => handle_of(other)
-        call unpack_ground(handle%lowered, other_ground, solution)
-        call find_zones(handle%lowered, solution, after, error)
+        solved => state_of(after)
+        call find_zones(handle%lowered, solved%state%ground, zones_after, error)
     end if
     call report(error, status, message)
     if (allocated(error)) return
-    same = merge(1, 0, same_zones(before, after))
-    call compare_zones(before, after, changes, number)
+    same = merge(1, 0, same_zones(zones, zones_after))
+    call compare_zones(zones, zones_after, changes, number)
     do k = 1, min(number, most)
         which(:, k) = [changes(k)%foundation, changes(k)%branch, changes(k)%change]
         x(k) = changes(k)%x

@@ -1,16 +1,15 @@
-! Single states for Python, in the manner of face/python.f90, which says what the arguments are
+! Single states for Python, in the manner of face/python.f90, which says what the arguments are. STATE is the handle of a solved
+! state, FIELDS that of its fields at the pieces (gapbeam_state_handle)
 
 ! Find the working scheme at one load factor and solve it
-subroutine gbsolv(beam, nl, ns, nm, nb, factor, rule, closed, undec, w, ml, mr, shear, react, motion, u, pull, &
-                  values, counts, ground, status, message)
+subroutine gbsolv(beam, ns, nm, factor, rule, closed, undec, values, counts, state, status, message)
     use gapbeam_error, only: error_type, gapbeam_solved
-    use gapbeam_handle, only: handle_type, handle_of, report, keep_ground
-    use gapbeam_solution, only: state_type, new_state
-    use gapbeam_state, only: solve_state
+    use gapbeam_handle, only: handle_type, handle_of, report
+    use gapbeam_state_handle, only: state_handle_type, solve_and_keep, state_of
     use gapbeam_support_values, only: support_values
     implicit none
     integer(8), intent(in) :: beam
-    integer, intent(in) :: nl, ns, nm, nb
+    integer, intent(in) :: ns, nm
     ! Factor of the live loads; rule 0 block, 1 single, 2 CLOSED is known to be the working scheme (as along a path)
     double precision, intent(in) :: factor
     integer, intent(in) :: rule
@@ -18,30 +17,59 @@ subroutine gbsolv(beam, nl, ns, nm, nb, factor, rule, closed, undec, w, ml, mr, 
     integer, intent(inout) :: closed(ns + 1)
     ! 1 where the reaction or the opening is zero, so that the support may be closed or open
     integer, intent(out) :: undec(ns + 1)
-    ! Deflections, moments left and right of the nodes, shears of the links beside those of the simple bar, reactions (up)
-    double precision, intent(out) :: w(0:nl), ml(0:nl), mr(0:nl), shear(nl), react(ns + 1)
-    ! Free motion where there is no equilibrium
-    double precision, intent(out) :: motion(0:nl)
-    ! Displacements of the axial system's points and forces in its bars
-    double precision, intent(out) :: u(0:nb), pull(nb + 1)
     ! Of the scene's supports in its units: reaction, deflection, opening, couple
     double precision, intent(out) :: values(nm + 1, 4)
     ! Linear solves; system solved last: 0 mixed, 1 three-moment, 2 with pivoting; 1 where the beam can move freely
     ! without work of the loads; 1 where the rule single came back to a scheme; 1 where the beam slides along its axis;
     ! stretches on the ground, and most layers under one of them
-    integer, intent(out) :: counts(7), status
-    ! What GBGGET takes, once; 0 without ground
-    integer(8), intent(out) :: ground
+    integer, intent(out) :: counts(7)
+    ! 0 where there is an error
+    integer(8), intent(out) :: state
+    integer, intent(out) :: status
     character(len=240), intent(out) :: message
     !f2py threadsafe
     !f2py integer, intent(hide), depend(closed) :: ns = shape(closed, 0) - 1
     type(handle_type), pointer :: handle
-    type(state_type) :: state
+    type(state_handle_type), pointer :: solved
     type(error_type), allocatable :: error
     integer, allocatable :: conditions(:)
 
     handle => handle_of(beam)
     undec = 0
+    values = 0.0d0
+    counts = 0
+    call solve_and_keep(handle%lowered, factor, rule, closed(:ns) /= 0, state, error)
+    call report(error, status, message)
+    if (allocated(error)) return
+    solved => state_of(state)
+    associate (s => solved%state)
+        status = s%status
+        counts(:5) = [s%solves, s%method, merge(1, 0, s%indifferent), merge(1, 0, s%cycled), merge(1, 0, s%slides)]
+        if (status /= gapbeam_solved) return
+        closed(:ns) = merge(1, 0, s%closed)
+        undec(:ns) = merge(1, 0, s%undecided)
+        allocate (conditions(nm))
+        call support_values(handle%lowered, s, values(:nm, 1), values(:nm, 2), values(:nm, 3), values(:nm, 4), conditions)
+        if (allocated(s%ground)) counts(6:7) = shape(transpose(s%ground%acts))
+    end associate
+end subroutine gbsolv
+
+! The numbers of a state
+subroutine gbsget(state, nl, ns, nb, w, ml, mr, shear, react, motion, u, pull)
+    use gapbeam_error, only: gapbeam_solved
+    use gapbeam_state_handle, only: state_handle_type, state_of
+    implicit none
+    integer(8), intent(in) :: state
+    integer, intent(in) :: nl, ns, nb
+    ! Deflections, moments left and right of the nodes, shears of the links beside those of the simple bar, reactions (up)
+    double precision, intent(out) :: w(0:nl), ml(0:nl), mr(0:nl), shear(nl), react(ns + 1)
+    ! Free motion where there is no equilibrium, and all else is 0
+    double precision, intent(out) :: motion(0:nl)
+    ! Displacements of the axial system's points and forces in its bars
+    double precision, intent(out) :: u(0:nb), pull(nb + 1)
+    !f2py threadsafe
+    type(state_handle_type), pointer :: solved
+
     w = 0.0d0
     ml = 0.0d0
     mr = 0.0d0
@@ -50,51 +78,38 @@ subroutine gbsolv(beam, nl, ns, nm, nb, factor, rule, closed, undec, w, ml, mr, 
     motion = 0.0d0
     u = 0.0d0
     pull = 0.0d0
-    values = 0.0d0
-    counts = 0
-    ground = 0
-    call new_state(handle%lowered, state, error)
-    if (.not. allocated(error)) then
-        state%closed(:) = closed(:ns) /= 0
-        call solve_state(handle%lowered, factor, rule, state, error)
-    end if
-    call report(error, status, message)
-    if (allocated(error)) return
-    status = state%status
-    counts(:5) = [state%solves, state%method, merge(1, 0, state%indifferent), merge(1, 0, state%cycled), &
-                  merge(1, 0, state%slides)]
-    motion = state%motion
-    if (status /= gapbeam_solved) return
-    closed(:ns) = merge(1, 0, state%closed)
-    undec(:ns) = merge(1, 0, state%undecided)
-    w = state%deflection
-    ml = state%moment_left
-    mr = state%moment_right
-    shear = state%shear
-    react(:ns) = state%reaction
-    u = state%displacement
-    pull(:nb) = state%tension
-    allocate (conditions(nm))
-    call support_values(handle%lowered, state, values(:nm, 1), values(:nm, 2), values(:nm, 3), values(:nm, 4), conditions)
-    if (.not. allocated(state%ground)) return
-    counts(6:7) = shape(transpose(state%ground%acts))
-    call keep_ground(state%ground, ground)
-end subroutine gbsolv
+    solved => state_of(state)
+    associate (s => solved%state)
+        if (allocated(s%motion)) motion = s%motion
+        if (s%status /= gapbeam_solved) return
+        w = s%deflection
+        ml = s%moment_left
+        mr = s%moment_right
+        shear = s%shear
+        react(:ns) = s%reaction
+        u = s%displacement
+        pull(:nb) = s%tension
+    end associate
+end subroutine gbsget
+
+! Free a state
+subroutine gbsdro(state)
+    use gapbeam_state_handle, only: drop_state
+    implicit none
+    integer(8), intent(in) :: state
+
+    call drop_state(state)
+end subroutine gbsdro
 
 ! Check a solved state
-subroutine gbcert(beam, nl, ns, factor, closed, w, ml, mr, shear, react, residu, bound, known, status, message)
+subroutine gbcert(beam, state, residu, bound, known, status, message)
     use gapbeam_error, only: error_type
-    use gapbeam_handle, only: handle_type, handle_of, state_of, report
-    use gapbeam_solution, only: state_type
+    use gapbeam_handle, only: handle_type, handle_of, report
+    use gapbeam_state_handle, only: state_handle_type, state_of
     use gapbeam_certificate, only: certificate_type
     use gapbeam_state, only: certify_state
     implicit none
-    integer(8), intent(in) :: beam
-    integer, intent(in) :: nl, ns
-    ! The state, as from GBSOLV
-    double precision, intent(in) :: factor
-    integer, intent(in) :: closed(ns + 1)
-    double precision, intent(in) :: w(0:nl), ml(0:nl), mr(0:nl), shear(nl), react(ns + 1)
+    integer(8), intent(in) :: beam, state
     ! Relative residuals of compatibility, equilibrium and complementarity
     double precision, intent(out) :: residu(3)
     ! Largest errors of deflections of the nodes, reactions; of deflections, rotations, moments, shears along the beam
@@ -103,19 +118,17 @@ subroutine gbcert(beam, nl, ns, factor, closed, w, ml, mr, shear, react, residu,
     integer, intent(out) :: known, status
     character(len=240), intent(out) :: message
     !f2py threadsafe
-    !f2py integer, intent(hide), depend(closed) :: ns = shape(closed, 0) - 1
-    !f2py integer, intent(hide), depend(shear) :: nl = shape(shear, 0)
     type(handle_type), pointer :: handle
-    type(state_type) :: state
+    type(state_handle_type), pointer :: solved
     type(certificate_type) :: found
     type(error_type), allocatable :: error
 
     handle => handle_of(beam)
+    solved => state_of(state)
     residu = 0.0d0
     bound = 0.0d0
     known = 0
-    call state_of(handle%lowered, factor, closed, w, ml, mr, shear, react, state, error)
-    if (.not. allocated(error)) call certify_state(handle%lowered, state, found, error)
+    call certify_state(handle%lowered, solved%state, found, error)
     call report(error, status, message)
     if (allocated(error)) return
     residu = [found%compatibility, found%equilibrium, found%complementarity]
@@ -123,43 +136,36 @@ subroutine gbcert(beam, nl, ns, factor, closed, w, ml, mr, shear, react, residu,
     known = merge(1, 0, found%known)
 end subroutine gbcert
 
-! Fields at the left end of every piece
-subroutine gbreco(beam, np, nl, ns, factor, closed, w, ml, mr, shear, react, start, status, message)
+! Recover the fields at the pieces
+subroutine gbreco(beam, state, fields, status, message)
     use gapbeam_error, only: error_type
-    use gapbeam_handle, only: handle_type, handle_of, state_of, report
-    use gapbeam_solution, only: state_type
-    use gapbeam_query, only: make_starts
+    use gapbeam_handle, only: handle_type, handle_of, report
+    use gapbeam_state_handle, only: state_handle_type, state_of, recover_and_keep
     implicit none
-    integer(8), intent(in) :: beam
-    integer, intent(in) :: np, nl, ns
-    ! The state, as from GBSOLV
-    double precision, intent(in) :: factor
-    integer, intent(in) :: closed(ns + 1)
-    double precision, intent(in) :: w(0:nl), ml(0:nl), mr(0:nl), shear(nl), react(ns + 1)
-    ! Deflection, rotation, moment, shear just right of the left end of each piece
-    double precision, intent(out) :: start(4, np)
+    integer(8), intent(in) :: beam, state
+    ! 0 where there is an error
+    integer(8), intent(out) :: fields
     integer, intent(out) :: status
     character(len=240), intent(out) :: message
     !f2py threadsafe
-    !f2py integer, intent(hide), depend(closed) :: ns = shape(closed, 0) - 1
-    !f2py integer, intent(hide), depend(shear) :: nl = shape(shear, 0)
     type(handle_type), pointer :: handle
-    type(state_type) :: state
+    type(state_handle_type), pointer :: solved
     type(error_type), allocatable :: error
-    integer :: j
 
     handle => handle_of(beam)
-    start = 0.0d0
-    call state_of(handle%lowered, factor, closed, w, ml, mr, shear, react, state, error)
-    if (.not. allocated(error)) call make_starts(handle%lowered, state, error)
+    solved => state_of(state)
+    call recover_and_keep(handle%lowered, solved%state, fields, error)
     call report(error, status, message)
-    if (allocated(error)) return
-    do j = 1, np
-        associate (s => state%starts(j))
-            start(:, j) = [s%deflection, s%rotation, s%moment, s%shear]
-        end associate
-    end do
 end subroutine gbreco
+
+! Free them
+subroutine gbfdro(fields)
+    use gapbeam_state_handle, only: drop_fields
+    implicit none
+    integer(8), intent(in) :: fields
+
+    call drop_fields(fields)
+end subroutine gbfdro
 
 ! Fields at NX places of the scene, in its units; where they jump right (LEFT = 0) or left of the place
 subroutine gbfind(beam, nx, x, left, piece, dist, status, message)
@@ -194,93 +200,98 @@ subroutine gbfind(beam, nx, x, left, piece, dist, status, message)
 end subroutine gbfind
 
 ! Fields at distances from the left ends of pieces (from 1), in the scene's units
-subroutine gbvalu(beam, np, nb, nx, factor, start, u, pull, piece, dist, value, status, message)
-    use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
+subroutine gbvalu(beam, state, fields, nf, nx, piece, dist, value, status, message)
     use gapbeam_error, only: error_type
-    use gapbeam_element, only: field_type
     use gapbeam_handle, only: handle_type, handle_of, report
+    use gapbeam_state_handle, only: state_handle_type, state_of, fields_handle_type, fields_of
+    use gapbeam_pressure, only: pressure_in_pieces
     use gapbeam_query, only: fields_in_pieces
     implicit none
-    integer(8), intent(in) :: beam
-    integer, intent(in) :: np, nb, nx
-    ! From GBRECO and GBSOLV
-    double precision, intent(in) :: factor
-    double precision, intent(in), target :: start(4, np)
-    double precision, intent(in) :: u(0:nb), pull(nb + 1)
+    integer(8), intent(in) :: beam, state, fields
+    ! Fields, 6, on the ground 7; places
+    integer, intent(in) :: nf, nx
     integer, intent(in) :: piece(nx)
     double precision, intent(in) :: dist(nx)
-    ! Deflection, rotation, moment, shear, axial force, axial displacement
-    double precision, intent(out) :: value(6, nx)
+    ! Deflection, rotation, moment, shear, axial force, axial displacement, pressure of the ground (up)
+    double precision, intent(out) :: value(nf, nx)
     integer, intent(out) :: status
     character(len=240), intent(out) :: message
     !f2py threadsafe
-    !f2py integer, intent(hide), depend(start) :: np = shape(start, 1)
-    !f2py integer, intent(hide), depend(u) :: nb = shape(u, 0) - 1
     !f2py integer, intent(hide), depend(piece) :: nx = shape(piece, 0)
     type(handle_type), pointer :: handle
-    type(field_type), pointer :: starts(:)
+    type(state_handle_type), pointer :: solved
+    type(fields_handle_type), pointer :: recovered
     type(error_type), allocatable :: error
 
     handle => handle_of(beam)
+    solved => state_of(state)
+    recovered => fields_of(fields)
     value = 0.0d0
-    call c_f_pointer(c_loc(start), starts, [np])
-    call fields_in_pieces(handle%lowered, factor, starts, u, pull(:nb), piece, dist, value, error)
+    associate (s => solved%state)
+        call fields_in_pieces(handle%lowered, s%factor, recovered%starts, s%displacement, s%tension, piece, dist, value(:6, :), &
+                              error, s%ground)
+        if (nf == 7 .and. .not. allocated(error)) then
+            call pressure_in_pieces(handle%lowered, s%ground, piece, dist, value(7, :), error)
+        end if
+    end associate
     call report(error, status, message)
 end subroutine gbvalu
 
-! Maximum and minimum of all fields and their places, in the scene's units
-subroutine gbextr(beam, np, nb, factor, start, u, pull, value, x, status, message)
-    use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
+! Maximum and minimum of all fields and their places, in the scene's units; fields as for GBVALU
+subroutine gbextr(beam, state, fields, nf, value, x, status, message)
     use gapbeam_error, only: error_type
-    use gapbeam_element, only: field_type
     use gapbeam_handle, only: handle_type, handle_of, report
+    use gapbeam_state_handle, only: state_handle_type, state_of, fields_handle_type, fields_of
+    use gapbeam_pressure, only: extremes_of_pressure
     use gapbeam_query, only: extremes_of_pieces
     implicit none
-    integer(8), intent(in) :: beam
-    integer, intent(in) :: np, nb
-    ! As for GBVALU
-    double precision, intent(in) :: factor
-    double precision, intent(in), target :: start(4, np)
-    double precision, intent(in) :: u(0:nb), pull(nb + 1)
-    double precision, intent(out) :: value(2, 6), x(2, 6)
+    integer(8), intent(in) :: beam, state, fields
+    integer, intent(in) :: nf
+    double precision, intent(out) :: value(2, nf), x(2, nf)
     integer, intent(out) :: status
     character(len=240), intent(out) :: message
     !f2py threadsafe
-    !f2py integer, intent(hide), depend(start) :: np = shape(start, 1)
-    !f2py integer, intent(hide), depend(u) :: nb = shape(u, 0) - 1
     type(handle_type), pointer :: handle
-    type(field_type), pointer :: starts(:)
+    type(state_handle_type), pointer :: solved
+    type(fields_handle_type), pointer :: recovered
     type(error_type), allocatable :: error
 
     handle => handle_of(beam)
-    call c_f_pointer(c_loc(start), starts, [np])
-    call extremes_of_pieces(handle%lowered, factor, starts, u, pull(:nb), value, x, error)
+    solved => state_of(state)
+    recovered => fields_of(fields)
+    value = 0.0d0
+    x = 0.0d0
+    associate (s => solved%state)
+        call extremes_of_pieces(handle%lowered, s%factor, recovered%starts, s%displacement, s%tension, value(:, :6), x(:, :6), &
+                                error, s%ground)
+        if (nf == 7 .and. .not. allocated(error)) then
+            call extremes_of_pressure(handle%lowered, s%ground, value(:, 7), x(:, 7), error)
+        end if
+    end associate
     call report(error, status, message)
 end subroutine gbextr
 
-! Largest absolute values of deflection, rotation, moment, shear, in the engine's units
-subroutine gblarg(beam, np, factor, start, value)
-    use, intrinsic :: iso_c_binding, only: c_loc, c_f_pointer
-    use gapbeam_element, only: field_type
+! Largest absolute values of deflection, rotation, moment, shear, in the engine's units; not on the ground
+subroutine gblarg(beam, state, fields, value)
     use gapbeam_fields, only: find_extremes
     use gapbeam_handle, only: handle_type, handle_of
+    use gapbeam_state_handle, only: state_handle_type, state_of, fields_handle_type, fields_of
     implicit none
-    integer(8), intent(in) :: beam
-    integer, intent(in) :: np
-    double precision, intent(in) :: factor
-    double precision, intent(in), target :: start(4, np)
+    integer(8), intent(in) :: beam, state, fields
     double precision, intent(out) :: value(4)
     !f2py threadsafe
-    !f2py integer, intent(hide), depend(start) :: np = shape(start, 1)
     type(handle_type), pointer :: handle
-    type(field_type), pointer :: starts(:)
+    type(state_handle_type), pointer :: solved
+    type(fields_handle_type), pointer :: recovered
     double precision :: found(2, 4), distance(2, 4)
     integer :: piece(2, 4)
 
     handle => handle_of(beam)
-    call c_f_pointer(c_loc(start), starts, [np])
+    solved => state_of(state)
+    recovered => fields_of(fields)
     associate (lowered => handle%lowered)
-        call find_extremes(lowered%pieces, lowered%dead, lowered%live, factor, starts, found, piece, distance)
+        call find_extremes(lowered%pieces, lowered%dead, lowered%live, solved%state%factor, recovered%starts, found, piece, &
+                           distance)
     end associate
     value = maxval(abs(found), 1)
 end subroutine gblarg

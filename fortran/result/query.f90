@@ -17,7 +17,7 @@ module gapbeam_query
     use gapbeam_state, only: recover_state
     implicit none
     private
-    public :: make_starts, find_pieces, fields_in_pieces, extremes_of_pieces
+    public :: make_starts, find_starts, find_pieces, fields_in_pieces, extremes_of_pieces
     public :: fields_at_places, extremes_of_fields, motion_of_nodes, node_places
     public :: field_count
 
@@ -33,21 +33,37 @@ contains
         type(assembled_type), intent(in) :: assembled
         type(state_type), intent(inout) :: state
         type(error_type), allocatable, intent(out) :: error
-        integer :: i
+        type(field_type), allocatable :: starts(:)
 
         if (state%has_starts) return
+        call move_alloc(state%starts, starts)
+        call find_starts(assembled, state, starts, error)
+        call move_alloc(starts, state%starts)
+        state%has_starts = .not. allocated(error)
+    end subroutine make_starts
+
+    !> Fields at the left end of every piece of a beam that is not on the ground
+    subroutine find_starts(assembled, state, starts, error)
+        !> The beam, and its solved state
+        type(assembled_type), intent(in) :: assembled
+        type(state_type), intent(in) :: state
+        !> In the engine's units, shape (npiece)
+        type(field_type), intent(out) :: starts(:)
+        !> A field out of range, or no memory
+        type(error_type), allocatable, intent(out) :: error
+        integer :: i
+
         call reserve_memory(for_fields, size(assembled%beam%links), size(assembled%beam%supports), size(assembled%pieces), error)
         if (allocated(error)) return
-        call recover_state(assembled, state, state%starts)
-        do i = 1, size(state%starts)
-            associate (a => state%starts(i))
+        call recover_state(assembled, state, starts)
+        do i = 1, size(starts)
+            associate (a => starts(i))
                 if (all(abs([a%deflection, a%rotation, a%moment, a%shear]) <= huge(1.0_wp))) cycle
             end associate
             call name_farthest(assembled, error)
             return
         end do
-        state%has_starts = .true.
-    end subroutine make_starts
+    end subroutine find_starts
 
     !> Fields of a state at given places
     subroutine fields_at_places(assembled, state, x, from_left, fields, error)

@@ -413,23 +413,21 @@ class CBeam:
 
 
 class F77Beam:
-    """The same through the Fortran 77 interface: arrays and integers by reference."""
+    """The same through the Fortran 77 interface: arrays and integers by reference, handles as whole numbers."""
 
     def __init__(self, library, scene):
         self.c, a = library.c, columns(scene)
         self.supports, self.hinges, self.loads = len(scene["supports"]), len(a["hinge_x"]), len(a["load_x"])
-        self.on_ground = len(a["length"]) + 2 * len(a["foundation_k"]) + len(a["profile_x"])
+        self.on_ground = len(a["length"]) + 2 * len(a["foundation_k"]) + len(a["profile_x"]) + len(a["table_x"])
+        self.beam, self.state, self.history = (np.zeros(1, np.int64) for _ in range(3))
+        self.both = (self.beam, self.state)
         span = np.array([a["length"], a["EI"], a["GA"], a["EA"]]).T.copy()
         sup = np.array([a[f"support_{n}"] for n in ("x", "stiffness", "gap", "settlement", "rotation")]).T.copy()
         isup = np.array([a[f"support_{n}"] for n in ("side", "direction", "node")], np.int32).T.copy()
-        aload = np.array([a[f"load_{n}"] for n in ("x", "to", "value", "value_to")]).T.copy()
-        iload = np.array([a[f"load_{n}"] for n in ("kind", "case", "node")], np.int32).T.copy()
-        model = [len(span), span, self.hinges, a["hinge_x"], len(sup), isup, sup, len(aload), iload, aload]
+        model = [len(span), span, self.hinges, a["hinge_x"], len(sup), isup, sup, *self.loads_of(a)]
         alaw, ilaw = np.array([a["law_displacement"], a["law_force"]]).T.copy(), a["law_support"] + np.int32(1)
         sides, foundations = a["foundation_side"], ("from", "to", "k", "k_to", "gap", "gap_to")
-        prepare = "gbprfd" if len(sides) else "gbprlw" if len(ilaw) else "gbprep"
-        if a["foundation_law"].any():
-            prepare = "gbprgl"
+        prepare = "ghprfd" if len(sides) else "ghprlw" if len(ilaw) else "ghprep"
         if len(ilaw) or len(sides):
             model += [len(ilaw), ilaw, alaw, a["support_unloading"]]
         if len(sides):
@@ -437,17 +435,22 @@ class F77Beam:
             for name, pair in (("profile", ("x", "gap")), ("ground_law", ("displacement", "force"))):
                 points = np.array([a[f"{name}_{column}"] for column in pair]).T.copy()
                 model += [len(points), a[f"{name}_foundation"] + np.int32(1), points]
-        if prepare == "gbprgl":
             model += [a["foundation_law"], np.hstack([a[f"foundation_parameter{end}"] for end in ("", "_to")])]
-        real, integer = np.zeros(1), np.zeros(1, np.int32)
-        self.info_ = self.call(prepare, *model, real, -1, integer, -1)
-        if self.info_ == 0:
-            self.work, self.iwork = np.empty(int(real[0])), np.empty(integer[0], np.int32)
-            self.info_ = self.call(prepare, *model, self.work, len(self.work), self.iwork, len(self.iwork))
-        if self.info_ == 0:
-            assert self.call("gbsolv", self.work, self.iwork, 1.0, 0, 0, real, -1, integer, -1) == 0
-            self.state, self.istate = np.empty(int(real[0])), np.empty(integer[0], np.int32)
-            self.both = (self.work, self.iwork, self.state, self.istate)
+            tables = np.array([a["table_foundation"] + 1, a["table_quantity"]], np.int32).T.copy()
+            model += [len(tables), tables, np.array([a["table_x"], a["table_value"]]).T.copy()]
+        self.entry = np.zeros(1, np.int32)
+        self.info_ = self.call(prepare, *model, self.beam, self.entry)
+        assert self.call("ghstat", self.state) == 0
+
+    def __del__(self):
+        for handle in (self.beam, self.state, self.history):
+            self.call("ghfree", handle)
+
+    @staticmethod
+    def loads_of(a):
+        """NLOAD, ILOAD, ALOAD."""
+        aload = np.array([a[f"load_{n}"] for n in ("x", "to", "value", "value_to")]).T.copy()
+        return len(aload), np.array([a[f"load_{n}"] for n in ("kind", "case", "node")], np.int32).T.copy(), aload
 
     def call(self, name, *arguments):
         """INFO of a routine."""
@@ -460,127 +463,104 @@ class F77Beam:
         return info.value
 
     def solve(self, factor, rule="block", start=0):
-        """INFO of GBSOLV; with longer arrays where these are too short for a state on the ground."""
-        for _ in range(2):
-            info = self.call(
-                "gbsolv", self.work, self.iwork, float(factor), RULES[rule], start,
-                self.state, len(self.state), self.istate, len(self.istate),
-            )  # fmt: skip
-            if info not in (-7, -9):
-                break
-            start = 0
-            self.state, self.istate = np.empty(int(self.state[0])), np.empty(self.istate[0], np.int32)
-            self.both = (self.work, self.iwork, self.state, self.istate)
-        return info
+        """INFO of GHSOLV."""
+        return self.call("ghsolv", self.beam, float(factor), RULES[rule], start, self.state)
 
     def replace_loads(self, scene):
         """INFO of taking the loads of another scene."""
-        a = columns(scene)
-        aload = np.array([a[f"load_{n}"] for n in ("x", "to", "value", "value_to")]).T.copy()
-        iload = np.array([a[f"load_{n}"] for n in ("kind", "case", "node")], np.int32).T.copy()
-        return self.call("gbload", len(aload), iload, aload, self.work, len(self.work), self.iwork, len(self.iwork))
+        return self.call("ghload", self.beam, *self.loads_of(columns(scene)))
 
     def contact(self):
         """As CBeam.contact."""
         n = np.zeros(1, np.int32)
-        assert self.call("gbcont", *self.both, 0, n, n, n) == 0
+        assert self.call("ghcont", *self.both, 0, n, n, n) == 0
         zone, codes = np.empty((n[0], 3)), np.empty((n[0], 2), np.int32)
-        assert self.call("gbcont", *self.both, int(n[0]), n, zone, codes) == 0
+        assert self.call("ghcont", *self.both, int(n[0]), n, zone, codes) == 0
         return [(k - 1, a, b, state, r) for (a, b, r), (k, state) in zip(zone.tolist(), codes.tolist(), strict=True)]
 
     def free_spans(self):
         """As CBeam.free_spans."""
         n = np.zeros(1, np.int32)
-        assert self.call("gbfree", *self.both, 0, n, n, n) == 0
+        assert self.call("ghfrsp", *self.both, 0, n, n, n) == 0
         free, which = np.empty((n[0], 3)), np.empty(n[0], np.int32)
-        assert self.call("gbfree", *self.both, int(n[0]), n, free, which) == 0
+        assert self.call("ghfrsp", *self.both, int(n[0]), n, free, which) == 0
         return [(k - 1, *values) for k, values in zip(which.tolist(), free.tolist(), strict=True)]
 
     def pressure(self, x, left=False):
         """As CBeam.pressure."""
         found = np.full(len(x), np.nan)
-        assert self.call("gbpres", *self.both, len(x), np.array(x, dtype=float), int(left), found) == 0
+        assert self.call("ghpres", *self.both, len(x), np.array(x, dtype=float), int(left), found) == 0
         return found
 
     def pressure_extremes(self):
         """As CBeam.pressure_extremes."""
         value, x = np.empty(2), np.empty(2)
-        assert self.call("gbpxtr", *self.both, value, x) == 0
+        assert self.call("ghpxtr", *self.both, value, x) == 0
         return value, x
 
     def follow(self, factor, rule="block"):
-        """INFO and events of GBEVNT."""
+        """INFO and events of GHEVNT."""
         number, at, which = np.zeros(1, np.int32), np.empty(1000), np.empty((1000, 2), np.int32)
-        info = self.call(
-            "gbevnt", self.work, self.iwork, float(factor), RULES[rule], 1000,
-            self.state, len(self.state), self.istate, len(self.istate), number, at, which,
-        )  # fmt: skip
+        info = self.call("ghevnt", self.beam, float(factor), RULES[rule], 1000, self.state, number, at, which)
         n = number[0]
         return info, [(f, k - 1, s) for f, (k, s) in zip(at[:n], which[:n], strict=True)]
 
     def follow_ground(self, factor, rule="block"):
         """As CBeam.follow_ground."""
         number, at, which = np.zeros(1, np.int32), np.empty((1000, 2)), np.empty((1000, 4), np.int32)
-        info = self.call(
-            "gbgevt", self.work, self.iwork, float(factor), RULES[rule], 1000,
-            self.state, len(self.state), self.istate, len(self.istate), number, at, which,
-        )  # fmt: skip
+        info = self.call("ghgevt", self.beam, float(factor), RULES[rule], 1000, self.state, number, at, which)
         n = number[0]
         found = zip(at[:n].tolist(), which[:n].tolist(), strict=True)
         return info, [(f, k - 1, g - 1, x, change, branch) for (f, x), (k, g, branch, change) in found]
 
     def follow_history(self, factors, at_limit):
         """INFO and the history."""
-        self.followed = (len(factors), np.array(factors, dtype=float), AT_LIMIT[at_limit])
-        most, sizes = 1000, np.zeros(5, np.int32)
-        ends, about = np.empty((most, 2)), np.empty((most, 6), np.int32)
-        (at, where), (of_events, of_limits) = np.empty((2, most)), np.empty((2, most, 4), np.int32)
-        info = self.call(
-            "gbhist", self.work, self.iwork, *self.followed, most, ends, about, most, at, of_events, most, where, of_limits, sizes
-        )
+        self.call("ghfree", self.history)
+        sizes = np.zeros(6, np.int32)
+        factors = np.array(factors, dtype=float)
+        info = self.call("ghhist", self.beam, len(factors), factors, AT_LIMIT[at_limit], self.history, sizes)
         if info != 0:
             return info, None
-        n, m, k, ending, _ = sizes
-        assert max(n, m, k) <= most
+        n, m, k, ending, *_ = sizes.tolist()
+        ends, about = np.empty((n, 2)), np.empty((n, 6), np.int32)
+        at, of_events, where, of_limits = np.empty(m), np.empty((m, 4), np.int32), np.empty(k), np.empty((k, 4), np.int32)
+        assert self.call("ghhget", self.history, n, ends, about, m, at, of_events, k, where, of_limits) == 0
         about[:, 0] -= 1
-        events = [(f, s - 1, CHANGES[e]) for f, (s, _, e, _) in zip(at[:m], of_events[:m], strict=True)]
-        limits = [(f, KINDS_OF_LIMIT[a], leg - 1, to - 1) for f, (a, leg, _, to) in zip(where[:k], of_limits[:k], strict=True)]
-        return 0, History(ends[:n], about[:n], events, limits, ENDINGS[ending])
+        events = [(f, s - 1, CHANGES[e]) for f, (s, _, e, _) in zip(at, of_events, strict=True)]
+        limits = [(f, KINDS_OF_LIMIT[a], leg - 1, to - 1) for f, (a, leg, _, to) in zip(where, of_limits, strict=True)]
+        return 0, History(ends, about, events, limits, ENDINGS[ending])
 
     def solve_on_path(self, stretch, factor):
-        """INFO of GBHSOL for the history followed last."""
-        return self.call(
-            "gbhsol", self.work, self.iwork, *self.followed, stretch + 1, float(factor),
-            self.state, len(self.state), self.istate, len(self.istate),
-        )  # fmt: skip
+        """INFO of GHHSOL for the history followed last."""
+        return self.call("ghhsol", self.beam, self.history, stretch + 1, float(factor), self.state)
 
     def at_supports(self):
         """As CBeam.at_supports."""
         values, state = np.empty((self.supports, 4)), np.empty(self.supports, np.int32)
-        assert self.call("gbsupp", *self.both, values, state) == 0
+        assert self.call("ghsupp", *self.both, values, state) == 0
         return [*values.T, state]
 
     def fields(self, x, left=False, expect=0):
         """As CBeam.fields."""
         found = np.full((len(x), 6), np.nan)
-        assert self.call("gbflds", *self.both, len(x), np.array(x, dtype=float), int(left), found) == expect
+        assert self.call("ghflds", *self.both, len(x), np.array(x, dtype=float), int(left), found) == expect
         return found.T
 
     def extremes(self, expect=0):
         """As CBeam.extremes."""
         value, x = np.empty((6, 2)), np.empty((6, 2))
-        assert self.call("gbxtrm", *self.both, value, x) == expect
+        assert self.call("ghxtrm", *self.both, value, x) == expect
         return value, x
 
     def motion(self):
         """As CBeam.motion."""
         room = self.hinges + self.supports + 2 * self.loads + 2 + self.on_ground
         n, x, motion = np.zeros(1, np.int32), np.empty(room), np.empty(room)
-        assert self.call("gbmotn", *self.both, room, n, x, motion) == 0
+        assert self.call("ghmotn", *self.both, room, n, x, motion) == 0
         return x[: n[0]], motion[: n[0]]
 
     def certificate(self):
         """Numbers of the certificate, and which supports are undecided."""
         numbers, known, undecided = np.empty(9), np.zeros(1, np.int32), np.empty(self.supports, np.int32)
-        assert self.call("gbcert", *self.both, numbers, known, undecided) == 0
+        assert self.call("ghcert", *self.both, numbers, known, undecided) == 0
         return numbers, known[0], undecided

@@ -27,6 +27,8 @@ program test_api
     call plastic_law()
     call mechanism_at_limit()
     call combinations()
+    call errors_within_bounds(1.0e-3_wp)
+    call errors_within_bounds(1.0e-7_wp)
     call finish(status)
     if (status /= 0) stop 1, quiet=.true.
 
@@ -574,5 +576,54 @@ contains
         call get_supports(combined, result, reaction, deflection, opening, couple, conditions, error)
         call check_close(reaction, expected, what)
     end subroutine compare_reactions
+
+    !> An error put into a state on purpose is within its bound: the difference from the solution in quadruple precision counts in
+    !> full, and here it is all there is
+    subroutine errors_within_bounds(share)
+        !> Of the numbers that are wrong
+        real(wp), intent(in) :: share
+        type(model_type) :: model
+        type(prepared_type) :: beam
+        type(result_type) :: result, wrong
+        type(certificate_type) :: certificate
+        type(error_type), allocatable :: error
+        logical :: undecided(4)
+
+        model%spans = [span_type(6.0_wp, EI=1.0e4_wp), span_type(4.0_wp, EI=1.0e4_wp), span_type(5.0_wp, EI=1.0e4_wp)]
+        model%supports = [support_type(node=0), support_type(node=1, side=gapbeam_below, stiffness=3.0e4_wp), &
+                          support_type(node=2), support_type(node=3, side=gapbeam_below)]
+        model%loads = [uniform_load(2.0_wp, from=0.0_wp, to=15.0_wp)]
+        call prepare_model(model, beam, error)
+        call solve_beam(beam, 1.0_wp, options_type(), result, error)
+        associate (units => beam%lowered%units)
+            wrong = result
+            wrong%state%deflection(:) = (1.0_wp + share)*wrong%state%deflection
+            call get_certificate(beam, wrong, certificate, undecided, error)
+            call check_bound(certificate%deflection_bound, scale(maxval(abs(result%state%deflection)), units%deflection), &
+                             "deflections")
+            wrong = result
+            wrong%state%reaction(:) = (1.0_wp + share)*wrong%state%reaction
+            call get_certificate(beam, wrong, certificate, undecided, error)
+            call check_bound(certificate%reaction_bound, scale(maxval(abs(result%state%reaction)), units%force), "reactions")
+            wrong = result
+            wrong%state%moment_left(:) = (1.0_wp + share)*wrong%state%moment_left
+            wrong%state%moment_right(:) = (1.0_wp + share)*wrong%state%moment_right
+            call get_certificate(beam, wrong, certificate, undecided, error)
+            call check_bound(certificate%field_bound(3), &
+                             scale(maxval(abs(result%state%moment_left)), units%force + units%length), "moments")
+        end associate
+
+    contains
+
+        !> Is a bound that of the error put in, or a little more
+        subroutine check_bound(bound, size, what)
+            real(wp), intent(in) :: bound, size
+            character(len=*), intent(in) :: what
+
+            call check(.not. allocated(error) .and. certificate%known, what//" that are wrong are certified")
+            call check(share*size <= bound .and. bound <= 8.0_wp*share*size, "the bound says so")
+        end subroutine check_bound
+
+    end subroutine errors_within_bounds
 
 end program test_api

@@ -31,7 +31,7 @@ def solve_in_c(beam, factors, given, rule):
 
 
 def solve_in_f77(library, scene, factors, given, rule, like):
-    """INFO, and what GBMANY fills: statuses, reactions, deflections, moments, of the shapes of those of C."""
+    """INFO, and what GHMANY fills: statuses, reactions, deflections, moments, of the shapes of those of C."""
     beam = F77Beam(library, scene)
     varied = any(one is not None for one in given)
     own = [[one.get(key, default) for one in scene["supports"]] for key, default in
@@ -42,8 +42,11 @@ def solve_in_f77(library, scene, factors, given, rule, like):
     supports = np.stack(values, axis=-1).copy()
     found = [np.empty_like(one) for one in like]
     conditions = np.empty(shape, np.int32)
-    info = beam.call("gbmany", beam.work, beam.iwork, shape[0], factors, int(varied), supports, RULES[rule], *found[:2], conditions,
-                     *found[2:])  # fmt: skip
+    cases = np.zeros(1, np.int64)
+    info = beam.call("ghcase", beam.beam, cases) or beam.call(
+        "ghmany", beam.beam, cases, shape[0], factors, int(varied), supports, RULES[rule], *found[:2], conditions, *found[2:]
+    )
+    beam.call("ghfree", cases)
     return info, found
 
 

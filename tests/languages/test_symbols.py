@@ -1,4 +1,4 @@
-"""The Python package and libgapbeam in one process: names that both have, such as gbsolv_, mean different things in them."""
+"""The Python package and libgapbeam in one process: names that both have, such as those of the engine's modules, meet nowhere."""
 
 import os
 import re

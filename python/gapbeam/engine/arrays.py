@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
-from ..base.records import Record, read_only
-
-GROUND_ROWS = 19
-"""Rows of `Ground.values` beside those of the layers, as in gapbeam_handle."""
+from ..base.records import Record
 
 MODULUS, GAP, PARAMETER = 1, 2, 3
 """Of what a table is, as in gapbeam_scene; the parameters of a law follow the first one."""
@@ -113,47 +110,6 @@ class Columns(Record):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Ground(Record):
-    """A solution on the ground, stretch by stretch from left to right, in the engine's units.
-
-    Attributes
-    ----------
-    values : numpy.ndarray
-        A column a stretch. Rows: piece (from 1); distances of its ends from the left end of the piece, length; moduli at its
-        ends; loads qa, qb, qc, kappa beside the chord; deflections, moments, rotations, shears at its ends; slope of the chord; and
-        of every layer under it the force up, then the piece of its law on which it acts (0: not in contact).
-    bounds : numpy.ndarray
-        Of the errors of deflection, rotation, moment, shear, reactions.
-    residuals : numpy.ndarray
-        Of compatibility, equilibrium and complementarity, by the audit that the state stood.
-    """
-
-    values: np.ndarray
-    bounds: np.ndarray
-    residuals: np.ndarray
-
-    @property
-    def layers(self) -> int:
-        """Most layers under a stretch."""
-        return (len(self.values) - GROUND_ROWS) // 2
-
-    @property
-    def stretches(self) -> int:
-        """Stretches between nodes, of which the ends of zones are some."""
-        return self.values.shape[1]
-
-    @property
-    def resultants(self) -> np.ndarray:
-        """Force of every layer on the beam, up, layers by stretches."""
-        return self.values[GROUND_ROWS : GROUND_ROWS + self.layers]
-
-    @property
-    def acts(self) -> np.ndarray:
-        """Piece of its law on which every layer acts, layers by stretches."""
-        return read_only(self.values[GROUND_ROWS + self.layers :].astype(np.int32))
-
-
-@dataclass(frozen=True, slots=True, eq=False)
 class GroundChanges(Record):
     """What changes along the load of a beam on the ground, as in gapbeam_ground_path.
 
@@ -200,64 +156,6 @@ class GroundChanges(Record):
     motion: np.ndarray
     slides: bool
     solves: int
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Solution(Record):
-    """What the engine found at one load factor, in its own units (`Beam.units`).
-
-    Attributes
-    ----------
-    status : int
-        SOLVED or NO_EQUILIBRIUM; in the second case only `motion` and `slides` have a meaning.
-    closed : numpy.ndarray of int
-        1 where a support acts, 0 where it is open.
-    undecided : numpy.ndarray of int
-        1 where its reaction or opening is zero, so that it may be closed or open.
-    deflection, moment_left, moment_right : numpy.ndarray
-        At the nodes.
-    shear : numpy.ndarray
-        Of the links, beside that of the simple bar.
-    reaction : numpy.ndarray
-        Of every support, positive upward.
-    motion : numpy.ndarray
-        Displacements of the nodes in the free motion, positive downward, largest 1.
-    displacement, tension : numpy.ndarray
-        Of the points and bars of the axial system.
-    at_supports : numpy.ndarray
-        Reaction, deflection, opening and couple of the scene's supports in its units, 4 rows.
-    solves : int
-        Linear solves; they do not count when solutions are compared.
-    method : int
-        Index into METHODS.
-    indifferent : bool
-        Whether the beam can move freely without work of the loads: forces are unique, the position is not.
-    came_back : bool
-        Whether the rule ``single`` came back to a scheme, so that ``block`` went on.
-    slides : bool
-        Whether nothing holds the beam along its axis.
-    ground : Ground or None
-        What is in its stretches, with foundations.
-    """
-
-    status: int
-    closed: np.ndarray
-    undecided: np.ndarray
-    deflection: np.ndarray
-    moment_left: np.ndarray
-    moment_right: np.ndarray
-    shear: np.ndarray
-    reaction: np.ndarray
-    motion: np.ndarray
-    displacement: np.ndarray
-    tension: np.ndarray
-    at_supports: np.ndarray
-    solves: int = field(compare=False)
-    method: int
-    indifferent: bool
-    came_back: bool
-    slides: bool
-    ground: Ground | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from ..base.errors import Status, check_status
 from ..base.records import read_only
 from . import calls as _engine  # the compiled layer itself, but for Ctrl-C
-from .arrays import Columns, Ground, Solution, extended
+from .arrays import Columns, extended
 from .layout import Curve, Layout
-from .quantities import BENDING, QUANTITIES
-from .units import Units, scaled
+from .quantities import QUANTITIES
+from .states import Solution, State
+from .units import Units
 
 SOLVED, NO_EQUILIBRIUM = Status.SOLVED, Status.NO_EQUILIBRIUM
 """Outcomes, as in gapbeam_error; codes above 10 are errors."""
@@ -196,76 +195,42 @@ class Beam(Layout):
         EngineError
             Where no unique solution exists for another reason, with the engine's message.
         """
-        m, n = self.supports, max(self.bars, 0)
-        scheme = extended(closed)
+        m, scheme = self.supports, extended(closed)
         code = RULES.get(rule, RULE_EXTENDED if self.curves else RULE_GIVEN)
-        undecided, w, left, right, shear, reaction, motion, u, tension, values, counts, ground, status, message = _engine.gbsolv(
-            self.handle, self.links, self.scene_supports, n, factor, code, scheme
+        undecided, values, counts, handle, status, message = _engine.gbsolv(
+            self.handle, self.links, self.scene_supports, factor, code, scheme
         )
         check_status(status, message)
-        solves, method, indifferent, came_back, slides, stretches, layers = counts.tolist()
-        under = Ground(*_engine.gbgget(ground, stretches, layers)) if ground else None
+        solves, method, indifferent, came_back, slides, *on_ground = counts.tolist()
+        start = read_only(np.array(closed)) if closed.flags.writeable else closed
+        state = State(self, factor, code, start, *on_ground, handle)
         return Solution(
-            status, scheme[:m], undecided[:m], w, left, right, shear, reaction[:m], motion, u, tension[:n], values.T[:, :-1],
-            solves, method, bool(indifferent), bool(came_back), bool(slides), under,
+            status, scheme[:m], undecided[:m], values.T[:, :-1], solves, method, bool(indifferent), bool(came_back), bool(slides),
+            state,
         )  # fmt: skip
 
-    def recover(self, factor: float, solution: Solution) -> np.ndarray:
-        """Fields at the left end of every piece.
+    def solve_again(self, factor: float, code: int, start: np.ndarray) -> _engine.StateHandle:
+        """Solve a state once more.
 
         Parameters
         ----------
-        factor : float
-            Factor of the live loads.
-        solution : Solution
-            Solved at that factor.
+        factor, code, start
+            As of `State`.
 
         Returns
         -------
-        numpy.ndarray
-            Deflection, rotation, moment, shear by piece, in the engine's units, for the calls below.
+        StateHandle
 
         Raises
         ------
         EngineError
-            A field left the range of doubles.
+            Where the first time on another machine it did not.
         """
-        if solution.ground is not None:
-            return solution.ground.values
-        starts, status, message = _engine.gbreco(self.handle, self.pieces, *_state(factor, solution))
+        *_, handle, status, message = _engine.gbsolv(
+            self.handle, self.links, self.scene_supports, factor, code, extended(start)
+        )
         check_status(status, message)
-        return read_only(starts)
-
-    def certify(self, factor: float, solution: Solution) -> tuple[np.ndarray, np.ndarray, bool]:
-        """Check a solved state, and bound its errors by comparison with a solution in quadruple precision.
-
-        Parameters
-        ----------
-        factor, solution
-            As for `recover`.
-
-        Returns
-        -------
-        residuals : numpy.ndarray
-            Relative residuals of compatibility, equilibrium and complementarity.
-        bounds : numpy.ndarray
-            Largest errors of deflections of the nodes and of reactions; of deflections, rotations, moments, shears along the
-            beam, in the engine's units.
-        known : bool
-            False where the beam is free to move: deflections and rotations have no bound then.
-
-        Raises
-        ------
-        EngineError
-            The state cannot be checked.
-        """
-        if solution.ground is not None:
-            ground = solution.ground
-            bounds = np.concatenate((ground.bounds[[0, 4]], ground.bounds[:4]))
-            return ground.residuals, bounds, not solution.indifferent
-        residuals, bounds, known, status, message = _engine.gbcert(self.handle, *_state(factor, solution))
-        check_status(status, message, "the state could not be checked in quadruple precision: ")
-        return residuals, bounds, bool(known)
+        return handle
 
     def find(self, x: np.ndarray, left: bool) -> tuple[np.ndarray, np.ndarray]:
         """Find the pieces of given places.
@@ -295,86 +260,6 @@ class Beam(Layout):
         check_status(status, message)
         return piece, distance
 
-    def values(
-        self, factor: float, starts: np.ndarray, solution: Solution, piece: np.ndarray, distance: np.ndarray
-    ) -> np.ndarray:
-        """Fields at given distances from the left ends of pieces.
-
-        Parameters
-        ----------
-        factor, solution
-            As for `recover`.
-        starts : numpy.ndarray
-            From `recover`.
-        piece : numpy.ndarray of int
-            The pieces, from 1.
-        distance : numpy.ndarray
-            The distances, in the scene's units.
-
-        Returns
-        -------
-        numpy.ndarray
-            6 by places, 7 with foundations, in the scene's units, in the order of FIELDS.
-
-        Raises
-        ------
-        EngineError
-            A field left the range of doubles.
-        """
-        on_ground = solution.ground is not None
-        found = np.empty((7 if on_ground else 6, len(piece)))
-        tension = np.append(solution.tension, 0.0)
-        for part in _engine.parts(len(piece)):
-            about = solution.displacement, tension, piece[part], distance[part]
-            found[:, part], status, message = (
-                _engine.gbgval(self.handle, starts, *about) if on_ground else _engine.gbvalu(self.handle, factor, starts, *about)
-            )
-            check_status(status, message)
-        return found
-
-    def extremes(self, factor: float, starts: np.ndarray, solution: Solution) -> tuple[np.ndarray, np.ndarray]:
-        """Exact extremes of all fields.
-
-        Parameters
-        ----------
-        factor, starts, solution
-            As for `values`.
-
-        Returns
-        -------
-        values, x : numpy.ndarray
-            Maximum and minimum (rows) of every field in the order of FIELDS (columns), and where they are.
-
-        Raises
-        ------
-        EngineError
-            A field left the range of doubles.
-        """
-        tension = np.append(solution.tension, 0.0)
-        along = starts, solution.displacement, tension
-        values, x, status, message = (
-            _engine.gbextr(self.handle, factor, *along) if solution.ground is None else _engine.gbgext(self.handle, *along)
-        )
-        check_status(status, message)
-        return values, x
-
-    def largest_fields(self, factor: float, starts: np.ndarray, solution: Solution) -> np.ndarray:
-        """Largest absolute values of deflection, rotation, moment, shear, in the engine's units.
-
-        Parameters
-        ----------
-        factor, starts, solution
-            As for `values`.
-
-        Returns
-        -------
-        numpy.ndarray
-        """
-        if solution.ground is not None:
-            values, _ = self.extremes(factor, starts, solution)
-            return scaled(np.abs(values[:, : len(BENDING)]).max(axis=0), -np.array(self.units.field))
-        return _engine.gblarg(self.handle, factor, starts)
-
     @property
     def fields(self) -> dict[str, int]:
         """Names of the fields that it has, and which of `FIELDS` they are."""
@@ -389,10 +274,3 @@ def _made_of(
     beam = Beam(columns, curves)
     beam = beam if factors is None else beam.with_factors(factors)
     return beam if kinks is None else beam.with_kinks(kinks)
-
-
-def _state(factor: float, solution: Solution) -> tuple[Any, ...]:
-    """Collect what the layer needs of a solved state."""
-    s = solution
-    reaction = np.append(s.reaction, 0.0)
-    return factor, extended(s.closed), s.deflection, s.moment_left, s.moment_right, s.shear, reaction

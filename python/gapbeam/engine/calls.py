@@ -199,6 +199,24 @@ class Room(int):
             drop(self)
 
 
+class StateHandle(int):
+    """A solved state in the compiled layer, which is freed with the last reference to this number."""
+
+    def __del__(self, drop: Callable = _engine.gbsdro) -> None:
+        """Free the state, also when Python ends and modules are gone."""
+        if self:
+            drop(self)
+
+
+class FieldsHandle(int):
+    """The fields of a state at the pieces, in the compiled layer; freed with the last reference to this number."""
+
+    def __del__(self, drop: Callable = _engine.gbfdro) -> None:
+        """Free the fields, also when Python ends and modules are gone."""
+        if self:
+            drop(self)
+
+
 class TrainHandle(int):
     """A train in the compiled layer, which is freed with the last reference to this number."""
 
@@ -230,9 +248,20 @@ def parts(count: int) -> Iterator[slice]:
         yield slice(first, min(first + PART, count))
 
 
-def _on_ground(beam: Handle, ground: np.ndarray) -> int:
+def _on_ground(beam: Handle, stretches: int) -> int:
     """Count the stretches of a solution on the ground, as far as they are short work."""
-    return SHORT if beam.has_curves else ground.shape[1]
+    return SHORT if beam.has_curves else stretches
+
+
+def _solve(beam: Handle, links: int, *about: Any) -> tuple:
+    """Solve one state, which is freed even where nobody waits for it any more."""
+    *found, state, status, message = _engine.gbsolv(beam, *about)
+    return *found, StateHandle(state), status, message
+
+
+def _recover(beam: Handle, pieces: int, state: StateHandle) -> tuple:
+    fields, status, message = _engine.gbreco(beam, state)
+    return FieldsHandle(fields), status, message
 
 
 gbsize = _engine.gbsize
@@ -240,6 +269,7 @@ gbroom = _engine.gbroom
 gbone = _engine.gbone
 gbnumb = _engine.gbnumb
 gbhget = _engine.gbhget
+gbsget = _engine.gbsget
 gbgget = _engine.gbgget
 gbgpte = _engine.gbgpte
 gbmake = interruptible(
@@ -248,21 +278,27 @@ gbmake = interruptible(
 )
 gbcopy = interruptible(_engine.gbcopy)
 gbplac = interruptible(_engine.gbplac, lambda beam, pieces, *_: pieces)
-gbsolv = interruptible(_engine.gbsolv, lambda beam, links, *_: SHORT if beam.has_curves else links)
+gbsolv = interruptible(_solve, lambda beam, links, *_: SHORT if beam.has_curves else links)
 gbpath = interruptible(_engine.gbpath)
 gbhist = interruptible(_engine.gbhist)
 gbgpth = interruptible(_engine.gbgpth)
 gblaws = interruptible(lambda beam, laws, _: _engine.gblaws(beam, laws), lambda beam, laws, pieces: pieces + laws.shape[1])
-gbreco = interruptible(_engine.gbreco, lambda beam, pieces, *_: pieces)
-gbcert = interruptible(_engine.gbcert, lambda beam, factor, closed, w, *_: 3 * len(w))
+gbreco = interruptible(_recover, lambda beam, pieces, *_: pieces)
+gbcert = interruptible(lambda beam, nodes, *about: _engine.gbcert(beam, *about), lambda beam, nodes, *_: 3 * nodes)
 gbfind = interruptible(_engine.gbfind, lambda beam, x, *_: len(x))
-gbvalu = interruptible(_engine.gbvalu, lambda beam, factor, starts, u, tension, piece, *_: len(piece))
-gbgval = interruptible(_engine.gbgval, lambda beam, ground, u, tension, piece, *_: _on_ground(beam, ground) + len(piece))
-gbgext = interruptible(_engine.gbgext, lambda beam, ground, *_: _on_ground(beam, ground))
-gbgrun = interruptible(_engine.gbgrun, lambda beam, ground: _on_ground(beam, ground))
-gbgdif = interruptible(_engine.gbgdif, lambda most, beam, ground, *_: _on_ground(beam, ground))
-gbextr = interruptible(_engine.gbextr, lambda beam, factor, starts, *_: starts.shape[1])
-gblarg = interruptible(_engine.gblarg, lambda beam, factor, starts, *_: starts.shape[1])
+gbvalu = interruptible(
+    lambda beam, stretches, *about: _engine.gbvalu(beam, *about),
+    lambda beam, stretches, state, fields, count, piece, distance: len(piece) + (stretches and _on_ground(beam, stretches)),
+)
+gbextr = interruptible(
+    lambda beam, pieces, stretches, *about: _engine.gbextr(beam, *about),
+    lambda beam, pieces, stretches, *_: _on_ground(beam, stretches) if stretches else pieces,
+)
+gblarg = interruptible(lambda beam, pieces, *about: _engine.gblarg(beam, *about), lambda beam, pieces, *_: pieces)
+gbgrun = interruptible(_engine.gbgrun, lambda beam, state, stretches, layers: _on_ground(beam, stretches))
+gbgdif = interruptible(
+    lambda stretches, *about: _engine.gbgdif(*about), lambda stretches, most, beam, *_: _on_ground(beam, stretches)
+)
 gbcomb = interruptible(_engine.gbcomb)
 gbcext = interruptible(_engine.gbcext, lambda beam, factors, *_: SHORT * (factors.shape[1] > FEW_CASES))
 gbccrt = interruptible(_engine.gbccrt)

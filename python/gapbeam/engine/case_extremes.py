@@ -65,7 +65,7 @@ def case_fields(
     beam, rule, factors, varied, closed, status, nodes
         As for `case_extremes`.
     piece, distance : numpy.ndarray
-        The places, as for `Beam.values`.
+        The places, as for `Solution.values`.
 
     Returns
     -------

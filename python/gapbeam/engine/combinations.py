@@ -99,7 +99,7 @@ def solve_combinations(
     closed : numpy.ndarray of int
         Where the searches start: supports of the engine, or combinations by supports.
     piece, distance : numpy.ndarray, optional
-        Places at which fields are wanted, as for `Beam.values`.
+        Places at which fields are wanted, as for `Solution.values`.
     varied : Varied, optional
         Numbers that differ from those of the beam.
 

@@ -6,8 +6,8 @@ import numpy as np
 
 from ..base.errors import check_status
 from . import calls as _engine
-from .arrays import Ground
 from .beam import Beam
+from .states import Ground
 
 
 def ground_runs(beam: Beam, ground: Ground) -> tuple[np.ndarray, np.ndarray]:
@@ -34,7 +34,7 @@ def ground_runs(beam: Beam, ground: Ground) -> tuple[np.ndarray, np.ndarray]:
     EngineError
         There is no memory.
     """
-    number, about, values, status, message = _engine.gbgrun(beam.handle, ground.values)
+    number, about, values, status, message = _engine.gbgrun(beam.handle, ground.state.handle, ground.stretches, ground.layers)
     check_status(status, message)
     return about.T[:number], values.T[:number]
 
@@ -70,7 +70,9 @@ def zone_changes(beam: Beam, ground: Ground, other: Beam, after: Ground) -> tupl
     room, number = 0, 8
     while number > room:
         room = number
-        same, number, which, x, status, message = _engine.gbgdif(room, beam.handle, ground.values, other.handle, after.values)
+        same, number, which, x, status, message = _engine.gbgdif(
+            ground.stretches, room, beam.handle, ground.state.handle, other.handle, after.state.handle
+        )
         check_status(status, message)
     about = which.T[:number].copy()
     about[:, 0] -= 1

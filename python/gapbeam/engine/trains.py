@@ -128,7 +128,7 @@ class Passage:
         Parameters
         ----------
         piece, distance
-            As for `Beam.values`.
+            As for `Solution.values`.
 
         Returns
         -------
@@ -159,7 +159,7 @@ class Passage:
         supports : numpy.ndarray of bool
             Supports of the scene whose reactions are meant.
         piece, distance
-            A place of the beam, as for `Beam.values`.
+            A place of the beam, as for `Solution.values`.
         places : numpy.ndarray
             Where the unit force is.
 

@@ -108,7 +108,7 @@ def draw_extremes(axes: Axes, result: Result, states: Sequence[Step], dots: bool
         Whether each is marked.
     """
     factors = [step.factor for step in states]
-    found = [result.beam.extremes(step.factor, step.starts, step.solution)[0][:, 0] for step in states]
+    found = [step.solution.extremes()[0][:, 0] for step in states]
     for values, pattern, name in zip(np.transpose(found), ("-", "--"), ("largest", "smallest"), strict=True):
         axes.plot(factors, values, pattern, color="black", linewidth=1.3, marker="." if dots else None, clip_on=False,
                   label=name)  # fmt: skip

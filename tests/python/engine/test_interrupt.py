@@ -177,7 +177,7 @@ def test_small_beams_on_ground_are_interrupted(monkeypatch):
         "loads": [{"type": "uniform", "q": 2.0, "case": "dead"}, {"type": "force", "x": 4.1, "F": 50.0}],
     }
     assert gapbeam.solve(scene).status == "solved"
-    assert calls._engine.gbsolv in made
+    assert calls._solve in made
     interrupt(lambda: gapbeam.solve({**scene, "analysis": {"steps": 200}}))
 
 

@@ -59,7 +59,7 @@ def digits(result):
     told += [(event.factor, event.support, event.event) for event in result.events]
     for step in result.steps:
         told += [step.factor, step.solves, step.state, step.residuals, step.bounds, step.undecided, step.indifferent]
-        told += [getattr(step, name).tobytes() for name in ("reaction", "deflection", "opening", "couple", "starts")]
+        told += [getattr(step, name).tobytes() for name in ("reaction", "deflection", "opening", "couple")]
     told.append([{**step, "seconds": 0.0} for step in result.to_dict()["steps"]])
     if result.steps:
         told += [result.to_dict()["fields"], result.extremes(), result.at([0.5, 1.0], factor=0.03).moment.tobytes()]

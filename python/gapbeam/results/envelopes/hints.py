@@ -131,7 +131,7 @@ def _states(result: Result) -> list[Step]:
 
 def _values(result: Result, step: Step, x: np.ndarray) -> dict[tuple[str, int | None], list[tuple[float, float]]]:
     """Largest and smallest values with their places, by quantity and support."""
-    values, places = result.beam.extremes(step.factor, step.starts, step.solution)
+    values, places = step.solution.extremes()
     found: dict[tuple[str, int | None], list[tuple[float, float]]] = {
         (name, None): [(values[i, FIELDS.index(name)], places[i, FIELDS.index(name)]) for i in (0, 1)]
         for name in result.beam.fields

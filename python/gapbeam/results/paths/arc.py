@@ -16,8 +16,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ...base.errors import EngineError
-from ...engine.arrays import Solution
 from ...engine.beam import GIVEN, SOLVED, Beam
+from ...engine.states import Solution
 from ..state.smooth import SmoothLaws
 
 MOST_CORRECTIONS = 25
@@ -163,8 +163,8 @@ class Arc:
         -------
         bool
         """
-        beam, solution, _ = self._solve(point[:-1], force, point[-1])
-        return bool(beam.certify(float(point[-1]), solution)[0][2] <= tolerance)
+        _, solution, _ = self._solve(point[:-1], force, point[-1])
+        return bool(solution.certify()[0][2] <= tolerance)
 
     def _responses(self) -> tuple[np.ndarray, np.ndarray]:
         """Deflections due to a force at each law, and due to the live loads."""

@@ -26,7 +26,7 @@ TENSION = FIELDS.index("axial_force")
 def tensions(beam: Beam, step: Step) -> np.ndarray:
     """Give the axial force of every piece in a state."""
     pieces = np.arange(1, beam.pieces + 1, dtype=np.int32)
-    return beam.values(step.factor, step.starts, step.solution, pieces, np.zeros(beam.pieces))[TENSION]
+    return step.solution.values(pieces, np.zeros(beam.pieces))[TENSION]
 
 
 def compression_of(result: Result, step: Step, struts: Struts | None = None) -> Compression | None:

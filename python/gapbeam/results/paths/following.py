@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...base.errors import WITHOUT_ANSWER, EngineError, SceneError, Status
-from ...engine.arrays import Solution
 from ...engine.beam import Beam
+from ...engine.states import Solution
 from ...scene.structs import Scene
 from ..state.schemes import starting_scheme
 from ..state.step import solve_step

@@ -128,7 +128,7 @@ class PolylinePath(Pickled):
 
     def _check(self, state: State, arc: Arc | None = None, indices: set[int] | None = None) -> None:
         """Whether all supports are on their pieces, and where the beam begins to give way so many ways as on the polylines."""
-        if state.beam.certify(state.factor, state.solution)[0][2] > NEAR:
+        if state.solution.certify()[0][2] > NEAR:
             raise LostError
         if arc is not None and not set(self._beam.laws) - self._beam.smooth:
             values = arc.eigenvalues(state)

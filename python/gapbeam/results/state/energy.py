@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...engine.arrays import Solution
 from ...engine.beam import Beam, Curve
 from ...engine.quantities import FIELDS
+from ...engine.states import Solution
 from ...scene.loads import CurvatureLoad, ForceLoad, MomentLoad
 from ...scene.structs import Scene
 from .smooth import SmoothLaws
@@ -109,4 +109,4 @@ def _along(beam: Beam, step: Step, load: object, start: float, stop: float) -> f
 
 
 def _field(beam: Beam, step: Step, kind: str, piece: np.ndarray, distance: np.ndarray) -> np.ndarray:
-    return beam.values(step.factor, step.starts, step.solution, piece, distance)[FIELDS.index(kind)]
+    return step.solution.values(piece, distance)[FIELDS.index(kind)]

@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...engine.arrays import Ground
 from ...engine.beam import Beam
 from ...engine.ground import ground_runs
+from ...engine.states import Ground
 from ...engine.units import scaled
 
 TOUCHING = "touching"

@@ -6,8 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...engine.arrays import Solution
 from ...engine.beam import Beam
+from ...engine.states import Solution
 
 EVENTS = {
     0: "opens", 1: "closes", 3: "turns", 4: "yields", 5: "hardens", 6: "softens", 7: "breaks", 8: "unloads",

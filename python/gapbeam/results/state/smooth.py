@@ -12,8 +12,8 @@ from dataclasses import replace
 import numpy as np
 
 from ...base.errors import EngineError, Status
-from ...engine.arrays import Solution
 from ...engine.beam import GIVEN, NO_EQUILIBRIUM, SOLVED, Beam
+from ...engine.states import Solution
 from ...engine.units import scaled
 
 USUAL_TANGENTS, MOST_TANGENTS = 10, 60

@@ -14,8 +14,8 @@ import numpy as np
 from ...base.errors import EngineError
 from ...base.memory import refuse_beyond
 from ...base.records import Pickled
-from ...engine.arrays import Solution
 from ...engine.beam import Beam
+from ...engine.states import Solution
 from ...scene.names import label
 from ...scene.structs import Scene
 from ...scene.wording import shown

@@ -12,9 +12,9 @@ from typing import NamedTuple
 import numpy as np
 
 from ...base.records import Pickled, read_only
-from ...engine.arrays import Solution
 from ...engine.beam import SOLVED, Beam
 from ...engine.case_certificates import BOUNDED
+from ...engine.states import Solution
 from ...engine.units import bound_in_scene, scaled
 from .ground import Contact, FreeSpan, Run, find_contact, find_free_spans, find_runs
 from .kinks import piece_of
@@ -60,7 +60,7 @@ class Step(Pickled):
         self._start = start
         self._known = known
         if solution is not None:
-            self._solved = beam, solution, 0.0
+            self._solved = solution, 0.0
 
     def __eq__(self, other: object) -> bool:
         """Whether beam, load factor and all values are equal."""
@@ -71,7 +71,7 @@ class Step(Pickled):
         )
 
     @cached_property
-    def _solved(self) -> tuple[Beam, Solution, float]:
+    def _solved(self) -> tuple[Solution, float]:
         begin = perf_counter()
         beam, solution = self._beam, self._beam.solve(self.factor, self._rule, self._start)
         if beam.curves and solution.status == SOLVED:
@@ -79,12 +79,12 @@ class Step(Pickled):
                 beam, solution = solve_on_curves(beam, self.factor, solution, self._rule)
             if solution.status == SOLVED:
                 solution = with_openings(beam, solution)
-        return beam, solution, perf_counter() - begin
+        return solution, perf_counter() - begin
 
     @property
     def solution(self) -> Solution:
         """What the engine found."""
-        return self._solved[1]
+        return self._solved[0]
 
     @property
     def closed(self) -> np.ndarray:
@@ -94,7 +94,7 @@ class Step(Pickled):
     @property
     def seconds(self) -> float:
         """Time it took to find the working scheme."""
-        return self._solved[2] if self._known is None else self._known.seconds
+        return self._solved[1] if self._known is None else self._known.seconds
 
     @property
     def solves(self) -> int:
@@ -160,8 +160,7 @@ class Step(Pickled):
 
     @cached_property
     def _certified(self) -> tuple[np.ndarray, np.ndarray, bool]:
-        beam, solution, _ = self._solved
-        return beam.certify(self.factor, solution)
+        return self.solution.certify()
 
     @property
     def error_bounds(self) -> dict[str, float | None]:
@@ -201,7 +200,7 @@ class Step(Pickled):
 
         None for what there is not.
         """
-        fields = self._beam.largest_fields(self.factor, self.starts, self.solution).tolist()
+        fields = self.solution.largest_fields().tolist()
         largest = dict(zip(BOUNDED, [*fields, float(np.abs(self.solution.reaction).max(initial=0.0))], strict=True))
         relative = {kind: _relative(bound, largest[kind]) for kind, bound in self._inner_bounds.items()}
         return {
@@ -238,11 +237,11 @@ class Step(Pickled):
         values, x : numpy.ndarray
             Maximum and minimum (rows) of every field in the order of FIELDS (columns), and where they are.
         """
-        return self._beam.extremes(self.factor, self.starts, self.solution)
+        return self.solution.extremes()
 
     def values(self, piece: np.ndarray, distance: np.ndarray) -> np.ndarray:
-        """Fields at given distances from the left ends of pieces, as `Beam.values`: with the loads that act in this state."""
-        return self._beam.values(self.factor, self.starts, self.solution, piece, distance)
+        """Fields at given distances from the left ends of pieces, as `Solution.values`: with the loads that act in this state."""
+        return self.solution.values(piece, distance)
 
     def forgotten(self) -> Step:
         """The same step that has not been solved yet: of many steps only what is looked at should be in memory.
@@ -252,11 +251,6 @@ class Step(Pickled):
         Step
         """
         return Step(self._beam, self.factor, self._rule, self._start, self._known, self._settled, self.exact)
-
-    @cached_property
-    def starts(self) -> np.ndarray:
-        """Fields at the left end of every piece of the beam."""
-        return self._beam.recover(self.factor, self.solution)
 
 
 def name_states(beam: Beam, closed: np.ndarray) -> tuple[str, ...]:

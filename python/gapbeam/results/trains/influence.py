@@ -79,9 +79,8 @@ def influence_line(state: TrainState, what: str, x: float, chosen: np.ndarray, p
         if what == "reaction":
             values.append(float(solution.at_supports[0, chosen].sum()))
             continue
-        starts = beam.recover(1.0, solution)
         piece, distance = beam.find(np.array([x]), side == "left")
-        fields = beam.values(1.0, starts, solution, piece, distance)
+        fields = solution.values(piece, distance)
         row = FIELDS.index(what)
         values.append(float(fields[row, 0]) if row < len(fields) else 0.0)
     return np.array(values)

@@ -326,7 +326,7 @@ class Standing(Member):
     def curves(self, piece: np.ndarray, distance: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """As `Member.curves`."""
         step, beam = self._result.steps[-1], self._result.beam
-        values = beam.values(step.factor, step.starts, step.solution, piece, distance)
+        values = step.solution.values(piece, distance)
         found = np.array([values[beam.fields[name]] for name in fields_of(beam)])
         return np.stack((found, found)), np.full((2, *found.shape), np.nan)
 

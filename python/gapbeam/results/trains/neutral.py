@@ -13,8 +13,8 @@ import numpy as np
 from msgspec.structs import replace
 
 from ...base.errors import GapbeamError, Status
-from ...engine.arrays import Solution
 from ...engine.beam import Beam, RefusalError
+from ...engine.states import Solution
 from ...engine.trains import Passage
 from ...scene.columns import columns, curves
 from ...scene.loads import ForceLoad, UniformLoad

@@ -115,7 +115,7 @@ class Placed:
     @cached_property
     def extremes(self) -> tuple[np.ndarray, np.ndarray]:
         """Largest and smallest fields, and their places, 2 by fields of the engine."""
-        return self.beam.extremes(1.0, self.step.starts, self.step.solution)
+        return self.step.solution.extremes()
 
     @property
     def at_supports(self) -> np.ndarray:
@@ -141,7 +141,7 @@ class Placed:
         for side in (False, True):
             piece[left == side], distance[left == side] = self.beam.find(x[left == side], side)
         found = np.full((7, len(x)), np.nan)
-        values = self.beam.values(1.0, self.step.starts, self.step.solution, piece, distance)
+        values = self.step.solution.values(piece, distance)
         found[: len(values)] = values
         return found
 

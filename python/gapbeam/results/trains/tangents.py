@@ -18,7 +18,8 @@ from ..state.schemes import starting_scheme
 from ..state.smooth import SmoothLaws, solve_on_curves, with_openings
 
 if TYPE_CHECKING:
-    from ...engine.arrays import Columns, Solution
+    from ...engine.arrays import Columns
+    from ...engine.states import Solution
 
 NEAREST = 4
 """Known states from which a state is guessed at most."""

@@ -1,13 +1,11 @@
 """Certificates: the error bound holds and is not wasteful; what precision cannot decide is named; free positions are said."""
 
 import random
-from dataclasses import replace
 
 import gapbeam
 import numpy as np
 import oracle
 import pytest
-from gapbeam.scene.reading import read_beam
 from mpmath import mpf
 from scenes import INF, at, force, random_scene, scene, stretch, uniform
 
@@ -157,18 +155,3 @@ def test_no_supports_at_all():
     assert result.status == "no-equilibrium"
     assert "moves down as a whole" in result.reason
     assert result.motion == [(0.0, 1.0), (2.0, 1.0)]
-
-
-@pytest.mark.parametrize("share", [1e-3, 1e-7])
-def test_an_error_put_in_on_purpose_is_within_its_bound(share):
-    """The difference from the solution in quadruple precision counts in full: here it is all there is."""
-    made = scene([6.0, 4.0, 5.0], [at(0), at(1, side="below", stiffness=3e4), at(2), at(3, side="below")], [uniform(2.0)], EI=1e4)
-    beam = read_beam(made)[1]
-    solution = beam.solve(1.0, "block", np.ones(4, dtype=np.int32))
-    for changed, of in (("deflection", 0), ("reaction", 1), ("moment", 4)):
-        names = ("moment_left", "moment_right") if changed == "moment" else (changed,)
-        wrong = replace(solution, **{name: getattr(solution, name) * (1 + share) for name in names})
-        size = np.abs(getattr(solution, names[0])).max()
-        _, bounds, known = beam.certify(1.0, wrong)
-        assert known
-        assert share * size <= bounds[of] <= 8 * share * size

@@ -1,19 +1,20 @@
 !> Many cases for the Fortran 77 interface: arrays with their shapes
-module gapbeam_work_cases
+module gapbeam_fortran77_shapes
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type
     use gapbeam_api, only: prepared_type, options_type
-    use gapbeam_api_cases, only: cases_type, prepare_cases, solve_cases
+    use gapbeam_api_cases, only: cases_type, solve_cases
     implicit none
     private
     public :: solve_shaped
 
 contains
 
-    !> Prepare and solve cases
-    subroutine solve_shaped(beam, loads, supports, nodes, ncase, factor, varied, given, rule, status, reaction, condition, &
+    !> Solve cases, as solve_cases
+    subroutine solve_shaped(beam, cases, loads, supports, nodes, ncase, factor, varied, given, rule, status, reaction, condition, &
                             deflection, left, right, error)
         type(prepared_type), intent(in) :: beam
+        type(cases_type), intent(inout) :: cases
         integer, intent(in) :: loads, supports, nodes, ncase
         real(wp), intent(in) :: factor(loads, ncase)
         !> Settlement, gap and stiffness of the supports, where they vary
@@ -24,10 +25,7 @@ contains
         integer, intent(inout) :: status(ncase), condition(supports, ncase)
         real(wp), intent(inout) :: reaction(supports, ncase), deflection(nodes, ncase), left(nodes, ncase), right(nodes, ncase)
         type(error_type), allocatable, intent(out) :: error
-        type(cases_type) :: cases
 
-        call prepare_cases(beam, cases, error)
-        if (allocated(error)) return
         if (varied) then
             call solve_cases(beam, cases, factor, status, error, given(1, :, :), given(2, :, :), given(3, :, :), &
                              options_type(rule), reaction, condition, deflection, left, right)
@@ -37,4 +35,4 @@ contains
         end if
     end subroutine solve_shaped
 
-end module gapbeam_work_cases
+end module gapbeam_fortran77_shapes

@@ -1,0 +1,97 @@
+!> Models from the arrays of the Fortran 77 interface: what GHPREP, GHPRLW and GHPRFD do
+module gapbeam_fortran77_model
+    use, intrinsic :: iso_fortran_env, only: int64
+    use, intrinsic :: iso_c_binding, only: c_ptr
+    use gapbeam_kinds, only: wp
+    use gapbeam_error, only: error_type, no_memory, gapbeam_bad_input
+    use gapbeam_layers, only: parameters_of_law
+    use gapbeam_scene, only: model_type, gapbeam_table_of_gap
+    use gapbeam_input_error, only: of_supports, of_foundations, not_expected
+    use gapbeam_arrays, only: model_from_arrays, foundations_from_arrays
+    use gapbeam_handles, only: new_beam
+    use gapbeam_fortran77_info, only: number_of
+    implicit none
+    private
+    public :: prepare
+
+contains
+
+    !> Prepare a beam, with the arguments of GHPRFD
+    subroutine prepare(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, nlaw, ilaw, alaw, iunl, nfound, ifound, &
+                       found, nprof, iprof, aprof, nflaw, iflaw, aflaw, iglaw, glaw, ntab, itab, atab, beam, ientry, info)
+        integer, intent(in) :: nspan, nhinge, nsup, nload, nlaw, nfound, nprof, nflaw, ntab
+        real(wp), intent(in) :: span(4, *), hinge(*), sup(5, *), aload(4, *), alaw(2, *), found(6, *), aprof(2, *), aflaw(2, *), &
+                                glaw(2*parameters_of_law, *), atab(2, *)
+        integer, intent(in) :: isup(3, *), iload(3, *), ilaw(*), iunl(*), ifound(*), iprof(*), iflaw(*), iglaw(*), itab(2, *)
+        integer(int64), intent(out) :: beam
+        integer, intent(out) :: ientry, info
+        !> The argument that an array of the model is; of a pair of arrays the first, which has the number of entries
+        integer, parameter :: argument(0:6) = [1, 2, 4, 6, 9, 0, 16]
+        type(model_type) :: model
+        type(c_ptr) :: address
+        type(error_type), allocatable :: error
+        real(wp), allocatable :: ground(:, :), points(:, :)
+        integer, allocatable :: owners(:)
+        integer :: stat
+
+        beam = 0
+        ientry = 0
+        info = 0
+        if (ntab < 0) info = -26
+        if (nflaw < 0) info = -21
+        if (nprof < 0) info = -18
+        if (nfound < 0) info = -15
+        if (nlaw < 0) info = -11
+        if (nload < 0) info = -8
+        if (nsup < 0) info = -5
+        if (nhinge < 0) info = -3
+        if (nspan < 1) info = -1
+        if (info /= 0) return
+        allocate (ground(7 + 2*parameters_of_law, nfound), points(3, nprof + ntab), owners(nprof + ntab), &
+                  stat=stat)
+        if (stat /= 0) then
+            call no_memory(error)
+        else
+            ground(:6, :) = found(:, 1:nfound)
+            ground(7, :) = iglaw(1:nfound)
+            ground(8:, :) = glaw(:, 1:nfound)
+            owners(:nprof) = iprof(1:nprof)
+            owners(nprof + 1:) = itab(1, 1:ntab)
+            points(:2, :nprof) = aprof(:, 1:nprof)
+            points(3, :nprof) = gapbeam_table_of_gap
+            points(:2, nprof + 1:) = atab(:, 1:ntab)
+            points(3, nprof + 1:) = itab(2, 1:ntab)
+            call model_from_arrays(span(:, 1:nspan), hinge(1:nhinge), reshape([real(wp) ::], [5, 0]), isup(:, 1:nsup), &
+                                   sup(:, 1:nsup), ilaw(1:nlaw), alaw(:, 1:nlaw), iload(:, 1:nload), aload(:, 1:nload), model, &
+                                   error)
+        end if
+        if (.not. allocated(error)) call foundations_from_arrays(ifound(1:nfound), ground, owners, points, iflaw(1:nflaw), &
+                                                                 aflaw(:, 1:nflaw), model, error)
+        if (.not. allocated(error)) then
+            if (nlaw > 0) model%supports%unloading = iunl(1:nsup)
+            call new_beam(model, address, error)
+        end if
+        if (.not. allocated(error)) then
+            beam = number_of(address)
+            return
+        end if
+        info = error%code
+        ientry = error%entry
+        if (error%code /= gapbeam_bad_input) return
+        info = -argument(error%table)
+        select case (error%table)
+        case (of_supports)
+            if (error%key == "law") info = -12
+            if (error%key == "unloading") info = -14
+        case (of_foundations)
+            if (error%key == "law") info = merge(-24, -22, error%reason == not_expected)
+            if (index(error%key, "law.") == 1) info = -25
+            if (error%key == "profile") info = -19
+            ! A point of a table
+            if (error%partner > 0 .and. (error%key == "k" .or. index(error%key, "law.") == 1)) info = -27
+            if (error%key == "profile" .and. nprof == 0) info = -27
+        case default
+        end select
+    end subroutine prepare
+
+end module gapbeam_fortran77_model

@@ -1,0 +1,329 @@
+"""Solved states: a handle in the compiled layer each, whose numbers come out where they are asked for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..base.errors import check_status
+from ..base.records import Record, read_only
+from . import calls as _engine
+from .quantities import BENDING
+from .units import scaled
+
+if TYPE_CHECKING:
+    from .beam import Beam
+
+GROUND_ROWS = 19
+"""Rows of `Ground.values` beside those of the layers, as in gapbeam_state_handle."""
+ON_DEMAND = ("deflection", "moment_left", "moment_right", "shear", "reaction", "motion", "displacement", "tension")
+"""Arrays of a state that come out of the compiled layer where they are asked for, in the order of GBSGET."""
+
+
+class State:
+    """A state in the compiled layer; pickled by what it is solved from, and solved again when it is looked at after that.
+
+    Parameters
+    ----------
+    beam : Beam
+        The beam.
+    factor : float
+        Load factor.
+    code : int
+        How the scheme is found, as GBSOLV takes it.
+    start : numpy.ndarray of int
+        Where the search for it starts.
+    stretches, layers : int
+        Of a beam on the ground its stretches, and most layers under one of them; else 0.
+    handle : StateHandle, optional
+        Of the state.
+    """
+
+    def __init__(
+        self, beam: Beam, factor: float, code: int, start: np.ndarray, stretches: int, layers: int,
+        handle: _engine.StateHandle | None = None,
+    ):  # fmt: skip
+        self.beam, self.factor, self.code, self.start = beam, factor, code, read_only(start)
+        self.stretches, self.layers = stretches, layers
+        if handle is not None:
+            self.handle = handle
+
+    def __reduce__(self) -> tuple:
+        """Pickle by what it is solved from."""
+        return type(self), (self.beam, self.factor, self.code, self.start, self.stretches, self.layers)
+
+    @cached_property
+    def handle(self) -> _engine.StateHandle:
+        """Its number in the compiled layer."""
+        return self.beam.solve_again(self.factor, self.code, self.start)
+
+    @cached_property
+    def arrays(self) -> dict[str, np.ndarray]:
+        """The arrays of ON_DEMAND."""
+        beam, bars = self.beam, max(self.beam.bars, 0)
+        found = dict(zip(ON_DEMAND, _engine.gbsget(self.handle, beam.links, beam.supports, bars), strict=True))
+        found |= {"reaction": found["reaction"][:-1], "tension": found["tension"][:-1]}
+        return read_only(found)
+
+    @cached_property
+    def fields(self) -> _engine.FieldsHandle:
+        """Its fields at the pieces, in the compiled layer; EngineError where one left the range of doubles."""
+        fields, status, message = _engine.gbreco(self.beam.handle, self.beam.pieces, self.handle)
+        check_status(status, message)
+        return fields
+
+    @cached_property
+    def ground(self) -> Ground | None:
+        """What is in its stretches, with foundations."""
+        return Ground(self) if self.layers else None
+
+
+class Ground:
+    """A solution on the ground, stretch by stretch from left to right, in the engine's units.
+
+    Parameters
+    ----------
+    state : State
+        The state.
+    """
+
+    __hash__ = None
+
+    def __init__(self, state: State):
+        self.state = state
+
+    def __reduce__(self) -> tuple:
+        """Pickle with the state."""
+        return type(self), (self.state,)
+
+    def __eq__(self, other: object) -> bool:
+        """Whether all numbers are equal."""
+        if not isinstance(other, Ground):
+            return NotImplemented
+        pairs = zip(self._taken, other._taken, strict=True)
+        return self is other or all(np.array_equal(a, b, equal_nan=True) for a, b in pairs)
+
+    @cached_property
+    def _taken(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        return read_only(_engine.gbgget(self.state.handle, self.state.stretches, self.state.layers))
+
+    @property
+    def values(self) -> np.ndarray:
+        """A column a stretch.
+
+        Rows: piece (from 1); distances of its ends from the left end of the piece, length; moduli at its ends; loads qa, qb, qc,
+        kappa beside the chord; deflections, moments, rotations, shears at its ends; slope of the chord; and of every layer under
+        it the force up, then the piece of its law on which it acts (0: not in contact).
+        """
+        return self._taken[0]
+
+    @property
+    def bounds(self) -> np.ndarray:
+        """Of the errors of deflection, rotation, moment, shear, reactions."""
+        return self._taken[1]
+
+    @property
+    def residuals(self) -> np.ndarray:
+        """Of compatibility, equilibrium and complementarity, by the audit that the state stood."""
+        return self._taken[2]
+
+    @property
+    def layers(self) -> int:
+        """Most layers under a stretch."""
+        return self.state.layers
+
+    @property
+    def stretches(self) -> int:
+        """Stretches between nodes, of which the ends of zones are some."""
+        return self.state.stretches
+
+    @property
+    def resultants(self) -> np.ndarray:
+        """Force of every layer on the beam, up, layers by stretches."""
+        return self.values[GROUND_ROWS : GROUND_ROWS + self.layers]
+
+    @property
+    def acts(self) -> np.ndarray:
+        """Piece of its law on which every layer acts, layers by stretches."""
+        return read_only(self.values[GROUND_ROWS + self.layers :].astype(np.int32))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Solution(Record):
+    """What the engine found at one load factor, in its own units (`Beam.units`).
+
+    Attributes
+    ----------
+    status : int
+        SOLVED or NO_EQUILIBRIUM; in the second case only `motion` and `slides` have a meaning.
+    closed : numpy.ndarray of int
+        1 where a support acts, 0 where it is open.
+    undecided : numpy.ndarray of int
+        1 where its reaction or opening is zero, so that it may be closed or open.
+    at_supports : numpy.ndarray
+        Reaction, deflection, opening and couple of the scene's supports in its units, 4 rows.
+    solves : int
+        Linear solves; they do not count when solutions are compared.
+    method : int
+        Index into METHODS.
+    indifferent : bool
+        Whether the beam can move freely without work of the loads: forces are unique, the position is not.
+    came_back : bool
+        Whether the rule ``single`` came back to a scheme, so that ``block`` went on.
+    slides : bool
+        Whether nothing holds the beam along its axis.
+    state : State
+        All the rest.
+    """
+
+    status: int
+    closed: np.ndarray
+    undecided: np.ndarray
+    at_supports: np.ndarray
+    solves: int = field(compare=False)
+    method: int
+    indifferent: bool
+    came_back: bool
+    slides: bool
+    state: State = field(compare=False)
+
+    def __eq__(self, other: object) -> bool:
+        """Whether all numbers are equal."""
+        same = super(Solution, self).__eq__(other)
+        if same is not True or self is other:
+            return same
+        pairs = [(getattr(self, name), getattr(other, name)) for name in ON_DEMAND]
+        return all(np.array_equal(a, b, equal_nan=True) for a, b in pairs) and self.ground == other.ground
+
+    @property
+    def deflection(self) -> np.ndarray:
+        """Deflections of the nodes."""
+        return self.state.arrays["deflection"]
+
+    @property
+    def moment_left(self) -> np.ndarray:
+        """Moments left of the nodes."""
+        return self.state.arrays["moment_left"]
+
+    @property
+    def moment_right(self) -> np.ndarray:
+        """Moments right of the nodes."""
+        return self.state.arrays["moment_right"]
+
+    @property
+    def shear(self) -> np.ndarray:
+        """Shears of the links, beside those of the simple bar."""
+        return self.state.arrays["shear"]
+
+    @property
+    def reaction(self) -> np.ndarray:
+        """Reaction of every support, positive upward."""
+        return self.state.arrays["reaction"]
+
+    @property
+    def motion(self) -> np.ndarray:
+        """Displacements of the nodes in the free motion, positive downward, largest 1."""
+        return self.state.arrays["motion"]
+
+    @property
+    def displacement(self) -> np.ndarray:
+        """Displacements of the points of the axial system."""
+        return self.state.arrays["displacement"]
+
+    @property
+    def tension(self) -> np.ndarray:
+        """Forces in the bars of the axial system."""
+        return self.state.arrays["tension"]
+
+    @property
+    def ground(self) -> Ground | None:
+        """What is in its stretches, with foundations."""
+        return self.state.ground
+
+    def certify(self) -> tuple[np.ndarray, np.ndarray, bool]:
+        """Check it, and bound its errors by comparison with a solution in quadruple precision.
+
+        Returns
+        -------
+        residuals : numpy.ndarray
+            Relative residuals of compatibility, equilibrium and complementarity.
+        bounds : numpy.ndarray
+            Largest errors of deflections of the nodes and of reactions; of deflections, rotations, moments, shears along the
+            beam, in the engine's units.
+        known : bool
+            False where the beam is free to move: deflections and rotations have no bound then.
+
+        Raises
+        ------
+        EngineError
+            The state cannot be checked.
+        """
+        beam = self.state.beam
+        residuals, bounds, known, status, message = _engine.gbcert(beam.handle, beam.links + 1, self.state.handle)
+        check_status(status, message, "the state could not be checked in quadruple precision: ")
+        return residuals, bounds, bool(known)
+
+    def values(self, piece: np.ndarray, distance: np.ndarray) -> np.ndarray:
+        """Fields at given distances from the left ends of pieces.
+
+        Parameters
+        ----------
+        piece : numpy.ndarray of int
+            The pieces, from 1.
+        distance : numpy.ndarray
+            The distances, in the scene's units.
+
+        Returns
+        -------
+        numpy.ndarray
+            6 by places, 7 with foundations, in the scene's units, in the order of FIELDS.
+
+        Raises
+        ------
+        EngineError
+            A field left the range of doubles.
+        """
+        state, count = self.state, 6 if self.ground is None else 7
+        found = np.empty((count, len(piece)))
+        for part in _engine.parts(len(piece)):
+            found[:, part], status, message = _engine.gbvalu(
+                state.beam.handle, state.stretches, state.handle, state.fields, count, piece[part], distance[part]
+            )
+            check_status(status, message)
+        return found
+
+    def extremes(self) -> tuple[np.ndarray, np.ndarray]:
+        """Exact extremes of all fields.
+
+        Returns
+        -------
+        values, x : numpy.ndarray
+            Maximum and minimum (rows) of every field in the order of FIELDS (columns), and where they are.
+
+        Raises
+        ------
+        EngineError
+            A field left the range of doubles.
+        """
+        state, count = self.state, 6 if self.ground is None else 7
+        values, x, status, message = _engine.gbextr(
+            state.beam.handle, state.beam.pieces, state.stretches, state.handle, state.fields, count
+        )
+        check_status(status, message)
+        return values, x
+
+    def largest_fields(self) -> np.ndarray:
+        """Largest absolute values of deflection, rotation, moment, shear, in the engine's units.
+
+        Returns
+        -------
+        numpy.ndarray
+        """
+        state, beam = self.state, self.state.beam
+        if self.ground is not None:
+            values, _ = self.extremes()
+            return scaled(np.abs(values[:, : len(BENDING)]).max(axis=0), -np.array(beam.units.field))
+        return _engine.gblarg(beam.handle, beam.pieces, state.handle, state.fields)
