@@ -6,11 +6,8 @@ import sys
 
 import pytest
 from hypothesis import HealthCheck, settings
-
-sys.path.insert(0, os.path.dirname(__file__))  # the helper modules beside the tests
-
-from clibrary import Library
-from installation import LANGUAGES, install_once
+from languages.clibrary import Library
+from languages.installation import LANGUAGES, install_once
 
 CALM = [HealthCheck.too_slow, HealthCheck.data_too_large, HealthCheck.filter_too_much]
 settings.register_profile(

@@ -12,7 +12,7 @@ module gapbeam_memory
     integer, parameter :: for_solving = 1, for_refining = 2, for_following = 3, for_following_closely = 4, for_certifying = 5, &
         for_fields = 6, for_ground = 7
     !> Bytes it takes for every link, every support and every piece: one and a half times the most that was measured, of beams in
-    !> which the search goes through part after part (tests/test_memory.c and tests/test_memory.py show that it is enough); on
+    !> which the search goes through part after part (test_memory.c and test_memory.py show that it is enough); on
     !> the ground of beams on uneven ground with a law of three pieces, which went through it at every point
     integer(int64), parameter :: per_link(7) = [2800, 5400, 5400, 9600, 6400, 48, 25600], &
         per_support(7) = [200, 600, 500, 1000, 600, 0, 1000], per_piece(7) = [0, 350, 0, 350, 600, 100, 0]

@@ -14,7 +14,7 @@ module gapbeam_capi
     private
     public :: c_info, c_certificate
 
-    !> Mirrors of the header's structures; tests/test_capi.c compares their sizes
+    !> Mirrors of the header's structures; tests/languages/test_capi.c compares their sizes
     type, bind(c) :: c_info
         integer(c_size_t) :: size
         real(c_double) :: factor

@@ -10,7 +10,7 @@ module gapbeam_capi_history
     private
     public :: c_history_info
 
-    !> Mirror of the header's structure; tests/test_capi.c compares the sizes
+    !> Mirror of the header's structure; tests/languages/test_capi.c compares the sizes
     type, bind(c) :: c_history_info
         integer(c_size_t) :: size
         integer(c_int) :: stretches, events, limits, ending, solves, nodes

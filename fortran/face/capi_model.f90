@@ -9,7 +9,7 @@ module gapbeam_capi_model
     private
     public :: c_model, is_model_size, empty_model, model_from_c, loads_from_c
 
-    !> Mirror of the header's structure; tests/test_capi.c compares the sizes
+    !> Mirror of the header's structure; tests/languages/test_capi.c compares the sizes
     type, bind(c) :: c_model
         integer(c_size_t) :: size
         integer(c_int) :: spans = 0

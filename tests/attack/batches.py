@@ -5,8 +5,8 @@ import random
 import gapbeam
 import numpy as np
 import oracle
+from python.results.cases.test_prepared import scaled
 from scenes import random_scene
-from test_prepared import scaled
 
 from .family import Family, Verdict
 

@@ -6,9 +6,9 @@ import gapbeam
 import numpy as np
 import oracle
 from gapbeam.base.errors import Status
+from python.results.cases.test_combinations import by_hand, combined
+from python.results.cases.test_scheme_of import held_in_scheme
 from scenes import random_scene
-from test_combinations import by_hand, combined
-from test_scheme_of import held_in_scheme
 
 from .family import Family, Verdict
 

@@ -6,8 +6,8 @@ from itertools import pairwise
 
 import gapbeam
 from gapbeam.base.errors import Status
-from law_scenes import law_scene, random_law
-from oracle_laws import follow
+from oracle.laws import follow
+from scenes.law import law_scene, random_law
 
 from . import draw, signs
 from .family import Family, Verdict

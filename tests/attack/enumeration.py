@@ -1,4 +1,4 @@
-"""Small scenes, many of them degenerate, against an enumeration of all contact states (`oracle.py`), in status and state.
+"""Small scenes, many of them degenerate, against an enumeration of all contact states (`oracle.equilibrium`), in status and state.
 
 Every scene is solved by both rules, from all closed or from a random start. A support that is tied (closed without
 force, or touching within 1e-11 of the largest value of its kind) may be called open or closed.
@@ -9,8 +9,8 @@ import random
 import gapbeam
 import numpy as np
 import oracle
-from degenerate import draw
 from scenes import one_sided
+from scenes.degenerate import draw
 
 from .family import Family, Verdict
 

@@ -1,6 +1,6 @@
 """A scene in rational numbers: what a given working scheme gives, over the load factor, and whether anything can stand.
 
-The forms and their equations are those of `oracle.py`. Here no scheme is looked for by enumeration: the program's own
+The forms and their equations are those of `oracle/equilibrium.py`. Here no scheme is looked for by enumeration: the program's own
 scheme is solved exactly and its signs are read. Whether an equilibrium exists is decided without any scheme, from body to
 body between the hinges, so beams may have as many hinges and supports as one likes.
 """
@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from oracle import Oracle, Redundant
-from oracle_forms import reduce_rows
+from oracle.forms import reduce_rows
 
 ZERO = Fraction(0)
 

@@ -5,12 +5,13 @@ import random
 
 import gapbeam
 import numpy as np
-from curved_scenes import random_curved_scene
-from foundation_scenes import random_scene
 from gapbeam.base.errors import Status
+from oracle.ground_laws import between, pressure
 from scenes import nodes_of, place
-from tabled_scenes import is_table, tables_of, with_tables
-from touching_scenes import touching_scene
+from scenes.curved import random_curved_scene
+from scenes.foundation import random_scene
+from scenes.tabled import tables_of, with_tables
+from scenes.touching import touching_scene
 
 from .family import Family, Verdict
 from .proofs import proof_faults
@@ -20,7 +21,6 @@ PROMISE = (
     "pressure that the law gives for the deflection, jump by what acts at a place, and every support carries what its law says, "
     "also where they touch it to a few roundings; refused are beams whose loads all stand over a spring at an end of the ground"
 )
-SIDES = {"below": (1,), "above": (-1,), "both": (1, -1)}
 NEAR = 1e-8  # of the largest of a kind
 PANELS = (10, 400)  # the more where the fewer find fault: where a modulus begins at 0 pressures are steep
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(10)
@@ -91,63 +91,6 @@ def cuts(made, result):
     found |= {place(made, item) for item in made.get("supports", ())}
     found |= {x for zone in result.steps[-1].contact for x in (zone.from_, zone.to)}
     return np.array(sorted(x for x in found if 0.0 <= x <= length))
-
-
-def between(values, x, item, length):
-    """A number, a line from one end of an item to the other, or a table."""
-    if is_table(values):
-        return np.interp(x, *zip(*values, strict=True))
-    if not isinstance(values, list | tuple):
-        return np.full_like(x, values)
-    a, b = item.get("from", 0.0), item.get("to", length)
-    return values[0] + (values[1] - values[0]) * (x - a) / (b - a)
-
-
-def pressure(made, x, w):
-    """Force of the ground per length, up."""
-    total, length = np.zeros_like(x), nodes_of(made)[-1]
-    for item in made["foundation"]:
-        gap = between(item.get("gap", 0.0), x, item, length)
-        if "profile" in item:
-            gap = np.interp(x, *zip(*item["profile"], strict=True))
-        there = (x >= item.get("from", 0.0)) & (x <= item.get("to", length))
-        linear = not np.any(gap) and "law" not in item and item.get("side", "both") == "both"
-        for side in SIDES[item.get("side", "both")]:
-            u = side * w - gap
-            total += np.where(there & ((u > 0.0) | linear), side * by_law(item, x, u, length), 0.0) * (0.5 if linear else 1.0)
-    return total
-
-
-def by_law(item, x, u, length):
-    """Force of a law pressed in by u."""
-    law = item.get("law")
-    if law is None:
-        return between(item["k"], x, item, length) * u
-    if isinstance(law, list) and isinstance(law[0], dict):
-        return by_polylines(law, x, u)
-    if isinstance(law, list):
-        d, r = (np.array([0.0, *column]) for column in zip(*law, strict=True))
-        beyond = (r[-1] - r[-2]) / (d[-1] - d[-2]) * np.maximum(u - d[-1], 0.0)
-        return np.interp(u, d, r) + beyond
-    parameters = {key: between(value, x, item, length) for key, value in law.items() if key != "type"}
-    if law["type"] == "cubic":
-        return u * (parameters["k1"] + u * (parameters.get("k2", 0.0) + u * parameters["k3"]))
-    k, limit = parameters["stiffness"], parameters["limit"]
-    if law["type"] in ("plastic", "hardening"):
-        return np.where(k * u <= limit, k * u, limit + parameters.get("slope", 0.0) * (u - limit / np.where(k > 0.0, k, 1.0)))
-    share = np.divide(k * u, limit, out=np.zeros_like(u), where=limit > 0.0)
-    return k * u / (1.0 + share) if law["type"] == "hyperbolic" else limit * np.tanh(share)
-
-
-def by_polylines(law, x, u):
-    """Force of a law whose points are straight between places."""
-    places = [at["x"] for at in law]
-    points = np.array([[(0.0, 0.0), *at["points"]] for at in law])  # places by points by 2
-    d, r = (np.array([np.interp(x, places, column) for column in points[:, :, k].T]) for k in (0, 1))
-    slopes = np.diff(r, axis=0) / np.diff(d, axis=0)
-    piece = np.clip((u >= d).sum(axis=0) - 1, 0, len(slopes) - 1)
-    at = np.arange(len(x))
-    return r[piece, at] + slopes[piece, at] * (u - d[piece, at])
 
 
 def beam_of(made, x):

@@ -5,7 +5,7 @@ from fractions import Fraction
 
 import gapbeam
 from gapbeam.base.errors import Status
-from oracle_forms import Reading
+from oracle.forms import Reading
 
 from . import draw
 from .compare import motion_faults

@@ -6,9 +6,9 @@ from itertools import pairwise
 import gapbeam
 import numpy as np
 from gapbeam.engine.paths import follow_history
-from law_scenes import law_scene, symmetric_scene
-from oracle_history import history
-from oracle_laws import follow
+from oracle.history import history
+from oracle.laws import follow
+from scenes.law import law_scene, symmetric_scene
 
 from .family import Family, Verdict
 

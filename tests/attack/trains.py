@@ -5,7 +5,7 @@ import random
 import gapbeam
 import oracle
 from gapbeam.base.errors import Status
-from train_scenes import frozen, random_scene
+from scenes.train import frozen, random_scene
 
 from .family import Family, Verdict
 

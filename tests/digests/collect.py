@@ -14,7 +14,7 @@ sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
 import gapbeam
 import numpy as np
-from clibrary import GROUND_LAWS, F77Beam, Library
+from languages.clibrary import GROUND_LAWS, F77Beam, Library
 
 # Words may change, and clocks do
 NOT_NUMBERS = {"title", "reason", "message", "messages", "hints", "warnings", "words", "seconds", "version", "gapbeam", "schema"}

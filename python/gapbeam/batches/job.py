@@ -32,8 +32,6 @@ AT_SUPPORTS = ("reaction", "opening", "couple")
 ERRORS = "error_bound"
 """Bounds of the errors of one state."""
 KINDS = ("max", "min")
-FIELDS = ("deflection", "rotation", "moment", "shear")
-"""Fields that every beam has."""
 WANTED = ("input", "reaction", "opening", "deflection", "moment")
 """What is kept of every case where nothing else is said."""
 

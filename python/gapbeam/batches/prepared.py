@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..base.errors import GapbeamError, SceneError, Status
+from ..engine.quantities import BENDING
 from ..results.cases.cases import prepare
 from ..results.cases.varied import OF_SPANS
 from ..results.stepping import solve
@@ -181,7 +182,7 @@ class PreparedRoad:
         if self._beam.scene.foundation:
             return 2e-2 * steps
         # From the solutions at the nodes, which are not found again for it
-        known = {"input", "reaction", "opening", "deflection", "rotation", "moment", "shear"}
+        known = {"input", "reaction", "opening", *BENDING}
         if not any(path.parts[0] == "beam" for path in self._paths):
             known.add("error_bound")
         is_known = self._is_simple and set(want) <= known

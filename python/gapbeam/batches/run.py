@@ -14,6 +14,7 @@ from typing import Any
 import msgspec
 
 from ..base.errors import SceneError
+from ..engine.quantities import BENDING
 from ..results.state.arguments import whole
 from ..scene.combinations import plan_combinations
 from ..scene.names import labels
@@ -23,7 +24,7 @@ from ..scene.wording import choice, shown
 from .batch import Batch
 from .chunks import FORMATS, best_format, writer
 from .folder import Folder, as_json, begin_folder, locked, open_folder
-from .job import AT_SUPPORTS, ERRORS, FIELDS, WANTED, Job
+from .job import AT_SUPPORTS, ERRORS, WANTED, Job
 from .paths import find_paths, scene_data
 from .tables import SceneFolder, Table, take_table
 from .workers import cores, in_turn, processes, threads, work
@@ -140,7 +141,7 @@ def _plan(scene: Any, table: Any, want: tuple[str, ...] | None) -> tuple[Table, 
         if table is not None:
             raise SceneError(str(scene), "is a folder, whose scenes are the cases; leave the table out")
         rows: Table = SceneFolder(Path(scene))
-        job = Job(None, (), _wanted(want, ("reaction", "opening", *FIELDS, ERRORS), WANTED[1:]), ())
+        job = Job(None, (), _wanted(want, ("reaction", "opening", *BENDING, ERRORS), WANTED[1:]), ())
         return rows, job, "", SCENES_A_FILE
     if table is None:
         raise SceneError("table", "give a table, or a folder of scenes in place of the scene")
@@ -152,7 +153,7 @@ def _plan(scene: Any, table: Any, want: tuple[str, ...] | None) -> tuple[Table, 
     known = ("input", *AT_SUPPORTS, *beam.fields, ERRORS)
     states = 1
     if checked.combinations or checked.trains:
-        known = ("input", "reaction", "opening", *FIELDS)
+        known = ("input", "reaction", "opening", *BENDING)
         states = (len(plan_combinations(checked)) if checked.combinations else 1) * (1 + A_TRAIN * len(checked.trains))
     job = Job(data, find_paths(checked, rows.names), _wanted(want, known, WANTED), tuple(labels(checked.supports)))
     digest = hashlib.sha256(msgspec.msgpack.encode(data)).hexdigest()

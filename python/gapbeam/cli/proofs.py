@@ -16,8 +16,9 @@ from .outputs import Outputs, source
 CHECKERS = ("proof_checker.py", "proof_checker_ground.py")
 """Without ground, and with it."""
 TEXT = """\
-The file is checked by a short program that shares nothing with gapbeam: tests/proof_checker.py, or
-tests/proof_checker_ground.py for beams on the ground. They need python-flint.
+The file is checked by a short program that shares nothing with gapbeam:
+tests/oracle/checkers/proof_checker.py, or proof_checker_ground.py beside it for beams on the ground.
+They need python-flint.
 """
 ANSWERS = "Exit status: 0 proved, 1 refuted, 2 not decided, or the checkers are not here."
 
@@ -67,7 +68,7 @@ def _check(arguments: argparse.Namespace) -> int:
     name = CHECKERS[on_ground]
     found = next((path for folder in _folders() if (path := folder / name).is_file()), None)
     if found is None:
-        return say(REFUSED, f"not decided: {name} is not here; it is in the folder tests of gapbeam's sources; run this there")
+        return say(REFUSED, f"not decided: {name} is not here; it is in tests/oracle/checkers of gapbeam's sources; run this there")
     try:
         import flint  # noqa: F401
     except ImportError:
@@ -79,4 +80,4 @@ def _check(arguments: argparse.Namespace) -> int:
 def _folders() -> list[Path]:
     """Where the checkers may be: in the sources of which this package is part, or in those where the command is run."""
     here = Path.cwd()
-    return [folder / "tests" for folder in (*Path(__file__).resolve().parents[3:4], here, *here.parents)]
+    return [folder / "tests" / "oracle" / "checkers" for folder in (*Path(__file__).resolve().parents[3:4], here, *here.parents)]

@@ -11,6 +11,7 @@ from ..base.errors import Status, check_status
 from ..base.records import read_only
 from . import calls as _engine  # the compiled layer itself, but for Ctrl-C
 from .arrays import Columns, Ground, Places, Solution, extended
+from .quantities import BENDING, QUANTITIES
 from .units import Units, scaled
 
 SOLVED, NO_EQUILIBRIUM = Status.SOLVED, Status.NO_EQUILIBRIUM
@@ -27,7 +28,6 @@ LAW_ROW, FIRST_CURVE = 6, 3
 """Row of the laws of foundations in `Columns.foundation`, and the first of their codes that is a curve, as in gapbeam_layers."""
 HINGE, RESTRAINED = 1, 2
 """Kinds of node other than plain ones (0), as in gapbeam_band."""
-FIELDS = ("deflection", "rotation", "moment", "shear", "axial_force", "axial_displacement", "pressure")
 
 
 class Curve(Protocol):
@@ -443,14 +443,14 @@ class Beam:
         """
         if solution.ground is not None:
             values, _ = self.extremes(factor, starts, solution)
-            return scaled(np.abs(values[:, :4]).max(axis=0), -np.array(self.units.field))
+            return scaled(np.abs(values[:, : len(BENDING)]).max(axis=0), -np.array(self.units.field))
         return _engine.gblarg(self.handle, factor, starts)
 
     @property
     def fields(self) -> dict[str, int]:
-        """Names of the fields that it has, and which of FIELDS they are."""
-        there = [0, 1, 2, 3] + [4, 5] * (self.bars >= 0) + [6] * (self.ground_layers > 0)
-        return {FIELDS[k]: k for k in there}
+        """Names of the fields that it has, and which of `FIELDS` they are."""
+        there = {"bending": True, "axial": self.bars >= 0, "ground": self.ground_layers > 0}
+        return {one.name: k for k, one in enumerate(QUANTITIES) if there[one.of]}
 
     @property
     def has_one_sided_ground(self) -> bool:

@@ -10,8 +10,9 @@ from ..base.errors import check_ended
 from . import calls as _engine
 from .beam import RULES, Beam
 from .combinations import Varied
+from .quantities import BENDING
 
-BOUNDED = ("deflection", "rotation", "moment", "shear", "reaction")
+BOUNDED = (*BENDING, "reaction")
 """What has error bounds."""
 RESIDUALS = ("compatibility", "equilibrium", "complementarity")
 """Relative residuals."""

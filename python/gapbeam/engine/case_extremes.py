@@ -8,11 +8,10 @@ import numpy as np
 
 from ..base.errors import check_ended
 from . import calls as _engine
-from .beam import FIELDS, RULES, Beam
+from .beam import RULES, Beam
 from .combinations import Varied
+from .quantities import BENDING
 
-HERE = FIELDS[:4]
-"""The fields that are found here."""
 NODES_AT_A_TIME = 50_000
 """Nodes and places of all cases in a call: some milliseconds."""
 
@@ -49,10 +48,10 @@ def case_extremes(
     MemoryError
         The system gives no more memory.
     """
-    if not set(names) <= set(HERE):
+    if not set(names) <= set(BENDING):
         return None
     found = _follow(beam, rule, factors, varied, closed, status, nodes, names, np.zeros(0, np.int32), np.zeros(0))
-    return found and {name: tuple(values[:, HERE.index(name)] for values in found[:2]) for name in names}
+    return found and {name: tuple(values[:, BENDING.index(name)] for values in found[:2]) for name in names}
 
 
 def case_fields(
@@ -79,7 +78,7 @@ def case_fields(
         The system gives no more memory.
     """
     found = _follow(beam, rule, factors, varied, closed, status, nodes, (), piece, distance)
-    return found and {name: found[2][:, :, k] for k, name in enumerate(HERE)}
+    return found and {name: found[2][:, :, k] for k, name in enumerate(BENDING)}
 
 
 def _follow(
@@ -92,7 +91,7 @@ def _follow(
     cases, places = len(factors), len(piece)
     extremes, x, fields = (np.full((cases, *shape), np.nan) for shape in ((4, 2), (4, 2), (places + 1, 4)))
     about = np.append(piece, 1).astype(np.int32), np.append(distance, 0.0)
-    want = [int(name in names) for name in HERE]
+    want = [int(name in names) for name in BENDING]
     state = status.astype(np.int32)
     shares = np.zeros((cases, factors.shape[1] + 1))
     shares[:, :-1] = factors

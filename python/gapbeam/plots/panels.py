@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from ..engine.quantities import QUANTITIES
 from ..results import formatting as fmt
 
 if TYPE_CHECKING:
@@ -23,13 +24,7 @@ MOST_POINTS = 100_000
 Point = tuple[float, float]
 
 #: Quantity, words on the axis, whether positive values are drawn downward
-PANELS = (
-    ("deflection", "deflection", True),
-    ("moment", "moment", True),
-    ("shear", "shear", False),
-    ("axial_force", "axial force", False),
-    ("pressure", "pressure", False),
-)
+PANELS = tuple((one.name, one.panel, one.downward) for one in QUANTITIES if one.panel)
 
 
 def panel_axes(picture: Figure, scene: "Scene", bottom: float, height: float) -> Axes:

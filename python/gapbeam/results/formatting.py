@@ -8,6 +8,7 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from ..base.characters import visible
+from ..engine.quantities import QUANTITIES
 from ..scene.names import DEAD, cases_of, labels
 from ..scene.names import label as name_or_number
 from ..scene.structs import Scene
@@ -197,6 +198,15 @@ def title(scene: Scene, without: str = "Beam without a title") -> str:
     return visible(scene.title) or without
 
 
+UNITS = {one.name: one.unit for one in QUANTITIES} | {
+    **dict.fromkeys(("x", "opening", "set", "gap", "sag", "length"), "{length}"),
+    **dict.fromkeys(("reaction", "force", "resultant"), "{force}"),
+    "curvature": "1/{length}", "couple": "{force} {length}", "EI": "{force} {length}^2",
+    "uniform": "{force}/{length}", "k": "{force}/{length}^2",
+}
+"""Of quantities along the beam, at supports and in scenes."""
+
+
 def unit(scene: Scene, quantity: str) -> str:
     """Give the unit of a quantity by the labels of the scene; empty where it has none.
 
@@ -220,19 +230,10 @@ def unit(scene: Scene, quantity: str) -> str:
     ('kN m', 'kN/m', 'rad', 'kN m^2')
     """
     force, length = visible(scene.units.force), visible(scene.units.length)
-    if quantity == "rotation":
-        return "rad"
-    if quantity in ("x", "deflection", "opening", "set", "gap", "sag", "length", "axial_displacement"):
-        return length
-    if quantity in ("reaction", "force", "resultant", "shear", "axial_force"):
-        return force
-    if quantity == "curvature":
-        return f"1/{length}" if length else ""
-    if not force or not length:
+    pattern = UNITS[quantity]
+    if ("{force}" in pattern and not force) or ("{length}" in pattern and not length):
         return ""
-    patterns = {"moment": "{f} {l}", "couple": "{f} {l}", "EI": "{f} {l}^2", "uniform": "{f}/{l}"}
-    patterns |= {"pressure": "{f}/{l}", "k": "{f}/{l}^2"}
-    return patterns[quantity].format(f=force, l=length)
+    return pattern.format(force=force, length=length)
 
 
 def with_unit(scene: Scene, quantity: str, name: str | None = None) -> str:

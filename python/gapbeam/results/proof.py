@@ -1,6 +1,6 @@
 """A state as a file that others can check: the scene, what every support does in it, and what is claimed.
 
-`tests/proof_checker.py` decides whether it is right, without anything of this package.
+`tests/oracle/checkers/proof_checker.py` decides whether it is right, without anything of this package.
 """
 
 from __future__ import annotations

@@ -11,8 +11,9 @@ import numpy as np
 from ...base.errors import WITHOUT_ANSWER, EngineError, SceneError, Status
 from ...base.memory import refuse_beyond
 from ...base.records import read_only
-from ...engine.beam import FIELDS, Beam
+from ...engine.beam import Beam
 from ...engine.combinations import Combined, all_combinations, solve_combinations
+from ...engine.quantities import FIELDS
 from ...scene.columns import columns, curves
 from ...scene.combinations import Plan, plan_combinations
 from ...scene.names import label

@@ -11,11 +11,12 @@ from numpy.typing import ArrayLike
 
 from ...base.errors import Status
 from ...base.records import Record
-from ...engine.beam import FIELDS, Beam
+from ...engine.beam import Beam
 from ...engine.case_certificates import BOUNDED, case_certificates, relative_certificate
-from ...engine.case_extremes import HERE, case_extremes, case_fields
+from ...engine.case_extremes import case_extremes, case_fields
 from ...engine.cases import ALWAYS, WANTED, OneCase, solve_cases, split_loads
 from ...engine.combinations import Combined, Varied, all_combinations
+from ...engine.quantities import BENDING, FIELDS
 from ..state.arguments import numbers
 from ..state.fields import Fields, find_places
 
@@ -222,7 +223,7 @@ class Cases:
         """
         places = np.array(numbers("x", x))
         beam, shape = self._asked.beam, self._shape + places.shape
-        solutions = self._solutions() if set(beam.fields) == set(HERE) else None
+        solutions = self._solutions() if set(beam.fields) == set(BENDING) else None
         there = solutions and case_fields(*solutions, *find_places(beam, places.ravel(), side))
         if there is None:
             found = self._asked.solve(places.ravel(), side)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...engine.beam import FIELDS
+from ...engine.quantities import FIELDS
 from .envelope import Envelope, Source
 
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...base.errors import EngineError
-from ...engine.beam import FIELDS
+from ...engine.quantities import FIELDS
 from ..paths.path import follow
 from ..state.schemes import starting_scheme
 

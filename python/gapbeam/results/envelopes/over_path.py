@@ -14,7 +14,8 @@ import numpy as np
 from ...base.errors import EngineError, Status
 from ...base.memory import refuse_beyond
 from ...base.records import read_only
-from ...engine.beam import FIELDS, SOLVED
+from ...engine.beam import SOLVED
+from ...engine.quantities import FIELDS
 from ...scene.names import names_of
 from ..paths.branches import BranchPath
 from .envelope import AT_SUPPORTS, OF_SUPPORTS, Envelope, Source

@@ -16,8 +16,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...base.errors import SceneError
-from ...engine.beam import FIELDS, SOLVED, Beam
+from ...engine.beam import SOLVED, Beam
 from ...engine.combinations import Varied, solve_combinations
+from ...engine.quantities import FIELDS
 from ...scene.ground_laws import (
     CubicGround,
     HardeningGround,

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from ...engine.arrays import Solution
-from ...engine.beam import FIELDS, Beam, Curve
+from ...engine.beam import Beam, Curve
+from ...engine.quantities import FIELDS
 from ...scene.structs import CurvatureLoad, ForceLoad, MomentLoad, Scene
 from .smooth import SmoothLaws
 from .step import Step

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from msgspec.structs import replace as replace_struct
 
-from ...engine.beam import FIELDS, SOLVED, Beam
+from ...engine.beam import SOLVED, Beam
+from ...engine.quantities import FIELDS
 from ...engine.units import scaled
 from ...scene.columns import columns
 from ...scene.ground_laws import (

@@ -9,6 +9,7 @@ import numpy as np
 
 from ...base.errors import EngineError
 from ...engine.beam import Beam
+from ...engine.quantities import BENDING, QUANTITIES
 from ...engine.trains import SIDES, Extremes, Passage
 from ..envelopes.envelope import AT_SUPPORTS
 from ..envelopes.tables import KINDS
@@ -21,9 +22,7 @@ if TYPE_CHECKING:
     from .trains import TrainResult
     from .ways import Gap, TrainWay
 
-FIELDS = ("deflection", "rotation", "moment", "shear", "pressure")
-"""Fields that have envelopes; the last one on foundations only."""
-OF_FORCES = ("moment", "shear", "reaction", "couple")
+OF_FORCES = (*(one.name for one in QUANTITIES if one.by_equilibrium), "reaction", "couple")
 """What is unique where the beam can move freely without work of the loads."""
 OF_SUPPORTS = ("reaction", "opening", "deflection", "couple")
 """Values of supports that have them."""
@@ -200,7 +199,7 @@ class Passing(Member):
 
     def of_fields(self, quantity: str, i: int) -> list[TrainExtreme]:
         """As `Member.of_fields`."""
-        return self._ties(self._fields, quantity, FIELDS.index(quantity), i, None)
+        return self._ties(self._fields, quantity, BENDING.index(quantity), i, None)
 
     def of_supports(self, support: int, quantity: str, i: int) -> list[TrainExtreme]:
         """As `Member.of_supports`."""
@@ -261,7 +260,7 @@ class Neutral(Passing):
     def curves(self, piece: np.ndarray, distance: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """As `Member.curves`."""
         values, positions = (found.copy() for found in self._held.curves(piece, distance))
-        values[:, [k for k, name in enumerate(FIELDS[:-1]) if name not in OF_FORCES]] = np.nan
+        values[:, [k for k, name in enumerate(BENDING) if name not in OF_FORCES]] = np.nan
         return values, positions
 
     def state_of(self, extreme: TrainExtreme) -> Step:
@@ -351,6 +350,6 @@ def fields_of(beam: Beam) -> tuple[str, ...]:
     Returns
     -------
     tuple of str
-        Some of FIELDS.
+        Some of `FIELDS`.
     """
-    return FIELDS if beam.ground_layers else FIELDS[:-1]
+    return tuple(one.name for one in QUANTITIES if one.of == "bending" or (one.of == "ground" and beam.ground_layers))

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...engine.beam import FIELDS
+from ...engine.quantities import FIELDS
 from ..envelopes.envelope import AT_SUPPORTS
 from ..state.ground import size_of
 from .lines import Lines

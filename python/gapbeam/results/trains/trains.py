@@ -27,6 +27,7 @@ import numpy as np
 from ...base.errors import EngineError
 from ...base.records import Record
 from ...engine.beam import GIVEN, Beam
+from ...engine.quantities import BENDING
 from ...scene.columns import columns, curves
 from ...scene.places import POSITION_TOLERANCE
 from ...scene.trains import LEFT, RIGHT, at_ends, courses, fitted, joined, nearest, train_name
@@ -261,7 +262,7 @@ class TrainResult:
             return Influence(places, influence_line(state, what, x, chosen, places, side))
         piece, distance = beam.find(np.array([x]), side == "left")
         values = way.passage.influence(state.solution.closed, chosen, int(piece[0]), float(distance[0]), places)
-        return Influence(places, values[("deflection", "rotation", "moment", "shear", "reaction").index(what)])
+        return Influence(places, values[(*BENDING, "reaction").index(what)])
 
     def _way(self, direction: str) -> TrainWay:
         for way in self.ways:

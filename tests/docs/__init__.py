@@ -1,0 +1,1 @@
+"""What the pages say, and that the house stands as they say."""

@@ -1,0 +1,57 @@
+"""The pages on laws and examples show what the program does: scene, report, pictures, Python lines, links."""
+
+import doctest
+import re
+import tomllib
+from pathlib import Path
+
+import gapbeam
+import pytest
+from gapbeam.cli import main
+from gapbeam.plots import plot, plot_path
+
+TOP = Path(__file__).resolve().parents[2]
+PAGES = ["laws", "examples", "foundation", "cases", "trains", "batch"]
+PATHS = ["snap_through", "rubber_stops", "pile_head", "shaft_jack_up"]
+BEAMS = ["rail_lift_off", "strip_footing", "slab_on_mound", "seabed_pipe", "laterally_loaded_pile", "pipe_rack_states",
+         "crane_runway_bays", "bridge_bearings", "rail_bogie_passes"]  # fmt: skip
+
+
+def page(name):
+    return (TOP / "docs" / f"{name}.md").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_python_lines(name, monkeypatch):
+    monkeypatch.chdir(TOP)
+    failures, tried = doctest.testfile(str(TOP / "docs" / f"{name}.md"), module_relative=False, verbose=False)
+    assert tried >= 5
+    assert failures == 0
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_links_and_pictures(name):
+    links = re.findall(r"\]\(([^)#:]+)\)", page(name))
+    assert links
+    assert [link for link in links if not (TOP / "docs" / link).exists()] == []
+
+
+def test_scene_and_report_of_the_worked_example(capsys):
+    scene = TOP / "examples" / "snap_through.toml"
+    blocks = re.findall(r"```toml\n(.*?)```", page("laws"), re.DOTALL)
+    assert tomllib.loads(blocks[-1]) == tomllib.loads(scene.read_text(encoding="utf-8"))
+    assert main(["run", str(scene)]) == 0
+    printed = "\n".join(line.rstrip() for line in capsys.readouterr().out.splitlines())
+    assert re.search(r"```text\n(.*?)```", page("laws"), re.DOTALL)[1].strip() in printed
+
+
+@pytest.mark.parametrize(("name", "draw"), [*((name, plot_path) for name in PATHS), *((name, plot) for name in BEAMS)])
+def test_pictures_are_what_is_drawn(name, draw, tmp_path):
+    """Compare the texts in the picture; the rest depends on the version of matplotlib."""
+    draw(gapbeam.solve(TOP / "examples" / f"{name}.toml"), tmp_path / "new.svg")
+    texts = [
+        re.findall(r"<text[^>]*>([^<]+)</text>", path.read_text(encoding="utf-8"))
+        for path in (TOP / "docs" / f"{name}.svg", tmp_path / "new.svg")
+    ]
+    assert len(texts[0]) > 15
+    assert texts[0] == texts[1]

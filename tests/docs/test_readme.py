@@ -1,0 +1,52 @@
+"""The README shows what the program does: its scene, its report, its picture and its Python lines."""
+
+import doctest
+import re
+import tomllib
+from pathlib import Path
+
+import gapbeam
+import pytest
+from gapbeam.cli import main
+from gapbeam.plots import plot
+
+TOP = Path(__file__).resolve().parents[2]
+README = (TOP / "README.md").read_text(encoding="utf-8")
+SCENE = TOP / "examples" / "three_spans.toml"
+
+
+def block(language):
+    return re.search(rf"```{language}\n(.*?)```", README, re.DOTALL)[1]
+
+
+def test_scene_is_the_example():
+    assert tomllib.loads(block("toml")) == tomllib.loads(SCENE.read_text(encoding="utf-8"))
+
+
+def test_report_is_what_is_printed(capsys):
+    assert main(["run", str(SCENE)]) == 0
+    printed = "\n".join(line.rstrip() for line in capsys.readouterr().out.splitlines())
+    assert block("text").strip() in printed
+
+
+def test_picture_is_what_is_drawn(tmp_path):
+    """Compare the texts in the picture; the rest depends on the version of matplotlib."""
+    plot(gapbeam.solve(SCENE), tmp_path / "new.svg")
+    texts = [
+        re.findall(r"<text[^>]*>([^<]+)</text>", path.read_text(encoding="utf-8"))
+        for path in (TOP / "docs" / "three_spans.svg", tmp_path / "new.svg")
+    ]
+    assert len(texts[0]) > 20
+    assert texts[0] == texts[1]
+
+
+def test_python_lines(monkeypatch):
+    monkeypatch.chdir(TOP)
+    failures, tried = doctest.testfile(str(TOP / "README.md"), module_relative=False, verbose=False)
+    assert tried >= 5
+    assert failures == 0
+
+
+@pytest.mark.parametrize("name", re.findall(r"\]\(([^)#:]+)\)", README))
+def test_links(name):
+    assert (TOP / name).exists()

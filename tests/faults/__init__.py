@@ -1,0 +1,1 @@
+"""Scenes with which the program was once caught."""

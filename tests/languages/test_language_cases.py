@@ -1,0 +1,129 @@
+"""Many cases in C and Fortran 77, called by ctypes in the installed library, against `Prepared.solve`, to the last bit."""
+
+import ctypes as c
+import random
+
+import gapbeam
+import numpy as np
+import pytest
+from gapbeam.base.errors import GapbeamError
+from scenes import random_scene
+
+from .clibrary import RULES, F77Beam, Options, pointer
+
+
+def solve_in_c(beam, factors, given, rule):
+    """Status, message, statuses, reactions, deflections, moments."""
+    library, cases, message = beam.c, c.c_void_p(), c.create_string_buffer(400)
+    text = message, c.c_size_t(400)
+    status = library.gapbeam_prepare_cases(beam.handle, c.byref(cases), *text)
+    if status != 0:
+        return status, message.value.decode(), None
+    count, nodes = len(factors), library.gapbeam_count_nodes(beam.handle)
+    found = [np.empty(count, np.int32), *(np.empty((count, n)) for n in (beam.supports, nodes, nodes, nodes))]
+    options = Options(c.sizeof(Options), RULES[rule], 0)
+    status = library.gapbeam_solve_cases(
+        beam.handle, cases, count, pointer(factors), *(None if one is None else pointer(one) for one in given), c.byref(options),
+        *map(pointer, found[:2]), None, *map(pointer, found[2:]), *text,
+    )  # fmt: skip
+    library.gapbeam_free_cases(cases)
+    return status, message.value.decode(), found
+
+
+def solve_in_f77(library, scene, factors, given, rule, like):
+    """INFO, and what GBMANY fills: statuses, reactions, deflections, moments, of the shapes of those of C."""
+    beam = F77Beam(library, scene)
+    varied = any(one is not None for one in given)
+    own = [[one.get(key, default) for one in scene["supports"]] for key, default in
+           (("settlement", 0.0), ("gap", 0.0), ("stiffness", np.inf))]  # fmt: skip
+    shape = len(factors), len(scene["supports"])
+    values = [np.broadcast_to(np.array(base, dtype=float), shape) if one is None else one
+              for one, base in zip(given, own, strict=True)]  # fmt: skip
+    supports = np.stack(values, axis=-1).copy()
+    found = [np.empty_like(one) for one in like]
+    conditions = np.empty(shape, np.int32)
+    info = beam.call("gbmany", beam.work, beam.iwork, shape[0], factors, int(varied), supports, RULES[rule], *found[:2], conditions,
+                     *found[2:])  # fmt: skip
+    return info, found
+
+
+def given_for(rng, scene, count):
+    """Settlements, gaps and stiffnesses of the supports in every case, or what of them is not given."""
+    supports = scene["supports"]
+    moves, gaps, springs = (np.zeros((count, len(supports))) for _ in range(3))
+    for k, one in enumerate(supports):
+        for case in range(count):
+            moves[case, k] = rng.choice((0.0, rng.uniform(-0.01, 0.02)))
+            gaps[case, k] = 0.0 if one.get("side", "both") == "both" else rng.choice((0.0, rng.uniform(-0.01, 0.02)))
+            springs[case, k] = one.get("stiffness", np.inf) or 0.0
+            if springs[case, k] > 0.0:
+                springs[case, k] = rng.choice((np.inf, 10.0 ** rng.uniform(2, 5)))
+    return [rng.choice((one, None)) for one in (moves, gaps, springs)]
+
+
+def test_cases_agree(library):
+    """Random scenes, cases with and without other supports, also such as leave no room for each other."""
+    seen = {0: 0, 1: 0, 11: 0}
+    library.c.gapbeam_free_cases.argtypes = [c.c_void_p]
+    for seed in range(120):
+        rng = random.Random(seed)
+        scene = random_scene(rng)
+        scene.pop("sections", None)
+        beam, message = library.prepare(scene)
+        try:
+            prepared = gapbeam.prepare(scene)
+        except GapbeamError:
+            assert message or solve_in_c(beam, np.ones((1, len(scene["loads"]))), [None] * 3, "block")[0] != 0
+            continue
+        count, rule = rng.choice((1, 3, 11)), rng.choice(("block", "single"))
+        prepared = gapbeam.prepare(scene, rule=rule)
+        factors = np.array([[rng.uniform(-0.5, 2.0) for _ in scene["loads"]] for _ in range(count)]).reshape(count, -1)
+        given = given_for(rng, scene, count)
+        status, message, found = solve_in_c(beam, factors, given, rule)
+        assert status == 0, (seed, message)
+        moves, gaps, springs = given
+        expected = prepared.solve(factors, settlement=moves, gap=gaps, stiffness=springs)
+        across = np.isin(np.arange(len(scene["supports"])), prepared.supports)
+        assert found[0].tolist() == expected.status.tolist(), seed
+        names = ("reaction", "deflection", "moment_left", "moment_right")
+        for name, values in zip(names, [found[1][:, across], *found[2:]], strict=True):
+            assert values.tobytes() == getattr(expected, name).tobytes(), (seed, name)
+        assert np.isnan(found[1][:, ~across]).all()
+        info, in_f77 = solve_in_f77(library, scene, factors, given, rule, found)
+        assert info == 0
+        assert [one.tobytes() for one in in_f77] == [one.tobytes() for one in found]
+        for one in found[0].tolist():
+            seen[one] = seen.get(one, 0) + 1
+        beam.close()
+    assert min(seen.values()) > 3
+
+
+def test_cases_on_foundations_are_refused(library):
+    scene = {"beam": {"spans": [6.0], "EI": 1e4}, "supports": [], "foundation": [{"k": 1e3}],
+             "loads": [{"type": "uniform", "q": 1.0}]}  # fmt: skip
+    beam, _ = library.prepare(scene)
+    status, message, _ = solve_in_c(beam, np.ones((1, 1)), [None] * 3, "block")
+    assert status == 11
+    like = [np.zeros(1, np.int32), *(np.zeros((1, n)) for n in (0, 2, 2, 2))]
+    assert solve_in_f77(library, scene, np.ones((1, 1)), [None] * 3, "block", like)[0] == -1
+    assert message.startswith("the beam is on a foundation, where many cases in one call are not available; use combine_loads")
+    beam.close()
+
+
+@pytest.mark.parametrize("spans", [3, 40])
+def test_widths_agree(library, spans):
+    """Cases in lanes."""
+    rng = np.random.default_rng(spans)
+    side = [{"side": "below", "stiffness": 1e5}] * (spans - 1)
+    supports = [{"node": 0}, *({"node": i + 1, **one} for i, one in enumerate(side)), {"node": spans}]
+    loads = [{"type": "uniform", "from": 6.0 * i, "to": 6.0 * i + 6.0, "q": 1.0} for i in range(spans)]
+    scene = {"beam": {"spans": [6.0] * spans, "EI": 1e4}, "supports": supports, "loads": loads}
+    factors, gaps = rng.uniform(-10, 25, (700, spans)), rng.uniform(0.0, 0.01, (700, spans + 1))
+    gaps[:, [0, -1]] = 0.0
+    beam, _ = library.prepare(scene)
+    status, _, found = solve_in_c(beam, factors, [None, gaps, None], "block")
+    expected = gapbeam.prepare(scene).solve(factors, gap=gaps)
+    assert status == 0
+    for values, name in zip(found, ("status", "reaction", "deflection", "moment_left", "moment_right"), strict=True):
+        assert values.tobytes() == getattr(expected, name).tobytes(), name
+    beam.close()

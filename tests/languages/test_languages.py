@@ -1,0 +1,398 @@
+"""The interfaces say the same: C and Fortran 77, called by ctypes in the installed library, against Python, to the last digit.
+
+The Fortran interface is what the other two marshal to; its own tests are test_api*.f90 and the example.
+"""
+
+import random
+
+import gapbeam
+import numpy as np
+import pytest
+from gapbeam.base.errors import EngineError, SceneError
+from gapbeam.results.paths.branches import BranchPath
+from gapbeam.results.state.kinks import EVENTS
+from gapbeam.studies.meshes import gapped_spans
+from scenes import nodes_of, random_scene
+from scenes.curved import random_curved_scene
+from scenes.foundation import random_scene as ground_scene
+from scenes.ground import touching
+from scenes.law import FAMILIES, law_scene
+from scenes.tabled import random_tabled_scene
+
+from .clibrary import F77Beam
+
+FIELDS = ("deflection", "rotation", "moment", "shear", "axial_force", "axial_displacement")
+CONDITIONS = {"open": 0, "closed": 1, "bilateral": 2, "touching": 4} | {f"branch {k}": 10 + k for k in range(1, 10)}
+
+
+def scene_of(seed):
+    """A random scene without sections (stretches of other stiffness are spans in these interfaces), some with axial loads."""
+    rng = random.Random(seed)
+    made = random_scene(rng)
+    made.pop("sections", None)
+    end = nodes_of(made)[-1]
+    if rng.random() < 0.3:
+        made["beam"]["EA"] = 10.0 ** rng.uniform(2, 5)
+        made["supports"].append({"node": 0, "direction": "axial", "settlement": rng.choice((0.0, 0.01))})
+        if rng.random() < 0.5:
+            made["supports"].append({"x": end, "direction": "axial", "stiffness": 3e3})
+        made["analysis"] = {**made.get("analysis", {}), "first_order": True}  # the others know no Euler load
+        made["loads"] += [{"type": "axial", "x": rng.uniform(0.0, end), "F": rng.uniform(-9, 9)} for _ in range(2)]
+    if rng.random() < 0.05:
+        # Far from 1: these are solved in other units
+        power = rng.choice((-250, 200))
+        made["beam"]["EI"] = (np.array(made["beam"]["EI"]) * 2.0**power).tolist()
+        made["beam"]["GA"] = float("inf")
+        made["beam"].pop("EA", None)
+        for support in made["supports"]:
+            if support.get("direction") != "axial":
+                support.pop("stiffness", None)
+                support.pop("rotation", None) if support.get("rotation") != "fixed" else None
+        for load in made["loads"]:
+            for key in set(load) & {"F", "M", "q"}:
+                load[key] = (np.array(load[key]) * 2.0**power).tolist()
+    return made
+
+
+def python_result(scene):
+    """Result, or the exception."""
+    try:
+        return gapbeam.solve(scene)
+    except (SceneError, EngineError) as error:
+        return error
+
+
+def assert_same_state(beam, f77, result, scene, rng, bounds_too=True):
+    """Everything a state says; its error bounds only if it was looked for from the same zones."""
+    step = result.steps[-1]
+    expected = [step.reaction, step.deflection, step.opening, step.couple, [CONDITIONS[s] for s in step.state]]
+    for one in (beam, f77):
+        for found, values in zip(one.at_supports(), map(np.array, expected), strict=True):
+            np.testing.assert_array_equal(found, values)
+    end = nodes_of(scene)[-1]
+    x = [0.0, end, *(rng.uniform(0.0, end) for _ in range(3)), *nodes_of(scene)]
+    for left in (False, True):
+        fields = result.at(np.clip(x, 0.0, result.beam.places.end), side="left" if left else "right")
+        for one in (beam, f77):
+            for row, name in zip(one.fields(x, left), FIELDS, strict=True):
+                values = getattr(fields, name)
+                np.testing.assert_array_equal(row, np.zeros(len(x)) if values is None else values)
+    extremes = result.extremes()
+    for one in (beam, f77):
+        value, place = one.extremes()
+        for k, name in enumerate(FIELDS):
+            pairs = extremes.get(name, {"max": (0.0, 0.0), "min": (0.0, 0.0)})
+            np.testing.assert_array_equal(np.transpose([value[k], place[k]]), np.array([pairs["max"], pairs["min"]]))
+    along = [step.error_bounds[name] for name in ("deflection", "rotation", "moment", "shear")]
+    bounds = [bound or 0.0 for bound in (*step.bounds, *along)]
+    size = 3 + (len(bounds) if bounds_too else 0)
+    residuals = step.residuals
+    numbers = [residuals["equilibrium"], residuals["compatibility"], residuals["complementarity"], *bounds]
+    certificate, undecided = beam.certificate()
+    of_c = [*(getattr(certificate, name) for name, _ in certificate._fields_[1:6]), *certificate.field_bound]
+    assert of_c[:size] == numbers[:size]
+    assert certificate.known == (step.bounds[0] is not None)
+    assert np.flatnonzero(undecided).tolist() == list(step.undecided)
+    of_f77, known, undecided_f77 = f77.certificate()
+    assert [of_f77.tolist()[:size], known, undecided_f77.tolist()] == [numbers[:size], certificate.known, undecided.tolist()]
+
+
+@pytest.mark.parametrize("first", range(0, 600, 100))
+def test_steps_agree(library, first):
+    seen = set()
+    for seed in range(first, first + 100):
+        scene = scene_of(seed)
+        rule, steps = scene["analysis"]["rule"], scene["analysis"]["steps"]
+        result = python_result(scene)
+        beam, message = library.prepare(scene)
+        if isinstance(result, SceneError):
+            assert beam == 11, (seed, str(result))
+            assert F77Beam(library, scene).info_ < 0
+            seen.add(11)
+            continue
+        assert not message
+        f77 = F77Beam(library, scene)
+        assert f77.info_ == 0
+        solves = []
+        for k in range(1, steps + 1):
+            status, message = beam.solve(k / steps, rule)
+            assert f77.solve(k / steps, rule, start=min(k - 1, 1)) == status
+            if status != 0:
+                break
+            solves.append(beam.info().solves)
+        seen.add(status)
+        if isinstance(result, EngineError):
+            assert message == str(result)
+        elif result.status == "no-equilibrium":
+            assert status == 1
+            for one in (beam, f77):
+                x, motion = one.motion()
+                if result.motion is None:
+                    assert beam.info().slides
+                    assert not motion.any()
+                else:
+                    assert list(zip(x, motion, strict=True)) == result.motion
+        else:
+            assert status == 0
+            assert solves == [step.solves for step in result.steps]
+            assert_same_state(beam, f77, result, scene, random.Random(seed))
+        beam.close()
+    assert {0, 1} <= seen
+
+
+def test_a_long_beam(library):
+    """100,000 spans under loads of all kinds."""
+    scene, rng = gapped_spans(100_000), random.Random(5)
+    end = nodes_of(scene)[-1]
+    for _ in range(100):
+        x = rng.uniform(0.0, end)
+        scene["loads"] += [{"type": "force", "x": x, "F": 3.0}, {"type": "moment", "x": rng.uniform(0.0, end), "M": -2.0}]
+        scene["loads"].append({"type": "linear", "q": [1.0, -3.0], "from": x / 2, "to": x / 2 + 7.0})
+    result = gapbeam.solve(scene)
+    beam, _ = library.prepare(scene)
+    f77 = F77Beam(library, scene)
+    assert beam.solve(1.0) == (0, "")
+    assert f77.solve(1.0) == 0
+    assert_same_state(beam, f77, result, scene, rng)
+    beam.close()
+
+
+@pytest.mark.parametrize("first", range(0, 300, 100))
+def test_events_agree(library, first):
+    events = 0
+    for seed in range(first, first + 100):
+        scene = scene_of(seed)
+        rule = scene["analysis"]["rule"]
+        scene["analysis"] = {"follow": "events", "rule": rule}
+        result = python_result(scene)
+        beam, _ = library.prepare(scene)
+        if isinstance(result, SceneError):
+            continue
+        f77 = F77Beam(library, scene)
+        status, message, found = beam.follow(1.0, rule)
+        info, found_f77 = f77.follow(1.0, rule)
+        assert info == status
+        if isinstance(result, EngineError):
+            assert status > 10
+            assert message == str(result)
+            continue
+        assert (status == 1) == (result.status == "no-equilibrium")
+        expected = [(e.factor, e.support, {"opens": 0, "closes": 1, "turns": 3}[e.event]) for e in result.events]
+        assert found == expected
+        assert found_f77 == expected
+        events += len(expected)
+        if status == 0:
+            assert_same_state(beam, f77, result, scene, random.Random(seed))
+        elif result.motion is not None:
+            assert list(zip(*beam.motion(), strict=True)) == result.motion
+            assert f"load factor {beam.info().factor:.16g}" in result.reason
+        beam.close()
+    assert events > 10
+
+
+def assert_same_history(found, path):
+    """Everything that a history says."""
+    history = path._history
+    np.testing.assert_array_equal(found.along, history.along)
+    np.testing.assert_array_equal(found.about[:, [0, 1, 3, 4, 5]] + [1, 0, 0, 0, 0], history.about)
+    stable = {segment.number: segment.stable for segment in path.segments}
+    assert {k: bool(found.about[k, 2]) for k in stable} == stable
+    assert found.events == [(e.factor, e.support, e.event) for e in path.events]
+    landings = (history.limits[:, 3] - 1).tolist()
+    assert found.limits == [(a.factor, a.kind, a.leg, to) for a, to in zip(path.limits, landings, strict=True)]
+    assert found.ending == path.ending
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+def test_laws_agree(library, family):
+    """Beams whose supports follow laws: histories and every state on them, or events where no way matters."""
+    seen, kinds = set(), set()
+    for seed in range(80):
+        scene = law_scene(seed, family, alone=None)
+        at_limit = ("stop", "jump", "follow")[seed % 3]
+        scene["analysis"]["at_limit"] = at_limit
+        result = python_result(scene)
+        beam, message = library.prepare(scene)
+        assert not message
+        f77 = F77Beam(library, scene)
+        assert f77.info_ == 0
+        if isinstance(result, EngineError):
+            status, message, _ = beam.follow_history(scene["analysis"].get("history", [1.0]), at_limit)
+            assert (status > 10, message) == (True, str(result))
+        elif isinstance(result.path, BranchPath):
+            seen.add(result.path.ending)
+            kinds |= {limit.kind for limit in result.limits}
+            factors = scene["analysis"].get("history", [1.0])
+            status, message, found = beam.follow_history(factors, at_limit)
+            info, found_f77 = f77.follow_history(factors, at_limit)
+            assert (status, message, info) == (0, "", 0)
+            assert_same_history(found, result.path)
+            assert_same_history(found_f77, result.path)
+            motion = beam.history_motion()
+            assert (motion is None) == (result.path.motion is None)
+            if motion is not None:
+                assert list(zip(*motion, strict=True)) == result.motion
+            for step, segment in zip(result.steps, result.path.segments, strict=True):
+                assert beam.solve_on_path(segment.number, step.factor) == (0, "")
+                assert f77.solve_on_path(segment.number, step.factor) == 0
+                np.testing.assert_array_equal(beam.at_supports()[0], step.reaction)
+            if result.steps:
+                assert_same_state(beam, f77, result, scene, random.Random(seed))
+        else:
+            status, message, found = beam.follow(1.0)
+            assert (status, message) == (int(result.status == "no-equilibrium"), "")
+            info, found_f77 = f77.follow(1.0)
+            assert (info, found_f77) == (status, found)
+            assert [(f, k) for f, k, _ in found] == [(e.factor, e.support) for e in result.events]
+            for (*_, condition), event in zip(found, result.events, strict=True):
+                assert {"opens": condition == 0, "turns": condition == 3}.get(event.event, condition in (1, *range(11, 20)))
+            if status == 0:
+                assert_same_state(beam, f77, result, scene, random.Random(seed))
+            seen.add("events")
+        beam.close()
+    assert seen & {"events", ""}
+    assert family == "hardening" or kinds
+
+
+def assert_same_ground(beam, f77, result, scene, rng):
+    """Where the ground acts, and its pressure."""
+    step, end = result.steps[-1], result.beam.places.end
+    contact = [(z.foundation, z.from_, z.to, CONDITIONS[z.state], z.resultant) for z in step.contact]
+    free = [(f.foundation, f.from_, f.to, f.sag) for f in step.free_spans]
+    x = np.clip([0.0, end, *(rng.uniform(0.0, end) for _ in range(4)), *nodes_of(scene)], 0.0, end)
+    top, bottom = (result.extremes()["pressure"][key] for key in ("max", "min"))
+    for one in (beam, f77):
+        assert one.contact() == contact
+        assert one.free_spans() == free
+        for left in (False, True):
+            np.testing.assert_array_equal(one.pressure(x, left), result.at(x, side="left" if left else "right").pressure)
+        value, place = one.pressure_extremes()
+        assert list(zip(value, place, strict=True)) == [top, bottom]
+    return len(contact), len(free)
+
+
+def test_touches_agree(library):
+    scene = {key: value for key, value in touching().items() if key != "units"}
+    scene["analysis"] = {"rule": "block", "steps": 1}
+    result = gapbeam.solve(scene)
+    assert [zone.state for zone in result.steps[-1].contact] == ["touching"]
+    beam, _ = library.prepare(scene)
+    f77 = F77Beam(library, scene)
+    assert (beam.solve(1.0), f77.solve(1.0)) == ((0, ""), 0)
+    assert_same_ground(beam, f77, result, scene, random.Random(1))
+    beam.close()
+
+
+@pytest.mark.parametrize("first", range(0, 600, 100))
+def test_foundations_agree(library, first):
+    """Beams on foundations, also with other loads than they were prepared with."""
+    seen, zones, spans = set(), 0, 0
+    for seed in range(first, first + 100):
+        scene, rule, steps = ground_scene(seed), ("block", "single")[seed % 2], 1 + seed // 2 % 2
+        scene.pop("sections", None)
+        scene["analysis"] = {"rule": rule, "steps": steps}
+        result = python_result(scene)
+        # Every third one prepared under other loads, at other places
+        before = scene | {"loads": [{"type": "force", "x": 0.0, "F": 1.0}] * len(scene["loads"])} if seed % 3 == 0 else scene
+        beam, message = library.prepare(before)
+        assert not message
+        f77 = F77Beam(library, before)
+        assert f77.info_ == 0
+        if before is not scene:
+            assert (beam.replace_loads(library, scene), f77.replace_loads(scene)) == (0, 0)
+        solves = []
+        for k in range(1, steps + 1):
+            status, message = beam.solve(k / steps, rule)
+            assert f77.solve(k / steps, rule, start=min(k - 1, 1)) == status
+            if status != 0:
+                break
+            solves.append(beam.info().solves)
+        seen.add(status)
+        if isinstance(result, EngineError):
+            assert (status > 10, message) == (True, str(result))
+        elif result.status == "no-equilibrium":
+            assert status == 1
+            for one in (beam, f77):
+                assert list(zip(*one.motion(), strict=True)) == result.motion
+        else:
+            assert (status, solves) == (0, [step.solves for step in result.steps])
+            assert_same_state(beam, f77, result, scene, random.Random(seed))
+            found = assert_same_ground(beam, f77, result, scene, random.Random(seed))
+            zones, spans = zones + found[0], spans + found[1]
+            assert beam.follow(1.0)[:2] == (11, "the beam is on a foundation: use follow_ground")
+            assert f77.follow(1.0)[0] == -1
+            assert beam.follow_history([1.0], "stop")[0] == 11
+        beam.close()
+    assert {0, 1} <= seen
+    assert min(zones, spans) > 50
+
+
+def test_tables_of_foundations_agree(library):
+    """Of moduli and of parameters of laws, in C."""
+    solved = 0
+    for seed in range(40):
+        scene = {"supports": [], **random_tabled_scene(seed), "analysis": {"rule": "block", "steps": 1}}
+        if any(isinstance(item.get("law"), list) and isinstance(item["law"][0], dict) for item in scene["foundation"]):
+            continue  # polylines at several places are not in C
+        scene.pop("sections", None)
+        beam, message = library.prepare(scene)
+        try:
+            result = python_result(scene)
+        except gapbeam.SceneError:
+            assert message
+            continue
+        assert not message
+        status = {"solved": 0, "no-equilibrium": 1}[result.status]
+        assert beam.solve(1.0)[0] == status
+        if status == 0:
+            solved += 1
+            zones = result.steps[-1].contact
+            assert beam.contact() == [(z.foundation, z.from_, z.to, CONDITIONS[z.state], z.resultant) for z in zones]
+        beam.close()
+    assert solved > 20
+
+
+def test_laws_of_foundations_by_parameters_agree(library):
+    """Curves too, with numbers and with pairs."""
+    for seed in (1, 3, 5, 7, 9, 11, 12, 18, 21, 26, 28, 35):
+        scene = {"supports": [], **random_curved_scene(seed), "analysis": {"rule": "block", "steps": 1}}
+        result = python_result(scene)
+        beam, message = library.prepare(scene)
+        assert not message
+        f77 = F77Beam(library, scene)
+        assert f77.info_ == 0
+        status = {"solved": 0, "no-equilibrium": 1}[result.status]
+        assert (beam.solve(1.0)[0], f77.solve(1.0)) == (status, status)
+        if status == 0:
+            assert_same_state(beam, f77, result, scene, random.Random(seed))
+            assert_same_ground(beam, f77, result, scene, random.Random(seed))
+        beam.close()
+
+
+def test_load_paths_on_foundations_agree(library):
+    """Events of zones and supports along the load, and the state at its end."""
+    found = []
+    for seed in range(22):
+        scene, rule = ground_scene(seed), ("block", "single")[seed % 2]
+        scene.pop("sections", None)
+        scene["analysis"] = {"rule": rule, "follow": "events"}
+        result = python_result(scene)
+        beam, _ = library.prepare(scene)
+        f77 = F77Beam(library, scene)
+        status, events = beam.follow_ground(1.0, rule)
+        info, same = f77.follow_ground(1.0, rule)
+        assert (info, same) == (status, events)
+        if isinstance(result, EngineError):
+            assert status > 10
+        else:
+            assert status == (0 if result.status == "solved" else 1)
+            names = [(f, k, g, x, EVENTS[change], branch) for f, k, g, x, change, branch in events]
+            assert names == [
+                (e.factor, *(-1 if number is None else number for number in (e.support, e.foundation)), e.x, e.event, e.branch)
+                for e in result.events
+            ]
+            found += events
+            if status == 0:
+                assert_same_state(beam, f77, result, scene, random.Random(seed), bounds_too=False)
+        beam.close()
+    assert {change for *_, change, _ in found} >= {0, 1, 20, 21, 25}

@@ -1,0 +1,1 @@
+"""Tests of the Python package, in rooms as those of `python/gapbeam`."""

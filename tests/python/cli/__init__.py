@@ -1,0 +1,1 @@
+"""The command, its messages and exit statuses."""

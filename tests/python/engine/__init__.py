@@ -1,0 +1,1 @@
+"""The compiled layer: what crosses it, and calls that end."""

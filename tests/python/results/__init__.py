@@ -1,0 +1,1 @@
+"""What comes of a scene: as plain data, and as proofs."""

@@ -1,0 +1,1 @@
+"""Many load cases, combinations, numbers by case."""

@@ -1,0 +1,79 @@
+"""Combinations that take the working scheme of another one: with gaps, sides and settlements, beside rational numbers."""
+
+import random
+
+import gapbeam
+import oracle
+import pytest
+from scenes import at, force, place, scene
+
+from .test_combinations import by_hand
+
+
+def held_in_scheme(written, states):
+    """The beam of a given scheme, and which supports are left: open ones are gone, closed ones hold where they touch."""
+    touches = oracle.Oracle({**written, "loads": []}).acting_level
+    supports = {
+        i: {key: value for key, value in one.items() if key not in ("side", "gap")} | {"settlement": float(touches(i))}
+        for i, one in enumerate(written["supports"])
+        if states[i] != "open"
+    }
+    return {**written, "supports": list(supports.values())}, list(supports)
+
+
+def exact_scheme(made, one, states):
+    """Reactions and deflections in rational numbers of a combination that takes a scheme."""
+    written, there = held_in_scheme(by_hand(made, one), states)
+    solution = oracle.solve(written)
+    reaction = dict(zip(there, solution.reaction, strict=True))
+    places = [place(made, support) for support in made["supports"]]
+    return [float(reaction.get(i, 0)) for i in range(len(places))], [float(solution.at(x).deflection) for x in places]
+
+
+@pytest.mark.parametrize("side", ["below", "above"])
+@pytest.mark.parametrize("gap", [-0.004, 0.0, 0.004])
+@pytest.mark.parametrize("settlement", [-0.003, 0.0, 0.003])
+def test_a_closed_support_holds_where_it_touches(side, gap, settlement):
+    """Closed by a great load either way, it is a support both ways at settlement + gap below, settlement - gap above the beam."""
+    push = 400.0 if side == "below" else -400.0
+    made = scene([2.0, 2.0], [at(0), at(1, side=side, gap=gap, settlement=settlement), at(2)],
+                 [force(2.0, push, case="a"), force(1.0, 7.0, case="b")], EI=1e3) | {
+        "combinations": [{"name": "x", "factors": {"a": 1.0}},
+                         {"name": "y", "factors": {"b": 1.0}, "settlements": {"1": 0.001}, "scheme_of": "x"}]}  # fmt: skip
+    x, y = (gapbeam.solve(made).combinations[name].steps[-1] for name in "xy")
+    assert x.state[1] == "closed"
+    level = settlement + 0.001 + (gap if side == "below" else -gap)
+    assert y.deflection[1] == pytest.approx(level, rel=1e-12, abs=1e-16)
+    # A simple beam under F in the first quarter sags 11 F L^3 / 768 EI in the middle, and L^3 / 48 EI under a unit force there
+    assert y.reaction[1] == pytest.approx((11 * 7.0 / 768 - level * 1e3 / 64) * 48, rel=1e-12)
+
+
+def test_schemes_taken_from_others_are_solved_exactly():
+    """Gaps of either sign, both sides, settlements, springs, movements in either combination; beside rational numbers."""
+    states = set()
+    for seed in range(60):
+        rng = random.Random(seed)
+        count = rng.randint(2, 4)
+        supports = [at(0, settlement=rng.choice((0.0, 0.002)))]
+        for i in range(1, count + 1):
+            one = {"side": rng.choice(("below", "below", "above")), "gap": rng.choice((-0.004, 0.0, 0.002, 0.006))}
+            spring = {"stiffness": 5e3} if rng.random() < 0.3 else {}
+            supports.append(at(i, settlement=rng.choice((-0.003, 0.0, 0.0, 0.001)), **one, **spring))
+        supports.append(at(count + 1))
+        spans = [rng.choice((1.0, 1.5, 2.0)) for _ in range(count + 1)]
+        loads = [force(rng.uniform(0.1, sum(spans) - 0.1), rng.uniform(-60, 90), case=case) for case in "aabb"]
+        made = scene(spans, supports, loads, EI=1e3)
+
+        def moves(rng=rng, supports=supports):
+            return {str(i): rng.choice((-0.002, 0.0, 0.003)) for i in range(len(supports))}
+
+        leads, takes = ({"factors": {case: rng.choice((1.0, 1.35))}, "settlements": moves()} for case in "ab")
+        made["combinations"] = [dict(leads, name="leads"), dict(takes, name="takes", scheme_of="leads")]
+        result = gapbeam.solve(made)
+        first, second = (result.combinations[name].steps[-1] for name in ("leads", "takes"))
+        assert [a == "open" for a in first.state] == [b == "open" for b in second.state], seed
+        reaction, deflection = exact_scheme(made, takes, first.state)
+        assert second.reaction == pytest.approx(reaction, abs=1e-11 * max(map(abs, reaction))), seed
+        assert second.deflection == pytest.approx(deflection, abs=1e-11 * max(map(abs, deflection))), seed
+        states |= {(one["side"], one["gap"] > 0, state) for one, state in zip(supports, first.state, strict=True) if "side" in one}
+    assert len(states) == 8  # both sides, gaps of either sign, closed and open

@@ -1,0 +1,1 @@
+"""The way of the load: events, laws, limit points, branches."""

@@ -1,0 +1,124 @@
+"""The load path of beams on the ground: every change at its own factor, whatever the grid, and few solves for it."""
+
+import gapbeam
+import pytest
+import scenes
+from mpmath import mp, mpf
+from oracle.foundation import solve as reference
+from scenes.foundation import random_scene
+from scenes.ground import on_ground, over_peaks, rough_pipe
+
+ROUNDINGS = 4 * 2.0**-53
+LOOK = 4  # linear solves for a place of the grid
+CHANGE = 40  # for a change: where it happens, and states on both sides of it
+
+
+def told(made):
+    """Factors, places and names of the events of a scene."""
+    return [(event.factor, event.x, event.event) for event in gapbeam.solve(made).events]
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_rough_seabed_needs_few_solves(seed):
+    result = gapbeam.solve(rough_pipe(seed))
+    assert len(result.events) > 5
+    assert result.path.solves < 64 * LOOK + CHANGE * len(result.events)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_what_a_rough_seabed_does_is_where_states_change(seed):
+    """Just below and just above the factor the zones are others by what the event says."""
+    more = {"zone appears": 1, "zone splits": 1, "zone vanishes": -1, "zones merge": -1, "end reaches": 0, "end leaves": 0}
+    result = gapbeam.solve(rough_pipe(seed))
+    for event in result.events:
+        before, after = (result.state(event.factor * (1 + d)).contact for d in (-1e-8, 1e-8))
+        assert len(after) - len(before) == more[event.event], event
+
+
+@pytest.mark.parametrize("gap", [1.0, 1.0 + 2.0**-40, 1.0 - 2.0**-40, 0.3, 3.999, 1e-3])
+def test_a_peak_is_touched_at_its_factor(gap):
+    """At a place of the grid, next to one, and anywhere; in the beginning and at the end."""
+    factor, x, event = told(over_peaks([(1.0, gap)]))[0]
+    assert factor == pytest.approx(gap / 4, rel=ROUNDINGS, abs=0)
+    assert (x, event) == (1.0, "zone appears")
+
+
+@pytest.mark.parametrize("k", [1e-9, 50.0, 1e9])
+@pytest.mark.parametrize("gap", [1.0, 0.7, 1e-9])
+def test_level_ground_is_touched_at_its_factor(k, gap):
+    """However stiff: the distance bends sharply where contact begins."""
+    made = over_peaks([]) | {"foundation": [{"k": k, "side": "below", "gap": gap}]}
+    factor, x, event = told(made)[0]
+    assert factor == pytest.approx(gap / 4, rel=ROUNDINGS, abs=0)
+    assert x == pytest.approx(1.0, rel=1e-7)
+    assert event == "zone appears"
+
+
+@pytest.mark.parametrize("law", [[[1e-3, 1.0], [2e-3, 1.5], [1.0, 2.0]], {"type": "tanh", "stiffness": 50.0, "limit": 5.0}])
+def test_ground_with_a_law_is_touched_at_its_factor(law):
+    factor, x, event = told(over_peaks([]) | {"foundation": [{"law": law, "side": "both", "gap": 0.5}]})[0]
+    assert factor == pytest.approx(0.125, rel=ROUNDINGS, abs=0)
+    assert x == pytest.approx(1.0, rel=1e-7)
+    assert event == "zone appears"
+
+
+@pytest.mark.parametrize("way", [0.0, 1e-14, 1e-12, 1e-9])
+def test_events_however_near_to_each_other(way):
+    """Symmetric ones at one factor, others each at its own; both stand in their order."""
+    events = gapbeam.solve(over_peaks([(1.5, 1.0 + way), (0.5, 1.0)])).events
+    first = [event for event in events if event.event == "zone appears"]
+    assert {event.foundation: event.factor for event in first} == pytest.approx(
+        {0: (1.0 + way) / 2.75, 1: 1.0 / 2.75}, rel=ROUNDINGS, abs=0)  # fmt: skip
+    assert [event.factor for event in events] == sorted(event.factor for event in events)
+
+
+def test_a_support_takes_what_the_ground_would():
+    made = over_peaks([(1.0, 1.5)])
+    made["supports"].append({"x": 1.0, "side": "below", "gap": 1.0})
+    (event,) = gapbeam.solve(made).events
+    assert (event.support, event.event) == (2, "closes")
+    assert event.factor == pytest.approx(0.25, rel=ROUNDINGS, abs=0)
+
+
+def test_an_end_on_a_support_leaves_where_the_beam_is_level_with_the_ground():
+    """The distance there is zero at all factors; the slope decides."""
+    loads = [scenes.uniform(4.0, case="dead"), scenes.force(0.5, -30.0)]
+    made = on_ground([3.0], [{"k": 50.0, "side": "below"}], loads, [scenes.at(0), scenes.at(1)], EI=50.0)
+    result = gapbeam.solve(made | {"analysis": {"follow": "events"}})
+    ends = [event for event in result.events if event.event == "end leaves"]
+    assert ends
+    for event in ends:
+        slopes = [result.at_state(result.state(event.factor * (1 + d)), event.x).rotation for d in (-1e-6, 1e-6)]
+        assert slopes[0] * slopes[1] < 0
+        assert abs(slopes[0] + slopes[1]) < 1e-5 * abs(slopes[1] - slopes[0])
+
+
+def what_acts(made, factor):
+    """Zones with whether they come to an end of their foundation, and supports that carry, by the oracle."""
+    right, length = reference(made, factor, digits=50), sum(made["beam"]["spans"])
+    zones = []
+    for item, of in zip(made["foundation"], right.contact, strict=True):
+        ends = (item.get("from", 0.0), item.get("to", length))
+        zones.append([(abs(zone.start - ends[0]) < 1e-20, abs(zone.end - ends[1]) < 1e-20) for zone in of])
+    return zones, [abs(held.reaction) > 1e-25 for held in right.supports]
+
+
+@pytest.mark.parametrize("seed", [16, 21, 23, 73, 186, 194, 243, 310])
+def test_random_paths_change_where_the_oracle_does(seed):
+    """In 50 digits the zones are others 1e-14 below and above each factor."""
+    made = random_scene(seed)
+    events = [event for event in gapbeam.solve(made | {"analysis": {"follow": "events"}}).events if event.branch == 1]
+    assert events
+    with mp.workdps(80):
+        for event in events:
+            below, above = (what_acts(made, mpf(event.factor) * (1 + mpf(d))) for d in ("-1e-14", "1e-14"))
+            assert below != above, event
+
+
+def test_a_beam_tips_where_its_loads_begin_to_do_work():
+    """About the right end: up by the force over a length of 1, down by the weight over a length of 1.5."""
+    loads = [scenes.uniform(4.0, case="dead"), scenes.force(0.5, -9.0)]
+    made = on_ground([1.5], [{"k": 50.0, "side": "below"}], loads, EI=10.0, analysis={"follow": "events"})
+    result = gapbeam.solve(made)
+    assert result.status == "no-equilibrium"
+    assert result.path.segments[-1].stop == pytest.approx(4.0 * 1.5**2 / 2 / 9.0, rel=1e-13)

@@ -1,0 +1,116 @@
+"""Smooth laws of supports, beside roots in many digits."""
+
+import gapbeam
+import mpmath as mp
+import numpy as np
+import pytest
+from gapbeam.results.state.smooth import SmoothLaws
+from gapbeam.scene.reading import read_beam
+
+from .test_laws import midspan
+
+CURVES = {
+    "cubic": ({"type": "cubic", "k1": 100.0, "k3": 1e5}, lambda d: 100 * d + 100000 * d**3),
+    "without k1": ({"type": "cubic", "k1": 0.0, "k3": 1e5}, lambda d: 100000 * d**3),
+    "hyperbolic": ({"type": "hyperbolic", "stiffness": 1000.0, "limit": 2.0}, lambda d: 1000 * d / (1 + 500 * d)),
+    "tanh": ({"type": "tanh", "stiffness": 1000.0, "limit": 2.0}, lambda d: 2 * mp.tanh(500 * d)),
+    "cube root": ({"type": "power", "d0": 0.015625, "limit": 2.0, "n": 1 / 3}, lambda d: 2 * (64 * d) ** mp.mpf(1 / 3)),
+    "power 3": ({"type": "power", "d0": 0.015625, "limit": 2.0, "n": 3.0}, lambda d: 2 * (64 * d) ** 3),
+}
+
+
+def root(function, high):
+    """Root of a rising function between 0 and `high`, to 40 digits."""
+    with mp.workdps(40):
+        between = mp.mpf(0), 2 * mp.mpf(high)
+        return mp.findroot(function, between, solver="bisect", tol=mp.mpf(10) ** -80, maxsteps=2000, verify=False)
+
+
+@pytest.mark.parametrize("name", CURVES)
+@pytest.mark.parametrize("load", [1e-6, 0.5, 3.0, 1e4])
+@pytest.mark.parametrize(("side", "sign", "gap"), [("below", 1, 0.0), ("above", -1, 0.001), ("both", -1, 0.0), ("both", 1, 0.001)])
+def test_a_curve_beside_a_beam(name, load, side, sign, gap):
+    law, curve = CURVES[name]
+    expected = root(lambda w: 48 * w + (curve(w - gap) if w > gap else 0) - load, load / 48)
+    for follow in ("steps", "events"):
+        step = gapbeam.solve(midspan(law, load * sign, side=side, gap=gap, analysis={"follow": follow})).steps[-1]
+        assert sign * step.deflection[1] == pytest.approx(float(expected), rel=2e-15)
+        assert sign * step.reaction[1] == pytest.approx(float(load - 48 * expected), rel=1e-12, abs=1e-15)
+        assert step.state[1] == ("branch 1" if expected > gap else "open")
+        assert step.opening[1] == pytest.approx(max(float(gap - expected), 0.0), rel=1e-13, abs=1e-18)
+        assert step.certificate["error_bound"] < 1e-11
+
+
+def test_factors_of_events_are_those_on_the_curve():
+    """A rigid stop at 0.01 beside a spring that is a curve: only contact is an event."""
+    law, curve = CURVES["tanh"]
+    scene = midspan(law, 3.0)
+    scene["supports"].insert(2, {"x": 0.25, "side": "below", "gap": 0.0078125})
+    result = gapbeam.solve(scene)
+    # Deflection at the quarter is 11/16 of that in the middle, as there is a force in the middle only
+    middle = mp.mpf(0.0078125) * 16 / 11
+    expected = (48 * middle + curve(middle)) / 3
+    assert [(e.support, e.event) for e in result.events] == [(2, "closes")]
+    assert result.events[0].factor == pytest.approx(float(expected), rel=1e-14)
+    assert len(result.segments) == 2
+    assert result.state(0.3).deflection[1] == pytest.approx(float(root(lambda w: 48 * w + curve(w) - 0.9, 0.1)), rel=2e-15)
+
+
+def test_a_pile_on_curves_of_growing_strength():
+    """Ten curves of one kind: equilibrium of every support with its own law, and of all with the loads."""
+    supports = [
+        {"x": float(i), "side": "both", "law": {"type": "power", "d0": 0.01, "limit": 2.0 * (i + 1), "n": 1 / 3}} for i in range(10)
+    ]
+    scene = {
+        "beam": {"spans": [9.0], "EI": 2e4},
+        "supports": supports,
+        "loads": [{"type": "force", "x": 0.0, "F": 12.0}],
+    }
+    step = gapbeam.solve(scene).steps[-1]
+    laws = [np.sign(w) * 2.0 * (i + 1) * (abs(w) / 0.01) ** (1 / 3) for i, w in enumerate(step.deflection)]
+    assert step.reaction == pytest.approx(np.array(laws), rel=1e-12)
+    assert step.reaction.sum() == pytest.approx(12.0, rel=1e-12)
+    assert (step.reaction * np.arange(10)).sum() == pytest.approx(0.0, abs=1e-11)
+
+
+def test_a_support_that_opens_on_the_curve_only():
+    """On the polyline of the law the end is still held; on the curve it would pull by 0.006, so it is open."""
+    scene = {
+        "beam": {"spans": [4.0, 4.0, 4.0], "EI": 200.0},
+        "supports": [
+            {"node": 0, "side": "below"}, {"node": 3, "side": "below"},
+            {"node": 1, "side": "below", "gap": 0.002, "law": {"type": "tanh", "stiffness": 400.0, "limit": 15.0}},
+            {"node": 2, "law": {"type": "hyperbolic", "stiffness": 400.0, "limit": 15.0}},
+        ],
+        "loads": [{"type": "uniform", "q": 0.5}, *({"type": "force", "x": x, "F": 10.0} for x in (4.8655, 6.3655))],
+    }  # fmt: skip
+    step = gapbeam.solve(scene).steps[-1]
+    assert step.state == ("open", "open", "branch 1", "branch 1")
+    assert step.opening[:2].min() > 0.0
+    assert step.reaction.sum() == pytest.approx(26.0, rel=1e-13)
+
+
+@pytest.mark.parametrize("follow", ["steps", "events"])
+def test_loads_beyond_what_a_law_tends_to(follow):
+    """Its polyline rises a little for ever, and held the beam some 1e12 away; the tangents then ended in an error."""
+    law = {"type": "tanh", "stiffness": 1700.0, "limit": 31.0}
+    supports = [{"node": 0, "side": "both", "gap": 0.001, "law": [[0.02, 3.2]]}, {"node": 2, "side": "below"}]
+    supports.append({"node": 1, "side": "both", "gap": 0.001, "law": law})
+    made = {"beam": {"spans": [2.5, 4.5], "EI": 2e3}, "supports": supports, "analysis": {"follow": follow}}
+    result = gapbeam.solve({**made, "loads": [{"type": "uniform", "q": -4.0}]})
+    assert (result.status, len(result.steps)) == ("no-equilibrium", 0)
+    assert result.reason.startswith("no equilibrium at load factor 1: the beam tips about the support at x = 0: ")
+    assert gapbeam.solve({**made, "loads": [{"type": "uniform", "q": -3.0}]}).status == "solved"  # 21 * 3.5 < 31 * 2.5
+
+
+@pytest.mark.parametrize("name", CURVES)
+def test_a_force_beside_its_curve_is_refused(name):
+    made = midspan(CURVES[name][0], 0.05)
+    step = gapbeam.solve(made).steps[-1]
+    laws = SmoothLaws(read_beam(made)[1])
+    d, force, given = np.array([step.deflection[1]]), np.array([step.reaction[1]]), np.array([False])
+    laws.audit(force, d, given, d[0])
+    with pytest.raises(gapbeam.EngineError, match=r"supports\[1\].law: the result does not stand its own audit"):
+        laws.audit(force * (1 + 1e-9), d, given, d[0])
+    with pytest.raises(gapbeam.EngineError, match="audit"):
+        laws.audit(force, d * (1 + 1e-9), given, d[0])

@@ -1,0 +1,1 @@
+"""States: values, contact, certificates, with and without ground."""

@@ -1,0 +1,1 @@
+"""Loads that move: events, envelopes, influence lines."""

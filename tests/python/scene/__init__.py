@@ -1,0 +1,1 @@
+"""What a user writes: keys, values, names, places, refusals."""

@@ -1,0 +1,1 @@
+"""The study of accuracy, its true values and yardsticks."""
