@@ -81,6 +81,11 @@ def modules_of(path, package=TOP / "python" / "gapbeam"):
                 yield found, node in tree.body
 
 
+def test_no_installed_file_of_python_is_long():
+    long = [path.name for path in (TOP / "python" / "gapbeam").rglob("*.py") if path.read_text().count("\n") > 400]
+    assert long == []
+
+
 def test_python_files_import_each_other_in_no_circle():
     uses = {path: {used for used, _ in modules_of(path)} for path in (TOP / "python" / "gapbeam").rglob("*.py")}
     left = set(uses)
@@ -121,6 +126,11 @@ def test_the_map_is_made_of_the_files():
     assert page == HOUSE["made"](), "run python docs/house.py"
     assert len(page.splitlines()) <= 150
     assert max(map(len, page.splitlines())) <= 120
+
+
+def test_heads_say_what_a_file_does():
+    heads = {path: HOUSE["head_of"](path) for room in HOUSE["ROOMS"] for path in HOUSE["files_of"](room) if path.suffix != ".c"}
+    assert not [str(path) for path, head in heads.items() if not head or head.endswith("?") or head.split()[0] == "What"]
 
 
 def modules_named(path):

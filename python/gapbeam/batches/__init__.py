@@ -1,1 +1,1 @@
-"""Batches of cases: one scene with numbers from the rows of a table, solved row by row into files that last."""
+"""One scene with some of its numbers taken from the rows of a table, solved row by row into files that last."""

@@ -118,6 +118,35 @@ def find_paths(scene: Scene, names: Sequence[str]) -> tuple[KeyPath, ...]:
     return tuple(found.values())
 
 
+def varies_by_case(scene: Mapping[str, Any], path: KeyPath) -> bool:
+    """Whether a number may differ from case to case on a beam that is prepared once.
+
+    Parameters
+    ----------
+    scene : mapping
+        From `scene_data`.
+    path : KeyPath
+        Of the number.
+
+    Returns
+    -------
+    bool
+    """
+    head, *rest = path.parts
+    if head == "beam":
+        return rest[0] in ("EI", "GA")
+    if head == "foundation":  # a modulus that is one number
+        return rest[1:] == ["k"] and isinstance(scene["foundation"][rest[0]]["k"], int | float)
+    if head == "loads":
+        return len(rest) == 2 and rest[1] in VALUES and not isinstance(scene["loads"][rest[0]][rest[1]], list)
+    if head == "supports" and rest[1] == "gap":  # it moves the place where a one-sided support begins to act
+        support = scene["supports"][rest[0]]
+        return support["side"] != "both" and support["law"] is None
+    if head == "supports" and rest[1] == "stiffness":
+        return scene["supports"][rest[0]]["law"] is None
+    return head == "factors" or (head == "supports" and rest[1] == "settlement")
+
+
 def with_values(data: Mapping[str, Any], paths: Sequence[KeyPath], values: Sequence[float]) -> dict[str, Any]:
     """Put a row of a table into a scene.
 

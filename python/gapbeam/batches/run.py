@@ -24,8 +24,9 @@ from ..scene.wording import choice, shown
 from .batch import Batch
 from .chunks import FORMATS, best_format, writer
 from .folder import Folder, as_json, begin_folder, locked, open_folder
-from .job import AT_SUPPORTS, ERRORS, WANTED, Job
+from .job import WANTED, Job
 from .paths import find_paths, scene_data
+from .scene_cases import AT_SUPPORTS, ERRORS
 from .tables import SceneFolder, Table, take_table
 from .workers import cores, in_turn, processes, threads, work
 
@@ -173,10 +174,7 @@ def _wanted(want: tuple[str, ...] | None, known: Sequence[str], default: tuple[s
 
 def _cases_a_file(job: Job, nodes: int, columns: int, states: int) -> int:
     """Cases that take about half a second, by their number of nodes alone: files must not depend on how fast a machine is."""
-    if job.prepared is not None:
-        seconds = job.prepared.seconds(job.want, nodes)
-    else:
-        seconds = states * (7e-4 + 6e-6 * nodes + (2e-2 if job.scene["foundation"] else 0.0))
+    seconds = job.cases.seconds(nodes, states)
     numbers = columns + len(job.columns) + len(job.scene["loads"]) + 4 * len(job.supports) + 14
     most = max(min(SECONDS / seconds, NUMBERS / numbers), 1.0)
     power = 10 ** (len(str(int(most))) - 1)
@@ -227,7 +225,7 @@ def _run(
 
     if executor is not None:
         each(executor, work)
-    elif by_processes and jobs > 1 and left and not job.is_prepared:
+    elif by_processes and jobs > 1 and left and not job.cases.is_prepared:
         with processes(min(jobs, len(left))) as pool:
             each(pool, work)
     else:

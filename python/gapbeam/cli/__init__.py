@@ -1,4 +1,4 @@
-"""The command ``gapbeam``: it sees to signals, then loads the rest of itself.
+"""Command ``gapbeam``: it sees to signals, then loads the rest of itself.
 
 Signals and little memory are answered from the first line on, so nothing is imported here that Python has not loaded itself.
 """

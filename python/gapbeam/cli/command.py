@@ -206,6 +206,7 @@ def _parser() -> argparse.ArgumentParser:
                      "of contact, over the load factor, every event marked; best with follow = \"events\" (.png, .pdf or "
                      ".svg)")  # fmt: skip
     run.add_argument("--quiet", action="store_true", help="print no report")
+    run.add_argument("--verbose", action="store_true", help="tell of equations, residuals and run time in the report")
     run.set_defaults(command=_run)
 
     check = commands.add_parser(
@@ -281,7 +282,7 @@ def _run(arguments: argparse.Namespace) -> int:
     outputs.write(contents)
     if not arguments.quiet and not outputs.on_standard_output:
         with until_closed():  # after the files: the reader of the report, such as head, may leave early
-            print_report(result)
+            print_report(result, verbose=arguments.verbose)
     elif not solved:
         say(NO_SOLUTION, result.reason)
     for option in ("--csv", "--path"):

@@ -25,7 +25,7 @@ def case_extremes(
     Parameters
     ----------
     beam : Beam
-        The beam.
+        Without ground.
     rule : {"block", "single"}
         How working schemes are found.
     factors, varied
@@ -86,8 +86,6 @@ def _follow(
     nodes: tuple[np.ndarray, ...], names: Collection[str], piece: np.ndarray, distance: np.ndarray,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:  # fmt: skip
     """Find extremes, their places, and fields."""
-    if beam.ground_layers:
-        return None
     cases, places = len(factors), len(piece)
     extremes, x, fields = (np.full((cases, *shape), np.nan) for shape in ((4, 2), (4, 2), (places + 1, 4)))
     about = np.append(piece, 1).astype(np.int32), np.append(distance, 0.0)

@@ -23,13 +23,15 @@ NONE = np.zeros((1, 1, 3)).T
 
 
 def split_loads(beam: Beam) -> None:
-    """Condense the loads of a beam one by one, for what follows.
+    """Condense the loads of a beam one by one, for what follows; on the ground, where they do not add up, nothing follows.
 
     Parameters
     ----------
     beam : Beam
-        Without ground.
+        The beam.
     """
+    if beam.ground_layers:
+        return
     check_status(_engine.gbshar(beam.handle, beam.pieces + beam.columns.load.shape[1]))
 
 

@@ -14,7 +14,7 @@ from matplotlib.transforms import Affine2D, ScaledTranslation, Transform
 
 from ..base.characters import visible
 from ..results.formatting import number, stretch, unit
-from ..scene.structs import AxialLoad, CurvatureLoad, ForceLoad, LinearLoad, MomentLoad, UniformLoad
+from ..scene.loads import AxialLoad, CurvatureLoad, ForceLoad, LinearLoad, MomentLoad, UniformLoad
 from .labels import LINE, Labels, text_width
 
 if TYPE_CHECKING:

@@ -193,7 +193,7 @@ def _bends(result: Result) -> list[int]:
     """Find the steps at which lines may bend: with another working scheme than the one before or after."""
     schemes = [states for _, states in result.steps.history()]
     last = len(schemes) - 1
-    every = max(1, last // CURVE) if result.beam.smooth or result.beam.ground_layers else last + 1
+    every = last + 1 if result.beam.is_linear_between_events else max(1, last // CURVE)
     return [k for k in range(last + 1) if k in (0, last) or k % every == 0 or not schemes[k - 1] == schemes[k] == schemes[k + 1]]
 
 

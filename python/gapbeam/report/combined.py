@@ -2,13 +2,17 @@
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from ..base.characters import visible
 from ..results import formatting as fmt
+from ..results.answer import short
+from ..results.envelopes.envelope import AT_SUPPORTS
 from ..results.envelopes.hints import beyond
 from ..scene.names import labels
 from .over_path import write_over_path
 from .trains import write_trains
-from .writer import Writer
+from .writer import Writer, cut
 
 if TYPE_CHECKING:
     from ..results.cases.combined import CombinedResult
@@ -19,6 +23,8 @@ MOST_FOLLOWED = 100
 """Combinations that are followed from event to event for the report, to find factors between that govern."""
 MOST_TIES = 2
 """Further combinations with the same value that are named."""
+MOST_ROWS = 24
+"""Combinations whose reactions are listed."""
 PLACES = (("max", "largest"), ("min", "smallest"))
 
 
@@ -33,22 +39,19 @@ def write_combined(say: Writer, result: "CombinedResult") -> None:
         What `gapbeam.solve` returned.
     """
     scene = result.scene
-    say.line(fmt.title(scene), "bold")
-    number = result.statuses.count("solved")
-    solves = f"{fmt.count(result.solves, 'linear solve')}, {fmt.duration(result.seconds)}"
-    say.line(f"{number:,} of {fmt.count(len(result.names), 'combination')} solved, {solves}")
     _fallen(say, result)
     if result.has_envelope and scene.trains:
         write_trains(say, result)
-    elif number:
+    elif "solved" in result.statuses:
+        _reactions(say, result)
         _fields(say, result)
         _supports(say, result)
         _foundations(say, result)
         _factors_between(say, result)
     write_over_path(say, result)
     _list(say, result)
-    for remark in result.remarks:
-        say.line(fmt.sentence(visible(remark)))
+    say.line()
+    say.line(f"Solved with {fmt.count(result.solves, 'linear solve')}, {fmt.duration(result.seconds)}.", "dim")
 
 
 def _fallen(say: Writer, result: "CombinedResult") -> None:
@@ -78,6 +81,32 @@ def _when(result: "CombinedResult") -> str:
     return "at full load" if result.scene.analysis.history[-1] == 1.0 else "at the end of the history"
 
 
+def _reactions(say: Writer, result: "CombinedResult") -> None:
+    """Tabulate reactions by combination, with what has lifted off."""
+    scene = result.scene
+    if not scene.supports:
+        return
+    envelope, up = result.envelope(), "^" if say.plain else "\u2191"
+    reaction, opening = (envelope.at_supports[:, AT_SUPPORTS.index(name)] for name in ("reaction", "opening"))
+    rows = []
+    for k in cut(range(len(envelope.sources)), MOST_ROWS)[0]:
+        texts = [
+            f"0 {up}{short(scene, 'opening', gone).split()[0]}" if gone > 0.0 else fmt.number(force, fmt.DIGITS)
+            for force, gone in zip(reaction[k].tolist(), opening[k].tolist(), strict=True)
+        ]
+        rows.append([visible(envelope.sources[k].combination or ""), *texts])
+    for words, best in (("largest", np.nanmax), ("smallest", np.nanmin)):
+        rows.append([words, *(fmt.number(value, fmt.DIGITS) for value in best(reaction, axis=0).tolist())])
+    unit = fmt.unit(scene, "reaction")
+    say.heading("Reactions by combination" + (f" [{unit}]" if unit else ""))
+    say.table_by_name(["", *labels(scene.supports)], rows)
+    hidden = len(envelope.sources) - (len(rows) - 2)
+    more = f" {hidden:,} combinations in the middle are left out here; --json has all." if hidden else ""
+    length, _ = fmt.shown_unit(scene, "opening")
+    lifted = f"; {up} lifted off, with its opening{f' in {length}' if length else ''}" if (opening > 0.0).any() else ""
+    say.line(f"Upward positive{lifted}.{more}", "dim")
+
+
 def _fields(say: Writer, result: "CombinedResult") -> None:
     scene, envelope = result.scene, result.envelope()
     say.heading(f"What governs, all combinations {_when(result)}")
@@ -85,8 +114,9 @@ def _fields(say: Writer, result: "CombinedResult") -> None:
     for quantity, row in envelope.extremes.items():
         for kind, words in PLACES:
             one = row[kind]
-            rows.append([fmt.with_unit(scene, quantity) if kind == "max" else "", words, fmt.number(one.value), fmt.number(one.x),
-                         _source(one)])  # fmt: skip
+            name = fmt.shown_heading(scene, quantity) if kind == "max" else ""
+            value, x = fmt.shown(scene, quantity, one.value), fmt.number(one.x, fmt.DIGITS)
+            rows.append([name, words, value, x, _source(one)])
     say.table(["", "", "value", fmt.with_unit(scene, "x", "at x"), "combination"], rows, left=(0, 1, 4))
     say.line("Deflection downward, sagging moment, clockwise rotation: positive. Combinations with equal values stand beside "
              "each other.", "dim")  # fmt: skip
@@ -102,14 +132,14 @@ def _supports(say: Writer, result: "CombinedResult") -> None:
     for name, row in zip(fmt.numbered(scene.supports), result.envelope().supports, strict=True):
         for kind, words in PLACES:
             one = row["reaction"][kind]
-            texts = [name if kind == "max" else "", words, fmt.number(one.value), _source(one)]
+            texts = [name if kind == "max" else "", words, fmt.number(one.value, fmt.DIGITS), _source(one)]
             if one_sided:
                 opening = row["opening"][kind]
-                texts += [fmt.number(opening.value), _source(opening) if opening.value else ""]
+                texts += [fmt.shown(scene, "opening", opening.value), _source(opening) if opening.value else ""]
             rows.append(texts)
     headings = ["", "", fmt.stacked(scene, "reaction"), "combination"]
     if one_sided:
-        headings += [fmt.stacked(scene, "opening"), "combination"]
+        headings += [fmt.shown_column(scene, "opening", [])[0], "combination"]
     say.table(headings, rows, left=(0, 1, 3, 5))
     say.line("Reactions upward positive.", "dim")
 
@@ -125,7 +155,7 @@ def _foundations(say: Writer, result: "CombinedResult") -> None:
     for name, row in zip(names, found, strict=True):
         for kind, words in PLACES:
             one = row["resultant"][kind]
-            rows.append([name if kind == "max" else "", words, fmt.number(one.value), _source(one)])
+            rows.append([name if kind == "max" else "", words, fmt.number(one.value, fmt.DIGITS), _source(one)])
     say.table(["", "", fmt.stacked(scene, "resultant"), "combination"], rows, left=(0, 1, 3))
     rows = []
     for name, row in zip(names, found, strict=True):
@@ -147,9 +177,8 @@ def _foundations(say: Writer, result: "CombinedResult") -> None:
 
 def _factors_between(say: Writer, result: "CombinedResult") -> None:
     """Say where a factor between governs."""
-    beam = result.beam
     say.heading("Factors between")
-    if beam.ground_layers or beam.curves or beam.depends_on_path or result.scene.analysis.history != [1.0]:
+    if not result.is_linear_between_events:
         say.line("Not looked for: on foundations, with smooth laws and where the state depends on the way of the load, values are "
                  "not linear between events.")  # fmt: skip
         return
@@ -198,6 +227,6 @@ def _about(combination: object) -> list[str]:
     """Say what else a combination asks for."""
     words = [f"{visible(str(key))} settles {fmt.number(value, 4)}" for key, value in combination.settlements.items()]
     if combination.scheme_of is not None:
-        words.append(f"working scheme of {visible(combination.scheme_of)}")
+        words.append(f"contact state of {visible(combination.scheme_of)}")
     words += [f"all patterns of {visible(case)} ({rule})" for case, rule in combination.expand.items()]
     return words

@@ -4,7 +4,8 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from ..results import formatting as fmt
-from ..results.state.ground import TOUCHING, Contact, FreeSpan, joined
+from ..results.answer import ground_in_words
+from ..results.state.ground import Contact, FreeSpan, joined
 from ..scene.ground_tables import is_table, least_and_most
 from ..scene.names import label
 from .scheme import symbol
@@ -19,39 +20,6 @@ MOST_ROWS = 24
 """Zones and free spans that are listed, a dozen of each; of more some in the middle are left out, and a summary stands below."""
 MOST_IN_A_ROW = 3
 """Zones whose ends are written out for every load step."""
-
-
-def ground_in_words(result: "Result") -> list[str]:
-    """Say how much of one-sided ground carries at the last step.
-
-    Parameters
-    ----------
-    result : Result
-        A solved one.
-
-    Returns
-    -------
-    list of str
-        Lines; none where nothing can lift off.
-    """
-    step, scene = result.steps[-1], result.scene
-    zones, spans = joined(step.contact), step.free_spans
-    if not spans and all(zone.state == "bilateral" for zone in zones):
-        return []
-    of = _with_label(result, sum(_length(fmt.stretch(scene, item)) for item in scene.foundation))
-    contact = f"contact in {fmt.count(len(zones), 'zone')} over {_number(_together(zones))} of {of}"
-    lines = [contact] if zones else []
-    touching = [zone.from_ for zone in step.contact if zone.state == TOUCHING]
-    if touching:
-        where = f"at x = {_number(touching[0])}" if len(touching) == 1 else f"at {len(touching)} places"
-        lines.append(f"{'touching' if zones else 'only touching'} the ground {where}")
-    if not lines:
-        lines.append("no contact with the ground")
-    if spans:
-        longest = _with_label(result, max(map(_length, map(_ends, spans))))
-        sag = _with_label(result, max(span.sag for span in spans))
-        lines.append(f"{fmt.count(len(spans), 'free span')}, {'up to ' if len(spans) > 1 else ''}{longest} long, sag {sag}")
-    return lines
 
 
 def write_foundations(say: Writer, result: "Result", at: str) -> None:

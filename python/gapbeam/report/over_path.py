@@ -55,8 +55,9 @@ def write_over_path(say: Writer, result: "Result") -> None:
     rows = []
     for quantity, row in found.extremes.items():
         for kind, words in PLACES:
-            one, name = row[kind], fmt.with_unit(scene, quantity) if kind == "max" else ""
-            rows.append([name, words, fmt.number(one.value), fmt.number(one.x), *_where(one.source, legs)])
+            one, name = row[kind], fmt.shown_heading(scene, quantity) if kind == "max" else ""
+            value, x = fmt.shown(scene, quantity, one.value), fmt.number(one.x, fmt.DIGITS)
+            rows.append([name, words, value, x, *_where(one.source, legs)])
     say.table(headings, rows, left=(0, 1))
     beyond = _beyond(found)
     if beyond:
@@ -65,7 +66,7 @@ def write_over_path(say: Writer, result: "Result") -> None:
         for k, what, kind in beyond:
             one = found.supports[k][what][kind]
             name, before = "" if k == before else names[k], k
-            rows.append([name, f"{dict(PLACES)[kind]} {what}", fmt.number(one.value), *_where(one.source, legs)])
+            rows.append([name, f"{dict(PLACES)[kind]} {what}", fmt.shown(scene, what, one.value), *_where(one.source, legs)])
         say.line()
         say.table(["support", "", "value", *_headings(result, legs)], rows, left=(0, 1), longest=MOST_ROWS)
         say.line("All other supports have their largest and smallest values where the way begins or ends.", "dim")

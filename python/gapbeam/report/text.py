@@ -5,16 +5,19 @@ rich is imported only when a report is printed.
 
 import io
 from collections import Counter
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from ..base.characters import visible
 from ..results import formatting as fmt
+from ..results.answer import answer
 from ..results.state.step import BOUNDED
 from ..scene.names import label, labels
 from .combined import write_combined
-from .ground import ground_in_words, write_contact, write_contact_history, write_foundations
+from .ground import write_contact, write_contact_history, write_foundations
 from .over_path import write_over_path
 from .scheme import event_table, legend, merged, scheme_table, symbol
+from .system import write_system
 from .trains import write_trains
 
 if TYPE_CHECKING:
@@ -24,23 +27,15 @@ if TYPE_CHECKING:
     from ..results.state.step import Step
     from .writer import Writer
 
-LEFT_OUT = {
-    "axial": "axial forces",
-    "shear": "shear flexibility",
-    "foundation": "foundation",
-    "hinges": "hinges",
-    "iteration": "iteration of the working scheme",
-    "deflections": "deflections as unknowns",
-}
-
-
 MOST_EVENTS, MOST_LIMITS = 40, 5
 """Events and limits of the load that the report lists."""
+LONGEST, ENDS = 40, 5
+"""Supports that are listed; those at either end that always are."""
 LIMITS = {"limit": "limit load", "bifurcation": "bifurcation", "mechanism": "limit load (mechanism)"}
 
 
-def print_report(result: "Result", console: "Console | None" = None) -> None:
-    """Print what a person wants to know of a result.
+def print_report(result: "Result", console: "Console | None" = None, verbose: bool = False) -> None:
+    """Print what a person wants to know of a result, the answer first.
 
     Parameters
     ----------
@@ -48,37 +43,42 @@ def print_report(result: "Result", console: "Console | None" = None) -> None:
         What `gapbeam.solve` returned.
     console : rich.console.Console, optional
         Where to print; default standard output, without colours where that is no terminal.
+    verbose : bool
+        Whether equations, residuals and run time are told in detail.
     """
     from rich.console import Console
 
     from .writer import Writer
 
     say = Writer(console or Console(highlight=False))
+    _answer(say, result)
     if result.combinations:
         write_combined(say, result)
         return
-    _headline(say, result)
-    _system(say, result)
     write_trains(say, result)
     if not result.stands:
         _no_solution(say, result)
-    if not result.steps:
-        return
-    at = f"at load factor {fmt.number(result.steps[-1].factor)}"
-    if not result.stands:
-        at += ", the last step that stands"
-    _history(say, result)
-    _events(say, result)
-    write_contact_history(say, result)
-    _supports(say, result, at)
-    write_foundations(say, result, at)
-    write_contact(say, result, at)
-    _extremes(say, result, at)
-    write_over_path(say, result)
-    _steps(say, result)
+    if result.steps:
+        at = f"at load factor {fmt.number(result.steps[-1].factor)}"
+        if not result.stands:
+            at += ", the last step that stands"
+        _supports(say, result, at)
+        write_foundations(say, result, at)
+        write_contact(say, result, at)
+        _extremes(say, result, at)
+        write_over_path(say, result)
+        _history(say, result)
+        _events(say, result)
+        write_contact_history(say, result)
+        _doubts(say, result)
+    if verbose:
+        write_system(say, result)
+        _steps(say, result)
+    else:
+        _solver(say, result)
 
 
-def report_text(result: "Result", width: int = 80) -> str:
+def report_text(result: "Result", width: int = 80, verbose: bool = False) -> str:
     """Write the report to a string without colours.
 
     Parameters
@@ -87,6 +87,8 @@ def report_text(result: "Result", width: int = 80) -> str:
         What `gapbeam.solve` returned.
     width : int
         Characters a line.
+    verbose : bool
+        As for `print_report`.
 
     Returns
     -------
@@ -98,15 +100,17 @@ def report_text(result: "Result", width: int = 80) -> str:
         encoding = "utf-8"
 
     stream = Unicode()
-    print_report(result, Console(file=stream, width=width, highlight=False, color_system=None))
+    print_report(result, Console(file=stream, width=width, highlight=False, color_system=None), verbose)
     return stream.getvalue()
 
 
-def _headline(say: "Writer", result: "Result") -> None:
+def _answer(say: "Writer", result: "Result") -> None:
+    """The answer, before anything else."""
     say.line(fmt.title(result.scene), "bold")
     for limit in result.limits[:MOST_LIMITS]:
         causes = ", ".join(f"{fmt.support(result.scene, k)} {event}" for k, event in limit.causes)
-        say.line(f"{LIMITS[limit.kind]} at load factor {fmt.number(limit.factor, 10)}" + (f": {causes}" if causes else ""))
+        words = f"{LIMITS[limit.kind]} at load factor {fmt.number(limit.factor, 10)}" + (f": {causes}" if causes else "")
+        say.line(f"{words[0].upper()}{words[1:]}.")
     if len(result.limits) > MOST_LIMITS:
         say.line(f"... and {fmt.count(len(result.limits) - MOST_LIMITS, 'more limit')}.")
     rough = [segment.stop for segment in result.segments if not getattr(segment, "exact", True)]
@@ -115,38 +119,21 @@ def _headline(say: "Writer", result: "Result") -> None:
         more = f" and {len(rough) - MOST_LIMITS} more" if len(rough) > MOST_LIMITS else ""
         which = ", ".join(fmt.number(factor, 5) for factor in rough[:MOST_LIMITS]) + more
         say.line(f"Known on the polylines of the smooth laws only, to about one part in a hundred: load factor {which}.")
-    if not result.stands:
-        return
-    way = fmt.count(len(result.steps), "load step") if result.path is None else fmt.count(len(result.events), "event")
-    solves = fmt.count(result.solves, "linear solve")
-    if result.path is not None and result.path.nodes:
-        solves += f" and {fmt.count(result.path.nodes, 'node')} anew"
-    say.line(f"solved in {way}, {solves}, {fmt.duration(result.seconds)}")
-    for line in ground_in_words(result):
-        say.line(line)
-
-
-def _system(say: "Writer", result: "Result") -> None:
-    scene, system = result.scene, result.system
-    say.heading("System")
-    left_out = [LEFT_OUT.get(name, name) for name in system.left_out if name != "second order"]
-    equations = f"{system.method}: {fmt.count(system.nodes, 'node')}, {fmt.count(system.unknowns, 'unknown')}"
-    equations += f", half bandwidth {system.half_bandwidth}"
-    if system.axial_unknowns:
-        equations += f"; apart from it {fmt.count(system.axial_unknowns, 'axial unknown')}"
-    say.pairs(
-        [
-            ("beam", fmt.beam_in_words(scene)),
-            ("supports", fmt.supports_in_words(scene)),
-            *([("foundations", fmt.foundations_in_words(scene))] if scene.foundation else []),
-            ("loads", fmt.loads_in_words(scene)),
-            ("equations", equations),
-            ("left out", ", ".join(left_out) + " (this scene needs none)" if left_out else "nothing"),
-            *([("", f"effect of axial forces on bending: {system.compression.in_words()}")] if system.compression else []),
-        ]
-    )
+    for words in answer(result):
+        say.line(words)
     for remark in result.remarks:
         say.line(fmt.sentence(visible(remark)), "red")
+
+
+def _solver(say: "Writer", result: "Result") -> None:
+    """How it was solved, in one line."""
+    way = fmt.count(len(result.steps), "load step") if result.path is None else fmt.count(len(result.events), "event")
+    words = f"Solved in {way}, {fmt.count(result.solves, 'linear solve')}, {fmt.duration(result.seconds)}"
+    bound = result.steps[-1].certificate["error_bound"] if result.steps else None
+    if bound is not None:
+        words += f"; errors at the last step below {bound:.0e} of the largest values"
+    say.line()
+    say.line(f"{words}. More of the solver: --verbose.", "dim")
 
 
 def _no_solution(say: "Writer", result: "Result") -> None:
@@ -181,7 +168,7 @@ def _history(say: "Writer", result: "Result") -> None:
     # Of steps with the same scheme the first and the last do
     runs = merged(result.steps.history())
     history = [(factor, states) for first, last, states in runs for factor in (first, last)]
-    say.heading("Working scheme over the load")
+    say.heading("Contact state over the load")
     headings, rows = scheme_table(history, say.width, say.plain)
     say.table(headings, rows, left=(0, len(headings) - 1) if len(headings) < len(supports) + 1 else (0,))
     states = {state for _, states in history for state in states}
@@ -204,18 +191,25 @@ def _supports(say: "Writer", result: "Result", at: str) -> None:
         quantities["opening"] = step.opening
     if any(step.set):
         quantities["set"] = step.set
-    for digits in (6, 5, 4, 3):
+    for digits in (5, 4, 3):
         columns = [
             ("", names),
             (fmt.stacked(scene, "x"), fmt.column(scene.positions(scene.supports))),
             ("side", sides),
             ("state", states),
-            *((fmt.stacked(scene, name), fmt.column(values, digits)) for name, values in quantities.items()),
+            *(fmt.shown_column(scene, name, values, digits) for name, values in quantities.items()),
         ]
         if sum(1 + max(map(len, (*name.split("\n"), *texts))) for name, texts in columns) <= say.width:
             break  # numbers are shortened rather than broken
     left = (2, 3) if names == [str(k) for k in range(len(names))] else (0, 2, 3)
-    say.table([name for name, _ in columns], list(zip(*(texts for _, texts in columns), strict=True)), left=left)
+    rows = list(zip(*(texts for _, texts in columns), strict=True))
+    chosen = _chosen(step.state)
+    say.table([name for name, _ in columns], [rows[k] if k is not None else ["..."] * len(columns) for k in chosen], left=left)
+    if len(chosen) < len(rows):
+        kept = [k for k in chosen if k is not None]
+        lost = sum(step.state[k] == "open" for k in range(len(rows)) if k not in set(kept))
+        words = f"; {lost:,} of them have no contact" if lost else "; all of them are in contact"
+        say.line(f"{len(rows) - len(kept):,} supports are left out here{words}. All are in the output of --json.", "italic")
     normal = [index for index, side in enumerate(sides) if side != "axial"]
     total = sum(float(step.reaction[index]) for index in normal)
     words = [f"Reactions (upward positive) add up to {fmt.number(total)} {fmt.unit(scene, 'force')}".rstrip()]
@@ -223,6 +217,21 @@ def _supports(say: "Writer", result: "Result", at: str) -> None:
     words.append(", ".join(f"{counts[state]:,} {state}" for state in sorted(counts)))
     say.line("; ".join(words) + ".", "dim")
     _restraints_of_open_supports(say, result)
+
+
+def _chosen(states: Sequence[str]) -> list[int | None]:
+    """Choose the supports that a table shows, None where some are left out: those without contact before all others."""
+    if len(states) <= LONGEST:
+        return list(range(len(states)))
+    ends = {*range(ENDS), *range(len(states) - ENDS, len(states))}
+    lifted = [k for k, state in enumerate(states) if state == "open" and k not in ends]
+    chosen = sorted(ends | set(lifted[: LONGEST - len(ends)]))
+    found: list[int | None] = []
+    for k in chosen:
+        if found and found[-1] is not None and k != found[-1] + 1:
+            found.append(None)
+        found.append(k)
+    return found
 
 
 def _restraints_of_open_supports(say: "Writer", result: "Result") -> None:
@@ -245,16 +254,15 @@ def _extremes(say: "Writer", result: "Result", at: str) -> None:
     rows = []
     for quantity, extreme in result.extremes().items():
         (largest, x_largest), (smallest, x_smallest) = extreme["max"], extreme["min"]
-        texts = [fmt.number(value) for value in (largest, x_largest, smallest, x_smallest)]
-        rows.append([fmt.with_unit(scene, quantity), *texts])
+        texts = [fmt.shown(scene, quantity, largest), fmt.number(x_largest, fmt.DIGITS)]
+        texts += [fmt.shown(scene, quantity, smallest), fmt.number(x_smallest, fmt.DIGITS)]
+        rows.append([fmt.shown_heading(scene, quantity), *texts])
     x = fmt.with_unit(scene, "x", "at x")
     say.table(["", "largest", x, "smallest", x], rows, left=(0,))
     say.line("Deflection downward, sagging moment, clockwise rotation: positive.", "dim")
 
 
 def _steps(say: "Writer", result: "Result") -> None:
-    from .writer import LONGEST
-
     # Following events, the states between are solved only if asked for
     steps = result.steps if result.path is None else result.steps[-1:]
     kinds = list(steps[-1].residuals)
@@ -276,20 +284,19 @@ def _steps(say: "Writer", result: "Result") -> None:
         of_shown = " of these" if len(not_shown) else ""
         say.line(f"Together {solves}, {seconds}; largest residual{of_shown} {worst:.1e}.", "dim")
     if came_back:
-        say.line("The rule single came back to a scheme that it had seen; from there the rule block went on.")
-    _doubts(say, result)
-
-
-def _doubts(say: "Writer", result: "Result") -> None:
-    """How exact the last step is, and what is not decided in it."""
-    step = result.steps[-1]
-    bounds = ((kind, step.certificate[f"error_bound_{kind}"]) for kind in BOUNDED)
+        say.line("The rule single came back to a contact state that it had seen; from there the rule block went on.")
+    bounds = ((kind, steps[-1].certificate[f"error_bound_{kind}"]) for kind in BOUNDED)
     listed = ", ".join(f"{kind} {bound:.1e}" for kind, bound in bounds if bound is not None)
     if listed:
         say.line(f"Error bounds at the last step, relative to the largest of each kind: {listed}.")
+
+
+def _doubts(say: "Writer", result: "Result") -> None:
+    """What is not decided at the last step."""
+    step = result.steps[-1]
     if step.undecided:
         x = result.scene.positions(result.scene.supports)
-        words = {False: "Reaction or opening zero, so neither closed nor open", True: "Exactly at a kink of its law"}
+        words = {False: "Reaction or opening zero, so neither closed nor open", True: "Exactly at a breakpoint of its law"}
         for with_law, what in words.items():
             which = [k for k in step.undecided if (result.scene.supports[k].law is not None) == with_law]
             names = ", ".join(f"{label(result.scene.supports, k)} (x = {x[k]:g})" for k in which[:10])
@@ -306,7 +313,7 @@ def _events(say: "Writer", result: "Result") -> None:
     say.heading("Events")
     if not result.events:
         reach = "at all load factors" if result.stands else "up to that load factor"
-        say.line(f"The working scheme is the same {reach}.")
+        say.line(f"The contact state is the same {reach}.")
         return
     shown = result.events[:MOST_EVENTS]
     say.table(*event_table(result.scene, shown))

@@ -61,8 +61,9 @@ def _fields(say: Writer, result: "Result", envelope: "TrainEnvelope") -> None:
         for kind, words in PLACES:
             one = row[kind]
             if one is not None:
-                name = fmt.with_unit(scene, quantity) if kind == "max" else ""
-                rows.append([name, words, fmt.number(one.value), fmt.number(one.x), *_source(result, one)])
+                name = fmt.shown_heading(scene, quantity) if kind == "max" else ""
+                value, x = fmt.shown(scene, quantity, one.value), fmt.number(one.x, fmt.DIGITS)
+                rows.append([name, words, value, x, *_source(result, one)])
     say.table(["", "", "value", fmt.with_unit(scene, "x", "at x"), *_headings(result)], rows, (0, 1, 4, 5))
     say.line("Trains go to the right but for those marked; their positions are those of the first axle; + as many more with the "
              "same value. Where a field jumps the larger side counts. Deflection downward, sagging moment, clockwise rotation: "
@@ -82,10 +83,10 @@ def _supports(say: Writer, result: "Result", envelope: "TrainEnvelope") -> None:
                 rows.append([name if kind == "max" else "", words, fmt.number(one.value), *_source(result, one)])
         opening = row["opening"]["max"]
         if opening is not None and opening.value > 0.0:
-            rows.append(["", "opening", fmt.number(opening.value), *_source(result, opening)])
+            rows.append(["", "opening", fmt.shown(scene, "opening", opening.value), *_source(result, opening)])
     say.heading("Supports while trains pass")
     say.table(["", "", fmt.stacked(scene, "reaction"), *_headings(result)], rows, (0, 1, 3, 4))
-    length = fmt.unit(scene, "length")
+    length, _ = fmt.shown_unit(scene, "opening")
     say.line("Reactions upward positive; openings" + (f" in {length}" if length else "") + " where there are any.", "dim")
 
 

@@ -67,6 +67,7 @@ def result_data(
     if scene.analysis.follow == "events":
         data["events"] = [event_data(event, scene) for event in result.events]
     if result.steps:
+        data["lifted"] = lifted_data(result)
         data["fields"] = columns
         data["extremes"] = {
             name: {which: list(pair) for which, pair in row.items()} for name, row in result.extremes().items()
@@ -78,6 +79,23 @@ def result_data(
         data |= trains_data(result)
         data["envelope"] = result.envelope(points).to_dict()
     return data
+
+
+def lifted_data(result: Result) -> list[dict[str, Any]]:
+    """Give the supports without contact as plain data.
+
+    Parameters
+    ----------
+    result : Result
+        Of one load or of combinations.
+
+    Returns
+    -------
+    list of dict
+        Number and name of the support, its largest opening, and where that is from.
+    """
+    supports = result.scene.supports
+    return [{**one.to_dict(), **name_of(supports[one.support])} for one in result.lifted]
 
 
 def name_of(item: Any) -> dict[str, str]:

@@ -2,19 +2,16 @@
 
 import math
 import statistics
-from collections import Counter
 from collections.abc import Iterable, Sequence
-
-import numpy as np
 
 from ..base.characters import visible
 from ..engine.quantities import QUANTITIES
-from ..scene.names import DEAD, cases_of, labels
 from ..scene.names import label as name_or_number
+from ..scene.names import labels
 from ..scene.structs import Scene
 
-MOST_CASES = 8
-"""Load cases that are named in one line."""
+DIGITS = 5
+"""Of a number in a report."""
 
 
 def support(scene: Scene, k: int) -> str:
@@ -205,6 +202,8 @@ UNITS = {one.name: one.unit for one in QUANTITIES} | {
     "uniform": "{force}/{length}", "k": "{force}/{length}^2",
 }
 """Of quantities along the beam, at supports and in scenes."""
+SMALL = ("deflection", "opening", "sag", "gap", "set")
+"""Displacements, which are small beside lengths."""
 
 
 def unit(scene: Scene, quantity: str) -> str:
@@ -259,69 +258,71 @@ def stacked(scene: Scene, quantity: str, name: str | None = None) -> str:
     return (name or quantity) + (f"\n{label}" if label else "")
 
 
-def beam_in_words(scene: Scene) -> str:
-    """Tell spans, length and stiffness in one line."""
-    beam = scene.beam
-    stiffness = [beam.EI] if isinstance(beam.EI, int | float) else list(beam.EI)
-    stiffness += [section.EI for section in scene.sections if section.EI is not None]
-    low, high = min(stiffness), max(stiffness)
-    values = number(low) if low == high else f"{number(low)} to {number(high)}"
-    words = [count(len(beam.spans), "span"), _labelled(float(scene.span_ends()[-1]), unit(scene, "x"))]
-    words.append("EI " + f"{values} {unit(scene, 'EI')}".rstrip())
-    if scene.sections:
-        words.append(count(len(scene.sections), "section"))
-    if beam.hinges:
-        words.append(count(len(beam.hinges), "hinge"))
-    return ", ".join(words)
+def shown_unit(scene: Scene, quantity: str) -> tuple[str, float]:
+    """Give the unit that a report shows, and how many of it are one of the scene: displacements in mm where lengths are in m.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene with its unit labels.
+    quantity : str
+        As for `unit`.
+
+    Returns
+    -------
+    unit : str
+        Empty where the scene has no label.
+    factor : float
+        1000 for mm, else 1.
+    """
+    label = unit(scene, quantity)
+    return ("mm", 1e3) if label == "m" and quantity in SMALL else (label, 1.0)
 
 
-def supports_in_words(scene: Scene) -> str:
-    """Tell how many supports there are of which kind, in one line."""
-    normal = [support for support in scene.supports if support.direction == "normal"]
-    kinds = [
-        (sum(support.side == "both" for support in normal), "bilateral"),
-        (sum(support.side == "below" for support in normal), "one-sided from below"),
-        (sum(support.side == "above" for support in normal), "one-sided from above"),
-        (len(scene.supports) - len(normal), "axial"),
-        (sum(support.gap > 0 for support in normal), "with a gap"),
-        (sum(support.gap < 0 for support in normal), "with lack of fit"),
-        (sum(math.isfinite(support.stiffness) for support in normal), "elastic"),
-        (sum(support.law is not None for support in normal), "with a law"),
-        (sum(support.settlement != 0 for support in normal), "settling"),
-        (sum(support.rotation == "fixed" for support in normal), "clamped"),
-    ]
-    words = [f"{quantity:,} {kind}" for quantity, kind in kinds if quantity]
-    return f"{len(scene.supports):,}: " + ", ".join(words) if words else "none"
+def shown(scene: Scene, quantity: str, value: float) -> str:
+    """Write a value as a report shows it, without its unit.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene with its unit labels.
+    quantity : str
+        As for `unit`.
+    value : float
+        In the unit of the scene.
+
+    Returns
+    -------
+    str
+        At most 5 digits.
+    """
+    return number(shown_unit(scene, quantity)[1] * value, DIGITS)
 
 
-def foundations_in_words(scene: Scene) -> str:
-    """Tell how many foundations there are of which kind, in one line."""
-    foundations = scene.foundation
-    kinds = [
-        (sum(item.side == "both" for item in foundations), "bilateral"),
-        (sum(item.side == "below" for item in foundations), "one-sided from below"),
-        (sum(item.side == "above" for item in foundations), "one-sided from above"),
-        (sum(np.max(item.gap) > 0.0 for item in foundations), "with a gap"),
-        (sum(np.min(item.gap) < 0.0 for item in foundations), "with lack of fit"),
-        (sum(item.profile is not None for item in foundations), "with a profile"),
-        (sum(item.law is not None for item in foundations), "with a law"),
-    ]
-    words = [f"{quantity:,} {kind}" for quantity, kind in kinds if quantity]
-    return f"{len(foundations):,}: " + ", ".join(words) if words else "none"
+def shown_heading(scene: Scene, quantity: str) -> str:
+    """Word a heading such as ``deflection [mm]`` for values by `shown`."""
+    label, _ = shown_unit(scene, quantity)
+    return quantity.replace("_", " ") + (f" [{label}]" if label else "")
 
 
-def loads_in_words(scene: Scene) -> str:
-    """Tell how many loads there are of which kind and of which case, in one line."""
-    kinds = Counter(type(load).__struct_config__.tag for load in scene.loads)
-    if not kinds:
-        return "none"
-    words = ", ".join(f"{quantity:,} {kind}" for kind, quantity in kinds.items())
-    cases = Counter(cases_of(scene.loads))
-    order = sorted(cases, key=lambda case: case != DEAD)
-    each = ", ".join(f"{cases[case]:,} {visible(case)}" for case in order[:MOST_CASES])
-    more = f" and {len(order) - MOST_CASES} more cases" if len(order) > MOST_CASES else ""
-    return f"{len(scene.loads):,}: {words} ({each + more if len(order) > 1 else f'all {visible(order[0])}'})"
+def shown_column(scene: Scene, quantity: str, values: Iterable[float], digits: int = DIGITS) -> tuple[str, list[str]]:
+    """Word a column of a report: its heading with the unit on a second line, and its numbers.
 
+    Parameters
+    ----------
+    scene : Scene
+        The scene with its unit labels.
+    quantity : str
+        As for `unit`.
+    values : iterable of float
+        In the unit of the scene.
+    digits : int
+        As for `column`.
 
-def _labelled(value: float, label: str) -> str:
-    return f"{number(value)} {label}".rstrip()
+    Returns
+    -------
+    heading : str
+    texts : list of str
+    """
+    label, factor = shown_unit(scene, quantity)
+    return quantity + (f"\n{label}" if label else ""), column([factor * value for value in values], digits)

@@ -8,6 +8,8 @@ from typing import Any
 
 from ..engine.beam import Beam
 from ..scene.structs import Scene
+from . import formatting as fmt
+from .answer import Lifted, answer, lifted_supports
 from .data import result_data
 from .envelopes.envelope import Envelope
 from .envelopes.full_load import envelope_of_one
@@ -171,6 +173,15 @@ class Result(States):
             Every train in every direction.
         """
         yield from self.trains.members()
+
+    @property
+    def lifted(self) -> list[Lifted]:
+        """One-sided supports without contact, each where its opening is largest on the way, in a combination, under a train."""
+        return lifted_supports(self, self.envelope()) if self.has_envelope else []
+
+    def __repr__(self) -> str:
+        """Show the answer: outcome, what has no contact, the largest values."""
+        return "\n".join([fmt.title(self.scene), *answer(self)])
 
     def hints(self) -> list[Hint]:
         """Where a load factor between 0 (the dead loads alone) and 1 governs: extremes that are greater there than at both ends.

@@ -1,26 +1,10 @@
 """Scenes, read and checked: TOML, JSON or Python."""
 
+from .loads import AxialLoad, CurvatureLoad, ForceLoad, LinearLoad, Load, MomentLoad, UniformLoad
 from .places import POSITION_TOLERANCE, same_place
 from .reading import read_scene
 from .schema import scene_schema
-from .structs import (
-    Analysis,
-    AxialLoad,
-    Beam,
-    Combination,
-    CurvatureLoad,
-    ForceLoad,
-    Foundation,
-    LinearLoad,
-    Load,
-    MomentLoad,
-    Scene,
-    Section,
-    Support,
-    Train,
-    UniformLoad,
-    Units,
-)
+from .structs import Analysis, Beam, Combination, Foundation, Scene, Section, Support, Train, Units
 
 __all__ = [
     "POSITION_TOLERANCE", "Analysis", "AxialLoad", "Beam", "Combination", "CurvatureLoad", "ForceLoad", "Foundation",

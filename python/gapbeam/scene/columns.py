@@ -14,7 +14,8 @@ from ..engine.beam import Curve
 from .ground_laws import PARAMETERS, ground_parameters, parameter_tables, points_with_places
 from .ground_tables import at_both_ends, is_table, points_of
 from .laws import is_smooth, law_points
-from .structs import AxialLoad, CurvatureLoad, ForceLoad, LinearLoad, MomentLoad, Scene, UniformLoad
+from .loads import AxialLoad, CurvatureLoad, ForceLoad, LinearLoad, MomentLoad, UniformLoad
+from .structs import Scene
 from .tables import Table
 from .wording import number, shown
 

@@ -14,8 +14,9 @@ import numpy as np
 from ..base.errors import SceneError
 from ..base.records import read_only
 from .columns import SIDES
+from .loads import LinearLoad, UniformLoad
 from .names import cases_of, find, labels
-from .structs import Combination, LinearLoad, Scene, Support, UniformLoad
+from .structs import Combination, Scene, Support
 from .tables import Table
 from .trains import joined, train_name
 from .wording import choice, key_of, number, shown

@@ -11,7 +11,8 @@ import msgspec
 
 from .ground_laws import GroundLawTable, LawAt
 from .laws import LawTable
-from .structs import Analysis, Beam, Combination, Foundation, Load, Scene, Section, Support, Train, Units
+from .loads import Load
+from .structs import Analysis, Beam, Combination, Foundation, Scene, Section, Support, Train, Units
 
 
 def scene_schema() -> dict[str, Any]:

@@ -12,7 +12,7 @@ the i-th span. Positions that differ by rounding only (`POSITION_TOLERANCE`) cou
 
 The docstrings of the classes are also the descriptions in the JSON Schema (`scene_schema`).
 
->>> from gapbeam import read_scene
+>>> from gapbeam import UniformLoad, read_scene
 >>> scene = read_scene(Scene(
 ...     beam=Beam([6.0, 6.0], EI=1e4),
 ...     supports=[Support(node=0), Support(x=6.0, side="below", gap=0.01), Support(node=2)],
@@ -34,7 +34,8 @@ from msgspec import field
 from .ground_laws import GroundLaw
 from .ground_tables import Along
 from .laws import Law
-from .table import Count, Node, NotNegative, Positive, Side, Spans, Table
+from .loads import AxialLoad, ForceLoad, Load, MomentLoad
+from .table import Count, NotNegative, Point, Positive, Side, Spans, Stretch, Table
 
 inf = math.inf
 
@@ -78,41 +79,7 @@ class Beam(Table, forbid_unknown_fields=True):
     hinges: list[float] = []
 
 
-class _Stretch(Table, forbid_unknown_fields=True, kw_only=True, gc=False):
-    """What acts from one place to another.
-
-    Parameters
-    ----------
-    from_ : float
-        Left end of the stretch (length, from the left end of the beam); default: the beam's left end.
-        In Python the name is ``from_``.
-    to : float, optional
-        Right end of the stretch (length, from the left end of the beam); default: the beam's right end.
-    """
-
-    from_: float = field(default=0.0, name="from")
-    to: float | None = None
-
-
-class _Point(Table, forbid_unknown_fields=True, kw_only=True, gc=False):
-    """What acts at one place.
-
-    Parameters
-    ----------
-    node : int, optional
-        Place by node: 0 = left end, i = right end of the i-th span. Give either node or x.
-    x : float, optional
-        Place by distance from the left end (length). Give either node or x.
-    name : str, optional
-        Its name, unique among supports or among loads; shown instead of its number.
-    """
-
-    node: Node | None = None
-    x: float | None = None
-    name: str | None = None
-
-
-class Section(_Stretch, kw_only=True, gc=False):
+class Section(Stretch, kw_only=True, gc=False):
     """Other stiffness between two places; later sections win over earlier ones.
 
     Parameters
@@ -130,7 +97,7 @@ class Section(_Stretch, kw_only=True, gc=False):
     EA: Positive | None = None
 
 
-class Support(_Point, kw_only=True, gc=False):
+class Support(Point, kw_only=True, gc=False):
     """A support, at a node or anywhere along the beam.
 
     It acts where the deflection of the beam is settlement + gap (side below) or settlement - gap (above). For
@@ -171,7 +138,7 @@ class Support(_Point, kw_only=True, gc=False):
     unloading: Literal["elastic", "plastic", "broken"] = "elastic"
 
 
-class Foundation(_Stretch, kw_only=True, gc=False):
+class Foundation(Stretch, kw_only=True, gc=False):
     """Elastic ground under a stretch of the beam; default: under the whole beam. It acts wherever the beam touches it.
 
     Parameters
@@ -204,110 +171,6 @@ class Foundation(_Stretch, kw_only=True, gc=False):
     profile: list[tuple[float, float]] | None = None
     law: GroundLaw | None = None
     name: str | None = None
-
-
-class _PointLoad(_Point, kw_only=True, gc=False, tag_field="type"):
-    """A load at one place.
-
-    Parameters
-    ----------
-    case : str
-        Its load case, any name: dead acts in full from the start, all others (default live) are scaled by the load factor.
-        Combinations give cases factors by these names.
-    """
-
-    case: str = "live"
-
-
-class _StretchLoad(_Stretch, kw_only=True, gc=False, tag_field="type"):
-    """A load over a stretch.
-
-    Parameters
-    ----------
-    name : str, optional
-        Its name, unique among loads; shown instead of its number.
-    case : str
-        Its load case, any name: dead acts in full from the start, all others (default live) are scaled by the load factor.
-        Combinations give cases factors by these names.
-    """
-
-    name: str | None = None
-    case: str = "live"
-
-
-class ForceLoad(_PointLoad, kw_only=True, gc=False, tag="force"):
-    """A force across the beam, at a node or at x.
-
-    Parameters
-    ----------
-    F : float
-        Force, positive downward.
-    """
-
-    F: float
-
-
-class MomentLoad(_PointLoad, kw_only=True, gc=False, tag="moment"):
-    """A couple at a node or at x; not exactly at a hinge.
-
-    Parameters
-    ----------
-    M : float
-        Couple (force*length), positive clockwise.
-    """
-
-    M: float
-
-
-class AxialLoad(_PointLoad, kw_only=True, gc=False, tag="axial"):
-    """A horizontal force at a node or at x; needs a support with direction axial.
-
-    Parameters
-    ----------
-    F : float
-        Horizontal force, positive to the right.
-    """
-
-    F: float
-
-
-class UniformLoad(_StretchLoad, kw_only=True, gc=False, tag="uniform"):
-    """A constant distributed load from one place to another; default: the whole beam.
-
-    Parameters
-    ----------
-    q : float
-        Force per length, positive downward.
-    """
-
-    q: float
-
-
-class LinearLoad(_StretchLoad, kw_only=True, gc=False, tag="linear"):
-    """A linearly varying distributed load from one place to another; default: the whole beam.
-
-    Parameters
-    ----------
-    q : (float, float)
-        Force per length at the left and at the right end of the stretch, positive downward.
-    """
-
-    q: tuple[float, float]
-
-
-class CurvatureLoad(_StretchLoad, kw_only=True, gc=False, tag="curvature"):
-    """An imposed curvature (temperature, shrinkage, prestress); default: over the whole beam.
-
-    Parameters
-    ----------
-    kappa : float
-        Curvature (1/length), added to w'' = -M/EI; positive where the upper side gets longer (warmer above).
-    """
-
-    kappa: float
-
-
-Load = ForceLoad | MomentLoad | UniformLoad | LinearLoad | CurvatureLoad | AxialLoad
 
 
 class Train(Table, forbid_unknown_fields=True, kw_only=True):
@@ -408,6 +271,16 @@ class Analysis(Table, forbid_unknown_fields=True, kw_only=True):
     at_limit: Literal["stop", "jump", "follow"] = "stop"
     history: list[float] = field(default_factory=lambda: [1.0])
     first_order: bool = False
+
+    @property
+    def has_history(self) -> bool:
+        """Whether other load factors are gone to than the full load alone."""
+        return self.history != [1.0]
+
+    @property
+    def is_one_step(self) -> bool:
+        """Whether the full load is put on at once."""
+        return self.follow == "steps" and self.steps == 1 and not self.has_history
 
 
 class Scene(Table, forbid_unknown_fields=True, kw_only=True):

@@ -12,7 +12,8 @@ import numpy as np
 
 from ..base.errors import SceneError
 from ..base.records import read_only
-from .structs import Foundation, Load, Scene, Section, Support
+from .loads import Load
+from .structs import Foundation, Scene, Section, Support
 from .wording import choice
 
 LOADS = {load.__struct_config__.tag: load for load in get_args(Load)}

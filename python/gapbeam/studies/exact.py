@@ -20,8 +20,9 @@ from math import inf, isinf
 import numpy as np
 
 from ..scene.columns import SIDES
+from ..scene.loads import CurvatureLoad, ForceLoad, MomentLoad, UniformLoad
 from ..scene.places import locate
-from ..scene.structs import CurvatureLoad, ForceLoad, MomentLoad, Scene, UniformLoad
+from ..scene.structs import Scene
 
 DIGITS = 200
 """Decimal digits where a beam has too many places for fractions."""

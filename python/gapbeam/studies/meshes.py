@@ -13,8 +13,9 @@ import numpy as np
 
 from ..engine.beam import HINGE, RESTRAINED
 from ..results.formatting import title
+from ..scene.loads import CurvatureLoad, LinearLoad, MomentLoad
 from ..scene.reading import read_beam
-from ..scene.structs import CurvatureLoad, LinearLoad, MomentLoad, Scene
+from ..scene.structs import Scene
 
 SEED = 2021
 """Of all families with random numbers."""

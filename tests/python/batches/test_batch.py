@@ -19,6 +19,7 @@ from gapbeam.base.characters import visible
 from gapbeam.batches import folder, run
 from gapbeam.batches.job import Job
 from gapbeam.batches.paths import find_paths, scene_data, with_values
+from gapbeam.batches.scene_cases import SceneCases
 from gapbeam.batches.tables import Arrays, ParquetTable, take_table
 from gapbeam.cli import main
 from scenes import random_scene
@@ -87,7 +88,7 @@ def test_prepared_beams_give_what_scenes_give():
             columns += [f"beam.{key}[{i}]" for i in spans] if isinstance(getattr(scene.beam, key), list) else [f"beam.{key}"]
         columns += [f"foundation[{i}].k" for i in range(len(scene.foundation))]
         made = job(scene, columns)
-        if not made.is_prepared:
+        if not made.cases.is_prepared:
             continue
         size = [1.0 if "factors" in name else 0.02 if name[-2:] in ("nt", "ap") else 1e5 for name in columns]
         values = np.array([[s * rng.choice((0.0, 1.0, rng.uniform(-1, 1), rng.uniform(-1, 1))) for _ in range(4)] for s in size])
@@ -97,7 +98,7 @@ def test_prepared_beams_give_what_scenes_give():
         values[0, 3] = np.nan
         found = made.solve(Arrays(dict(zip(columns, values, strict=True))).rows(0, 4), 0)
         alone = job(scene, columns)
-        alone.__dict__["prepared"] = None
+        alone.__dict__["cases"] = SceneCases(alone)
         for name, column in alone.solve(Arrays(dict(zip(columns, values, strict=True))).rows(0, 4), 0).items():
             tolerance = 1e-9 * max(np.nanmax(np.abs(column), initial=0.0), 1e-3) if column.dtype == float else 0.0
             same = np.allclose(found[name], column, 1e-9, tolerance, equal_nan=True) if tolerance else (found[name] == column).all()
@@ -119,12 +120,12 @@ def test_cases_that_cannot_stand_before_all_loads_act(analysis, is_prepared):
     }
     columns = {"loads[1].F": [40.0, 100.0, 6.0]}
     made = job(scene, columns)
-    assert made.is_prepared == is_prepared
+    assert made.cases.is_prepared == is_prepared
     found = made.solve(Arrays(columns).rows(0, 3), 0)
     scenes = [with_values(made.scene, made.paths, [force]) for force in columns["loads[1].F"]]
     assert [one.decode() for one in found["status"].tolist()] == [gapbeam.solve(one).status for one in scenes]
     held = job({**scene, "supports": [{"node": 0}, {"node": 1}]}, columns)
-    assert held.is_prepared
+    assert held.cases.is_prepared
 
 
 def test_what_is_kept(tmp_path):
@@ -164,7 +165,7 @@ def test_a_stiffness_of_one_span_where_the_scene_has_one_for_all(tmp_path):
     """The other spans keep the scene's number, on both roads."""
     columns = {"beam.EI[1]": [2e4, 5e3], "beam.GA[0]": [1e4, 1e5]}
     alone = job(SCENE, columns)
-    alone.__dict__["prepared"] = None
+    alone.__dict__["cases"] = SceneCases(alone)
     rows = Arrays(columns).rows(0, 2)
     for one in (job(SCENE, columns), alone):
         found = one.solve(rows, 0)
@@ -508,8 +509,8 @@ def test_failed_cases_are_solved_again(tmp_path, whole, monkeypatch):
         raise MemoryError
 
     with monkeypatch.context() as patch:
-        patch.setattr("gapbeam.batches.job.solve", short_of_memory)
-        patch.setattr("gapbeam.batches.prepared.PreparedRoad.solve", short_of_memory)
+        patch.setattr("gapbeam.batches.scene_cases.solve", short_of_memory)
+        patch.setattr("gapbeam.batches.prepared.PreparedCases.solve_together", short_of_memory)
         done = gapbeam.batch(SCENE, table(550), tmp_path / "out", chunk=100)
     assert done.statuses() == {"failed": 550}
     assert done.read(["reason"])["reason"][0].startswith("not enough memory")

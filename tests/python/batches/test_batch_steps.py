@@ -3,8 +3,8 @@
 import gapbeam
 import numpy as np
 import pytest
+from gapbeam.batches.load_steps import at_once, shares_before
 from gapbeam.batches.paths import find_paths, scene_data, with_values
-from gapbeam.batches.prepared import at_once, shares_before
 
 
 def pipe(**changes):

@@ -140,7 +140,12 @@ def test_run_prints_a_report(capsys, scene):
     assert main(["run", str(scene)]) == 0
     out, err = capsys.readouterr()
     assert err == ""
-    for words in ("Two spans", "System", "left out", "Working scheme", "reaction", "opening", "Extremes", "Residuals"):
+    for words in ("Two spans", "Largest moment", "Contact state", "reaction", "opening", "Extremes", "--verbose"):
+        assert words in out
+    assert "System" not in out
+    assert main(["run", str(scene), "--verbose"]) == 0
+    out, _ = capsys.readouterr()
+    for words in ("System", "left out", "Residuals"):
         assert words in out
 
 

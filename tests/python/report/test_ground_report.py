@@ -37,14 +37,14 @@ def test_the_first_lines_tell_contact_and_free_spans(on_rail):
     step = on_rail.steps[-1]
     together = sum(zone.to - zone.from_ for zone in step.contact)
     longest, sag = (max(values) for values in zip(*((span.to - span.from_, span.sag) for span in step.free_spans), strict=True))
-    first = [line.rstrip() for line in report_text(on_rail).splitlines()[:4]]
-    assert first[2] == f"contact in 3 zones over {together:.4g} of 30 m"
-    assert first[3] == f"2 free spans, up to {longest:.4g} m long, sag {sag:.4g} m"
+    first = [line.rstrip() for line in report_text(on_rail).splitlines()[:3]]
+    assert first[1] == f"Contact with the ground in 3 zones over {together:.4g} of 30 m."
+    assert first[2] == f"2 free spans, up to {longest:.4g} m long, sag {1e3 * sag:.4g} mm."
 
 
 def test_zones_and_free_spans_stand_along_the_beam(on_rail):
     step = on_rail.steps[-1]
-    rows = [line.split() for line in section(report_text(on_rail), "Contact with the ground")[4:-1]]
+    rows = [line.split() for line in section(report_text(on_rail), "Contact with the ground at")[4:-1]]
     assert [row[4] for row in rows] == ["closed", "free", "closed", "free", "closed"]
     ends = [(float(row[0]), float(row[1])) for row in rows]
     np.testing.assert_allclose(ends[::2], [(zone.from_, zone.to) for zone in step.contact], atol=1e-4)
@@ -56,9 +56,8 @@ def test_zones_and_free_spans_stand_along_the_beam(on_rail):
 def test_a_touch_is_told():
     result = gapbeam.solve(touching())
     text = report_text(result)
-    first = [line.rstrip() for line in text.splitlines()[:3]]
-    assert first[2] == "only touching the ground at x = 4"
-    (row,) = (line.split() for line in section(text, "Contact with the ground") if "touching" in line)
+    assert text.splitlines()[1].rstrip() == "It only touches the ground at x = 4."
+    (row,) = (line.split() for line in section(text, "Contact with the ground at") if "touching" in line)
     assert [*map(float, row[:3]), row[4], float(row[5])] == [4.0, 4.0, 0.0, "touching", 0.0]
     zones = json.loads(to_json(result))["steps"][-1]["contact"]
     assert zones == [{"foundation": 0, "from": 4.0, "to": 4.0, "state": "touching", "resultant": 0.0}]
@@ -71,7 +70,7 @@ def test_foundations_carry_the_load(on_rail):
 
 
 def test_what_is_left_out(on_rail):
-    left_out = " ".join(report_text(on_rail).partition("left out")[2].partition("(")[0].split())
+    left_out = " ".join(report_text(on_rail, verbose=True).partition("left out")[2].partition("(")[0].split())
     assert left_out == "axial forces, shear flexibility, hinges, rotational restraints"
     assert "foundation" not in on_rail.system.left_out
     bilateral = gapbeam.solve(on_ground([2.0], [{"k": 1.0}], [scenes.uniform(1.0)]))
@@ -89,9 +88,9 @@ def test_ends_of_zones_are_nodes(on_rail):
 def test_two_foundations():
     result = gapbeam.solve(two())
     text = report_text(result)
-    assert "2: 1 bilateral, 1 one-sided from below, 1 with a gap" in text
+    assert "2: 1 bilateral, 1 one-sided from below, 1 with a gap" in report_text(result, verbose=True)
     assert "50 to 500  0 to 0.05" in text
-    rows = [line.split() for line in section(text, "Contact with the ground")[4:-1]]
+    rows = [line.split() for line in section(text, "Contact with the ground at")[4:-1]]
     assert [row[0] for row in rows] == ["0", "1", "1", "1", "1"]
     assert [row[5] for row in rows] == ["bilateral", "closed", "free", "closed", "free"]
     assert max(map(len, text.splitlines())) <= 80
@@ -109,20 +108,20 @@ def test_ground_that_nothing_touches():
     ground = [{"k": 1.0, "side": "below", "gap": 1.0}]
     result = gapbeam.solve(on_ground([2.0], ground, [scenes.uniform(1.0)], [scenes.at(0), scenes.at(1)], EI=100.0))
     lines = report_text(result).splitlines()
-    assert lines[2].rstrip() == "no contact with the ground"
-    assert lines[3].startswith("1 free span, 2 m long, sag 1")
+    assert lines[1].rstrip() == "No contact with the ground."
+    assert lines[2].startswith("1 free span, 2 m long, sag 1")
 
 
 def test_branches_of_a_law():
     text = report_text(gapbeam.solve(yielding()))
-    rows = [line.split() for line in section(text, "Contact with the ground")[4:-1]]
+    rows = [line.split() for line in section(text, "Contact with the ground at")[4:-1]]
     assert [" ".join(row[4:6]) for row in rows if row[4] == "branch"] == ["branch 1", "branch 2", "branch 1"]
-    assert "contact in 1 zone over" in text
+    assert "Contact with the ground in 1 zone over" in text
 
 
 def test_a_long_list_is_cut_and_summed_up():
     result = gapbeam.solve(patches(30))
-    lines = section(report_text(result), "Contact with the ground")
+    lines = section(report_text(result), "Contact with the ground at")
     closed = [line for line in lines if "closed" in line]
     rows = len(result.steps[-1].contact) + len(result.steps[-1].free_spans)
     assert rows > 24

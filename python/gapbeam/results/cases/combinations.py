@@ -198,7 +198,7 @@ class Combinations(Pickled, Mapping[str, Result]):
             result = Result(plan.scene_of(k), self.beam_of(k), self._rule)
             result.status, result.has_answer = "no-equilibrium" if before.status == "solved" else before.status, False
             result.reason = (
-                f"the combination {shown(plan.names[other])}, whose working scheme it takes, is not solved"
+                f"the combination {shown(plan.names[other])}, whose contact state it takes, is not solved"
             )
             return result
         acts = [state != "open" for state in before.steps[-1].state]
@@ -208,7 +208,7 @@ class Combinations(Pickled, Mapping[str, Result]):
         result = Result(scene, beam, self._rule)
         follow_load(result, starting_scheme(beam))
         if result.reason:
-            result.reason += f" (in the working scheme of {shown(plan.names[other])})"
+            result.reason += f" (in the contact state of {shown(plan.names[other])})"
         return result
 
 

@@ -8,27 +8,25 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...base.errors import WITHOUT_ANSWER, EngineError, SceneError, Status
+from ...base.errors import WITHOUT_ANSWER, SceneError
 from ...base.memory import refuse_beyond
 from ...base.records import read_only
 from ...engine.beam import Beam
-from ...engine.combinations import Combined, all_combinations, solve_combinations
-from ...engine.quantities import FIELDS
 from ...scene.columns import columns, curves
 from ...scene.combinations import Plan, plan_combinations
 from ...scene.names import label
 from ...scene.structs import Scene
 from ...scene.wording import shown
 from ..envelopes.envelope import Envelope, Source
-from ..envelopes.full_load import at_full_load, fields_on_sides
 from ..envelopes.hints import Hint, find_hints
-from ..paths.compression import WARNED, euler, larger
+from ..paths.compression import larger
 from ..result import Result
 from ..state.fields import Fields
 from ..trains.envelope import TrainEnvelope, places_given
 from ..trains.members import Member, Standing
 from .combinations import Combinations
 from .combined_data import combined_data
+from .combined_solver import AtOnce, OneByOne
 
 if TYPE_CHECKING:
     from ..state.step import Step
@@ -83,7 +81,7 @@ class CombinedResult(Result):
     def __init__(self, scene: Scene, plan: Plan, beam: Beam, rule: str, start: np.ndarray):
         super().__init__(scene, beam, rule)
         self.names = plan.names
-        self._plan, self._start = plan, start
+        self._plan = plan
         numbers = 4 * beam.scene_supports + beam.supports + len(scene.loads) + 40
         what = f"the results of {len(plan):,} combinations"
         refuse_beyond("combinations", what, 16.0 * len(plan) * numbers, "take fewer at a time")
@@ -95,16 +93,15 @@ class CombinedResult(Result):
         self.steps = NoSteps(self._words)
         self._near: list[str] = []
         begin = perf_counter()
-        # One solve each, or the whole way of the load, or trains that pass
-        analysis = scene.analysis
-        self._at_once = (analysis.follow, analysis.steps, analysis.history) == ("steps", 1, [1.0]) and not (
-            beam.depends_on_path or beam.curves or scene.trains
-        )
         self._check_products()
-        self._found, reasons = self._solve_at_once() if self._at_once else self._solve_one_by_one()
+        kind = AtOnce if scene.analysis.is_one_step and beam.beyond_one_search is None and not scene.trains else OneByOne
+        self._solver = kind(self._combinations, plan, beam, rule, start)
+        self._found, reasons = self._solver.solve(self._note_compression)
         self.statuses = tuple(reasons)
         self._combinations.take(self._found, self.statuses, self.fields_there)
-        self._check_compression()
+        if not scene.analysis.first_order:
+            for k in self._solver.compressed(self._found):
+                self._note_compression(k)
         self._seconds = perf_counter() - begin
         self.remarks = [f"no combination has loads of the case {shown(case)}" for case in plan.idle]
         self.remarks += self._near
@@ -171,7 +168,8 @@ class CombinedResult(Result):
             f"{label(self.scene.supports, i)} (taken as {before.state[i]})" for i in before.undecided
         )
         return (
-            f"the combination {shown(self.names[k])} takes the scheme of {shown(self.names[other])}, in which reaction or opening "
+            f"the combination {shown(self.names[k])} takes the contact state of {shown(self.names[other])}, "
+            f"in which reaction or opening "
             f"of support {which} is zero, so that it may be closed or open"
         )
 
@@ -186,72 +184,12 @@ class CombinedResult(Result):
                 f"combinations {shown(self.names[k])}", f"loads[{load}] times its factor is too great"
             )
 
-    def _check_compression(self) -> None:
-        """Refuse combinations whose compression is beyond the Euler load; those that are far below it are not looked at."""
-        if self.scene.analysis.first_order or not self._at_once:
-            return  # one by one they are checked as they are solved
-        with np.errstate(invalid="ignore"):
-            force = -self._found.extremes[:, FIELDS.index("axial_force"), 1]
-            least = euler(float(self.beam.places.pieces[:, 1].min()), 2.0 * self.beam.places.end)
-            near = force > WARNED * least
-        for k in np.flatnonzero(near).tolist():
-            self._note_compression(k)
-
     def _note_compression(self, k: int) -> None:
         """Keep the largest compression of all combinations, and what is to be said of it."""
         one = self.combinations[k]
         if one.compression is not None and larger(self.compression, one.compression) is one.compression:
             self.compression = one.compression
             self._near = [f"combination {shown(self.names[k])}: {remark}" for remark in one.remarks]
-
-    def _solve_at_once(self) -> tuple[Combined, list[str]]:
-        """Solve all in few calls of the engine, those in the scheme of others after them."""
-        plan = self._plan
-        found = all_combinations(self.beam, plan.factors, plan.settlements, self.rule, self._start)
-        alone = [k for k, other in enumerate(plan.scheme_of) if other is not None]
-        for k in np.flatnonzero(found.status > Status.NO_EQUILIBRIUM).tolist():
-            if k not in alone:
-                self.combinations.failed[k] = Status(found.status[k])
-                if found.status[k] in (Status.BAD_INPUT, Status.NOT_FINITE):
-                    self.combinations[k]  # says it in words where there is not even a beam
-        words = {status: Status(status).word for status in np.unique(found.status).tolist()}
-        statuses = [words[status] for status in found.status.tolist()]
-        if alone:
-            found = _changeable(found)
-            for k in alone:
-                statuses[k] = self._take(found, k)
-            found.__post_init__()
-        return found, statuses
-
-    def _solve_one_by_one(self) -> tuple[Combined, list[str]]:
-        """Solve all one after the other, as the way of the load asks for."""
-        beam, count = self.beam, len(self.names)
-        nan = np.full
-        found = Combined(
-            np.zeros(count, np.int32), np.zeros((count, beam.supports), np.int32),
-            nan((count, 4, beam.scene_supports), np.nan), nan((count, 7, 2), np.nan), nan((count, 7, 2), np.nan),
-            np.zeros((count, 0, 7)), np.zeros(count, np.int64),
-        )  # fmt: skip
-        found = _changeable(found)
-        statuses = [self._take(found, k) for k in range(count)]
-        found.__post_init__()
-        return found, statuses
-
-    def _take(self, found: Combined, k: int) -> str:
-        """Put the state of a combination at full load into arrays."""
-        result = self.combinations[k]
-        try:
-            values = at_full_load(result)
-        except EngineError as error:
-            if error.status not in WITHOUT_ANSWER:
-                raise
-            self.combinations.failed[k] = error.status
-            result.refuse_answer(error)
-            values = at_full_load(result)
-        self._note_compression(k)
-        found.status[k] = Status.SOLVED if result.status == "solved" else Status.NO_EQUILIBRIUM
-        found.at_supports[k], found.extremes[k], found.places[k], found.solves[k] = values
-        return result.status
 
     @property
     def trains(self) -> Trains:
@@ -352,41 +290,13 @@ class CombinedResult(Result):
                 np.concatenate, zip(self.beam.find(x, False), self.beam.find(x, True), strict=True)
             )
             x = np.tile(x, 2)
-            return x, self._fields_at(piece, distance, x, np.arange(len(x)) >= len(x) // 2)
+            left = np.arange(len(x)) >= len(x) // 2
+            return x, self._solver.fields_at(self._found, self.statuses, piece, distance, x, left)
         piece, distance = self.places_along(points)
         places, lengths = self.beam.places, self.beam.places.pieces[:, 0]
         at_end = distance == lengths[piece]
         x = np.where(at_end, places.point_x[piece + 1], places.point_x[piece] + distance)
-        return x, self._fields_at(piece + np.int32(1), distance, x, at_end)
-
-    def _fields_at(
-        self, piece: np.ndarray, distance: np.ndarray, x: np.ndarray, left: np.ndarray
-    ) -> Iterator:
-        plan = self._plan
-        alone = [k for k in range(len(plan)) if not self._at_once or plan.scheme_of[k] is not None]
-        if self._at_once:
-            start = self._found.closed
-            left_out = {*alone, *np.flatnonzero(self._found.status)}
-            for part, found in solve_combinations(
-                self.beam, plan.factors, plan.settlements, self.rule, start, piece, distance
-            ):
-                values = found.fields
-                here = [k - part.start for k in left_out if part.start <= k < part.stop]
-                if here:
-                    values = values.copy()
-                    values[here] = np.nan
-                yield part, values
-        for k in alone:
-            if self.statuses[k] == "solved":
-                yield slice(k, k + 1), fields_on_sides(self.combinations[k], x, left)[None]
-
-
-def _changeable(found: Combined) -> Combined:
-    """The same with arrays of their own that can be changed until they are protected again."""
-    made = object.__new__(Combined)
-    for name in Combined.__dataclass_fields__:
-        object.__setattr__(made, name, np.array(getattr(found, name)))
-    return made
+        return x, self._solver.fields_at(self._found, self.statuses, piece + np.int32(1), distance, x, at_end)
 
 
 def solve_combined(scene: Scene, beam: Beam, rule: str, start: np.ndarray) -> CombinedResult:

@@ -3,75 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...base.errors import Status
-from ...base.records import Record
 from ...engine.beam import Beam
-from ...engine.case_certificates import BOUNDED, case_certificates, relative_certificate
+from ...engine.case_certificates import BOUNDED, relative_certificate
 from ...engine.case_extremes import case_extremes, case_fields
-from ...engine.cases import ALWAYS, WANTED, OneCase, solve_cases, split_loads
-from ...engine.combinations import Combined, Varied, all_combinations
+from ...engine.cases import ALWAYS, WANTED, OneCase, split_loads
+from ...engine.combinations import Combined, Varied
 from ...engine.quantities import BENDING, FIELDS
 from ..state.arguments import numbers
 from ..state.fields import Fields, find_places
+from .asked import Asked
 
 NAMES = ("status", "closed", "reaction", "deflection", "moment_left", "moment_right", "solves")
 """The arrays of cases."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Asked(Record):
-    """What was asked for, so that more can be asked.
-
-    Attributes
-    ----------
-    beam : Beam
-        The prepared beam.
-    rule : str
-        How working schemes are found.
-    factors : numpy.ndarray
-        Cases by loads.
-    closed : numpy.ndarray of int
-        Working schemes that were found, or where the searches start: cases by supports of the engine.
-    varied : Varied
-        Numbers of the scene that differ from case to case, settlements included.
-    states : Combined or None
-        What is known of them already, but for fields at places.
-    start : numpy.ndarray of int or None
-        Where the searches for the schemes that were found had started, supports of the engine; None if not known.
-    """
-
-    beam: Beam
-    rule: str
-    factors: np.ndarray
-    closed: np.ndarray
-    varied: Varied
-    states: Combined | None = None
-    start: np.ndarray | None = None
-
-    def solve(self, x: np.ndarray | None = None, side: str = "right") -> Combined:
-        """Solve all cases.
-
-        Parameters
-        ----------
-        x : numpy.ndarray, optional
-            Places at which fields are wanted.
-        side : {"right", "left"}
-            Which value is taken where a field jumps.
-
-        Returns
-        -------
-        Combined
-        """
-        if x is None and self.states is not None:
-            return self.states
-        where = (None, None) if x is None else find_places(self.beam, x, side)
-        return all_combinations(self.beam, self.factors, None, self.rule, self.closed, *where, self.varied)
 
 
 def _array(name: str) -> property:
@@ -230,21 +178,14 @@ class Cases:
             there = {name: found.fields[:, :, column] for name, column in beam.fields.items()}
         return Fields(places, **{name: values.reshape(shape).copy() for name, values in there.items()})
 
+    @property
+    def _known(self) -> dict[str, np.ndarray]:
+        """What of `WANTED` there is, with an axis of cases."""
+        return {name: np.atleast_2d(getattr(self, name)) for name in self._names}
+
     def _solutions(self) -> tuple[Any, ...] | None:
         """What fields follow from, as `case_extremes` takes it; None where they do not."""
-        asked = self._asked
-        if asked.states is not None:
-            return None
-        status, names = np.atleast_1d(self.status), WANTED[:3]
-        if set(names) <= set(self._names):
-            nodes = tuple(np.atleast_2d(getattr(self, name)) for name in names)
-        else:
-            # From the same start, as another one may lead to other last digits
-            start = asked.closed if asked.start is None else asked.start
-            found = solve_cases(asked.beam, asked.factors, asked.rule, start, asked.varied, names)
-            status = np.where(status == Status.SOLVED, found["status"], status)
-            nodes = tuple(found[name] for name in names)
-        return asked.beam, asked.rule, asked.factors, asked.varied, asked.closed, status, nodes
+        return self._asked.solutions(np.atleast_1d(self.status), self._known)
 
     def states(self) -> Combined:
         """Values at all supports and extremes of all fields, of all cases in few calls of the engine.
@@ -316,7 +257,7 @@ class Cases:
         >>> bool(beam.solve([[1.0], [3.0]]).error_bounds()["reaction"].max() < 1e-12)
         True
         """
-        found, _ = self._certified()
+        found, _ = self._asked.certified(np.atleast_1d(self.status), self._known)
         return {kind: found[kind].reshape(self._shape) for kind in BOUNDED}
 
     def certificate(self) -> dict[str, np.ndarray]:
@@ -336,28 +277,11 @@ class Cases:
         >>> bool(beam.solve([[1.0], [3.0]]).certificate()["error_bound"].max() < 1e-12)
         True
         """
-        found, reaction = self._certified()
+        found, reaction = self._asked.certified(np.atleast_1d(self.status), self._known)
         extremes = self.extremes_of(BOUNDED[:-1])
         largest = {kind: np.maximum(*(np.abs(values).ravel() for values, _ in pair.values())) for kind, pair in extremes.items()}
         largest["reaction"] = np.abs(reaction).max(axis=1, initial=0.0)
         return {name: values.reshape(self._shape) for name, values in relative_certificate(found, largest).items()}
-
-    def _certified(self) -> tuple[dict[str, np.ndarray], np.ndarray]:
-        """Residuals and bounds, and the reactions to which they belong."""
-        asked, states = self._asked, self._asked.states
-        status = np.atleast_1d(self.status)
-        about = asked.beam, asked.rule, asked.factors, asked.closed
-        if asked.beam.ground_layers or states is not None:
-            return case_certificates(*about, status, asked.varied, None), asked.solve().at_supports[:, 0]
-        whole = set(WANTED) <= set(self._names) and not asked.beam.has_laws
-        if whole and np.atleast_2d(self.reaction).shape[1] == asked.beam.supports:
-            found = {name: np.atleast_2d(getattr(self, name)) for name in WANTED}
-        else:
-            start = asked.closed if asked.start is None else asked.start
-            found = solve_cases(asked.beam, asked.factors, asked.rule, start, asked.varied)
-            status = np.where(status == Status.SOLVED, found["status"], status)
-        solutions = tuple(found[name] for name in WANTED)
-        return case_certificates(*about, status, asked.varied, solutions), found["reaction"]
 
 
 def cases_of(arrays: dict[str, np.ndarray] | None, question: Asked | None, single: bool) -> Cases:
@@ -383,8 +307,7 @@ def cases_of(arrays: dict[str, np.ndarray] | None, question: Asked | None, singl
 
 def _unpickled(arrays: dict[str, np.ndarray], question: Asked, single: bool) -> Cases:
     """Make cases of what `Cases.__reduce__` gives, the beam ready for more of them."""
-    if not question.beam.ground_layers:
-        split_loads(question.beam)
+    split_loads(question.beam)
     return cases_of(arrays, question, single)
 
 

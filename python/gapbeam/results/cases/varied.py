@@ -220,14 +220,11 @@ class SupportArrays:
     ----------
     columns : Columns
         Of the scene.
-    may_vary : bool
-        False where cases with other supports are solved in another way.
     """
 
-    def __init__(self, columns: Columns, may_vary: bool):
+    def __init__(self, columns: Columns):
         self.base = base_values(columns)
         self.shape = (len(self.base) - 1,)
-        self.may_vary = may_vary
         self.stays = [(which, self.base[which, j].tolist()) for j, which in enumerate(_staying(columns))]
 
     def take(self, *given: Given) -> np.ndarray | None:
@@ -244,8 +241,6 @@ class SupportArrays:
             Supports (and one more) by `OF_SUPPORTS`; None where they are not given as arrays, or something is wrong: then `vary`
             takes them, or says what.
         """
-        if not self.may_vary:
-            return None
         values = self.base.copy()
         for j, one in enumerate(given):
             if one is None:

@@ -108,7 +108,7 @@ def find_hints(result: Result, combination: str | None = None) -> list[Hint]:
 def _states(result: Result) -> list[Step]:
     """States at no load but the dead ones, at every event, and at full load."""
     scene, beam = result.scene, result.beam
-    if not result.stands or beam.ground_layers or beam.curves or beam.depends_on_path or scene.analysis.history != [1.0]:
+    if not (result.stands and result.is_linear_between_events):
         return []
     path = result.path
     if path is None:

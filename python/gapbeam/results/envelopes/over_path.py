@@ -43,8 +43,7 @@ def is_followed(result: Result) -> bool:
     bool
         True following events or a history, by load steps, and where the state depends on the way of the load.
     """
-    analysis, beam = result.scene.analysis, result.beam
-    if (analysis.follow, analysis.steps, analysis.history) == ("steps", 1, [1.0]) and not beam.depends_on_path:
+    if result.scene.analysis.is_one_step and not result.depends_on_path:
         return False
     if result.combinations:
         return any(map(is_followed, result.combinations.values()))
@@ -81,7 +80,7 @@ def is_exact(result: Result) -> bool:
     bool
         False by load steps, on foundations, and with smooth laws.
     """
-    return result.path is not None and not (result.beam.ground_layers or result.beam.curves)
+    return result.path is not None and result.beam.is_linear_between_events
 
 
 def _states(result: Result) -> Iterator[tuple[Source, Step]]:

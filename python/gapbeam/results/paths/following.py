@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from contextlib import suppress
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,9 +17,9 @@ from ..state.schemes import starting_scheme
 from ..state.step import solve_step
 from ..state.steps import LoadSteps, PathSteps
 from .branches import follow_branches
-from .compression import check_compression
-from .ground_path import follow_on_ground
-from .path import follow
+from .compression_check import check_compression
+from .ground_path import GroundPath, follow_on_ground
+from .path import Path, follow
 
 if TYPE_CHECKING:
     from ..result import Result
@@ -41,10 +43,9 @@ def follow_load(result: Result, closed: np.ndarray) -> None:
         No unique answer exists.
     """
     scene, beam = result.scene, result.beam
-    if beam.ground_layers:
-        _refuse_on_ground(scene, beam)
+    follow_scene = _way(result)
     if not scene.trains:
-        _follow(result, closed)
+        follow_scene(result, closed)
         check_compression(result)
         return
     if beam.depends_on_path:
@@ -52,7 +53,7 @@ def follow_load(result: Result, closed: np.ndarray) -> None:
         raise SceneError("supports", f"{what} in this version; use polylines that rise")
     result.trains.pass_all()
     try:
-        _follow(result, closed)
+        follow_scene(result, closed)
         check_compression(result)
     except EngineError as error:
         if error.status not in WITHOUT_ANSWER:
@@ -63,28 +64,38 @@ def follow_load(result: Result, closed: np.ndarray) -> None:
     result.take_trains()
 
 
-def _follow(result: Result, closed: np.ndarray) -> None:
-    """Follow the load of a beam without its trains."""
-    scene, beam, rule = result.scene, result.beam, result.rule
-    if beam.depends_on_path or scene.analysis.history != [1.0]:
-        _on_path(result)
-        return
-    if scene.analysis.follow == "events":
-        result.path = follow_on_ground(result, rule, closed) if beam.ground_layers else follow(result, rule, closed)
-        if result.segments:
-            result.steps = PathSteps(beam, rule, result.path)
-        if beam.curves and result.segments and result.status == "solved":
-            _refuse_beyond_bounds(result)
-        return
-    result.steps = LoadSteps(beam, rule, closed, scene.analysis.steps)
+def _way(result: Result) -> Callable[[Result, np.ndarray], None]:
+    """Choose how the load of a beam is followed without its trains."""
+    if result.beam.ground_layers:
+        _refuse_on_ground(result.scene, result.beam)
+    if result.depends_on_path:
+        return _on_path
+    if result.scene.analysis.follow == "steps":
+        return _by_steps
+    return partial(_by_events, follow_on_ground if result.beam.ground_layers else follow)
+
+
+def _by_steps(result: Result, closed: np.ndarray) -> None:
+    """Solve at equal steps of the load factor."""
+    result.steps = LoadSteps(result.beam, result.rule, closed, result.scene.analysis.steps)
     fallen = result.steps.solve_all()
     if fallen is not None:
         factor, motion = fallen
         result.refuse(f"at load factor {factor:g}", motion)
 
 
+def _by_events(follow_events: Callable[..., Path | GroundPath | None], result: Result, closed: np.ndarray) -> None:
+    """Follow the load from event to event."""
+    result.path = follow_events(result, result.rule, closed)
+    if result.segments:
+        result.steps = PathSteps(result.beam, result.rule, result.path)
+    _refuse_beyond_bounds(result)
+
+
 def _refuse_beyond_bounds(result: Result) -> None:
     """Refuse a path along polylines of laws that tend to a force, where the laws themselves cannot carry the load at its end."""
+    if result.beam.beyond_one_search != "curve" or result.status != "solved":
+        return
     ends = {getattr(segment, "leg", 0): segment for segment in result.segments}  # of every factor of a history
     for last in ends.values():
         with suppress(EngineError):  # that is said where the step is looked at
@@ -98,25 +109,24 @@ def _refuse_beyond_bounds(result: Result) -> None:
 
 def _refuse_on_ground(scene: Scene, beam: Beam) -> None:
     """Refuse what cannot be had on a foundation."""
-    if beam.depends_on_path or beam.curves:
-        what = "whose state depends on the way of the load" if beam.depends_on_path else "that are curves"
+    if beam.beyond_one_search is not None:
+        what = {"path": "whose state depends on the way of the load", "curve": "that are curves"}[beam.beyond_one_search]
         raise SceneError("supports", f"laws {what} cannot stand beside a foundation in this version; use polylines that rise")
-    if scene.analysis.history != [1.0]:
+    if scene.analysis.has_history:
         raise SceneError("analysis.history", "a beam on a foundation goes back along its path; leave it out")
 
 
-def _on_path(result: Result) -> None:
+def _on_path(result: Result, _: np.ndarray) -> None:
     """Solve a scene whose state depends on the way of the load."""
     analysis = result.scene.analysis
     by_steps = analysis.follow == "steps"
     if by_steps and analysis.at_limit == "follow":
         raise SceneError("analysis.at_limit", '"follow" needs follow = "events": with falling load there is no state by steps')
-    if by_steps and analysis.history != [1.0]:
+    if by_steps and analysis.has_history:
         raise SceneError("analysis.history", 'a history needs follow = "events"')
     result.path = follow_branches(result)
-    if result.beam.curves and not result.beam.depends_on_path and result.status == "solved":
-        _refuse_beyond_bounds(result)
-        if result.path is None:
-            return
+    _refuse_beyond_bounds(result)
+    if result.path is None:
+        return
     factors = [(k + 1) / analysis.steps for k in range(analysis.steps)] if by_steps else None
     result.steps = PathSteps(result.beam, result.rule, result.path, factors)

@@ -7,7 +7,8 @@ import numpy as np
 from ...engine.arrays import Solution
 from ...engine.beam import Beam, Curve
 from ...engine.quantities import FIELDS
-from ...scene.structs import CurvatureLoad, ForceLoad, MomentLoad, Scene
+from ...scene.loads import CurvatureLoad, ForceLoad, MomentLoad
+from ...scene.structs import Scene
 from .smooth import SmoothLaws
 from .step import Step
 

@@ -70,6 +70,16 @@ class States(Pickled):
         )
 
     @property
+    def depends_on_path(self) -> bool:
+        """Whether states depend on the way of the load: by the laws of supports, or since it goes to several factors in turn."""
+        return self.beam.depends_on_path or self.scene.analysis.has_history
+
+    @property
+    def is_linear_between_events(self) -> bool:
+        """Whether values are linear in the load factor from one event to the next, the same on every way of the load."""
+        return self.beam.is_linear_between_events and not self.depends_on_path
+
+    @property
     def events(self) -> list[Event] | list[GroundEvent]:
         """Every change of the working scheme and of zones of contact with its load factor, following events."""
         return [] if self.path is None else self.path.events

@@ -27,8 +27,9 @@ from ...scene.ground_laws import (
     varies,
 )
 from ...scene.ground_tables import is_table
+from ...scene.loads import ForceLoad
 from ...scene.names import label
-from ...scene.structs import ForceLoad, Foundation, Scene, Support
+from ...scene.structs import Foundation, Scene, Support
 from ..state.ground import TOUCHING, Contact
 from ..state.kinks import piece_of
 from ..state.smooth import SmoothLaws

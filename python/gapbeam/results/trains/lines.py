@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .peaks import ALIKE, NEAREST, Straight, Unrolled, highest, nearer, ruler_of, vertex
+from .peaks import ALIKE, NEAREST
 from .states import SHEAR, Placed
+from .tops import Straight, Unrolled, highest, nearer, vertex
 
 if TYPE_CHECKING:
     from .search import SearchedWay
@@ -85,7 +86,7 @@ class Lines:
         """Find what is greater between the states of a run."""
         if len(states) < 2:
             return
-        ruler = ruler_of(self._way, states[0].position, states[-1].position)
+        ruler = self._way.ruler(states[0].position, states[-1].position)
         for k in range(len(self._x)):
             passed = self._pass(k, states)
             for start, stop in pairwise((float(at[0]), *passed, float(at[-1]))):
@@ -208,7 +209,7 @@ class Lines:
     ) -> tuple[float | None, float | None]:
         """Top of the polynomial in the angle or of that in the position, whichever is higher."""
         place, height = highest(at, values, left, right)
-        if place is None or isinstance(ruler, Straight):
+        if place is None or not ruler.bears_zones:
             return place, height
         positions = np.array([ruler.position(one) for one in at.tolist()])
         other, higher = highest(positions, values, ruler.position(left), ruler.position(right))

@@ -17,7 +17,8 @@ from ...engine.arrays import Solution
 from ...engine.beam import Beam, RefusalError
 from ...engine.trains import Passage
 from ...scene.columns import columns, curves
-from ...scene.structs import ForceLoad, Scene, Support, UniformLoad
+from ...scene.loads import ForceLoad, UniformLoad
+from ...scene.structs import Scene, Support
 from ...scene.trains import LEFT, Course
 
 NOTHING = 2.0**-30

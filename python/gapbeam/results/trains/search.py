@@ -15,27 +15,28 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from ...base.errors import EngineError, SceneError, Status
-from ...engine.beam import SOLVED, Beam
+from ...engine.beam import SOLVED
 from ...engine.ground import zone_changes
-from ...scene.ground_laws import CubicGround, tables_of
-from ...scene.structs import ForceLoad, Scene
+from ...scene.ground_laws import CubicGround
 from ...scene.trains import LEFT, Course
-from ..paths.compression import tensions
+from ..paths.compression_check import tensions
 from ..state.kinks import EVENTS, what_happens
 from .changes import neighbours
+from .grid import grid_step, places_of_jumps, places_of_kinks
+from .influence import influence_line
 from .searched import Searched
 from .states import SHEAR, Placed, TrainLoads
+from .tops import Straight, Unrolled
 from .ways import Gap, TrainEvent, word_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from ..paths.compression import Compression, Struts
+    from ..paths.compression import Compression
+    from ..paths.struts import Struts
     from ..result import Result
-    from .trains import TrainResult
+    from .trains import TrainResult, TrainState
 
-PER_LENGTH = 16
-"""States in a length in which the beam bends, and in a mean span."""
 LEAST = 4
 """Parts into which the way from one place to the next is cut at least."""
 MOST_STATES = 20_000
@@ -136,9 +137,7 @@ class SearchedWay:
             for state in run.states:
                 if state.status == SOLVED:
                     here = type(struts)(state.beam)
-                    along = tensions(state.beam, state.step)
-                    on_ground = bool(state.beam.ground_layers)
-                    yield here.on_ground(self._scene, state.step, along) if on_ground else here.largest(state.step.closed, along)
+                    yield here.of_step(self._scene, state.step, tensions(state.beam, state.step))
 
     def members(self, train: TrainResult, combination: str | None) -> list[Searched]:
         """Give what an envelope is made of.
@@ -155,6 +154,27 @@ class SearchedWay:
         list of Searched
         """
         return [Searched(train, self, combination)]
+
+    def influence(
+        self, state: TrainState, what: str, x: float, chosen: np.ndarray, places: np.ndarray, side: str
+    ) -> np.ndarray:
+        """Give an influence line, as `TrainWay.influence`."""
+        return influence_line(state, what, x, chosen, places, side)
+
+    def ruler(self, low: float, high: float) -> Unrolled | Straight:
+        """Give what positions between two changes are measured by, so that values are smooth up to the ends.
+
+        Parameters
+        ----------
+        low, high : float
+            First and last position.
+
+        Returns
+        -------
+        Unrolled or Straight
+            Zones of contact are born on the ground only.
+        """
+        return Unrolled(low, high) if self.loads.beam.ground_layers and high > low else Straight()
 
     @cached_property
     def limits(self) -> list[Limit]:
@@ -342,71 +362,3 @@ def _is_narrow(missing: list[Placed], last: Placed, state: Placed, narrow: float
     """Whether states were only not settled, next to a change."""
     unsettled = all(one.status in (Status.NOT_CONVERGED, Status.NOT_FINITE) for one in missing)
     return unsettled and state.position - last.position <= narrow
-
-
-def places_of_jumps(scene: Scene) -> np.ndarray:
-    """Give the places at which the shear jumps without a train.
-
-    Parameters
-    ----------
-    scene : Scene
-        The scene.
-
-    Returns
-    -------
-    numpy.ndarray
-        Of supports across the beam and of forces.
-    """
-    supports = [support for support in scene.supports if support.direction == "normal"]
-    forces = [load for load in scene.loads if isinstance(load, ForceLoad)]
-    return np.unique(np.concatenate((scene.positions(supports), scene.positions(forces))))
-
-
-def places_of_kinks(scene: Scene) -> np.ndarray:
-    """Give the places at which an axle makes a difference when it passes.
-
-    Parameters
-    ----------
-    scene : Scene
-        The scene.
-
-    Returns
-    -------
-    numpy.ndarray
-        Ends of the beam, of spans, sections and foundations; supports, hinges, forces; where tables of ground have a kink.
-    """
-    ends = scene.span_ends()
-    stretches = [(item.from_, ends[-1] if item.to is None else item.to) for item in (*scene.sections, *scene.foundation)]
-    tables = [point[0] for item in scene.foundation for table in tables_of(item) for point in table]
-    inside = [x for x in tables if ends[0] < x < ends[-1]]
-    found = np.concatenate((ends, places_of_jumps(scene), scene.beam.hinges, np.array(stretches).ravel(), inside))
-    return np.unique(found)
-
-
-def grid_step(scene: Scene, beam: Beam, deflection: float) -> float:
-    """Give the distance of positions at which states are solved.
-
-    Parameters
-    ----------
-    scene : Scene
-        The scene.
-    beam : Beam
-        Made of it.
-    deflection : float
-        How far it goes down about, for ground that gets stiffer by that.
-
-    Returns
-    -------
-    float
-        A share of the mean distance of supports, or of the length in which the beam bends on the stiffest ground.
-    """
-    end = beam.places.end
-    spans = max(len(np.unique(scene.positions(scene.supports))) - 1, 1)
-    greatest = beam.columns.greatest_of_ground()
-    modulus = greatest[:2].max(initial=0.0)
-    k1, _, k3 = greatest[1:, beam.columns.foundation[6, :-1] == CubicGround.code]
-    modulus = max(modulus, (k1 + 3.0 * k3 * deflection**2).max(initial=0.0))
-    modulus = max(modulus, beam.columns.slopes_of_laws().max(initial=0.0))
-    stiffness = float(beam.places.pieces[:, 1].min())
-    bends = (4.0 * stiffness / modulus) ** 0.25 if modulus > 0.0 and np.isfinite(stiffness) else end
-    return min(end / spans, bends) / PER_LENGTH

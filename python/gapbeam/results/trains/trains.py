@@ -27,7 +27,6 @@ import numpy as np
 from ...base.errors import EngineError
 from ...base.records import Record
 from ...engine.beam import GIVEN, Beam
-from ...engine.quantities import BENDING
 from ...scene.columns import columns, curves
 from ...scene.places import POSITION_TOLERANCE
 from ...scene.trains import LEFT, RIGHT, at_ends, courses, fitted, joined, nearest, train_name
@@ -37,7 +36,6 @@ from ..state.schemes import starting_scheme
 from ..state.step import Step
 from ..state.steps import LoadSteps
 from .envelope import TrainEnvelope, places_along, places_given
-from .influence import influence_line
 from .members import Member, fields_of
 from .neutral import loaded
 from .search import SearchedWay
@@ -130,9 +128,8 @@ class TrainResult:
         end = result.beam.places.end
         near = nearest(self._joined, end)
         try:
-            if is_searched(result.beam):
-                return [SearchedWay(result, course, near, self.name) for course in courses(self._joined, end)]
-            return [TrainWay(result.beam, result.scene, course, near) for course in courses(self._joined, end)]
+            kind = TrainWay if result.beam.is_linear_between_events else SearchedWay
+            return [kind(result, course, near, self.name) for course in courses(self._joined, end)]
         except EngineError as error:
             raise EngineError(f"train {self.name}: {error}", error.status) from None
 
@@ -258,13 +255,9 @@ class TrainResult:
         chosen = (np.abs(at - x) <= way.near) & beam.across
         if what == "reaction" and not chosen.any():
             raise ValueError(f"x: there is no support at x = {x:g}")
-        if is_searched(beam):
-            return Influence(places, influence_line(state, what, x, chosen, places, side))
-        piece, distance = beam.find(np.array([x]), side == "left")
-        values = way.passage.influence(state.solution.closed, chosen, int(piece[0]), float(distance[0]), places)
-        return Influence(places, values[(*BENDING, "reaction").index(what)])
+        return Influence(places, way.influence(state, what, x, chosen, places, side))
 
-    def _way(self, direction: str) -> TrainWay:
+    def _way(self, direction: str) -> TrainWay | SearchedWay:
         for way in self.ways:
             if way.course.direction == direction:
                 return way
@@ -309,8 +302,3 @@ class Trains(Mapping[str, TrainResult]):
         list of Member
         """
         return [member for train in self.values() for member in train.members(combination)]
-
-
-def is_searched(beam: Beam) -> bool:
-    """Whether no formula says how states depend on the position of a train: on foundations and with smooth laws."""
-    return beam.ground_layers > 0 or bool(beam.curves)

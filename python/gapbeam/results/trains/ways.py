@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...base.errors import Status
-from ...engine.beam import Beam
+from ...engine.quantities import BENDING
 from ...engine.trains import NOT_UNIQUE, Extremes, Passage
 from ...scene.trains import LEFT, Course
 from ..state.kinks import EVENTS
@@ -20,9 +20,10 @@ from .neutral import held_passage, passage_of
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from ...scene.structs import Scene
-    from ..paths.compression import Compression, Struts
-    from .trains import TrainResult
+    from ..paths.compression import Compression
+    from ..paths.struts import Struts
+    from ..result import Result
+    from .trains import TrainResult, TrainState
 
 NO_ANSWER = {
     NOT_UNIQUE: "the beam can move freely, without work of the loads: its position is not unique",
@@ -100,11 +101,10 @@ class TrainWay:
         Distance below which an axle is at the end of the beam.
     """
 
-    def __init__(self, beam: Beam, scene: Scene, course: Course, near: float):
-        self.course, self.near = course, near
-        self._scene = scene
-        self.passage = passage_of(beam, course, course.from_, course.to)
-        p, supports = self.passage, scene.positions(scene.supports)
+    def __init__(self, result: Result, course: Course, near: float, name: str):
+        self.course, self.near, self._scene = course, near, result.scene
+        self.passage = passage_of(result.beam, course, course.from_, course.to)
+        p, supports = self.passage, self._scene.positions(self._scene.supports)
         self.events = [
             TrainEvent(position, support, float(supports[support]), EVENTS[change], course.direction)
             for position, (support, _, change) in zip(p.positions.tolist(), p.events.tolist(), strict=True)
@@ -114,6 +114,35 @@ class TrainWay:
     def solves(self) -> int:
         """Linear solves."""
         return self.passage.solves
+
+    def influence(
+        self, state: TrainState, what: str, x: float, chosen: np.ndarray, places: np.ndarray, side: str
+    ) -> np.ndarray:
+        """Give an influence line in the contact state of a position.
+
+        Parameters
+        ----------
+        state : TrainState
+            That of the position.
+        what : {"deflection", "rotation", "moment", "shear", "reaction"}
+            What it is of.
+        x : float
+            Place on the beam.
+        chosen : numpy.ndarray of bool
+            The supports whose reactions are meant.
+        places : numpy.ndarray
+            Where the unit force is.
+        side : {"right", "left"}
+            Which value is taken where it jumps at x.
+
+        Returns
+        -------
+        numpy.ndarray
+            What the force makes.
+        """
+        piece, distance = self.passage.beam.find(np.array([x]), side == "left")
+        values = self.passage.influence(state.solution.closed, chosen, int(piece[0]), float(distance[0]), places)
+        return values[(*BENDING, "reaction").index(what)]
 
     def members(self, train: TrainResult, combination: str | None) -> list[Passing]:
         """Give what an envelope is made of.

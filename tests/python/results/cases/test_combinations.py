@@ -193,7 +193,7 @@ def test_what_has_no_unique_answer_is_recorded_and_the_others_go_on(tmp_path, ca
     result = gapbeam.solve(made)
     assert result.statuses == ("solved", "indeterminate", "indeterminate")
     assert result.reason.startswith('combination "a": a rigid stretch of the beam')
-    assert '"a", whose working scheme it takes, is not solved' in result.combinations["after a"].reason
+    assert '"a", whose contact state it takes, is not solved' in result.combinations["after a"].reason
     with pytest.raises(IndexError, match="no load step stands; a rigid stretch"):
         result.combinations["a"].at(1.0)
     assert result.envelope().supports[0]["reaction"]["max"].value == 3.0
@@ -217,7 +217,7 @@ def test_scheme_that_is_a_mechanism_says_so():
     result = gapbeam.solve(made)
     assert result.combinations["x"].steps[-1].state == ("open", "closed", "open")
     assert result.statuses == ("solved", "no-equilibrium")
-    assert 'in the working scheme of "x"' in result.combinations["y"].reason
+    assert 'in the contact state of "x"' in result.combinations["y"].reason
 
 
 def test_signs_and_spans_expand_to_every_pattern():
@@ -382,7 +382,7 @@ def test_a_scheme_that_is_not_decided_is_named():
         "combinations": [{"name": "x", "factors": {"a": 1.0}}, {"name": "y", "factors": {"b": 1.0}, "scheme_of": "x"}]}  # fmt: skip
     result = gapbeam.solve(made)
     assert len(result.remarks) == 1
-    assert 'takes the scheme of "x", in which reaction or opening of support mid' in result.remarks[0]
+    assert 'takes the contact state of "x", in which reaction or opening of support mid' in result.remarks[0]
     with pytest.raises(IndexError, match="the scene has 2 combinations"):
         result.steps[-1]
 

@@ -1,0 +1,287 @@
+"""Solve cases whose numbers are checked: chosen once for a beam, by its loads condensed one by one, or each case anew."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from ...base.errors import Status
+from ...base.records import Pickled, read_only
+from ...engine.beam import Beam, RefusalError
+from ...engine.calls import FEW_NODES
+from ...engine.cases import OneCase, solve_cases, split_loads
+from ...engine.combinations import Combined, Varied, all_combinations
+from ...scene.refusals import refusal
+from ...scene.structs import Scene
+from ..paths.compression_check import compression_of, pieces_in_sections, refused_cases
+from ..result import Result
+from ..state.fields import find_places
+from ..state.schemes import starting_scheme
+from ..state.steps import LoadSteps
+from .asked import Asked
+from .solved_cases import Cases, cases_of
+from .varied import replace_numbers
+
+STATES = ("at_supports", "extremes", "places", "fields")
+"""Values of `Combined`."""
+Found = tuple[dict[str, np.ndarray], Combined | None]
+"""Arrays as of `solve_cases`, and all else where it is known."""
+
+
+class CaseSolver(Pickled):
+    """Cases of a beam by superposition of its loads, condensed one by one, in the contact state of each case.
+
+    Parameters
+    ----------
+    scene : Scene
+        Checked.
+    beam : Beam
+        Made of it.
+    rule : {"block", "single"}
+        How contact states are found.
+
+    Attributes
+    ----------
+    supports : numpy.ndarray of int
+        Numbers in the scene of the supports across the beam.
+    start : numpy.ndarray of int
+        Where searches start if nothing else is said.
+    one : OneCase or None
+        The short call for one case, where there is one.
+    """
+
+    def __init__(self, scene: Scene, beam: Beam, rule: str):
+        self.scene, self.beam, self.rule = scene, beam, rule
+        self.supports = read_only(np.flatnonzero(beam.across))
+        self.start = read_only(starting_scheme(beam))
+        # Columns of the supports of the engine; None if these are the same, one by one
+        self._carries = None if np.array_equal(beam.numbers, self.supports) else np.searchsorted(self.supports, beam.numbers)
+        # What its effect on bending is, is left out: cases whose compression is beyond the Euler load are refused
+        axial = len(beam.across) - int(beam.across.sum())
+        self.may_buckle = (beam.bars >= 0 or axial > 1) and not scene.analysis.first_order
+        self.one = self._condense()
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Leave out the short call."""
+        return {name: value for name, value in self.__dict__.items() if name != "one"}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Take the attributes back."""
+        super().__setstate__(state)
+        self.one = self._condense()
+
+    def _condense(self) -> OneCase | None:
+        """Condense the loads, and make the short call."""
+        split_loads(self.beam)
+        short = len(self.scene.loads) > 0 and self.beam.links + 1 < FEW_NODES
+        return OneCase(self.beam, self.rule) if short and self._carries is None and not self.may_buckle else None
+
+    def starting(self, closed: np.ndarray) -> np.ndarray:
+        """Give the start of a search.
+
+        Parameters
+        ----------
+        closed : numpy.ndarray of int
+            For every support across the beam.
+
+        Returns
+        -------
+        numpy.ndarray of int
+            For every support of the engine.
+        """
+        return closed if self._carries is None else closed[self._carries]
+
+    def solve(
+        self, factors: np.ndarray, closed: np.ndarray, varied: Varied, want: tuple[str, ...], *, single: bool = False,
+        out: Cases | None = None,
+    ) -> Cases:  # fmt: skip
+        """Solve cases.
+
+        Parameters
+        ----------
+        factors : numpy.ndarray
+            Of all loads, finite, cases by loads.
+        closed : numpy.ndarray of int
+            Where the searches start, supports of the engine.
+        varied : Varied
+            Numbers that differ from those of the beam.
+        want : tuple of str
+            From `wanted_names`.
+        single : bool
+            Whether it is one case, without an axis of cases.
+        out : Cases, optional
+            Earlier ones to be filled again.
+
+        Returns
+        -------
+        Cases
+        """
+        found, states = self._find(factors, closed, varied, want, out)
+        again = found if states is None else None
+        asked = Asked(self.beam, self.rule, factors, found["closed"], varied, states, closed)
+        if self._carries is not None:
+            found = self._by_scene(found)
+        if self.may_buckle:
+            asked, found = self._refuse_buckling(asked, found)
+        cases = cases_of({}, None, False) if out is None else out
+        cases._fill(found, asked, single, again)
+        return cases
+
+    def _find(
+        self, factors: np.ndarray, closed: np.ndarray, varied: Varied, want: tuple[str, ...], out: Cases | None
+    ) -> Found:
+        """Find the contact states and solve for what is wanted."""
+        into = None if out is None else out._take_arrays()
+        return solve_cases(self.beam, factors, self.rule, closed, varied, want, into), None
+
+    def _buckling(self, asked: Asked, solved: np.ndarray) -> np.ndarray:
+        """Which of the solved cases have a compression beyond the Euler load."""
+        sections = pieces_in_sections(self.scene, self.beam)
+        return solved & refused_cases(self.beam, asked.factors, self.rule, asked.closed, asked.varied, sections)
+
+    def _refuse_buckling(self, asked: Asked, found: dict[str, np.ndarray]) -> tuple[Asked, dict[str, np.ndarray]]:
+        """Refuse cases whose compression is beyond the Euler load: their values are not-a-number, and what is asked later too."""
+        refused = self._buckling(asked, found["status"] == Status.SOLVED)
+        if not refused.any():
+            return asked, found
+        found = {name: values.copy() for name, values in found.items()}
+        for name, values in found.items():
+            values[refused] = Status.BAD_INPUT if name == "status" else 0 if values.dtype.kind == "i" else np.nan
+        factors = asked.factors.copy()
+        factors[refused] = np.nan
+        states = asked.states
+        if states is not None:
+            states = replace(
+                states, status=np.where(refused, Status.BAD_INPUT, states.status).astype(np.int32),
+                **{name: np.where(refused[:, None, None], np.nan, getattr(states, name)) for name in STATES},
+            )  # fmt: skip
+        return replace(asked, factors=factors, states=states), found
+
+    def _by_scene(self, found: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+        """The same with columns for the supports of the scene across the beam."""
+        columns, status = self._carries, found["status"]
+        closed = self._by_supports(found["closed"], columns, np.zeros(len(status), dtype=np.int32))
+        for k in self.beam.laws if self.beam.has_laws else ():
+            at = np.searchsorted(self.supports, k)
+            closed[:, at] = self._acts(k, closed[:, at])
+        found = {**found, "closed": closed}
+        if "reaction" in found and found["reaction"].shape[1] != len(self.supports):
+            idle = np.where(status == Status.SOLVED, 0.0, np.nan)
+            found["reaction"] = self._by_supports(found["reaction"], columns, idle)
+        return found
+
+    def _by_supports(self, values: np.ndarray, carries: np.ndarray, idle: np.ndarray) -> np.ndarray:
+        """Add up the columns of the kinks of laws, and add those of supports that can carry nothing."""
+        columns = np.repeat(idle[:, None], len(self.supports), axis=1)
+        columns[:, carries] = 0
+        np.add.at(columns, (slice(None), carries), values)
+        return columns
+
+    def _acts(self, support: int, kinks: np.ndarray) -> np.ndarray:
+        """Whether a support with a law acts, from the number of closed kinks."""
+        _, middle, at_middle = self.beam.laws[support]
+        return (np.abs(kinks - middle) + at_middle > 0).astype(np.int32)
+
+    def result(self, factors: np.ndarray, varied: Varied) -> Result:
+        """Solve one case with all that there is to say of it, whether the beam would buckle or not.
+
+        Parameters
+        ----------
+        factors : numpy.ndarray
+            Of all loads.
+        varied : Varied
+            Numbers of this one case.
+
+        Returns
+        -------
+        Result
+        """
+        base, scene = self.beam, self.scene
+        if not varied.is_nothing:
+            scene, columns = replace_numbers(scene, base.columns, varied)
+            try:
+                base = Beam(columns)
+            except RefusalError as refused:
+                raise refusal(scene, *refused.codes) from None
+        beam = base.with_factors(factors)
+        result = Result(scene, beam, self.rule)
+        result.steps = LoadSteps(beam, self.rule, starting_scheme(beam), 1)
+        fallen = result.steps.solve_all()
+        if fallen is not None:
+            result.refuse("in this load case", fallen[1])
+        for step in result.steps:
+            result.compression = compression_of(result, step)
+        return result
+
+
+class WithLaws(CaseSolver):
+    """Cases of a beam on laws, each anew where its supports have other numbers: their kinks are made of these."""
+
+    def _condense(self) -> None:
+        split_loads(self.beam)
+
+    def _find(
+        self, factors: np.ndarray, closed: np.ndarray, varied: Varied, want: tuple[str, ...], out: Cases | None
+    ) -> Found:
+        if varied.supports is None:
+            return super()._find(factors, closed, varied, want, out)
+        return self._find_anew(factors, closed, varied, want)
+
+    def _find_anew(self, factors: np.ndarray, closed: np.ndarray, varied: Varied, want: tuple[str, ...]) -> Found:
+        """Solve each case from its numbers on, as `solve_cases` gives it, but for reactions; and all else."""
+        piece, distance = self._sides_of_nodes
+        nodes = len(self.beam.node_x)
+        found = all_combinations(self.beam, factors, None, self.rule, closed, piece, distance, varied)
+        left, right = found.fields[:, :nodes, 2].copy(), found.fields[:, nodes:, 2].copy()
+        solved = found.status == Status.SOLVED
+        left[solved, 0] = right[solved, -1] = 0.0  # beside the beam
+        arrays = {
+            "deflection": found.fields[:, nodes:, 0].copy(), "moment_left": left, "moment_right": right,
+            "reaction": found.at_supports[:, 0][:, self.supports],
+        }  # fmt: skip
+        arrays = {name: arrays[name] for name in want}
+        arrays |= {"closed": found.closed.copy(), "solves": found.solves.copy(), "status": found.status.copy()}
+        return arrays, replace(found, fields=found.fields[:, :0].copy())
+
+    @cached_property
+    def _sides_of_nodes(self) -> tuple[np.ndarray, np.ndarray]:
+        """Pieces and distances of all nodes, on their left, then on their right."""
+        sides = [find_places(self.beam, self.beam.node_x, side) for side in ("left", "right")]
+        return tuple(np.concatenate(parts) for parts in zip(*sides, strict=True))
+
+
+class OnGround(WithLaws):
+    """Cases of a beam on the ground, each anew: its zones of contact are another beam in every case."""
+
+    def _find(
+        self, factors: np.ndarray, closed: np.ndarray, varied: Varied, want: tuple[str, ...], out: Cases | None
+    ) -> Found:
+        return self._find_anew(factors, closed, varied, want)
+
+    def _buckling(self, asked: Asked, solved: np.ndarray) -> np.ndarray:
+        return np.array([bool(one) and self._buckles(asked, k) for k, one in enumerate(solved)], dtype=bool)
+
+    def _buckles(self, asked: Asked, k: int) -> bool:
+        given = asked.varied.supports, asked.varied.spans, asked.varied.moduli
+        varied = Varied(*(None if one is None else one[k : k + 1] for one in given))
+        found = self.result(asked.factors[k], varied).compression
+        return found is not None and found.is_refused
+
+
+def solver_of(scene: Scene, beam: Beam, rule: str) -> CaseSolver:
+    """Choose how the cases of a beam are solved.
+
+    Parameters
+    ----------
+    scene, beam, rule
+        As for `CaseSolver`.
+
+    Returns
+    -------
+    CaseSolver
+    """
+    kind = OnGround if beam.ground_layers else WithLaws if beam.has_laws else CaseSolver
+    return kind(scene, beam, rule)

@@ -1,0 +1,109 @@
+"""Loads of a scene: forces, couples, distributed loads, imposed curvatures, axial forces."""
+
+from __future__ import annotations
+
+from .table import Point, Stretch
+
+
+class _PointLoad(Point, kw_only=True, gc=False, tag_field="type"):
+    """A load at one place.
+
+    Parameters
+    ----------
+    case : str
+        Its load case, any name: dead acts in full from the start, all others (default live) are scaled by the load factor.
+        Combinations give cases factors by these names.
+    """
+
+    case: str = "live"
+
+
+class _StretchLoad(Stretch, kw_only=True, gc=False, tag_field="type"):
+    """A load over a stretch.
+
+    Parameters
+    ----------
+    name : str, optional
+        Its name, unique among loads; shown instead of its number.
+    case : str
+        Its load case, any name: dead acts in full from the start, all others (default live) are scaled by the load factor.
+        Combinations give cases factors by these names.
+    """
+
+    name: str | None = None
+    case: str = "live"
+
+
+class ForceLoad(_PointLoad, kw_only=True, gc=False, tag="force"):
+    """A force across the beam, at a node or at x.
+
+    Parameters
+    ----------
+    F : float
+        Force, positive downward.
+    """
+
+    F: float
+
+
+class MomentLoad(_PointLoad, kw_only=True, gc=False, tag="moment"):
+    """A couple at a node or at x; not exactly at a hinge.
+
+    Parameters
+    ----------
+    M : float
+        Couple (force*length), positive clockwise.
+    """
+
+    M: float
+
+
+class AxialLoad(_PointLoad, kw_only=True, gc=False, tag="axial"):
+    """A horizontal force at a node or at x; needs a support with direction axial.
+
+    Parameters
+    ----------
+    F : float
+        Horizontal force, positive to the right.
+    """
+
+    F: float
+
+
+class UniformLoad(_StretchLoad, kw_only=True, gc=False, tag="uniform"):
+    """A constant distributed load from one place to another; default: the whole beam.
+
+    Parameters
+    ----------
+    q : float
+        Force per length, positive downward.
+    """
+
+    q: float
+
+
+class LinearLoad(_StretchLoad, kw_only=True, gc=False, tag="linear"):
+    """A linearly varying distributed load from one place to another; default: the whole beam.
+
+    Parameters
+    ----------
+    q : (float, float)
+        Force per length at the left and at the right end of the stretch, positive downward.
+    """
+
+    q: tuple[float, float]
+
+
+class CurvatureLoad(_StretchLoad, kw_only=True, gc=False, tag="curvature"):
+    """An imposed curvature (temperature, shrinkage, prestress); default: over the whole beam.
+
+    Parameters
+    ----------
+    kappa : float
+        Curvature (1/length), added to w'' = -M/EI; positive where the upper side gets longer (warmer above).
+    """
+
+    kappa: float
+
+
+Load = ForceLoad | MomentLoad | UniformLoad | LinearLoad | CurvatureLoad | AxialLoad
