@@ -7,7 +7,7 @@
 module gapbeam_ill_scaled_signs
     use gapbeam_kinds, only: qp
     use gapbeam_band, only: band_ok
-    use gapbeam_model_quad, only: beam_type, node_support_type
+    use gapbeam_model_quad, only: beam_type
     use gapbeam_workspace_quad, only: workspace_type
     use gapbeam_law_quad, only: has_laws, separate_rigid_pairs
     use gapbeam_law_margins_quad, only: is_watched_in, margin_of
