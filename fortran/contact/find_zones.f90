@@ -166,7 +166,7 @@ contains
                                     call find_crossings(grounded%stretches(i), load_of(i), ends_of(work, i), &
                                                         line_of_breakpoint(ground%laws, layer, law, from, length), &
                                                         line_of_breakpoint(ground%laws, layer, law, to, length), xi, &
-                                                            crossings, curved)
+                                                        crossings, curved)
                                 end if
                                 if (crossings > 0) cuts = [cuts, from + xi(:crossings)*(to - from)]
                             end do

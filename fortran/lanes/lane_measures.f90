@@ -59,7 +59,7 @@ contains
             do m = 1, size(beam%restrained)
                 do k = max(beam%restrained(m), 1), min(beam%restrained(m) + 1, beam%n)
                     call check_restraint(beam, pack%links, beam%n, m, k, pack%left, pack%right, pack%couple, pack%w, pack%ml, &
-                                           pack%mr, of_restraint, size_of_restraint)
+                                         pack%mr, of_restraint, size_of_restraint)
                     call raise(of_restraint(l), size_of_restraint(l), far(turns), most(turns))
                 end do
             end do

@@ -90,8 +90,8 @@ contains
             if (allocated(error)) return
             if (traversal%status(k) /= gapbeam_solved) cycle
             renewed = k == 1
-            if (.not. renewed) renewed = traversal%status(k - 1) /= gapbeam_solved .or. &
-                                         any(traversal%closed(:, k) .neqv. traversal%closed(:, k - 1))
+            if (.not. renewed) renewed = traversal%status(k - 1) /= gapbeam_solved &
+                .or. any(traversal%closed(:, k) .neqv. traversal%closed(:, k - 1))
             if (renewed) then
                 call begin_scheme()
                 if (allocated(error)) return

@@ -7,7 +7,7 @@ module gapbeam_ground_solution
     use gapbeam_foundation_quad, only: fine_stretch_type => stretch_type, fine_stretch_load_type => stretch_load_type, &
         fine_ends_type => stretch_ends_type
     use gapbeam_foundation_taylor_quad, only: expand, terms_of, most_terms
-    use gapbeam_layers_quad, only: fine_law_piece_type => law_piece_type, law_piece, is_curve, has_curves
+    use gapbeam_layers_quad, only: fine_law_piece_type => law_piece_type, law_piece, is_curve
     use gapbeam_ground_laws_quad, only: contact_line, slope_of_layer, offset_of_layer
     use gapbeam_ground_quad, only: fine_ground_type => ground_type, fine_zones_type => zones_type, &
         fine_grounded_type => grounded_type, combined_load

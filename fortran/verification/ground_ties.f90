@@ -80,8 +80,8 @@ contains
             do k = ground%first(j), ground%first(j + 1) - 1
                 associate (layer => ground%layers(k), length => ground%pieces(j)%length)
                     if (layer%side == 0 .or. zones%acts(k - ground%first(j) + 1, i) == 0) cycle
-                    depth = max(depth, layer%side*(a%deflection - line_of_breakpoint(ground%laws, layer, 1, zones%from(i), &
-                                                                                         length)), &
+                    depth = max(depth, &
+                                layer%side*(a%deflection - line_of_breakpoint(ground%laws, layer, 1, zones%from(i), length)), &
                                 layer%side*(b%deflection - line_of_breakpoint(ground%laws, layer, 1, zones%to(i), length)))
                 end associate
             end do

@@ -2,12 +2,12 @@
 !>
 !> What rounding can do is estimated by sizes of terms, for any beam: where stiffnesses lie tens of powers of ten apart, or a link
 !> of 1e-29 swings farther than anything else, the estimates hide signs that the solution itself shows. Supports that are wrong by
-!> less than the estimates, but by more than next to nothing, are turned one at a time, the first of them first (Murty 1974, least
+!> less than the estimates, but by more than next to nothing, are flipped one at a time, the first of them first (Murty 1974, least
 !> index), and the solution tells whether that matters.
 module gapbeam_ill_scaled_signs
     use gapbeam_kinds, only: qp
     use gapbeam_band, only: band_ok
-    use gapbeam_model_quad, only: beam_type, node_support_type
+    use gapbeam_model_quad, only: beam_type
     use gapbeam_workspace_quad, only: workspace_type
     use gapbeam_law_quad, only: has_laws, separate_rigid_pairs
     use gapbeam_law_margins_quad, only: is_watched_in, margin_of
@@ -18,14 +18,14 @@ module gapbeam_ill_scaled_signs
 
     !> Forces below this share of the largest one do not matter: they are less than doubles promise
     real(qp), parameter :: least_share = 2.0_qp**(-44)
-    !> Supports that are turned before the state counts as unknown, and solves for supports that are at zero
-    integer, parameter :: most_turned = 64, most_ties = 64
+    !> Supports that are flipped before the state counts as unknown, and solves for supports that are at zero
+    integer, parameter :: most_flips = 64, most_ties = 64
     !> Rounding errors beyond which a sign is no matter of rounding
     real(qp), parameter :: far_beyond = 2.0_qp**17
 
 contains
 
-    !> Turn the supports that are wrong by less than the estimated rounding errors, as far as that changes reactions
+    !> Flip the supports that are wrong by less than the estimated rounding errors, as far as that changes reactions
     subroutine flip_ill_scaled(beam, closed, work, known)
         !> A beam without ground; where supports have laws nothing is done
         type(beam_type), intent(in) :: beam
@@ -36,37 +36,37 @@ contains
         !> Has an end been found
         logical, intent(out) :: known
         type(workspace_type), allocatable :: other
-        logical, allocatable :: is_tie(:), turned(:)
-        integer :: k, turns, ties, state, place
+        logical, allocatable :: is_tie(:), flipped(:)
+        integer :: k, flips, ties, state, place
 
         known = .true.
         if (has_laws(beam%supports) .or. allocated(beam%ground)) return
         k = first_wrong(beam, closed, work)
         if (k == 0) return
-        allocate (is_tie(size(closed)), turned(size(closed)), other)
+        allocate (is_tie(size(closed)), flipped(size(closed)), other)
         is_tie(:) = .false.
-        turns = 0
+        flips = 0
         ties = 0
         do
             k = first_wrong(beam, closed, work, is_tie)
             if (k == 0 .or. ties == most_ties) exit
             ! Where all forces are nothing but rounding, signs go round without end, and none matters
-            known = turns < most_turned .or. all(abs(work%reaction) <= work%reaction_error)
-            if (turns == most_turned) exit
-            turned(:) = closed
-            turned(k) = .not. closed(k)
-            call separate_rigid_pairs(beam%supports, size(beam%links), turned)
+            known = flips < most_flips .or. all(abs(work%reaction) <= work%reaction_error)
+            if (flips == most_flips) exit
+            flipped(:) = closed
+            flipped(k) = .not. closed(k)
+            call separate_rigid_pairs(beam%supports, size(beam%links), flipped)
             other = work
-            call solve_and_refine(beam, turned, other, state, place)
+            call solve_and_refine(beam, flipped, other, state, place)
             work%solves = other%solves
             known = state == band_ok .or. .not. is_surely_wrong(beam, closed, k, work)
             if (.not. known) exit
-            if (state == band_ok .and. (turned(k) .neqv. closed(k))) then
+            if (state == band_ok .and. (flipped(k) .neqv. closed(k))) then
                 if (maxval(abs(other%reaction - work%reaction)) > least_that_matters(work)) then
-                    closed(:) = turned
+                    closed(:) = flipped
                     work = other
                     is_tie(:) = .false.
-                    turns = turns + 1
+                    flips = flips + 1
                     cycle
                 end if
             end if
@@ -104,7 +104,7 @@ contains
         first = 0
     end function first_wrong
 
-    !> Is a support wrong by far more than rounding: turned, it would leave the beam without hold
+    !> Is a support wrong by far more than rounding: flipped, it would leave the beam without hold
     pure function is_surely_wrong(beam, closed, k, work) result(is_wrong)
         type(beam_type), intent(in) :: beam
         logical, intent(in) :: closed(:)

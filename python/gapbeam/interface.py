@@ -1,4 +1,4 @@
-"""What ``import gapbeam`` offers."""
+"""The names that ``import gapbeam`` offers."""
 
 from importlib.metadata import version
 

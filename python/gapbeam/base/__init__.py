@@ -1,1 +1,1 @@
-"""What everything else is made with: errors, records, files, memory."""
+"""Common base of the package: errors, records of arrays, files, memory."""

@@ -1,4 +1,4 @@
-"""Characters that do something: in a line of text they are not seen and change how it looks, in a table they begin a formula."""
+"""Characters that are not seen and change how a line of text looks, or begin a formula in a table."""
 
 import re
 

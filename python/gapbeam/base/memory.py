@@ -1,4 +1,4 @@
-"""How much memory there is, so that what cannot fit is refused before it starts."""
+"""The memory that there is, so that what cannot fit is refused before it starts."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What results are made of: arrays that nobody changes, `==` that answers with a bool, pickling."""
+"""Records of results: arrays that nobody changes, `==` that answers with a bool, pickling."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a batch has written so far."""
+"""The results that a batch has written so far."""
 
 from __future__ import annotations
 

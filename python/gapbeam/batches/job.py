@@ -1,4 +1,4 @@
-"""What is done with every case of a batch, the same wherever it is done."""
+"""The work on every case of a batch, the same wherever it is done."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Key paths: which number of a scene a column of a table stands for.
+"""Key paths: the number of a scene that a column of a table stands for.
 
 >>> from gapbeam import read_scene
 >>> scene = read_scene({"beam": {"spans": [6.0], "EI": 1e4}, "supports": [{"node": 0, "name": "R-101"}, {"node": 1}],

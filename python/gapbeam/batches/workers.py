@@ -1,4 +1,4 @@
-"""Where chunks are solved: threads, processes, or whatever has the interface of `concurrent.futures.Executor`."""
+"""Workers that solve chunks: threads, processes, or whatever has the interface of `concurrent.futures.Executor`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a command reads and writes: the scene, the files that its options name, standard output."""
+"""Input and output of a command: the scene, the files that its options name, standard output."""
 
 from __future__ import annotations
 

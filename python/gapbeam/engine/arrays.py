@@ -1,4 +1,4 @@
-"""What goes to the Fortran layer and comes back, as records of arrays."""
+"""Records of the arrays that go to the Fortran layer and come back."""
 
 from __future__ import annotations
 

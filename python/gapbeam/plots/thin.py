@@ -1,4 +1,4 @@
-"""Pictures of very long beams: what no eye can part is drawn once, or drawing would take minutes that Ctrl-C cannot end."""
+"""Thinning of pictures of very long beams: what no eye can part is drawn once, or drawing would take minutes."""
 
 import numpy as np
 from matplotlib.axes import Axes

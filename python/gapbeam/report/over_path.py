@@ -1,4 +1,4 @@
-"""What the report says of the whole way of the load: it may have been worse than at its end."""
+"""Extremes on the whole way of the load in the report: it may have been worse than at its end."""
 
 from typing import TYPE_CHECKING
 

@@ -1,1 +1,1 @@
-"""What came of a scene: steps, fields, paths, load cases."""
+"""Results of a scene: steps, fields, paths, load cases."""

@@ -1,4 +1,4 @@
-"""What a user writes: scenes in TOML, JSON or Python, read and checked."""
+"""Scenes, read and checked: TOML, JSON or Python."""
 
 from .loads import AxialLoad, CurvatureLoad, ForceLoad, LinearLoad, Load, MomentLoad, UniformLoad
 from .places import POSITION_TOLERANCE, same_place

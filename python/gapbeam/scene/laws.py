@@ -1,4 +1,4 @@
-"""Laws of supports: what engineers have of them, as polylines and as curves."""
+"""Laws of supports by the numbers that engineers have, as polylines and as curves."""
 
 from __future__ import annotations
 

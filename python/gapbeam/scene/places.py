@@ -1,4 +1,4 @@
-"""Places along the beam that differ by rounding only (fortran/scene/places.f90)."""
+"""Places along the beam that differ by rounding only (fortran/scene/stations.f90)."""
 
 from __future__ import annotations
 

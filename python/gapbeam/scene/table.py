@@ -1,4 +1,4 @@
-"""What the tables of a scene are made with."""
+"""The base of the tables of a scene."""
 
 from __future__ import annotations
 

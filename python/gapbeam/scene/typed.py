@@ -1,4 +1,4 @@
-"""Are the keys and types of a scene right: whatever is not raises a `SceneError` that names place, value and what was expected."""
+"""Checks of the keys and types of a scene: a `SceneError` names place, value and what was expected."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How the table of a study is written."""
+"""The table of a study as text."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where a factor between none and the full load governs: with supports that open and close, the worst need not be the last."""
+"""Factors between none and the full load that govern: with supports that open and close, the worst need not be the last."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Beyond a bifurcation on smooth laws: do stable ways go on, and where does the load stop growing along one of them.
+"""Stable paths beyond a bifurcation on smooth laws, and where the load stops growing along one of them.
 
 On polylines of equal laws that soften together the slopes on both sides of a kink decide what is stable, and these depend on
 where the kinks happen to be. Here the equations of `Arc` are followed on the laws themselves from the bifurcation on, by

@@ -1,4 +1,4 @@
-"""Where the ground acts on the beam, and where the beam hangs free above it."""
+"""Zones in which the ground acts on the beam, and free spans above it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Kinks of the laws of supports: what happens there, in words, and how far it is."""
+"""Breakpoints of the laws of supports: what happens there, in words, and how far it is."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where the search for the supports that act begins, and by which rule it goes on."""
+"""Starts and rules of the search for the supports that act."""
 
 from __future__ import annotations
 

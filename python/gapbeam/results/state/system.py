@@ -1,4 +1,4 @@
-"""What the system of equations of a result consisted of."""
+"""The system of equations of a result: what it consisted of."""
 
 from __future__ import annotations
 

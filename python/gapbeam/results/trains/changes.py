@@ -1,4 +1,4 @@
-"""Where something changes between two states of a train: neighbouring positions around the change.
+"""Changes between two states of a train: neighbouring positions around each.
 
 How far a support, or a zone of contact, still is from its change tells where that is (secants, from the side on which there is such
 a distance); where that does not lead on, the way is cut in half.

@@ -1,4 +1,4 @@
-"""What envelopes of trains are made of: their extreme values, of a train in one direction or of a combination without any."""
+"""Sources of envelopes of trains: their extreme values, of a train in one direction or of a combination without any."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a train over foundations or smooth laws brings to an envelope, from states at some positions."""
+"""A train over foundations or smooth laws as a source of an envelope, from states at some positions."""
 
 from __future__ import annotations
 
